@@ -1,0 +1,19 @@
+# Flags of everything that feeds a picture, host side included.
+#   -ffp-contract=off       a fused operation only where the source writes one
+#   -fno-tree-vectorize     GCC 12 turns a*b-c, a*b+c into fmaddsub in spite of contract=off
+#   -fno-math-errno         square roots without a call into libm
+#   -fno-trapping-math      nothing reads the floating-point exception flags
+# -fno-tree-vectorize is GCC's; clang contracts only what it is told to.
+add_library(packtrace_flags INTERFACE)
+target_compile_options(packtrace_flags INTERFACE
+    -ffp-contract=off -fno-math-errno -fno-trapping-math
+    $<$<CXX_COMPILER_ID:GNU>:-fno-tree-vectorize>
+    -Wall -Wextra -Wpedantic -Wshadow -Wconversion -Wsign-conversion)
+if(PACKTRACE_WERROR)
+    target_compile_options(packtrace_flags INTERFACE -Werror)
+endif()
+if(PACKTRACE_SANITIZE)
+    target_compile_options(packtrace_flags INTERFACE
+        -fsanitize=${PACKTRACE_SANITIZE} -fno-omit-frame-pointer -fno-sanitize-recover=all)
+    target_link_options(packtrace_flags INTERFACE -fsanitize=${PACKTRACE_SANITIZE})
+endif()

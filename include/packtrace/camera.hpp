@@ -1,0 +1,42 @@
+#pragma once
+
+#include <optional>
+
+#include <packtrace/vec.hpp>
+
+namespace packtrace {
+
+/// Pinhole camera after Gambetta's pseudocode (note 001): the ray of canvas point (x, y) is
+/// `position + t * rotation * (x * Vw / Cw, y * Vh / Ch, d)`, its direction not normalised.
+struct Camera {
+    Vec3 position{0.0};
+    /// Columns are the camera's right, up and forward axes in world space.
+    Mat3 rotation{1.0};
+    /// Viewport width and height, scene units. Ignored when `fov` is set.
+    Vec2 viewport{1.0, 1.0};
+    /// Distance of the projection plane from the eye, scene units.
+    double distance = 1.0;
+    /// Full vertical angle of view, degrees; the viewport then follows the picture's shape.
+    std::optional<double> fov;
+    /// Where in the pixel its one sample lies, from the left and top edge, each in [0, 1].
+    Vec2 pixel_sample{0.0, 1.0};
+};
+
+/// The ray direction through canvas coordinates is `forward + x * right + y * up`, with
+/// x = i + sample.x - width / 2 for column i and y = height / 2 - j - sample.y for row j.
+struct CameraBasis {
+    Vec3 origin{0.0};
+    Vec3 right{0.0};    ///< change of direction per pixel to the right
+    Vec3 up{0.0};       ///< change of direction per pixel upwards
+    Vec3 forward{0.0};  ///< direction through the middle of the canvas
+};
+
+/// Lays the camera's viewport over a canvas of `width` by `height` pixels.
+[[nodiscard]] CameraBasis camera_basis(const Camera& camera, int width, int height);
+
+/// The rotation whose forward axis points from `position` to `target`; its right axis is
+/// perpendicular to `up` (left-handed). Throws std::invalid_argument when the view direction
+/// is zero or parallel to `up`.
+[[nodiscard]] Mat3 look_at(const Vec3& position, const Vec3& target, const Vec3& up);
+
+}  // namespace packtrace

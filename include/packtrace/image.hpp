@@ -1,0 +1,43 @@
+#pragma once
+
+#include <cstddef>
+#include <vector>
+
+namespace packtrace {
+
+/// A picture of linear RGB values, 1.0 for full, not clamped; rows from the top, pixels
+/// interleaved as r, g, b.
+template <class Real>
+struct Image {
+    int width = 0;   ///< pixels
+    int height = 0;  ///< pixels
+    std::vector<Real> rgb;
+
+    Image() = default;
+    Image(int w, int h)
+        : width(w), height(h), rgb(static_cast<std::size_t>(w) * static_cast<std::size_t>(h) * 3)
+    {
+    }
+
+    [[nodiscard]] Real* pixel(int x, int y)
+    {
+        return rgb.data() + 3 * (static_cast<std::size_t>(y) * static_cast<std::size_t>(width) +
+                                 static_cast<std::size_t>(x));
+    }
+    [[nodiscard]] const Real* pixel(int x, int y) const
+    {
+        return const_cast<Image*>(this)->pixel(x, y);
+    }
+};
+
+/// The same picture in another precision.
+template <class To, class From>
+[[nodiscard]] Image<To> convert(const Image<From>& from)
+{
+    Image<To> to(from.width, from.height);
+    for (std::size_t i = 0; i < from.rgb.size(); ++i)
+        to.rgb[i] = static_cast<To>(from.rgb[i]);
+    return to;
+}
+
+}  // namespace packtrace

@@ -1,0 +1,75 @@
+#pragma once
+
+#include <array>
+#include <optional>
+#include <string>
+#include <variant>
+
+#include <packtrace/vec.hpp>
+
+namespace packtrace {
+
+/// The rule a scene is lit by. Each of the notes has its own; `general` is the one equation
+/// they all lower to.
+enum class Illumination { scratch, sketch, whitted, shader, general };
+
+/// Note 001.
+struct ScratchMaterial {
+    /// Exponent of the highlight, which is tinted by the colour; -1 for none.
+    double specular = -1.0;
+    /// Share of the mirrored light, in [0, 1].
+    double reflective = 0.0;
+};
+
+/// Note 000. `ambient` and `diffuse` multiply the colour, the others are white.
+struct SketchMaterial {
+    Rgb ambient{0.0};
+    Rgb diffuse{0.0};
+    Rgb specular{0.0};    ///< mirror and highlight
+    Rgb refractive{0.0};  ///< transmitted share
+    double shininess = 1.0;
+    double ior = 1.0;
+};
+
+/// Note 002 (Whitted 1980). `ambient` and `diffuse` multiply the colour, the others are white.
+struct WhittedMaterial {
+    Rgb ambient{0.0};
+    Rgb diffuse{0.0};
+    Rgb specular{0.0};      ///< mirror and highlight
+    Rgb transmissive{0.0};  ///< transmitted share
+    double shininess = 1.0;
+    double ior = 1.0;
+};
+
+/// Note 004: f = r0 + r1 * Id + r2 * Is^r3.
+struct ShaderMaterial {
+    std::array<double, 4> reflectance{0.0, 0.0, 0.0, 1.0};
+};
+
+/// The engine's own equation; every coefficient is absolute, the colour is not used.
+struct GeneralMaterial {
+    Rgb ambient{0.0};
+    Rgb diffuse{0.0};
+    Rgb highlight{0.0};
+    Rgb reflect{0.0};
+    Rgb transmit{0.0};
+    double shininess = 1.0;
+    double ior = 1.0;
+};
+
+/// Squares of two colours on a plane; `Material::color` is the square at the plane's point.
+struct Checker {
+    Rgb other{0.0};
+    double size = 1.0;  ///< edge of a square, scene units, > 0
+};
+
+struct Material {
+    std::string name;  ///< empty when written inline
+    Rgb color{1.0};
+    std::optional<Checker> checker;  ///< planes only
+    /// The alternative in use always belongs to the scene's `Illumination`.
+    std::variant<ScratchMaterial, SketchMaterial, WhittedMaterial, ShaderMaterial, GeneralMaterial>
+        model;
+};
+
+}  // namespace packtrace

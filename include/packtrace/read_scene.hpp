@@ -1,0 +1,23 @@
+#pragma once
+
+#include <filesystem>
+#include <stdexcept>
+#include <string>
+#include <string_view>
+
+#include <packtrace/scene.hpp>
+
+namespace packtrace {
+
+/// A scene that can't be used. `what()` is one line: `file:line:column: what, why, what to do`.
+struct SceneError : std::runtime_error {
+    using std::runtime_error::runtime_error;
+};
+
+/// Reads a scene file (docs/scene.md). Throws SceneError for unreadable or wrong input.
+[[nodiscard]] Scene read_scene(const std::filesystem::path& file);
+
+/// Reads a scene from text; `name` stands for the file in messages.
+[[nodiscard]] Scene parse_scene(std::string_view text, const std::string& name);
+
+}  // namespace packtrace

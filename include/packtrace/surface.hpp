@@ -1,0 +1,58 @@
+#pragma once
+
+#include <array>
+#include <optional>
+#include <variant>
+
+#include <packtrace/vec.hpp>
+
+namespace packtrace {
+
+struct Sphere {
+    Vec3 center{0.0};
+    double radius = 1.0;  ///< > 0
+};
+
+struct Plane {
+    Vec3 point{0.0};
+    Vec3 normal{0.0, 1.0, 0.0};  ///< unit
+    /// Unit axes in the plane that a checker is laid along, see `plane_axes`.
+    Vec3 u{1.0, 0.0, 0.0};
+    Vec3 v{0.0, 0.0, 1.0};
+};
+
+/// Fills `u` and `v` of a plane from its unit normal: the two world axes that are not the
+/// normal's largest component, in x, y, z order, projected into the plane and made
+/// orthonormal. The floor y = const gets u = x, v = z.
+void plane_axes(Plane& plane);
+
+enum class QuadricKind {
+    ellipsoid,     ///< x² + y² + z² = 1
+    cylinder,      ///< x² + y² = 1
+    cone,          ///< x² + y² = z²
+    paraboloid,    ///< x² + y² = z
+    hyperboloid,   ///< x² + y² - z² = 1, one sheet
+    hyperboloid2,  ///< x² + y² - z² = -1, two sheets
+    saddle,        ///< x² - y² = z
+    general        ///< `coefficients`
+};
+
+struct ZRange {
+    double low = 0.0;
+    double high = 0.0;  ///< > low
+};
+
+/// Ax² + By² + Cz² + Dxy + Exz + Fyz + Gx + Hy + Iz + J = 0 in its own space.
+struct Quadric {
+    QuadricKind kind = QuadricKind::general;
+    /// A … J in the order of the equation above; filled in for every kind.
+    std::array<double, 10> coefficients{};
+    /// Keeps only the part with z in this range, in the quadric's own space.
+    std::optional<ZRange> z_range;
+    /// Closes the clipped ends with the flat pieces of inside (F <= 0) at z = low and z = high.
+    bool capped = false;
+};
+
+using Surface = std::variant<Sphere, Plane, Quadric>;
+
+}  // namespace packtrace

@@ -1,0 +1,22 @@
+#pragma once
+
+#include <glm/mat3x3.hpp>
+#include <glm/mat4x4.hpp>
+#include <glm/vec2.hpp>
+#include <glm/vec3.hpp>
+
+namespace packtrace {
+
+/// A point or direction in world space; left-handed, y up, z forward.
+using Vec3 = glm::dvec3;
+
+/// A linear colour or coefficient per channel; 1.0 is what scene files write as 255.
+using Rgb = glm::dvec3;
+
+using Vec2 = glm::dvec2;
+using Mat3 = glm::dmat3;
+
+/// An affine map in homogeneous form; the last row is (0, 0, 0, 1).
+using Mat4 = glm::dmat4;
+
+}  // namespace packtrace

@@ -1,0 +1,19 @@
+#pragma once
+
+#include <CLI/CLI.hpp>
+
+namespace packtrace::cli {
+
+// What the program exits with.
+inline constexpr int exit_ok = 0;
+inline constexpr int exit_failed = 1;  // bad input, or a comparison over its limit
+inline constexpr int exit_usage = 2;   // wrong use of the command line
+
+/// What a subcommand's callback throws to end the program with `exit_failed` and no message
+/// of its own (it has printed its result).
+struct Failed {};
+
+// Each adds its subcommand to `app`; one file a subcommand. A callback reports errors by
+// throwing: std::exception for bad input (exit 1), CLI::Error for wrong use (exit 2).
+
+}  // namespace packtrace::cli

@@ -1,0 +1,1 @@
+# One OBJECT library per instruction set, all from the same sources.

@@ -1,0 +1,48 @@
+#include <packtrace/camera.hpp>
+
+#include <cmath>
+#include <stdexcept>
+
+#include <glm/geometric.hpp>
+#include <glm/trigonometric.hpp>
+
+namespace packtrace {
+namespace {
+
+// Viewport width and height at distance `camera.distance`.
+Vec2 viewport_of(const Camera& camera, int width, int height)
+{
+    if (!camera.fov)
+        return camera.viewport;
+    const double tall = 2.0 * camera.distance * std::tan(glm::radians(*camera.fov) / 2.0);
+    return {tall * width / height, tall};
+}
+
+}  // namespace
+
+CameraBasis camera_basis(const Camera& camera, int width, int height)
+{
+    const Vec2 viewport = viewport_of(camera, width, height);
+    CameraBasis basis;
+    basis.origin = camera.position;
+    basis.right = camera.rotation[0] * (viewport.x / width);
+    basis.up = camera.rotation[1] * (viewport.y / height);
+    basis.forward = camera.rotation[2] * camera.distance;
+    return basis;
+}
+
+Mat3 look_at(const Vec3& position, const Vec3& target, const Vec3& up)
+{
+    const Vec3 forward = target - position;
+    const Vec3 right = glm::cross(up, forward);
+    const double length = glm::length(right);
+    if (!(length > 1e-12 * glm::length(up) * glm::length(forward)) || length == 0.0)
+        throw std::invalid_argument("the view direction is zero or parallel to up");
+    Mat3 rotation;
+    rotation[0] = right / length;
+    rotation[2] = glm::normalize(forward);
+    rotation[1] = glm::cross(rotation[2], rotation[0]);
+    return rotation;
+}
+
+}  // namespace packtrace

@@ -1,0 +1,17 @@
+#pragma once
+
+// Catch2 3 (Debian 13) and 2.13 (Debian 12) under one name.
+#if __has_include(<catch2/catch_all.hpp>)
+#include <catch2/catch_all.hpp>
+namespace packtrace::test {
+using Catch::Matchers::ContainsSubstring;
+}
+#else
+#include <catch2/catch.hpp>
+namespace packtrace::test {
+inline auto ContainsSubstring(const std::string& text)
+{
+    return Catch::Contains(text);
+}
+}  // namespace packtrace::test
+#endif
