@@ -1,0 +1,46 @@
+#pragma once
+
+#include <packtrace/vec.hpp>
+
+#include "reference/vec3.hpp"
+
+namespace packtrace::reference {
+
+/// An object's matrix M and its inverse: own space is where the surface is defined, world
+/// space where it stands. `t` along a ray is the same in both, as directions are not
+/// normalised on the way.
+template <class Real>
+class Affine {
+public:
+    /// `matrix` goes from own space to the world; must not be singular.
+    explicit Affine(const Mat4& matrix);
+
+    [[nodiscard]] Vec3<Real> point_to_own(const Vec3<Real>& p) const
+    {
+        return vector_to_own(p - origin_);
+    }
+    [[nodiscard]] Vec3<Real> vector_to_own(const Vec3<Real>& v) const
+    {
+        return {dot(inverse_rows_[0], v), dot(inverse_rows_[1], v), dot(inverse_rows_[2], v)};
+    }
+    [[nodiscard]] Vec3<Real> point_to_world(const Vec3<Real>& p) const
+    {
+        return vector_to_world(p) + origin_;
+    }
+    [[nodiscard]] Vec3<Real> vector_to_world(const Vec3<Real>& v) const
+    {
+        return v.x * columns_[0] + v.y * columns_[1] + v.z * columns_[2];
+    }
+    /// By the inverse transpose, so that it stays perpendicular; not normalised.
+    [[nodiscard]] Vec3<Real> normal_to_world(const Vec3<Real>& n) const
+    {
+        return n.x * inverse_rows_[0] + n.y * inverse_rows_[1] + n.z * inverse_rows_[2];
+    }
+
+private:
+    Vec3<Real> columns_[3];
+    Vec3<Real> inverse_rows_[3];
+    Vec3<Real> origin_;
+};
+
+}  // namespace packtrace::reference

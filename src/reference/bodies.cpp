@@ -1,0 +1,63 @@
+#include "reference/bodies.hpp"
+
+namespace packtrace::reference {
+namespace {
+
+template <class Real>
+SphereBody<Real> convert_surface(const Sphere& sphere, int object)
+{
+    return {Vec3<Real>(sphere.center), static_cast<Real>(sphere.radius), object};
+}
+
+template <class Real>
+PlaneBody<Real> convert_surface(const Plane& plane, int object)
+{
+    return {Vec3<Real>(plane.point), normalize(Vec3<Real>(plane.normal)), object};
+}
+
+template <class Real>
+QuadricBody<Real> convert_surface(const Quadric& quadric, int object)
+{
+    QuadricBody<Real> body;
+    for (std::size_t i = 0; i < body.k.size(); ++i)
+        body.k[i] = static_cast<Real>(quadric.coefficients[i]);
+    if (quadric.z_range) {
+        body.low = static_cast<Real>(quadric.z_range->low);
+        body.high = static_cast<Real>(quadric.z_range->high);
+    }
+    body.capped = quadric.capped && quadric.z_range;
+    body.object = object;
+    return body;
+}
+
+}  // namespace
+
+template <class Real>
+Bodies<Real>::Bodies(const Scene& scene)
+{
+    for (const Object& from : scene.objects) {
+        const int object = static_cast<int>(places.size());
+        const bool in_world = from.transform == Mat4(1.0);
+        if (const auto* sphere = std::get_if<Sphere>(&from.surface); sphere && in_world) {
+            places.push_back({BodyKind::sphere, spheres.size()});
+            spheres.push_back(convert_surface<Real>(*sphere, object));
+        } else if (const auto* plane = std::get_if<Plane>(&from.surface); plane && in_world) {
+            places.push_back({BodyKind::plane, planes.size()});
+            planes.push_back(convert_surface<Real>(*plane, object));
+        } else {
+            places.push_back({BodyKind::placed, placed.size()});
+            std::visit(
+                [&](const auto& surface) {
+                    placed.push_back({Affine<Real>(from.transform),
+                                      convert_surface<Real>(surface, object), object});
+                },
+                from.surface);
+        }
+    }
+}
+
+template struct Bodies<float>;
+template struct Bodies<double>;
+template struct Bodies<long double>;
+
+}  // namespace packtrace::reference

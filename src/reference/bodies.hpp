@@ -1,0 +1,58 @@
+#pragma once
+
+#include <variant>
+#include <vector>
+
+#include <packtrace/scene.hpp>
+
+#include "reference/affine.hpp"
+#include "reference/plane.hpp"
+#include "reference/quadric.hpp"
+#include "reference/sphere.hpp"
+
+namespace packtrace::reference {
+
+/// A surface under a matrix, as note 004 has all its objects: rays go to its own space.
+template <class Real>
+struct PlacedBody {
+    Affine<Real> placement;
+    std::variant<SphereBody<Real>, PlaneBody<Real>, QuadricBody<Real>> surface;
+    int object = 0;
+};
+
+enum class BodyKind { sphere, plane, placed };
+
+/// A scene's surfaces, converted once; objects without a matrix stay in world space.
+template <class Real>
+struct Bodies {
+    struct Place {
+        BodyKind kind;
+        std::size_t index;
+    };
+    std::vector<SphereBody<Real>> spheres;
+    std::vector<PlaneBody<Real>> planes;
+    std::vector<PlacedBody<Real>> placed;
+    std::vector<Place> places;  ///< by object number
+
+    explicit Bodies(const Scene& scene);
+};
+
+template <class Real>
+[[nodiscard]] Roots<Real> roots_of(const PlacedBody<Real>& body, const Vec3<Real>& org,
+                                   const Vec3<Real>& dir)
+{
+    const Vec3<Real> own_org = body.placement.point_to_own(org);
+    const Vec3<Real> own_dir = body.placement.vector_to_own(dir);
+    return std::visit([&](const auto& surface) { return roots_of(surface, own_org, own_dir); },
+                      body.surface);
+}
+
+template <class Real>
+[[nodiscard]] Vec3<Real> normal_at(const PlacedBody<Real>& body, const Vec3<Real>& P, Part part)
+{
+    const Vec3<Real> own = body.placement.point_to_own(P);
+    return body.placement.normal_to_world(std::visit(
+        [&](const auto& surface) { return normal_at(surface, own, part); }, body.surface));
+}
+
+}  // namespace packtrace::reference

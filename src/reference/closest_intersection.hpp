@@ -1,0 +1,46 @@
+#pragma once
+
+#include <limits>
+
+#include "reference/bodies.hpp"
+
+namespace packtrace::reference {
+
+template <class Real>
+struct Hit {
+    Real t = std::numeric_limits<Real>::infinity();
+    int object = -1;  ///< -1 for none
+    Part part = Part::side;
+
+    [[nodiscard]] explicit operator bool() const
+    {
+        return object >= 0;
+    }
+};
+
+/// The nearest root in the closed range [t_min, t_max], over all objects one by one; among
+/// equal t the lower object number.
+template <class Real>
+[[nodiscard]] Hit<Real> closest_intersection(const Bodies<Real>& bodies, const Vec3<Real>& O,
+                                             const Vec3<Real>& D, Real t_min, Real t_max)
+{
+    Hit<Real> closest;
+    const auto offer = [&](Real t, int object, Part part = Part::side) {
+        if (t >= t_min && t <= t_max &&
+            (t < closest.t || (t == closest.t && object < closest.object)))
+            closest = {t, object, part};
+    };
+    for (const SphereBody<Real>& sphere : bodies.spheres) {
+        const auto [t1, t2] = intersect_ray_sphere(O, D, sphere);
+        offer(t1, sphere.object);
+        offer(t2, sphere.object);
+    }
+    for (const PlaneBody<Real>& plane : bodies.planes)
+        offer(intersect_ray_plane(O, D, plane), plane.object);
+    for (const PlacedBody<Real>& body : bodies.placed)
+        for (const auto& root : roots_of(body, O, D))
+            offer(root.t, body.object, root.part);
+    return closest;
+}
+
+}  // namespace packtrace::reference

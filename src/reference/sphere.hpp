@@ -1,0 +1,54 @@
+#pragma once
+
+#include <cmath>
+#include <limits>
+#include <utility>
+
+#include "reference/roots.hpp"
+#include "reference/vec3.hpp"
+
+namespace packtrace::reference {
+
+template <class Real>
+struct SphereBody {
+    Vec3<Real> center;
+    Real radius{};
+    int object = 0;
+};
+
+/// The textbook quadratic of note 001's book, both roots; infinite for a line that misses.
+template <class Real>
+[[nodiscard]] std::pair<Real, Real> intersect_ray_sphere(const Vec3<Real>& O, const Vec3<Real>& D,
+                                                         const SphereBody<Real>& sphere)
+{
+    const Real r = sphere.radius;
+    const Vec3<Real> CO = O - sphere.center;
+    const Real a = dot(D, D);
+    const Real b = 2 * dot(CO, D);
+    const Real c = dot(CO, CO) - r * r;
+    const Real discriminant = b * b - 4 * a * c;
+    if (discriminant < 0)
+        return {std::numeric_limits<Real>::infinity(), std::numeric_limits<Real>::infinity()};
+    const Real root = std::sqrt(discriminant);
+    return {(-b + root) / (2 * a), (-b - root) / (2 * a)};
+}
+
+template <class Real>
+[[nodiscard]] Roots<Real> roots_of(const SphereBody<Real>& sphere, const Vec3<Real>& O,
+                                   const Vec3<Real>& D)
+{
+    const auto [t1, t2] = intersect_ray_sphere(O, D, sphere);
+    Roots<Real> roots;
+    roots.add(t1);
+    roots.add(t2);
+    return roots;
+}
+
+/// Outwards, not normalised.
+template <class Real>
+[[nodiscard]] Vec3<Real> normal_at(const SphereBody<Real>& sphere, const Vec3<Real>& P, Part)
+{
+    return P - sphere.center;
+}
+
+}  // namespace packtrace::reference

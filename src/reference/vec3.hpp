@@ -1,0 +1,98 @@
+#pragma once
+
+#include <cmath>
+
+#include <packtrace/vec.hpp>
+
+namespace packtrace::reference {
+
+/// A point, direction, or colour in the precision of the reference.
+template <class Real>
+struct Vec3 {
+    Real x{};
+    Real y{};
+    Real z{};
+
+    Vec3() = default;
+    constexpr Vec3(Real x_, Real y_, Real z_) : x(x_), y(y_), z(z_)
+    {
+    }
+    explicit Vec3(const packtrace::Vec3& from)
+        : x(static_cast<Real>(from.x)), y(static_cast<Real>(from.y)), z(static_cast<Real>(from.z))
+    {
+    }
+
+    Vec3& operator+=(const Vec3& b)
+    {
+        return *this = *this + b;
+    }
+    friend constexpr Vec3 operator+(const Vec3& a, const Vec3& b)
+    {
+        return {a.x + b.x, a.y + b.y, a.z + b.z};
+    }
+    friend constexpr Vec3 operator-(const Vec3& a, const Vec3& b)
+    {
+        return {a.x - b.x, a.y - b.y, a.z - b.z};
+    }
+    friend constexpr Vec3 operator-(const Vec3& a)
+    {
+        return {-a.x, -a.y, -a.z};
+    }
+    /// Component by component, as colours multiply.
+    friend constexpr Vec3 operator*(const Vec3& a, const Vec3& b)
+    {
+        return {a.x * b.x, a.y * b.y, a.z * b.z};
+    }
+    friend constexpr Vec3 operator*(const Vec3& a, Real s)
+    {
+        return {a.x * s, a.y * s, a.z * s};
+    }
+    friend constexpr Vec3 operator*(Real s, const Vec3& a)
+    {
+        return a * s;
+    }
+    friend constexpr Vec3 operator/(const Vec3& a, Real s)
+    {
+        return {a.x / s, a.y / s, a.z / s};
+    }
+    friend constexpr bool operator==(const Vec3& a, const Vec3& b)
+    {
+        return a.x == b.x && a.y == b.y && a.z == b.z;
+    }
+};
+
+template <class Real>
+using Color = Vec3<Real>;
+
+template <class Real>
+[[nodiscard]] constexpr Real dot(const Vec3<Real>& a, const Vec3<Real>& b)
+{
+    return a.x * b.x + a.y * b.y + a.z * b.z;
+}
+
+template <class Real>
+[[nodiscard]] constexpr Vec3<Real> cross(const Vec3<Real>& a, const Vec3<Real>& b)
+{
+    return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
+}
+
+template <class Real>
+[[nodiscard]] Real length(const Vec3<Real>& a)
+{
+    return std::sqrt(dot(a, a));
+}
+
+template <class Real>
+[[nodiscard]] Vec3<Real> normalize(const Vec3<Real>& a)
+{
+    return a / length(a);
+}
+
+/// The direction `V`, pointing away from the surface, mirrored about the unit normal `N`.
+template <class Real>
+[[nodiscard]] constexpr Vec3<Real> reflect_ray(const Vec3<Real>& V, const Vec3<Real>& N)
+{
+    return Real(2) * N * dot(N, V) - V;
+}
+
+}  // namespace packtrace::reference
