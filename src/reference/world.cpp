@@ -1,0 +1,23 @@
+#include "reference/world.hpp"
+
+namespace packtrace::reference {
+
+template <class Real>
+World<Real>::World(const Scene& scene)
+    : bodies(scene),
+      background(scene.background),
+      shadows(scene.shadows),
+      max_depth(scene.max_depth),
+      canvas(scene)
+{
+    for (const Object& object : scene.objects)
+        paints.push_back(make_paint<Real>(object));
+    for (const Light& light : scene.lights)
+        lights.push_back({light.type, Color<Real>(light.intensity), Vec3<Real>(light.vector)});
+}
+
+template struct World<float>;
+template struct World<double>;
+template struct World<long double>;
+
+}  // namespace packtrace::reference

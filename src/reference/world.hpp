@@ -1,0 +1,38 @@
+#pragma once
+
+#include <limits>
+#include <vector>
+
+#include <packtrace/scene.hpp>
+
+#include "reference/bodies.hpp"
+#include "reference/canvas.hpp"
+#include "reference/paint.hpp"
+
+namespace packtrace::reference {
+
+template <class Real>
+inline constexpr Real infinity = std::numeric_limits<Real>::infinity();
+
+template <class Real>
+struct LightSource {
+    LightType type = LightType::ambient;
+    Color<Real> intensity;
+    Vec3<Real> vector;  ///< a point light's position, or the way to a directional light
+};
+
+/// What every note needs of a scene, converted once to the precision of the reference.
+template <class Real>
+struct World {
+    Bodies<Real> bodies;
+    std::vector<Paint<Real>> paints;  ///< by object number
+    std::vector<LightSource<Real>> lights;
+    Color<Real> background;
+    ShadowKind shadows;
+    int max_depth;
+    Canvas<Real> canvas;
+
+    explicit World(const Scene& scene);
+};
+
+}  // namespace packtrace::reference
