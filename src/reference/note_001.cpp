@@ -1,0 +1,109 @@
+#include "reference/note_001.hpp"
+
+#include <cmath>
+
+namespace packtrace::reference {
+
+template <class Real>
+Note001<Real>::Note001(const Scene& scene, const World<Real>& world) : world_(world)
+{
+    for (const Object& object : scene.objects) {
+        const auto& material = std::get<ScratchMaterial>(object.material.model);
+        shadings_.push_back(
+            {static_cast<Real>(material.specular), static_cast<Real>(material.reflective)});
+        is_a_sphere_.push_back(std::holds_alternative<Sphere>(object.surface));
+    }
+}
+
+template <class Real>
+Color<Real> Note001<Real>::compute_lighting(const Vec3<Real>& P, const Vec3<Real>& N,
+                                            const Vec3<Real>& V, Real s) const
+{
+    Color<Real> i(0, 0, 0);
+    for (const LightSource<Real>& light : world_.lights) {
+        if (light.type == LightType::ambient) {
+            i += light.intensity;
+            continue;
+        }
+        const bool is_point = light.type == LightType::point;
+        const Vec3<Real> L = is_point ? light.vector - P : light.vector;
+        const Real t_max = is_point ? Real(1) : infinity<Real>;
+
+        // The listing kept only the `continue` of its shadow check.
+        if (in_shadow(P, L, t_max))
+            continue;
+
+        // Diffuse
+        const Real n_dot_l = dot(N, L);
+        if (n_dot_l > 0)
+            i += light.intensity * (n_dot_l / (length(N) * length(L)));
+
+        // Specular; the note lights it also where the light is behind the surface.
+        if (s != -1) {
+            const Vec3<Real> R = reflect_ray(L, N);
+            const Real r_dot_v = dot(R, V);
+            if (r_dot_v > 0)
+                i += light.intensity * std::pow(r_dot_v / (length(R) * length(V)), s);
+        }
+    }
+    return i;
+}
+
+template <class Real>
+bool Note001<Real>::in_shadow(const Vec3<Real>& P, const Vec3<Real>& L, Real t_max) const
+{
+    if (world_.shadows == ShadowKind::none)
+        return false;
+    const auto shadow_sphere = closest_intersection(world_.bodies, P, L, Real(0.001), t_max);
+    return static_cast<bool>(shadow_sphere);
+}
+
+// The note has only spheres and lets N point away from the centre even when seen from inside.
+// Planes and quadrics have no such side: theirs faces the viewer.
+template <class Real>
+Vec3<Real> Note001<Real>::normal(const Hit<Real>& closest, const Vec3<Real>& P,
+                                 const Vec3<Real>& D) const
+{
+    const Vec3<Real> N = outward_normal(world_.bodies, closest, P);
+    return is_a_sphere_[static_cast<std::size_t>(closest.object)] ? N : turned_against(N, D);
+}
+
+template <class Real>
+Color<Real> Note001<Real>::trace_ray(const Vec3<Real>& O, const Vec3<Real>& D, Real t_min,
+                                     Real t_max, int depth) const
+{
+    const Hit<Real> closest = closest_intersection(world_.bodies, O, D, t_min, t_max);
+    if (!closest)
+        return world_.background;
+
+    // Compute local color
+    const auto object = static_cast<std::size_t>(closest.object);
+    const Vec3<Real> P = O + closest.t * D;
+    const Vec3<Real> N = normal(closest, P, D);
+    const Color<Real> color = color_at(world_.paints[object], world_.bodies, closest.object, P);
+    const Color<Real> local_color = color * compute_lighting(P, N, -D, shadings_[object].specular);
+
+    // If we hit the recursion limit or the object is not reflective, we're done
+    const Real r = shadings_[object].reflective;
+    if (depth <= 0 || r <= 0)
+        return local_color;
+
+    // Compute the reflected color
+    const Vec3<Real> R = reflect_ray(-D, N);
+    const Color<Real> reflected_color = trace_ray(P, R, Real(0.001), infinity<Real>, depth - 1);
+
+    return local_color * (1 - r) + reflected_color * r;
+}
+
+template <class Real>
+Color<Real> Note001<Real>::trace_pixel(int i, int j) const
+{
+    const Vec3<Real> D = world_.canvas.canvas_to_viewport(i, j);
+    return trace_ray(world_.canvas.position, D, 1, infinity<Real>, world_.max_depth);
+}
+
+template class Note001<float>;
+template class Note001<double>;
+template class Note001<long double>;
+
+}  // namespace packtrace::reference

@@ -1,0 +1,44 @@
+#pragma once
+
+#include <vector>
+
+#include "reference/world.hpp"
+
+namespace packtrace::reference {
+
+/// Note 001, the complete pseudocode of the raytracing chapters of "Computer Graphics from
+/// Scratch" (Gambetta), function by function and under its names. Where it departs, a comment
+/// says so; docs/reference.md gathers the reasons.
+template <class Real>
+class Note001 {
+public:
+    /// The shading keys of an object; its colour is in World::paints.
+    struct Shading {
+        Real specular;  ///< exponent; -1 for no highlight
+        Real reflective;
+    };
+
+    /// `world` must outlive this; `scene` must be lit by Illumination::scratch.
+    Note001(const Scene& scene, const World<Real>& world);
+
+    /// The body of the note's loop over the canvas, for column `i` and row `j`.
+    [[nodiscard]] Color<Real> trace_pixel(int i, int j) const;
+
+    [[nodiscard]] Color<Real> trace_ray(const Vec3<Real>& O, const Vec3<Real>& D, Real t_min,
+                                        Real t_max, int depth) const;
+
+    /// The light that reaches `P`, per channel. `V` points to where the ray came from.
+    [[nodiscard]] Color<Real> compute_lighting(const Vec3<Real>& P, const Vec3<Real>& N,
+                                               const Vec3<Real>& V, Real s) const;
+
+private:
+    [[nodiscard]] bool in_shadow(const Vec3<Real>& P, const Vec3<Real>& L, Real t_max) const;
+    [[nodiscard]] Vec3<Real> normal(const Hit<Real>& closest, const Vec3<Real>& P,
+                                    const Vec3<Real>& D) const;
+
+    const World<Real>& world_;
+    std::vector<Shading> shadings_;           // by object number
+    std::vector<unsigned char> is_a_sphere_;  // by object number
+};
+
+}  // namespace packtrace::reference

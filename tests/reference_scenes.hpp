@@ -1,0 +1,64 @@
+#pragma once
+
+#include <packtrace/scene.hpp>
+
+#include "catch.hpp"
+#include "reference/reference.hpp"
+
+// Small scenes for the tests of the scalar reference.
+namespace packtrace::test {
+
+inline Object sphere(const Vec3& center, double radius, const Material& material = {})
+{
+    Object object;
+    object.surface = Sphere{center, radius};
+    object.material = material;
+    return object;
+}
+
+inline Object plane(const Vec3& point, const Vec3& normal, const Material& material = {})
+{
+    Plane surface;
+    surface.point = point;
+    surface.normal = normal;
+    plane_axes(surface);
+    Object object;
+    object.surface = surface;
+    object.material = material;
+    return object;
+}
+
+/// A scratch material without a highlight.
+inline Material matte(const Rgb& color, double reflective = 0.0)
+{
+    Material material;
+    material.color = color;
+    material.model = ScratchMaterial{-1.0, reflective};
+    return material;
+}
+
+inline Light ambient(double intensity)
+{
+    return {LightType::ambient, Rgb(intensity), Vec3(0.0)};
+}
+
+inline Light point_light(const Vec3& position, double intensity)
+{
+    return {LightType::point, Rgb(intensity), position};
+}
+
+inline Light directional(const Vec3& direction, double intensity)
+{
+    return {LightType::directional, Rgb(intensity), direction};
+}
+
+template <class Real>
+void check_color(const reference::Color<Real>& got, const Rgb& expected, double margin = 1e-12)
+{
+    CAPTURE(static_cast<double>(got.x), static_cast<double>(got.y), static_cast<double>(got.z));
+    CHECK(std::abs(static_cast<double>(got.x) - expected.x) <= margin);
+    CHECK(std::abs(static_cast<double>(got.y) - expected.y) <= margin);
+    CHECK(std::abs(static_cast<double>(got.z) - expected.z) <= margin);
+}
+
+}  // namespace packtrace::test
