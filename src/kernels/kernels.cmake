@@ -1,1 +1,40 @@
-# One OBJECT library per instruction set, all from the same sources.
+# The kernels: one source, one OBJECT library per instruction set with its own -m flags. They
+# never see link-time optimisation, and are optimised in debug builds too (xsimd 8.1 does not
+# compile for AVX-512 at -O0).
+#
+# -finline-limit and its kin make GCC inline xsimd's one-line functions everywhere, so that no
+# weak copy of them leaves the object. -Wno-maybe-uninitialized: GCC 12's own AVX-512 header
+# starts from undefined registers.
+set(PACKTRACE_KERNELS "" CACHE INTERNAL "Instruction sets compiled in")
+
+function(packtrace_kernel isa lanes)
+    file(GLOB kernel_sources CONFIGURE_DEPENDS ${CMAKE_CURRENT_SOURCE_DIR}/kernels/*.cpp)
+    add_library(packtrace_kernels_${isa} OBJECT ${kernel_sources})
+    target_compile_definitions(packtrace_kernels_${isa} PRIVATE
+        PACKTRACE_ISA=${isa} PACKTRACE_LANES=${lanes})
+    target_include_directories(packtrace_kernels_${isa} PRIVATE ${CMAKE_CURRENT_SOURCE_DIR})
+    target_compile_options(packtrace_kernels_${isa} PRIVATE ${ARGN} -fvisibility=hidden -fno-exceptions
+        $<$<CXX_COMPILER_ID:GNU>:-Wno-maybe-uninitialized$<SEMICOLON>-Wno-uninitialized>
+        $<$<CONFIG:Debug>:-O2>
+        $<$<CXX_COMPILER_ID:GNU>:-finline-limit=100000>
+        $<$<CXX_COMPILER_ID:GNU>:--param=inline-unit-growth=1000>
+        $<$<CXX_COMPILER_ID:GNU>:--param=large-function-growth=10000>)
+    target_link_libraries(packtrace_kernels_${isa} PRIVATE packtrace_flags packtrace_xsimd)
+    set_target_properties(packtrace_kernels_${isa} PROPERTIES INTERPROCEDURAL_OPTIMIZATION OFF)
+    target_sources(packtrace PRIVATE $<TARGET_OBJECTS:packtrace_kernels_${isa}>)
+    target_compile_definitions(packtrace PRIVATE PACKTRACE_HAS_${isa})
+    set(PACKTRACE_KERNELS ${PACKTRACE_KERNELS} ${isa} CACHE INTERNAL "")
+endfunction()
+
+if(CMAKE_SYSTEM_PROCESSOR MATCHES "x86_64|AMD64")
+    packtrace_kernel(sse42 4 -msse4.2 -mpopcnt)
+    packtrace_kernel(sse_fma 4 -mavx2 -mfma -mbmi -mbmi2 -mpopcnt)
+    packtrace_kernel(avx2 8 -mavx2 -mfma -mbmi -mbmi2 -mpopcnt)
+    packtrace_kernel(avx512 16 -mavx512f -mavx512cd -mavx512dq -mavx512bw -mavx512vl
+                     -mavx2 -mfma -mbmi -mbmi2 -mpopcnt -mprefer-vector-width=512)
+elseif(CMAKE_SYSTEM_PROCESSOR MATCHES "aarch64|arm64")
+    packtrace_kernel(neon64 4)
+else()
+    message(FATAL_ERROR "packtrace: no kernels for ${CMAKE_SYSTEM_PROCESSOR}; "
+                        "it runs on x86-64 and 64-bit Arm")
+endif()

@@ -1,0 +1,48 @@
+#pragma once
+
+#include <cstdint>
+#include <memory>
+
+#include <packtrace/image.hpp>
+#include <packtrace/isa.hpp>
+#include <packtrace/render.hpp>
+#include <packtrace/scene.hpp>
+
+namespace packtrace {
+
+/// How many rays of each kind a frame took.
+struct FrameCounts {
+    std::uint64_t camera = 0;
+    std::uint64_t shadow = 0;
+    std::uint64_t reflected = 0;
+
+    [[nodiscard]] std::uint64_t total() const
+    {
+        return camera + shadow + reflected;
+    }
+};
+
+/// A scene made ready for the packet kernels, to be rendered any number of times. `Real` is
+/// float or double. Rendering is thread-safe and allocates nothing after a thread's first tile.
+template <class Real>
+class Renderer {
+public:
+    /// Throws SceneError for a scene the kernels cannot hold, std::invalid_argument for
+    /// impossible options. `options.kernel` is not looked at.
+    explicit Renderer(const Scene& scene, const RenderOptions& options = {});
+    ~Renderer();
+    Renderer(Renderer&&) noexcept;
+    Renderer& operator=(Renderer&&) noexcept;
+
+    /// Renders into `image`, whose size is the scene's; an image of another size is replaced.
+    FrameCounts render(Image<Real>& image) const;
+
+    /// The instruction set in use.
+    [[nodiscard]] const IsaInfo& isa() const;
+
+private:
+    struct State;
+    std::unique_ptr<State> state_;
+};
+
+}  // namespace packtrace

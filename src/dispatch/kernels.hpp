@@ -1,0 +1,25 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "kernel_abi/kernel_table.hpp"
+
+namespace packtrace {
+
+/// The kernels compiled in, narrowest first; those this machine cannot run too.
+[[nodiscard]] const std::vector<const abi::KernelTable*>& all_kernels();
+
+/// Whether this machine, and its operating system, run every instruction `isa` was compiled
+/// with.
+[[nodiscard]] bool cpu_runs(const std::string& isa);
+
+/// The kernels of an instruction set that list_isas() names as supported. Throws
+/// std::invalid_argument for any other.
+[[nodiscard]] const abi::KernelTable& kernels_of(const std::string& isa);
+
+/// The half of a table that works in `Real`.
+template <class Real>
+[[nodiscard]] const abi::PrecisionTable<Real>& precision(const abi::KernelTable& table);
+
+}  // namespace packtrace

@@ -1,0 +1,67 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+
+#include "kernel_abi/scene_view.hpp"
+#include "kernel_abi/self_test.hpp"
+
+namespace packtrace::abi {
+
+/// Edge of a tile, pixels.
+inline constexpr int tile_size = 16;
+inline constexpr int tile_pixels = tile_size * tile_size;
+
+/// One tile of one frame. The kernel fills rows y … y + height - 1, columns x … x + width - 1
+/// of a picture whose pixels are interleaved r, g, b.
+template <class Real>
+struct TileJob {
+    const SceneView<Real>* scene = nullptr;
+    const CameraView<Real>* camera = nullptr;
+    int x = 0;
+    int y = 0;
+    int width = tile_size;          ///< 1 … tile_size
+    int height = tile_size;         ///< 1 … tile_size
+    Real* rgb = nullptr;            ///< the tile's first pixel
+    std::ptrdiff_t row_stride = 0;  ///< elements from one row to the next
+    /// Working memory of `scratch_bytes`, 64-byte aligned, one per thread.
+    void* scratch = nullptr;
+};
+
+/// Closest hits of a tile's camera rays, without shading. Rays are numbered along the tile's
+/// Z-order curve: bits 0, 2, 4, 6 of the number are the column, the others the row.
+template <class Real>
+struct TileHits {
+    Real t[tile_pixels];
+    lane_int<Real> object[tile_pixels];  ///< -1 for a miss
+};
+
+/// How many rays of each kind were traced.
+struct RayCounts {
+    std::uint64_t camera = 0;
+    std::uint64_t shadow = 0;
+    std::uint64_t reflected = 0;
+};
+
+/// The kernels of one precision.
+template <class Real>
+struct PrecisionTable {
+    int lanes = 0;
+    std::size_t (*scratch_bytes)(const SceneView<Real>& scene) = nullptr;
+    RayCounts (*render_tile)(const TileJob<Real>& job) = nullptr;
+    /// The tile's camera rays only; `rgb` is not used.
+    void (*closest_tile)(const TileJob<Real>& job, TileHits<Real>& hits) = nullptr;
+    /// y[i] = x[i]^n[i] as highlights use it: x in [0, 1 + 1e-6], n > 0.
+    void (*highlight_power)(const Real* x, const Real* n, Real* y, int count) = nullptr;
+    /// Runs one operation of simd.hpp over whole packets; see self_test.hpp.
+    void (*self_test)(const SelfTestJob<Real>& job) = nullptr;
+};
+
+/// What one instruction set offers.
+struct KernelTable {
+    const char* isa = nullptr;
+    PrecisionTable<float> single_precision;
+    PrecisionTable<double> double_precision;
+};
+
+}  // namespace packtrace::abi

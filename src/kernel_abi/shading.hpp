@@ -1,0 +1,57 @@
+#pragma once
+
+#include <cstdint>
+
+// What shading needs to know of objects, materials and lights. Records hold only `Real` fields
+// where kernels fetch them by lane, so that a record is an array of its fields.
+namespace packtrace::abi {
+
+/// Unit normal of a plane or sphere at P, before normalising: normal + curvature (P - anchor).
+/// A plane has curvature 0; a sphere has its centre as anchor and normal 0.
+template <class Real>
+struct SurfaceRecord {
+    Real anchor[3];
+    Real normal[3];
+    Real curvature;
+    Real faces_viewer;  ///< 1: the normal is turned against the ray; 0: it points outwards
+};
+
+/// I = local (ambient + Σ light (diffuse max(0, N·L) + highlight max(0, R·V)^shininess))
+///     + reflect I(reflected); `local` counts only where the reflected ray is traced.
+template <class Real>
+struct MaterialRecord {
+    Real ambient[3];  ///< times the scene's ambient light
+    Real diffuse[3];
+    Real highlight[3];
+    Real reflect[3];
+    Real local[3];
+    Real shininess;
+    /// Cosines below this give a highlight that is exactly 0.
+    Real highlight_floor;
+};
+
+/// Where an object finds its material: `first`, or with a checker the one after it on the
+/// squares of the other colour.
+struct MaterialIndex {
+    std::int32_t first;
+    std::int32_t checker;  ///< index into the checkers, -1 for none
+};
+
+/// Squares on a plane: the parity of floor(u·P + u_offset) + floor(v·P + v_offset).
+template <class Real>
+struct CheckerRecord {
+    Real point[3];
+    Real u[3];  ///< axis / size
+    Real v[3];
+};
+
+enum class LightKind : std::int32_t { point, directional };
+
+template <class Real>
+struct LightRecord {
+    Real intensity[3];
+    Real vector[3];  ///< position, or direction towards the light
+    LightKind kind;
+};
+
+}  // namespace packtrace::abi

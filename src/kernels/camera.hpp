@@ -1,0 +1,119 @@
+#pragma once
+
+#include "kernel_abi/kernel_table.hpp"
+#include "kernels/beam.hpp"
+
+// Camera rays of a tile, along its Z-order curve: 2, 4, 8 or 16 neighbours are a block of
+// 2x1, 2x2, 4x2 or 4x4 pixels, so packets of every width are compact and in the same order.
+namespace packtrace::PACKTRACE_ISA {
+namespace {
+
+/// Every second bit of a number in a tile's Z-order, from bit 0.
+constexpr int even_bits(int number)
+{
+    return (number & 1) | ((number >> 1) & 2) | ((number >> 2) & 4) | ((number >> 3) & 8);
+}
+
+template <class Real>
+struct LaneOffsets {
+    alignas(64) Real x[lanes<Real>] = {};
+    alignas(64) Real y[lanes<Real>] = {};
+
+    constexpr LaneOffsets()
+    {
+        for (int lane = 0; lane < lanes<Real>; ++lane) {
+            x[lane] = static_cast<Real>(even_bits(lane));
+            y[lane] = static_cast<Real>(even_bits(lane >> 1));
+        }
+    }
+};
+
+template <class Real>
+constexpr LaneOffsets<Real> lane_offsets;
+
+/// The canvas positions of one packet of a tile.
+template <class Real>
+struct PixelPacket {
+    vreal<Real> column, row;  ///< in the tile
+    std::uint32_t inside;     ///< lanes within the tile's width and height
+};
+
+template <class Real>
+inline PixelPacket<Real> pixels_of(const abi::TileJob<Real>& job, int first)
+{
+    PixelPacket<Real> pixels;
+    pixels.column = vreal<Real>(static_cast<Real>(even_bits(first))) + load(lane_offsets<Real>.x);
+    pixels.row = vreal<Real>(static_cast<Real>(even_bits(first >> 1))) + load(lane_offsets<Real>.y);
+    pixels.inside = bits((pixels.column < vreal<Real>(static_cast<Real>(job.width))) &
+                         (pixels.row < vreal<Real>(static_cast<Real>(job.height))));
+    return pixels;
+}
+
+/// Direction through a canvas position, forward + x right + y up.
+template <class Real>
+inline Vec3v<Real> camera_direction(const abi::CameraView<Real>& camera, const vreal<Real>& x,
+                                    const vreal<Real>& y)
+{
+    return madd<Real>(x, broadcast(camera.right),
+                      madd<Real>(y, broadcast(camera.up), broadcast(camera.forward)));
+}
+
+template <class Real>
+inline RayPacket<Real> camera_rays(const abi::TileJob<Real>& job, const PixelPacket<Real>& pixels)
+{
+    const abi::CameraView<Real>& camera = *job.camera;
+    const vreal<Real> x = pixels.column + vreal<Real>(static_cast<Real>(job.x) + camera.first_x);
+    const vreal<Real> y = vreal<Real>(camera.first_y - static_cast<Real>(job.y)) - pixels.row;
+    return make_rays<Real>(broadcast(camera.origin), camera_direction<Real>(camera, x, y),
+                           camera.t_min);
+}
+
+/// The beam through a tile: around its middle, as wide as its farthest corner.
+template <class Real>
+inline Beam<Real> camera_beam(const abi::TileJob<Real>& job)
+{
+    const abi::CameraView<Real>& camera = *job.camera;
+    const Real left = static_cast<Real>(job.x) + camera.first_x;
+    const Real top = camera.first_y - static_cast<Real>(job.y);
+    const Real half = Real(0.5) * static_cast<Real>(abi::tile_size - 1);
+
+    // Lane 0 is the middle, lanes 1 to 4 the corners; packets of two take two more rounds.
+    Beam<Real> beam;
+    Real axis[3];
+    Real length2 = 0;
+    for (int i = 0; i < 3; ++i) {
+        axis[i] = camera.forward[i] + (left + half) * camera.right[i] + (top - half) * camera.up[i];
+        length2 += axis[i] * axis[i];
+        beam.base[i] = camera.origin[i];
+    }
+    const Real length = square_root<Real>(length2);
+    Real widest = 0;  // squared tangent of the angle to a corner
+    for (int corner = 0; corner < 4; ++corner) {
+        const Real dx = (corner & 1) ? half : -half;
+        const Real dy = (corner & 2) ? half : -half;
+        Real offset[3];
+        Real along = 0;
+        Real offset2 = 0;
+        for (int i = 0; i < 3; ++i) {
+            offset[i] = dx * camera.right[i] + dy * camera.up[i];
+            along += offset[i] * axis[i] / length;
+            offset2 += offset[i] * offset[i];
+        }
+        const Real corner_along = length + along;
+        const Real across2 = offset2 - along * along;
+        if (!(corner_along > 0))
+            return beam;
+        const Real tangent2 = across2 / (corner_along * corner_along);
+        widest = tangent2 > widest ? tangent2 : widest;
+    }
+    for (int i = 0; i < 3; ++i)
+        beam.axis[i] = axis[i] / length;
+    beam.cosine = Real(1) / square_root<Real>(Real(1) + widest);
+    beam.sine = square_root<Real>(widest) * beam.cosine;
+    beam.reach = static_cast<Real>(__builtin_inf());
+    beam.bounded = true;
+    return beam;
+}
+
+}  // namespace
+}  // namespace packtrace::PACKTRACE_ISA

@@ -1,0 +1,95 @@
+#pragma once
+
+#include <immintrin.h>
+
+#include "kernels/lanes.hpp"
+
+// What xsimd lacks or gets wrong (its 8.1 does not fuse fma here), in AVX-512 instructions.
+namespace packtrace::PACKTRACE_ISA {
+namespace {
+
+inline vreal<float> madd(vreal<float> a, vreal<float> b, vreal<float> c)
+{
+    return _mm512_fmadd_ps(a, b, c);
+}
+inline vreal<double> madd(vreal<double> a, vreal<double> b, vreal<double> c)
+{
+    return _mm512_fmadd_pd(a, b, c);
+}
+inline vreal<float> msub(vreal<float> a, vreal<float> b, vreal<float> c)
+{
+    return _mm512_fmsub_ps(a, b, c);
+}
+inline vreal<double> msub(vreal<double> a, vreal<double> b, vreal<double> c)
+{
+    return _mm512_fmsub_pd(a, b, c);
+}
+inline vreal<float> nmadd(vreal<float> a, vreal<float> b, vreal<float> c)
+{
+    return _mm512_fnmadd_ps(a, b, c);
+}
+inline vreal<double> nmadd(vreal<double> a, vreal<double> b, vreal<double> c)
+{
+    return _mm512_fnmadd_pd(a, b, c);
+}
+
+inline std::uint32_t bits(vmask<float> m)
+{
+    return static_cast<std::uint32_t>(m.data);
+}
+inline std::uint32_t bits(vmask<double> m)
+{
+    return static_cast<std::uint32_t>(m.data);
+}
+template <class Real>
+inline vmask<Real> from_bits(std::uint32_t pattern)
+{
+    return vmask<Real>(static_cast<typename vmask<Real>::register_type>(pattern));
+}
+
+inline vint<float> as_int(vreal<float> x)
+{
+    return _mm512_castps_si512(x);
+}
+inline vint<double> as_int(vreal<double> x)
+{
+    return _mm512_castpd_si512(x);
+}
+inline vreal<float> as_real(vint<float> i)
+{
+    return _mm512_castsi512_ps(i);
+}
+inline vreal<double> as_real(vint<double> i)
+{
+    return _mm512_castsi512_pd(i);
+}
+
+inline vmask<float> int_equal(vint<float> i, vint<float> j)
+{
+    return _mm512_cmpeq_epi32_mask(i, j);
+}
+inline vmask<double> int_equal(vint<double> i, vint<double> j)
+{
+    return _mm512_cmpeq_epi64_mask(i, j);
+}
+inline vmask<float> int_less(vint<float> i, vint<float> j)
+{
+    return _mm512_cmplt_epi32_mask(i, j);
+}
+inline vmask<double> int_less(vint<double> i, vint<double> j)
+{
+    return _mm512_cmplt_epi64_mask(i, j);
+}
+
+// The memory form of vcompressps is microcoded on Zen 4: compress in the register instead.
+inline vreal<float> compress(std::uint32_t pattern, vreal<float> x)
+{
+    return _mm512_maskz_compress_ps(static_cast<__mmask16>(pattern), x);
+}
+inline vreal<double> compress(std::uint32_t pattern, vreal<double> x)
+{
+    return _mm512_maskz_compress_pd(static_cast<__mmask8>(pattern), x);
+}
+
+}  // namespace
+}  // namespace packtrace::PACKTRACE_ISA

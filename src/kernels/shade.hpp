@@ -1,0 +1,139 @@
+#pragma once
+
+#include "kernels/bounds.hpp"
+#include "kernels/lighting.hpp"
+
+// Shading of a tile's hit points: light by light into the pixels, mirrored rays into the next
+// stream.
+namespace packtrace::PACKTRACE_ISA {
+namespace {
+
+/// What shading a tile needs besides the hits themselves.
+template <class Real>
+struct ShadeContext {
+    const abi::SceneView<Real>* scene;
+    /// One list a light, of the spheres that can throw a shadow of point lights.
+    const SharedOriginSpheres<Real>* blockers;
+    bool spawn;  ///< below the depth limit: mirrored rays are traced
+    abi::RayCounts* counts;
+};
+
+/// Lanes of `wanted` in the shadow of `light`. Rays to a point light are traced from it, where
+/// they share their origin: t there is 1 - t of note 001's ray from the point.
+template <class Real>
+inline std::uint32_t shadowed(const ShadeContext<Real>& context, int light,
+                              const LightPacket<Real>& packet, const Vec3v<Real>& point,
+                              std::uint32_t wanted)
+{
+    const abi::SceneView<Real>& scene = *context.scene;
+    if (!scene.shadows || wanted == 0)
+        return 0;
+    context.counts->shadow += static_cast<unsigned>(__builtin_popcount(wanted));
+    const abi::LightRecord<Real>& record = scene.lights.data[light];
+    if (record.kind == abi::LightKind::directional) {
+        const RayPacket<Real> rays = make_rays<Real>(point, packet.to_light, scene.epsilon);
+        return occluded(NoEnd<Real>{}, scene.spheres, scene, rays, wanted);
+    }
+    const vreal<Real> zero(Real(0));
+    const Vec3v<Real> away{zero - packet.to_light.x, zero - packet.to_light.y,
+                           zero - packet.to_light.z};
+    const RayPacket<Real> rays = make_rays<Real>(broadcast(record.vector), away, Real(0));
+    const SegmentEnd<Real> end{vreal<Real>(Real(1) - scene.epsilon)};
+    return occluded(end, context.blockers[light], scene, rays, wanted);
+}
+
+template <class Real>
+inline Vec3v<Real> local_color(const ShadeContext<Real>& context,
+                               const SurfacePacket<Real>& surface,
+                               const MaterialPacket<Real>& material, std::uint32_t active)
+{
+    Vec3v<Real> color = material.ambient;
+    for (int i = 0; i < context.scene->lights.count; ++i) {
+        const abi::LightRecord<Real>& light = context.scene->lights.data[i];
+        const LightPacket<Real> packet = light_at(light, surface, material, active);
+        const std::uint32_t lit =
+            packet.wanted & ~shadowed(context, i, packet, surface.point, packet.wanted);
+        if (lit != 0)
+            color = color + lit_color(light, packet, material, lit);
+    }
+    return color;
+}
+
+/// Adds a packet of colours to its pixels in lane order. `pixel` may name one pixel twice.
+template <class Real>
+inline void add_to_pixels(Real (*pixels)[4], const vint<Real>& pixel, const Vec3v<Real>& color,
+                          std::uint32_t active)
+{
+    alignas(64) lane_int<Real> at[lanes<Real>];
+    alignas(64) Real channel[3][lanes<Real>];
+    store(at, pixel);
+    store(channel[0], color.x);
+    store(channel[1], color.y);
+    store(channel[2], color.z);
+    for (; active != 0; active &= active - 1) {
+        const int lane = __builtin_ctz(active);
+        Real* target = pixels[at[lane]];
+        target[0] += channel[0][lane];
+        target[1] += channel[1][lane];
+        target[2] += channel[2][lane];
+    }
+}
+
+/// Appends the mirrored rays of the lanes that reflect anything.
+template <class Real>
+inline void spawn_reflected(RayStream<Real>& next, const SurfacePacket<Real>& surface,
+                            const Vec3v<Real>& weight, const vint<Real>& pixel,
+                            std::uint32_t active)
+{
+    if (active == 0)
+        return;
+    const vreal<Real> twice = dot(surface.normal, surface.dir) * vreal<Real>(Real(-2));
+    const Vec3v<Real> mirrored = madd<Real>(twice, surface.normal, surface.dir);
+    append3(next.org, next.count, active, surface.point);
+    append3(next.dir, next.count, active, mirrored);
+    append3(next.weight, next.count, active, weight);
+    compress_store(next.pixel + next.count, active, pixel);
+    next.count += __builtin_popcount(active);
+}
+
+/// Lanes in which any channel differs from 0.
+template <class Real>
+inline std::uint32_t any_channel(const Vec3v<Real>& v)
+{
+    const vreal<Real> zero(Real(0));
+    return bits((v.x > zero) | (v.y > zero) | (v.z > zero));
+}
+
+template <class Real>
+inline void shade_packet(const ShadeContext<Real>& context, const HitStream<Real>& hits, int first,
+                         Real (*pixels)[4], RayStream<Real>& next)
+{
+    const std::uint32_t active = first_lanes<Real>(hits.count - first);
+    const vint<Real> pixel = load(hits.pixel + first);
+    const Vec3v<Real> weight = load3(hits.weight, first);
+    const SurfacePacket<Real> surface =
+        surface_at(*context.scene, load3(hits.point, first), load3(hits.dir, first),
+                   load(hits.object + first), active);
+    const MaterialPacket<Real> material = fetch_materials(*context.scene, surface.material, active);
+
+    Vec3v<Real> color = weight * local_color(context, surface, material, active);
+    if (context.spawn) {
+        color = color * material.local;
+        spawn_reflected(next, surface, weight * material.reflect, pixel,
+                        active & any_channel(material.reflect));
+    }
+    add_to_pixels(pixels, pixel, color, active);
+}
+
+/// Shades every hit of a stream; `next` is emptied first.
+template <class Real>
+inline void shade_stream(const ShadeContext<Real>& context, const HitStream<Real>& hits,
+                         Real (*pixels)[4], RayStream<Real>& next)
+{
+    next.count = 0;
+    for (int first = 0; first < hits.count; first += lanes<Real>)
+        shade_packet(context, hits, first, pixels, next);
+}
+
+}  // namespace
+}  // namespace packtrace::PACKTRACE_ISA

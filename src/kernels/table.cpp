@@ -1,0 +1,52 @@
+#include "kernels/table.hpp"
+
+#include "kernels/self_test.hpp"
+#include "kernels/tile.hpp"
+
+namespace packtrace::PACKTRACE_ISA {
+namespace {
+
+template <class Real>
+void power_of_arrays(const Real* x, const Real* n, Real* y, int count)
+{
+    alignas(64) Real in[2][lanes<Real>] = {};
+    alignas(64) Real out[lanes<Real>];
+    for (int first = 0; first < count; first += lanes<Real>) {
+        const int live = count - first < lanes<Real> ? count - first : lanes<Real>;
+        for (int lane = 0; lane < live; ++lane) {
+            in[0][lane] = x[first + lane];
+            in[1][lane] = n[first + lane];
+        }
+        store(out, highlight_power<Real>(load(in[0]), load(in[1])));
+        for (int lane = 0; lane < live; ++lane)
+            y[first + lane] = out[lane];
+    }
+}
+
+template <class Real>
+constexpr abi::PrecisionTable<Real> precision_table()
+{
+    abi::PrecisionTable<Real> table;
+    table.lanes = lanes<Real>;
+    table.scratch_bytes = scratch_bytes<Real>;
+    table.render_tile = render_tile<Real>;
+    table.closest_tile = closest_tile<Real>;
+    table.highlight_power = power_of_arrays<Real>;
+    table.self_test = self_test<Real>;
+    return table;
+}
+
+#define PACKTRACE_TEXT_OF(name) #name
+#define PACKTRACE_TEXT(name) PACKTRACE_TEXT_OF(name)
+
+constexpr abi::KernelTable table = {PACKTRACE_TEXT(PACKTRACE_ISA), precision_table<float>(),
+                                    precision_table<double>()};
+
+}  // namespace
+
+const abi::KernelTable& kernel_table()
+{
+    return table;
+}
+
+}  // namespace packtrace::PACKTRACE_ISA

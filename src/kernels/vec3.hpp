@@ -1,0 +1,78 @@
+#pragma once
+
+#include "kernels/simd.hpp"
+
+namespace packtrace::PACKTRACE_ISA {
+namespace {
+
+/// A vector per lane.
+template <class Real>
+struct Vec3v {
+    vreal<Real> x, y, z;
+};
+
+/// The same vector in every lane.
+template <class Real>
+inline Vec3v<Real> broadcast(const Real (&v)[3])
+{
+    return {vreal<Real>(v[0]), vreal<Real>(v[1]), vreal<Real>(v[2])};
+}
+
+template <class Real>
+inline Vec3v<Real> operator+(const Vec3v<Real>& a, const Vec3v<Real>& b)
+{
+    return {a.x + b.x, a.y + b.y, a.z + b.z};
+}
+
+template <class Real>
+inline Vec3v<Real> operator-(const Vec3v<Real>& a, const Vec3v<Real>& b)
+{
+    return {a.x - b.x, a.y - b.y, a.z - b.z};
+}
+
+template <class Real>
+inline Vec3v<Real> operator*(const Vec3v<Real>& a, const Vec3v<Real>& b)
+{
+    return {a.x * b.x, a.y * b.y, a.z * b.z};
+}
+
+template <class Real>
+inline Vec3v<Real> scale(batch<Real> s, const Vec3v<Real>& a)
+{
+    return {s * a.x, s * a.y, s * a.z};
+}
+
+/// s a + b
+template <class Real>
+inline Vec3v<Real> madd(batch<Real> s, const Vec3v<Real>& a, const Vec3v<Real>& b)
+{
+    return {madd(s, a.x, b.x), madd(s, a.y, b.y), madd(s, a.z, b.z)};
+}
+
+/// a b + c in each channel
+template <class Real>
+inline Vec3v<Real> madd(const Vec3v<Real>& a, const Vec3v<Real>& b, const Vec3v<Real>& c)
+{
+    return {madd(a.x, b.x, c.x), madd(a.y, b.y, c.y), madd(a.z, b.z, c.z)};
+}
+
+template <class Real>
+inline vreal<Real> dot(const Vec3v<Real>& a, const Vec3v<Real>& b)
+{
+    return madd(a.x, b.x, madd(a.y, b.y, a.z * b.z));
+}
+
+template <class Real>
+inline Vec3v<Real> cross(const Vec3v<Real>& a, const Vec3v<Real>& b)
+{
+    return {msub(a.y, b.z, a.z * b.y), msub(a.z, b.x, a.x * b.z), msub(a.x, b.y, a.y * b.x)};
+}
+
+template <class Real>
+inline Vec3v<Real> select(batch_bool<Real> active, const Vec3v<Real>& a, const Vec3v<Real>& b)
+{
+    return {select(active, a.x, b.x), select(active, a.y, b.y), select(active, a.z, b.z)};
+}
+
+}  // namespace
+}  // namespace packtrace::PACKTRACE_ISA

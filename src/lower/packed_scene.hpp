@@ -1,0 +1,41 @@
+#pragma once
+
+#include "core/aligned_array.hpp"
+#include "kernel_abi/scene_view.hpp"
+#include "lower/lowered_scene.hpp"
+
+namespace packtrace {
+
+/// A lowered scene in the arrays and the precision the kernels read. Values are rounded once,
+/// from double, here.
+template <class Real>
+class PackedScene {
+public:
+    explicit PackedScene(const LoweredScene& lowered);
+
+    /// Valid as long as this object.
+    [[nodiscard]] const abi::SceneView<Real>& view() const
+    {
+        return view_;
+    }
+
+private:
+    void pack_spheres(const LoweredScene& lowered);
+    void pack_huge_spheres(const LoweredScene& lowered);
+    void pack_planes(const LoweredScene& lowered);
+    void pack_materials(const LoweredScene& lowered);
+    void pack_lights(const LoweredScene& lowered);
+
+    AlignedArray<Real> sphere_reals_;
+    AlignedArray<abi::lane_int<Real>> sphere_objects_;
+    AlignedArray<abi::HugeSphere<Real>> huge_spheres_;
+    AlignedArray<abi::PlaneRecord<Real>> planes_;
+    AlignedArray<abi::SurfaceRecord<Real>> surfaces_;
+    AlignedArray<abi::MaterialIndex> material_index_;
+    AlignedArray<abi::MaterialRecord<Real>> materials_;
+    AlignedArray<abi::CheckerRecord<Real>> checkers_;
+    AlignedArray<abi::LightRecord<Real>> lights_;
+    abi::SceneView<Real> view_;
+};
+
+}  // namespace packtrace

@@ -1,0 +1,27 @@
+#pragma once
+
+#include <packtrace/scene.hpp>
+
+#include "kernel_abi/scene_view.hpp"
+
+namespace packtrace {
+
+/// The scene's camera over its own canvas, rounded to the kernels' precision.
+template <class Real>
+[[nodiscard]] abi::CameraView<Real> camera_view(const Scene& scene, double t_min)
+{
+    const CameraBasis basis = camera_basis(scene.camera, scene.width, scene.height);
+    abi::CameraView<Real> view;
+    for (int axis = 0; axis < 3; ++axis) {
+        view.origin[axis] = static_cast<Real>(basis.origin[axis]);
+        view.right[axis] = static_cast<Real>(basis.right[axis]);
+        view.up[axis] = static_cast<Real>(basis.up[axis]);
+        view.forward[axis] = static_cast<Real>(basis.forward[axis]);
+    }
+    view.first_x = static_cast<Real>(scene.camera.pixel_sample.x - 0.5 * scene.width);
+    view.first_y = static_cast<Real>(0.5 * scene.height - scene.camera.pixel_sample.y);
+    view.t_min = static_cast<Real>(t_min);
+    return view;
+}
+
+}  // namespace packtrace
