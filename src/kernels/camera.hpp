@@ -14,39 +14,34 @@ constexpr int even_bits(int number)
     return (number & 1) | ((number >> 1) & 2) | ((number >> 2) & 4) | ((number >> 3) & 8);
 }
 
+/// Column and row in the tile of each ray.
 template <class Real>
-struct LaneOffsets {
-    alignas(64) Real x[lanes<Real>] = {};
-    alignas(64) Real y[lanes<Real>] = {};
+struct TilePixels {
+    alignas(64) Real column[abi::tile_pixels] = {};
+    alignas(64) Real row[abi::tile_pixels] = {};
 
-    constexpr LaneOffsets()
+    constexpr TilePixels()
     {
-        for (int lane = 0; lane < lanes<Real>; ++lane) {
-            x[lane] = static_cast<Real>(even_bits(lane));
-            y[lane] = static_cast<Real>(even_bits(lane >> 1));
+        for (int ray = 0; ray < abi::tile_pixels; ++ray) {
+            column[ray] = static_cast<Real>(even_bits(ray));
+            row[ray] = static_cast<Real>(even_bits(ray >> 1));
         }
     }
 };
 
 template <class Real>
-constexpr LaneOffsets<Real> lane_offsets;
+constexpr TilePixels<Real> tile_pixels;
 
-/// The canvas positions of one packet of a tile.
+/// The rays of a tile's packet that are within its width and height.
 template <class Real>
-struct PixelPacket {
-    vreal<Real> column, row;  ///< in the tile
-    std::uint32_t inside;     ///< lanes within the tile's width and height
-};
-
-template <class Real>
-inline PixelPacket<Real> pixels_of(const abi::TileJob<Real>& job, int first)
+inline std::uint32_t lanes_inside(const abi::TileJob<Real>& job, int first)
 {
-    PixelPacket<Real> pixels;
-    pixels.column = vreal<Real>(static_cast<Real>(even_bits(first))) + load(lane_offsets<Real>.x);
-    pixels.row = vreal<Real>(static_cast<Real>(even_bits(first >> 1))) + load(lane_offsets<Real>.y);
-    pixels.inside = bits((pixels.column < vreal<Real>(static_cast<Real>(job.width))) &
-                         (pixels.row < vreal<Real>(static_cast<Real>(job.height))));
-    return pixels;
+    if (job.width == abi::tile_size && job.height == abi::tile_size)
+        return all_lanes<Real>;
+    const vreal<Real> width(static_cast<Real>(job.width));
+    const vreal<Real> height(static_cast<Real>(job.height));
+    return bits((load(tile_pixels<Real>.column + first) < width) &
+                (load(tile_pixels<Real>.row + first) < height));
 }
 
 /// Direction through a canvas position, forward + x right + y up.
@@ -59,11 +54,13 @@ inline Vec3v<Real> camera_direction(const abi::CameraView<Real>& camera, const v
 }
 
 template <class Real>
-inline RayPacket<Real> camera_rays(const abi::TileJob<Real>& job, const PixelPacket<Real>& pixels)
+inline RayPacket<Real> camera_rays(const abi::TileJob<Real>& job, int first)
 {
     const abi::CameraView<Real>& camera = *job.camera;
-    const vreal<Real> x = pixels.column + vreal<Real>(static_cast<Real>(job.x) + camera.first_x);
-    const vreal<Real> y = vreal<Real>(camera.first_y - static_cast<Real>(job.y)) - pixels.row;
+    const vreal<Real> left(static_cast<Real>(job.x) + camera.first_x);
+    const vreal<Real> top(camera.first_y - static_cast<Real>(job.y));
+    const vreal<Real> x = left + load(tile_pixels<Real>.column + first);
+    const vreal<Real> y = top - load(tile_pixels<Real>.row + first);
     return make_rays<Real>(broadcast(camera.origin), camera_direction<Real>(camera, x, y),
                            camera.t_min);
 }

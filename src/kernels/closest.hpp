@@ -1,9 +1,6 @@
 #pragma once
 
-#include "kernel_abi/scene_view.hpp"
-#include "kernels/candidates.hpp"
-#include "kernels/huge_sphere.hpp"
-#include "kernels/plane.hpp"
+#include "kernels/shared_origin.hpp"
 
 // Closest hits of a packet among lists of objects.
 namespace packtrace::PACKTRACE_ISA {
@@ -28,17 +25,39 @@ inline void closest_sphere(HitPacket<Real>& hit, const Spheres& spheres,
                        static_cast<std::int32_t>(spheres.object[i]));
 }
 
-template <class Spheres, class Real>
-inline void closest_hit(HitPacket<Real>& hit, const Spheres& spheres,
-                        const abi::SceneView<Real>& scene, const RayPacket<Real>& rays)
+template <class Plane, class Real>
+inline void keep_plane(HitPacket<Real>& hit, const Plane& plane, const RayPacket<Real>& rays)
 {
-    closest_sphere(hit, spheres, rays);
+    const vreal<Real> t = plane_t(plane, rays);
+    keep_closer<Real>(hit, t > rays.t_min, t, plane.object);
+}
+
+/// Rays from anywhere against all objects of the scene.
+template <class Real>
+inline void closest_hit(HitPacket<Real>& hit, const abi::SceneView<Real>& scene,
+                        const RayPacket<Real>& rays)
+{
+    closest_sphere(hit, scene.spheres, rays);
     for (int i = 0; i < scene.huge_spheres.count; ++i) {
         const abi::HugeSphere<Real>& sphere = scene.huge_spheres.data[i];
         keep_quadratic(hit, quadratic_of(sphere, rays), rays, sphere.object);
     }
     for (int i = 0; i < scene.planes.count; ++i)
         keep_plane(hit, scene.planes.data[i], rays);
+}
+
+/// Rays from the objects' shared origin against those objects.
+template <class Real>
+inline void closest_hit(HitPacket<Real>& hit, const SharedOriginObjects<Real>& objects,
+                        const RayPacket<Real>& rays)
+{
+    closest_sphere(hit, objects.spheres, rays);
+    for (int i = 0; i < objects.huge_count; ++i) {
+        const SharedOriginHuge<Real>& sphere = objects.huge_spheres[i];
+        keep_quadratic(hit, quadratic_of(sphere, rays), rays, sphere.object);
+    }
+    for (int i = 0; i < objects.plane_count; ++i)
+        keep_plane(hit, objects.planes[i], rays);
 }
 
 }  // namespace

@@ -6,23 +6,73 @@
 namespace packtrace::PACKTRACE_ISA {
 namespace {
 
-/// The ray against a sphere given by a surface point and its curvature (abi::HugeSphere). With
-/// p the origin relative to the anchor and g = n + k p, F(t) = k a t² + 2 (g·d) t + (g + n)·p + k0:
-/// no term is of the size of the radius, which a ground sphere's would drown in.
+/// What a huge sphere's quadratic needs of the ray's origin alone.
+template <class Real>
+struct HugeOrigin {
+    Vec3v<Real> g;
+    vreal<Real> constant;
+};
+
+/// With p the origin relative to the anchor, g = n + k p is half the gradient there and
+/// (g + n)·p + k0 the form's value: no term is of the size of the radius, which a ground
+/// sphere's would drown in.
+template <class Real>
+inline HugeOrigin<Real> huge_origin(const abi::HugeSphere<Real>& sphere, const Vec3v<Real>& org)
+{
+    const Vec3v<Real> normal = broadcast(sphere.normal);
+    const Vec3v<Real> p = org - broadcast(sphere.anchor);
+    const Vec3v<Real> g = madd<Real>(vreal<Real>(sphere.curvature), p, normal);
+    return {g, dot(g + normal, p) + vreal<Real>(sphere.offset)};
+}
+
+/// The ray against a sphere given by a surface point and its curvature (abi::HugeSphere):
+/// F(t) = k a t² + 2 (g·d) t + F(0).
+template <class Real>
+inline Quadratic<Real> huge_quadratic(const HugeOrigin<Real>& origin, const vreal<Real>& curvature,
+                                      const RayPacket<Real>& rays)
+{
+    Quadratic<Real> q;
+    q.a = curvature * rays.dir2;
+    q.b = dot(origin.g, rays.dir);
+    q.c = origin.constant;
+    q.discriminant = msub(q.b, q.b, q.a * q.c);
+    return q;
+}
+
 template <class Real>
 inline Quadratic<Real> quadratic_of(const abi::HugeSphere<Real>& sphere,
                                     const RayPacket<Real>& rays)
 {
-    const vreal<Real> k(sphere.curvature);
-    const Vec3v<Real> normal = broadcast(sphere.normal);
-    const Vec3v<Real> p = rays.org - broadcast(sphere.anchor);
-    const Vec3v<Real> g = madd<Real>(k, p, normal);
-    Quadratic<Real> q;
-    q.a = k * rays.dir2;
-    q.b = dot(g, rays.dir);
-    q.c = dot(g + normal, p) + vreal<Real>(sphere.offset);
-    q.discriminant = msub(q.b, q.b, q.a * q.c);
-    return q;
+    return huge_quadratic<Real>(huge_origin<Real>(sphere, rays.org),
+                                vreal<Real>(sphere.curvature), rays);
+}
+
+/// A huge sphere seen from an origin that all rays share.
+template <class Real>
+struct SharedOriginHuge {
+    Real g[3];
+    Real constant;
+    Real curvature;
+    std::int32_t object;
+};
+
+template <class Real>
+inline SharedOriginHuge<Real> share_origin(const abi::HugeSphere<Real>& sphere,
+                                           const Vec3v<Real>& origin)
+{
+    const HugeOrigin<Real> at = huge_origin<Real>(sphere, origin);
+    return {{first_lane<Real>(at.g.x), first_lane<Real>(at.g.y), first_lane<Real>(at.g.z)},
+            first_lane<Real>(at.constant),
+            sphere.curvature,
+            sphere.object};
+}
+
+template <class Real>
+inline Quadratic<Real> quadratic_of(const SharedOriginHuge<Real>& sphere,
+                                    const RayPacket<Real>& rays)
+{
+    return huge_quadratic<Real>({broadcast(sphere.g), vreal<Real>(sphere.constant)},
+                                vreal<Real>(sphere.curvature), rays);
 }
 
 }  // namespace

@@ -34,20 +34,54 @@ struct NoEnd {
     }
 };
 
-/// The lanes of `wanted` that are blocked. Stops as soon as all are.
-template <class End, class Spheres, class Real>
-inline std::uint32_t occluded(const End& end, const Spheres& spheres,
-                              const abi::SceneView<Real>& scene, const RayPacket<Real>& rays,
-                              std::uint32_t wanted)
+template <class End, class Real>
+struct OcclusionTest {
+    const End& end;
+    const RayPacket<Real>& rays;
+    std::uint32_t open;  ///< lanes still to be decided
+
+    template <class Spheres>
+    void spheres(const Spheres& list)
+    {
+        for (int i = 0; i < list.count && open != 0; ++i)
+            open &= ~bits(end.blocked_by(quadratic_of(list, i, rays), rays));
+    }
+    template <class HugeSphere>
+    void huge_spheres(const HugeSphere* list, int count)
+    {
+        for (int i = 0; i < count && open != 0; ++i)
+            open &= ~bits(end.blocked_by(quadratic_of(list[i], rays), rays));
+    }
+    template <class Plane>
+    void planes(const Plane* list, int count)
+    {
+        for (int i = 0; i < count && open != 0; ++i)
+            open &= ~bits(end.blocked_at(plane_t(list[i], rays), rays));
+    }
+};
+
+/// The lanes of `wanted` that are blocked, for rays from anywhere.
+template <class End, class Real>
+inline std::uint32_t occluded(const End& end, const abi::SceneView<Real>& scene,
+                              const RayPacket<Real>& rays, std::uint32_t wanted)
 {
-    std::uint32_t open = wanted;
-    for (int i = 0; i < spheres.count && open != 0; ++i)
-        open &= ~bits(end.blocked_by(quadratic_of(spheres, i, rays), rays));
-    for (int i = 0; i < scene.huge_spheres.count && open != 0; ++i)
-        open &= ~bits(end.blocked_by(quadratic_of(scene.huge_spheres.data[i], rays), rays));
-    for (int i = 0; i < scene.planes.count && open != 0; ++i)
-        open &= ~bits(end.blocked_at(plane_t(scene.planes.data[i], rays), rays));
-    return wanted & ~open;
+    OcclusionTest<End, Real> test{end, rays, wanted};
+    test.spheres(scene.spheres);
+    test.huge_spheres(scene.huge_spheres.data, scene.huge_spheres.count);
+    test.planes(scene.planes.data, scene.planes.count);
+    return wanted & ~test.open;
+}
+
+/// The same for rays from the objects' shared origin.
+template <class End, class Real>
+inline std::uint32_t occluded(const End& end, const SharedOriginObjects<Real>& objects,
+                              const RayPacket<Real>& rays, std::uint32_t wanted)
+{
+    OcclusionTest<End, Real> test{end, rays, wanted};
+    test.spheres(objects.spheres);
+    test.huge_spheres(objects.huge_spheres, objects.huge_count);
+    test.planes(objects.planes, objects.plane_count);
+    return wanted & ~test.open;
 }
 
 }  // namespace

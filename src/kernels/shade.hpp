@@ -12,8 +12,8 @@ namespace {
 template <class Real>
 struct ShadeContext {
     const abi::SceneView<Real>* scene;
-    /// One list a light, of the spheres that can throw a shadow of point lights.
-    const SharedOriginSpheres<Real>* blockers;
+    /// For each point light, what may stand between it and the hits.
+    const SharedOriginObjects<Real>* blockers;
     bool spawn;  ///< below the depth limit: mirrored rays are traced
     abi::RayCounts* counts;
 };
@@ -32,14 +32,14 @@ inline std::uint32_t shadowed(const ShadeContext<Real>& context, int light,
     const abi::LightRecord<Real>& record = scene.lights.data[light];
     if (record.kind == abi::LightKind::directional) {
         const RayPacket<Real> rays = make_rays<Real>(point, packet.to_light, scene.epsilon);
-        return occluded(NoEnd<Real>{}, scene.spheres, scene, rays, wanted);
+        return occluded(NoEnd<Real>{}, scene, rays, wanted);
     }
     const vreal<Real> zero(Real(0));
     const Vec3v<Real> away{zero - packet.to_light.x, zero - packet.to_light.y,
                            zero - packet.to_light.z};
     const RayPacket<Real> rays = make_rays<Real>(broadcast(record.vector), away, Real(0));
     const SegmentEnd<Real> end{vreal<Real>(Real(1) - scene.epsilon)};
-    return occluded(end, context.blockers[light], scene, rays, wanted);
+    return occluded(end, context.blockers[light], rays, wanted);
 }
 
 template <class Real>

@@ -123,6 +123,14 @@ inline bool all(batch_bool<Real> m)
     return bits(m) == all_lanes<Real>;
 }
 
+template <class Real>
+inline Real first_lane(batch<Real> x)
+{
+    alignas(64) Real by_lane[lanes<Real>];
+    store(by_lane, x);
+    return by_lane[0];
+}
+
 /// The pattern of the first `count` lanes; all of them when there are more.
 template <class Real>
 inline std::uint32_t first_lanes(int count)

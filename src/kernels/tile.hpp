@@ -1,46 +1,16 @@
 #pragma once
 
 #include "kernels/trace_stream.hpp"
+#include "kernels/workspace.hpp"
 
 // One tile of a picture, from camera rays to finished pixels.
 namespace packtrace::PACKTRACE_ISA {
 namespace {
 
-template <class Real>
-inline std::size_t scratch_bytes(const abi::SceneView<Real>& scene)
-{
-    const std::size_t lists = 1 + static_cast<std::size_t>(scene.lights.count);
-    return sizeof(TileMemory<Real>) + lists * candidate_bytes<Real>(scene.spheres.count) +
-           lists * sizeof(SharedOriginSpheres<Real>);
-}
-
-/// The parts of a thread's scratch memory.
-template <class Real>
-struct Workspace {
-    TileMemory<Real>* memory;
-    SharedOriginSpheres<Real> visible;    ///< spheres the camera may see through this tile
-    SharedOriginSpheres<Real>* blockers;  ///< per light
-
-    Workspace(void* scratch, const abi::SceneView<Real>& scene)
-    {
-        const std::size_t bytes = candidate_bytes<Real>(scene.spheres.count);
-        const int spheres = scene.spheres.count;
-        char* next = static_cast<char*>(scratch);
-        memory = reinterpret_cast<TileMemory<Real>*>(next);
-        next += sizeof(TileMemory<Real>);
-        visible = candidates_in<Real>(next, spheres);
-        next += bytes;
-        blockers = reinterpret_cast<SharedOriginSpheres<Real>*>(
-            next + static_cast<std::size_t>(scene.lights.count) * bytes);
-        for (int light = 0; light < scene.lights.count; ++light, next += bytes)
-            blockers[light] = candidates_in<Real>(next, spheres);
-    }
-};
-
-/// Per point light, the spheres between it and the hit points.
+/// Per point light, what may stand between it and the hit points.
 template <class Real>
 inline void find_blockers(const abi::SceneView<Real>& scene, const HitStream<Real>& hits,
-                          SharedOriginSpheres<Real>* blockers)
+                          SharedOriginObjects<Real>* blockers)
 {
     if (!scene.shadows || hits.count == 0)
         return;
@@ -48,7 +18,7 @@ inline void find_blockers(const abi::SceneView<Real>& scene, const HitStream<Rea
     for (int i = 0; i < scene.lights.count; ++i) {
         const abi::LightRecord<Real>& light = scene.lights.data[i];
         if (light.kind == abi::LightKind::point)
-            find_candidates(blockers[i], segment_beam(light.vector, box), scene.spheres);
+            find_objects(blockers[i], segment_beam(light.vector, box), scene);
     }
 }
 
@@ -99,7 +69,7 @@ inline abi::RayCounts render_tile(const abi::TileJob<Real>& job)
     abi::RayCounts counts;
 
     // The first generation: camera rays against what the tile's beam may meet.
-    find_candidates(work.visible, camera_beam(job), scene.spheres);
+    find_objects(work.visible, camera_beam(job), scene);
     clear_pixels(scene, memory);
     counts.camera = trace_camera(job, work.visible, memory);
     clear_hit_pixels(memory);
@@ -125,14 +95,11 @@ inline void closest_tile(const abi::TileJob<Real>& job, abi::TileHits<Real>& hit
 {
     const abi::SceneView<Real>& scene = *job.scene;
     Workspace<Real> work(job.scratch, scene);
-    find_candidates(work.visible, camera_beam(job), scene.spheres);
+    find_objects(work.visible, camera_beam(job), scene);
     for (int first = 0; first < abi::tile_pixels; first += lanes<Real>) {
-        const PixelPacket<Real> pixels = pixels_of(job, first);
-        if (pixels.inside == 0)
-            continue;
-        const RayPacket<Real> rays = camera_rays(job, pixels);
+        const RayPacket<Real> rays = camera_rays(job, first);
         HitPacket<Real> hit = no_hit<Real>(static_cast<Real>(__builtin_inf()));
-        closest_hit(hit, work.visible, scene, rays);
+        closest_hit(hit, work.visible, rays);
         store(hits.t + first, hit.t);
         store(hits.object + first, hit.object);
     }

@@ -1,7 +1,7 @@
 #pragma once
 
 #include "kernel_abi/kernel_table.hpp"
-#include "kernels/candidates.hpp"
+#include "kernels/vec3.hpp"
 
 // The working memory of one tile: streams of rays in structure-of-arrays form.
 namespace packtrace::PACKTRACE_ISA {
@@ -53,31 +53,6 @@ inline void append3(StreamArray<Real> (&to)[3], int at, std::uint32_t pattern, c
     compress_store(to[0] + at, pattern, v.x);
     compress_store(to[1] + at, pattern, v.y);
     compress_store(to[2] + at, pattern, v.z);
-}
-
-/// Bytes for TileMemory and `lists` candidate lists over `spheres` spheres behind it.
-template <class Real>
-inline std::size_t candidate_bytes(int spheres)
-{
-    const std::size_t elements =
-        (static_cast<std::size_t>(spheres) + 2 * abi::padding) / abi::padding * abi::padding;
-    return elements * sizeof(Real) * 6;
-}
-
-/// Lays a candidate list over memory of `candidate_bytes`.
-template <class Real>
-inline SharedOriginSpheres<Real> candidates_in(void* memory, int spheres)
-{
-    const std::size_t elements = candidate_bytes<Real>(spheres) / (6 * sizeof(Real));
-    Real* reals = static_cast<Real*>(memory);
-    SharedOriginSpheres<Real> list;
-    list.x = reals;
-    list.y = reals + elements;
-    list.z = reals + 2 * elements;
-    list.radius2 = reals + 3 * elements;
-    list.constant = reals + 4 * elements;
-    list.object = reinterpret_cast<lane_int<Real>*>(reals + 5 * elements);
-    return list;
 }
 
 }  // namespace

@@ -46,23 +46,22 @@ inline vint<Real> lane_numbers(int first)
 /// The camera rays of a tile; pixels start as the background, and as 0 where something is hit.
 template <class Real>
 inline std::uint32_t trace_camera(const abi::TileJob<Real>& job,
-                                  const SharedOriginSpheres<Real>& visible,
+                                  const SharedOriginObjects<Real>& visible,
                                   TileMemory<Real>& memory)
 {
-    const abi::SceneView<Real>& scene = *job.scene;
     const vreal<Real> one(Real(1));
     std::uint32_t count = 0;
     memory.hits.count = 0;
     for (int first = 0; first < abi::tile_pixels; first += lanes<Real>) {
-        const PixelPacket<Real> pixels = pixels_of(job, first);
-        if (pixels.inside == 0)
+        const std::uint32_t inside = lanes_inside(job, first);
+        if (inside == 0)
             continue;
-        const RayPacket<Real> rays = camera_rays(job, pixels);
+        const RayPacket<Real> rays = camera_rays(job, first);
         HitPacket<Real> hit = no_hit<Real>(static_cast<Real>(__builtin_inf()));
-        closest_hit(hit, visible, scene, rays);
+        closest_hit(hit, visible, rays);
         append_hits<Real>(memory.hits, {rays, {one, one, one}, lane_numbers<Real>(first)}, hit,
-                          hit_lanes(hit) & pixels.inside);
-        count += static_cast<unsigned>(__builtin_popcount(pixels.inside));
+                          hit_lanes(hit) & inside);
+        count += static_cast<unsigned>(__builtin_popcount(inside));
     }
     return count;
 }
@@ -79,7 +78,7 @@ inline void trace_secondary(const abi::SceneView<Real>& scene, const RayStream<R
             make_rays<Real>(load3(stream.org, first), load3(stream.dir, first), scene.epsilon),
             load3(stream.weight, first), load(stream.pixel + first)};
         HitPacket<Real> hit = no_hit<Real>(static_cast<Real>(__builtin_inf()));
-        closest_hit(hit, scene.spheres, scene, from.rays);
+        closest_hit(hit, scene, from.rays);
         const std::uint32_t hits = hit_lanes(hit) & active;
         append_hits(memory.hits, from, hit, hits);
         add_to_pixels(memory.color, from.pixel, from.weight * broadcast(scene.background),

@@ -1,0 +1,82 @@
+#pragma once
+
+#include "kernels/shared_origin.hpp"
+#include "kernels/tile_memory.hpp"
+
+// How a thread's scratch memory is divided. Sizes depend on the scene alone.
+namespace packtrace::PACKTRACE_ISA {
+namespace {
+
+/// Hands out 64-byte aligned pieces of a block, or only counts them when there is none.
+class Arena {
+  public:
+    explicit Arena(void* block) : block_(static_cast<char*>(block)) {}
+
+    template <class T>
+    T* take(std::size_t count)
+    {
+        T* piece = block_ ? reinterpret_cast<T*>(block_ + used_) : nullptr;
+        used_ += (count * sizeof(T) + 63) / 64 * 64;
+        return piece;
+    }
+
+    std::size_t used() const
+    {
+        return used_;
+    }
+
+  private:
+    char* block_;
+    std::size_t used_ = 0;
+};
+
+template <class Real>
+inline SharedOriginObjects<Real> take_objects(Arena& arena, const abi::SceneView<Real>& scene)
+{
+    const std::size_t spheres = static_cast<std::size_t>(scene.spheres.count) + abi::padding;
+    SharedOriginObjects<Real> objects;
+    objects.spheres.x = arena.take<Real>(spheres);
+    objects.spheres.y = arena.take<Real>(spheres);
+    objects.spheres.z = arena.take<Real>(spheres);
+    objects.spheres.radius2 = arena.take<Real>(spheres);
+    objects.spheres.constant = arena.take<Real>(spheres);
+    objects.spheres.object = arena.take<lane_int<Real>>(spheres);
+    objects.huge_spheres =
+        arena.take<SharedOriginHuge<Real>>(static_cast<std::size_t>(scene.huge_spheres.count));
+    objects.planes =
+        arena.take<SharedOriginPlane<Real>>(static_cast<std::size_t>(scene.planes.count));
+    return objects;
+}
+
+template <class Real>
+struct Workspace {
+    TileMemory<Real>* memory = nullptr;
+    SharedOriginObjects<Real> visible;                  ///< from the camera
+    SharedOriginObjects<Real>* blockers = nullptr;      ///< from each light
+    std::size_t bytes = 0;
+
+    /// With no `scratch`, only `bytes` is of use.
+    Workspace(void* scratch, const abi::SceneView<Real>& scene)
+    {
+        const std::size_t lights = static_cast<std::size_t>(scene.lights.count);
+        Arena arena(scratch);
+        memory = arena.take<TileMemory<Real>>(1);
+        visible = take_objects(arena, scene);
+        blockers = arena.take<SharedOriginObjects<Real>>(lights);
+        for (std::size_t light = 0; light < lights; ++light) {
+            const SharedOriginObjects<Real> objects = take_objects(arena, scene);
+            if (scratch != nullptr)
+                blockers[light] = objects;
+        }
+        bytes = arena.used();
+    }
+};
+
+template <class Real>
+inline std::size_t scratch_bytes(const abi::SceneView<Real>& scene)
+{
+    return Workspace<Real>(nullptr, scene).bytes;
+}
+
+}  // namespace
+}  // namespace packtrace::PACKTRACE_ISA
