@@ -23,6 +23,10 @@ struct ImageWriteOptions {
 void write_image(const std::filesystem::path& file, const Image<float>& image,
                  const ImageWriteOptions& options = {});
 
+/// Throws the ImageError that `write_image` would throw for `file` whatever the picture: its
+/// extension is unknown, its folder is missing or can't be written to. Leaves nothing behind.
+void check_image_writable(const std::filesystem::path& file);
+
 /// Reads a `.png`, `.pfm` or `.hdr` picture; 8-bit values become v / 255. Throws ImageError.
 [[nodiscard]] Image<float> read_image(const std::filesystem::path& file);
 

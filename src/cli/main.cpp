@@ -20,6 +20,7 @@ int run(int argc, char** argv)
     CLI::App app{"packtrace: a SIMD ray-packet tracer for spheres, planes and quadrics"};
     app.set_version_flag("--version", "packtrace " PACKTRACE_VERSION);
     app.require_subcommand(1);
+    add_compare(app);
     try {
         app.parse(argc, argv);
     } catch (const CLI::ParseError& end) {

@@ -1,0 +1,16 @@
+#pragma once
+
+#include <CLI/CLI.hpp>
+
+namespace packtrace::cli {
+
+// CLI11's own ranges let NaN pass and name their bounds with forty digits.
+
+/// A finite number >= 0.
+[[nodiscard]] CLI::Validator non_negative_number();
+/// A finite number > 0.
+[[nodiscard]] CLI::Validator positive_number();
+/// A whole number from `least` to `most`.
+[[nodiscard]] CLI::Validator whole_number(int least, int most);
+
+}  // namespace packtrace::cli

@@ -1,0 +1,119 @@
+#include "image/pfm.hpp"
+
+#include <bit>
+#include <cmath>
+#include <cstring>
+#include <locale>
+#include <sstream>
+#include <string>
+#include <string_view>
+
+namespace packtrace {
+namespace {
+
+constexpr std::size_t longest_header = 64;
+
+struct Header {
+    int channels = 3;
+    int width = 0;
+    int height = 0;
+    float scale = -1.0f;     // its sign tells the byte order, negative for little endian
+    std::size_t raster = 0;  // offset of the first sample
+};
+
+// Swaps the bytes of a word that is stored in the other order than this machine's.
+std::uint32_t ordered(std::uint32_t word, bool little)
+{
+    if (little == (std::endian::native == std::endian::little))
+        return word;
+    return word << 24 | (word & 0xff00u) << 8 | (word >> 8 & 0xff00u) | word >> 24;
+}
+
+float load(const std::uint8_t* bytes, bool little)
+{
+    std::uint32_t word = 0;
+    std::memcpy(&word, bytes, sizeof word);
+    return std::bit_cast<float>(ordered(word, little));
+}
+
+void store(float value, std::uint8_t* bytes)
+{
+    const std::uint32_t word = ordered(std::bit_cast<std::uint32_t>(value), true);
+    std::memcpy(bytes, &word, sizeof word);
+}
+
+Header read_header(std::span<const std::uint8_t> file)
+{
+    const std::size_t length = std::min(file.size(), longest_header);
+    std::istringstream text(std::string(reinterpret_cast<const char*>(file.data()), length));
+    text.imbue(std::locale::classic());
+    std::string magic;
+    Header header;
+    if (!(text >> magic) || (magic != "PF" && magic != "Pf"))
+        throw ImageError("not a PFM file: it does not start with PF or Pf");
+    header.channels = magic == "PF" ? 3 : 1;
+    if (!(text >> header.width >> header.height) || header.width < 1 || header.height < 1)
+        throw ImageError("bad PFM header: width and height must be positive whole numbers");
+    if (!(text >> header.scale) || header.scale == 0.0f || !std::isfinite(header.scale))
+        throw ImageError("bad PFM header: the scale must be a number other than 0");
+    // One character of white space stands between header and raster.
+    if (text.get() == std::istringstream::traits_type::eof())
+        throw ImageError("bad PFM header: it does not end");
+    header.raster = static_cast<std::size_t>(text.tellg());
+    return header;
+}
+
+void check_length(const Header& header, std::size_t size)
+{
+    const std::size_t samples = static_cast<std::size_t>(header.width) *
+                                static_cast<std::size_t>(header.height) *
+                                static_cast<std::size_t>(header.channels);
+    const std::size_t expected = header.raster + samples * sizeof(float);
+    // Division, because a hostile size overflows the product.
+    const bool overflow = samples / static_cast<std::size_t>(header.width) /
+                              static_cast<std::size_t>(header.channels) !=
+                          static_cast<std::size_t>(header.height);
+    if (overflow || expected != size)
+        throw ImageError("the file has " + std::to_string(size) + " bytes where a picture of " +
+                         std::to_string(header.width) + " x " + std::to_string(header.height) +
+                         " needs " + (overflow ? "far more" : std::to_string(expected)));
+}
+
+}  // namespace
+
+Bytes encode_pfm(const Image<float>& image)
+{
+    const std::string header =
+        "PF\n" + std::to_string(image.width) + " " + std::to_string(image.height) + "\n-1.0\n";
+    Bytes file(header.begin(), header.end());
+    file.resize(header.size() + image.rgb.size() * sizeof(float));
+    std::uint8_t* to = file.data() + header.size();
+    for (int y = image.height - 1; y >= 0; --y) {
+        const float* row = image.pixel(0, y);
+        for (int i = 0; i < 3 * image.width; ++i, to += sizeof(float))
+            store(row[i], to);
+    }
+    return file;
+}
+
+Image<float> decode_pfm(std::span<const std::uint8_t> file)
+{
+    const Header header = read_header(file);
+    check_length(header, file.size());
+    const bool little = header.scale < 0.0f;
+    const float unit = std::abs(header.scale);
+    Image<float> image(header.width, header.height);
+    const std::uint8_t* from = file.data() + header.raster;
+    for (int y = image.height - 1; y >= 0; --y) {
+        float* row = image.pixel(0, y);
+        for (int i = 0; i < 3 * image.width; ++i) {
+            row[i] = load(from, little) * unit;
+            // A grey sample stands for all three channels.
+            if (header.channels == 3 || i % 3 == 2)
+                from += sizeof(float);
+        }
+    }
+    return image;
+}
+
+}  // namespace packtrace

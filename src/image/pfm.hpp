@@ -1,0 +1,18 @@
+#pragma once
+
+#include <span>
+
+#include <packtrace/image_io.hpp>
+
+#include "image/bytes.hpp"
+
+namespace packtrace {
+
+/// A Portable Float Map: `PF`, size and scale -1 (little endian), then rows from the bottom.
+[[nodiscard]] Bytes encode_pfm(const Image<float>& image);
+
+/// The picture in a PFM file of either byte order, colour or grey, multiplied by the size of
+/// its scale. The raster must fill the file. Throws ImageError without a file's name.
+[[nodiscard]] Image<float> decode_pfm(std::span<const std::uint8_t> file);
+
+}  // namespace packtrace
