@@ -65,18 +65,15 @@ Header read_header(std::span<const std::uint8_t> file)
 
 void check_length(const Header& header, std::size_t size)
 {
+    // Fits 64 bits for any two ints; its product with the sample's size might not.
     const std::size_t samples = static_cast<std::size_t>(header.width) *
                                 static_cast<std::size_t>(header.height) *
                                 static_cast<std::size_t>(header.channels);
-    const std::size_t expected = header.raster + samples * sizeof(float);
-    // Division, because a hostile size overflows the product.
-    const bool overflow = samples / static_cast<std::size_t>(header.width) /
-                              static_cast<std::size_t>(header.channels) !=
-                          static_cast<std::size_t>(header.height);
-    if (overflow || expected != size)
-        throw ImageError("the file has " + std::to_string(size) + " bytes where a picture of " +
+    const std::size_t raster = size - header.raster;
+    if (raster % sizeof(float) != 0 || raster / sizeof(float) != samples)
+        throw ImageError("the raster has " + std::to_string(raster) + " bytes where a picture of " +
                          std::to_string(header.width) + " x " + std::to_string(header.height) +
-                         " needs " + (overflow ? "far more" : std::to_string(expected)));
+                         " needs " + std::to_string(samples) + " floats");
 }
 
 }  // namespace

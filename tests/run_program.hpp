@@ -1,0 +1,53 @@
+#pragma once
+
+#include <sys/wait.h>
+
+#include <chrono>
+#include <cstdlib>
+#include <string>
+#include <vector>
+
+#include "temp_folder.hpp"
+
+namespace packtrace::test {
+
+struct ProgramResult {
+    int exit_code = -1;  ///< -1 when it was killed
+    std::string out;
+    std::string err;
+    double seconds = 0.0;
+};
+
+[[nodiscard]] inline std::string shell_quoted(const std::string& text)
+{
+    std::string quoted = "'";
+    for (const char c : text)
+        quoted += c == '\'' ? std::string("'\\''") : std::string(1, c);
+    return quoted + "'";
+}
+
+/// Runs the packtrace program with `arguments`, and with `environment` (NAME=value words of the
+/// shell) before it.
+[[nodiscard]] inline ProgramResult run_packtrace(const std::vector<std::string>& arguments,
+                                                 const std::string& environment = "")
+{
+    const TempFolder folder;
+    std::string command = environment + " " + shell_quoted(PACKTRACE_CLI);
+    for (const std::string& argument : arguments)
+        command += " " + shell_quoted(argument);
+    command += " >" + shell_quoted((folder / "out").string()) + " 2>" +
+               shell_quoted((folder / "err").string()) + " </dev/null";
+
+    ProgramResult result;
+    const auto start = std::chrono::steady_clock::now();
+    const int status = std::system(command.c_str());
+    result.seconds =
+        std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+    if (WIFEXITED(status))
+        result.exit_code = WEXITSTATUS(status);
+    result.out = read_text(folder / "out");
+    result.err = read_text(folder / "err");
+    return result;
+}
+
+}  // namespace packtrace::test
