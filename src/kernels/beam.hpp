@@ -47,5 +47,19 @@ inline vmask<Real> may_meet(const Beam<Real>& beam, const Vec3v<Real>& v, const 
     return (outside <= size) & (along >= -size) & (distance <= (vreal<Real>(beam.reach) + size));
 }
 
+/// Whether every ray runs against `direction` or across it, by more than rounding can turn:
+/// the cone is further than a right angle from it.
+template <class Real>
+inline bool runs_against(const Beam<Real>& beam, const Real (&direction)[3])
+{
+    Real along = 0;
+    Real length2 = 0;
+    for (int i = 0; i < 3; ++i) {
+        along += beam.axis[i] * direction[i];
+        length2 += direction[i] * direction[i];
+    }
+    return beam.bounded && along < -(beam.sine + beam_slack<Real>)*square_root(length2);
+}
+
 }  // namespace
 }  // namespace packtrace::PACKTRACE_ISA

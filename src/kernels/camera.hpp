@@ -44,25 +44,31 @@ inline std::uint32_t lanes_inside(const abi::TileJob<Real>& job, int first)
                 (load(tile_pixels<Real>.row + first) < height));
 }
 
-/// Direction through a canvas position, forward + x right + y up.
+/// The camera of one tile: a copy, which no store to the tile's memory can change, so that it
+/// stays in registers.
 template <class Real>
-inline Vec3v<Real> camera_direction(const abi::CameraView<Real>& camera, const vreal<Real>& x,
-                                    const vreal<Real>& y)
-{
-    return madd<Real>(x, broadcast(camera.right),
-                      madd<Real>(y, broadcast(camera.up), broadcast(camera.forward)));
-}
+struct TileCamera {
+    abi::CameraView<Real> view;
+    Real left, top;  ///< canvas position of the tile's first pixel
 
+    explicit TileCamera(const abi::TileJob<Real>& job)
+        : view(*job.camera),
+          left(static_cast<Real>(job.x) + view.first_x),
+          top(view.first_y - static_cast<Real>(job.y))
+    {
+    }
+};
+
+/// Rays `first` to `first + lanes`: directions forward + x right + y up.
 template <class Real>
-inline RayPacket<Real> camera_rays(const abi::TileJob<Real>& job, int first)
+inline RayPacket<Real> camera_rays(const TileCamera<Real>& camera, int first)
 {
-    const abi::CameraView<Real>& camera = *job.camera;
-    const vreal<Real> left(static_cast<Real>(job.x) + camera.first_x);
-    const vreal<Real> top(camera.first_y - static_cast<Real>(job.y));
-    const vreal<Real> x = left + load(tile_pixels<Real>.column + first);
-    const vreal<Real> y = top - load(tile_pixels<Real>.row + first);
-    return make_rays<Real>(broadcast(camera.origin), camera_direction<Real>(camera, x, y),
-                           camera.t_min);
+    const vreal<Real> x = vreal<Real>(camera.left) + load(tile_pixels<Real>.column + first);
+    const vreal<Real> y = vreal<Real>(camera.top) - load(tile_pixels<Real>.row + first);
+    const Vec3v<Real> dir =
+        madd<Real>(x, broadcast(camera.view.right),
+                   madd<Real>(y, broadcast(camera.view.up), broadcast(camera.view.forward)));
+    return make_rays<Real>(broadcast(camera.view.origin), dir, camera.view.t_min);
 }
 
 /// The beam through a tile: around its middle, as wide as its farthest corner.

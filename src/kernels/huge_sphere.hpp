@@ -26,16 +26,16 @@ inline HugeOrigin<Real> huge_origin(const abi::HugeSphere<Real>& sphere, const V
 }
 
 /// The ray against a sphere given by a surface point and its curvature (abi::HugeSphere):
-/// F(t) = k a t² + 2 (g·d) t + F(0).
+/// F(t) = k a t² + 2 (g·d) t + F(0). `curved` is k F(0).
 template <class Real>
 inline Quadratic<Real> huge_quadratic(const HugeOrigin<Real>& origin, const vreal<Real>& curvature,
-                                      const RayPacket<Real>& rays)
+                                      const vreal<Real>& curved, const RayPacket<Real>& rays)
 {
     Quadratic<Real> q;
     q.a = curvature * rays.dir2;
     q.b = dot(origin.g, rays.dir);
     q.c = origin.constant;
-    q.discriminant = msub(q.b, q.b, q.a * q.c);
+    q.discriminant = msub(q.b, q.b, curved * rays.dir2);
     return q;
 }
 
@@ -43,8 +43,9 @@ template <class Real>
 inline Quadratic<Real> quadratic_of(const abi::HugeSphere<Real>& sphere,
                                     const RayPacket<Real>& rays)
 {
-    return huge_quadratic<Real>(huge_origin<Real>(sphere, rays.org),
-                                vreal<Real>(sphere.curvature), rays);
+    const HugeOrigin<Real> origin = huge_origin<Real>(sphere, rays.org);
+    const vreal<Real> curvature(sphere.curvature);
+    return huge_quadratic<Real>(origin, curvature, curvature * origin.constant, rays);
 }
 
 /// A huge sphere seen from an origin that all rays share.
@@ -53,6 +54,7 @@ struct SharedOriginHuge {
     Real g[3];
     Real constant;
     Real curvature;
+    Real curved;
     std::int32_t object;
 };
 
@@ -64,6 +66,7 @@ inline SharedOriginHuge<Real> share_origin(const abi::HugeSphere<Real>& sphere,
     return {{first_lane<Real>(at.g.x), first_lane<Real>(at.g.y), first_lane<Real>(at.g.z)},
             first_lane<Real>(at.constant),
             sphere.curvature,
+            first_lane<Real>(vreal<Real>(sphere.curvature) * at.constant),
             sphere.object};
 }
 
@@ -72,7 +75,7 @@ inline Quadratic<Real> quadratic_of(const SharedOriginHuge<Real>& sphere,
                                     const RayPacket<Real>& rays)
 {
     return huge_quadratic<Real>({broadcast(sphere.g), vreal<Real>(sphere.constant)},
-                                vreal<Real>(sphere.curvature), rays);
+                                vreal<Real>(sphere.curvature), vreal<Real>(sphere.curved), rays);
 }
 
 }  // namespace

@@ -40,8 +40,9 @@ inline void keep_closer(HitPacket<Real>& hit, batch_bool<Real> valid, batch<Real
                         std::int32_t object)
 {
     const vint<Real> number(static_cast<lane_int<Real>>(object));
-    const auto closer = (t < hit.t) | ((t == hit.t) & int_less(number, hit.object));
-    const auto take = valid & closer;
+    const auto nearer = valid & (t < hit.t);
+    const auto ties = valid & (t == hit.t) & int_less(number, hit.object);
+    const auto take = either(nearer, ties);
     hit.t = select(take, t, hit.t);
     hit.object = select(take, number, hit.object);
 }

@@ -28,18 +28,20 @@ template <class Real>
 inline void keep_first_root(HitPacket<Real>& hit, const Quadratic<Real>& quadratic,
                             vmask<Real> active, const vreal<Real>& t_min, std::int32_t object)
 {
-    const vreal<Real> root = sqrt(max(quadratic.discriminant, vreal<Real>(Real(0))));
-    const vreal<Real> q = -(quadratic.b + copysign(root, quadratic.b));
-    vreal<Real> t = quadratic.c / q;
+    // Lanes that miss may hold a NaN here; no comparison lets it through. -q is used for q.
+    const vreal<Real> root = sqrt(quadratic.discriminant);
+    const vreal<Real> minus_q = quadratic.b + with_sign_of(root, quadratic.b);
+    vreal<Real> t = -quadratic.c / minus_q;
     const auto in_front = t > t_min;
-    const auto retry = active & !in_front & (q > vreal<Real>(Real(0)));
-    auto valid = active & in_front;
-    if (any(retry)) {
-        const vreal<Real> other = q / quadratic.a;
-        t = select(retry, other, t);
-        valid = valid | (retry & (other > t_min));
+    const std::uint32_t too_near = bits(active) & ~bits(in_front);
+    if ((too_near & bits(minus_q < vreal<Real>(Real(0)))) == 0) {
+        keep_closer<Real>(hit, active & in_front, t, object);
+        return;
     }
-    keep_closer(hit, valid, t, object);
+    const vreal<Real> other = -minus_q / quadratic.a;
+    const auto retry = from_bits<Real>(too_near) & (minus_q < vreal<Real>(Real(0)));
+    t = select(retry, other, t);
+    keep_closer<Real>(hit, active & (t > t_min), t, object);
 }
 
 /// Lanes with a root between t_min and t_max, from the signs of the quadratic F at both ends:

@@ -69,7 +69,7 @@ inline vreal<Real> real_result(const abi::SelfTestJob<Real>& job, const SelfTest
         case SimdOp::floor:
             return floor(in.a);
         case SimdOp::copysign:
-            return copysign(in.a, in.b);
+            return with_sign_of(abs(in.a), in.b);
         case SimdOp::min:
             return min(in.a, in.b);
         case SimdOp::max:

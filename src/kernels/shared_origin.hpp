@@ -17,7 +17,31 @@ struct SharedOriginObjects {
     SharedOriginPlane<Real>* planes = nullptr;
     int huge_count = 0;
     int plane_count = 0;
+
+    bool empty() const
+    {
+        return spheres.count + huge_count + plane_count == 0;
+    }
 };
+
+/// Whether rays of `beam` leave a convex surface behind them: they start outside and go the
+/// way of its outward gradient.
+template <class Real>
+inline bool leaves_behind(const Beam<Real>& beam, const SharedOriginHuge<Real>& sphere)
+{
+    const Real inwards[3] = {-sphere.g[0], -sphere.g[1], -sphere.g[2]};
+    return sphere.constant > 0 && runs_against(beam, inwards);
+}
+
+/// The same for a plane: they run away from it on the side they start on.
+template <class Real>
+inline bool leaves_behind(const Beam<Real>& beam, const SharedOriginPlane<Real>& plane)
+{
+    const Real side = plane.height < 0 ? Real(-1) : Real(1);
+    const Real towards[3] = {side * plane.normal[0], side * plane.normal[1],
+                             side * plane.normal[2]};
+    return plane.height != 0 && runs_against(beam, towards);
+}
 
 /// Fills `objects` with what rays of `beam`, all from its base, may meet.
 template <class Real>
@@ -26,12 +50,18 @@ inline void find_objects(SharedOriginObjects<Real>& objects, const Beam<Real>& b
 {
     find_candidates(objects.spheres, beam, scene.spheres);
     const Vec3v<Real> origin = broadcast(beam.base);
-    objects.huge_count = scene.huge_spheres.count;
-    for (int i = 0; i < objects.huge_count; ++i)
-        objects.huge_spheres[i] = share_origin<Real>(scene.huge_spheres.data[i], origin);
-    objects.plane_count = scene.planes.count;
-    for (int i = 0; i < objects.plane_count; ++i)
-        objects.planes[i] = share_origin<Real>(scene.planes.data[i], origin);
+    objects.huge_count = 0;
+    for (int i = 0; i < scene.huge_spheres.count; ++i) {
+        const auto sphere = share_origin<Real>(scene.huge_spheres.data[i], origin);
+        if (!leaves_behind(beam, sphere))
+            objects.huge_spheres[objects.huge_count++] = sphere;
+    }
+    objects.plane_count = 0;
+    for (int i = 0; i < scene.planes.count; ++i) {
+        const auto plane = share_origin<Real>(scene.planes.data[i], origin);
+        if (!leaves_behind(beam, plane))
+            objects.planes[objects.plane_count++] = plane;
+    }
 }
 
 }  // namespace

@@ -91,12 +91,12 @@ inline batch<Real> abs(batch<Real> x)
     return xsimd::abs(x);
 }
 
-/// The magnitude of `x` with the sign bit of `sign`.
+/// `magnitude`, whose sign bit is clear, with the sign bit of `sign`.
 template <class Real>
-inline batch<Real> copysign(batch<Real> x, batch<Real> sign)
+inline batch<Real> with_sign_of(batch<Real> magnitude, batch<Real> sign)
 {
     const auto sign_bit = as_int(vreal<Real>(Real(-0.0)));
-    return as_real((as_int(x) & ~sign_bit) | (as_int(sign) & sign_bit));
+    return as_real(as_int(magnitude) | (as_int(sign) & sign_bit));
 }
 
 template <class Real>

@@ -70,8 +70,11 @@ inline abi::RayCounts render_tile(const abi::TileJob<Real>& job)
 
     // The first generation: camera rays against what the tile's beam may meet.
     find_objects(work.visible, camera_beam(job), scene);
+    counts.camera = static_cast<unsigned>(job.width * job.height);
     clear_pixels(scene, memory);
-    counts.camera = trace_camera(job, work.visible, memory);
+    memory.hits.count = 0;
+    if (!work.visible.empty())
+        trace_camera(job, work.visible, memory);
     clear_hit_pixels(memory);
 
     // Each generation is shaded into the pixels and leaves its mirrored rays to the next.
@@ -91,13 +94,28 @@ inline abi::RayCounts render_tile(const abi::TileJob<Real>& job)
 }
 
 template <class Real>
+inline void store_misses(abi::TileHits<Real>& hits)
+{
+    const HitPacket<Real> miss = no_hit<Real>(static_cast<Real>(__builtin_inf()));
+    for (int first = 0; first < abi::tile_pixels; first += lanes<Real>) {
+        store(hits.t + first, miss.t);
+        store(hits.object + first, miss.object);
+    }
+}
+
+template <class Real>
 inline void closest_tile(const abi::TileJob<Real>& job, abi::TileHits<Real>& hits)
 {
     const abi::SceneView<Real>& scene = *job.scene;
     Workspace<Real> work(job.scratch, scene);
     find_objects(work.visible, camera_beam(job), scene);
+    if (work.visible.empty()) {
+        store_misses(hits);
+        return;
+    }
+    const TileCamera<Real> camera(job);
     for (int first = 0; first < abi::tile_pixels; first += lanes<Real>) {
-        const RayPacket<Real> rays = camera_rays(job, first);
+        const RayPacket<Real> rays = camera_rays(camera, first);
         HitPacket<Real> hit = no_hit<Real>(static_cast<Real>(__builtin_inf()));
         closest_hit(hit, work.visible, rays);
         store(hits.t + first, hit.t);

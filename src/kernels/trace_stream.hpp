@@ -45,25 +45,21 @@ inline vint<Real> lane_numbers(int first)
 
 /// The camera rays of a tile; pixels start as the background, and as 0 where something is hit.
 template <class Real>
-inline std::uint32_t trace_camera(const abi::TileJob<Real>& job,
-                                  const SharedOriginObjects<Real>& visible,
-                                  TileMemory<Real>& memory)
+inline void trace_camera(const abi::TileJob<Real>& job, const SharedOriginObjects<Real>& visible,
+                         TileMemory<Real>& memory)
 {
+    const TileCamera<Real> camera(job);
     const vreal<Real> one(Real(1));
-    std::uint32_t count = 0;
-    memory.hits.count = 0;
     for (int first = 0; first < abi::tile_pixels; first += lanes<Real>) {
         const std::uint32_t inside = lanes_inside(job, first);
         if (inside == 0)
             continue;
-        const RayPacket<Real> rays = camera_rays(job, first);
+        const RayPacket<Real> rays = camera_rays(camera, first);
         HitPacket<Real> hit = no_hit<Real>(static_cast<Real>(__builtin_inf()));
         closest_hit(hit, visible, rays);
         append_hits<Real>(memory.hits, {rays, {one, one, one}, lane_numbers<Real>(first)}, hit,
                           hit_lanes(hit) & inside);
-        count += static_cast<unsigned>(__builtin_popcount(inside));
     }
-    return count;
 }
 
 /// A stream of secondary rays; the background goes into the pixels of those that miss.

@@ -9,8 +9,10 @@ namespace {
 
 /// Hands out 64-byte aligned pieces of a block, or only counts them when there is none.
 class Arena {
-  public:
-    explicit Arena(void* block) : block_(static_cast<char*>(block)) {}
+public:
+    explicit Arena(void* block) : block_(static_cast<char*>(block))
+    {
+    }
 
     template <class T>
     T* take(std::size_t count)
@@ -25,7 +27,7 @@ class Arena {
         return used_;
     }
 
-  private:
+private:
     char* block_;
     std::size_t used_ = 0;
 };
@@ -51,8 +53,8 @@ inline SharedOriginObjects<Real> take_objects(Arena& arena, const abi::SceneView
 template <class Real>
 struct Workspace {
     TileMemory<Real>* memory = nullptr;
-    SharedOriginObjects<Real> visible;                  ///< from the camera
-    SharedOriginObjects<Real>* blockers = nullptr;      ///< from each light
+    SharedOriginObjects<Real> visible;              ///< from the camera
+    SharedOriginObjects<Real>* blockers = nullptr;  ///< from each light
     std::size_t bytes = 0;
 
     /// With no `scratch`, only `bytes` is of use.

@@ -43,6 +43,15 @@ inline std::uint32_t bits(vmask<double> m)
     return static_cast<std::uint32_t>(_mm256_movemask_pd(m));
 }
 
+inline vmask<float> either(vmask<float> a, vmask<float> b)
+{
+    return a | b;
+}
+inline vmask<double> either(vmask<double> a, vmask<double> b)
+{
+    return a | b;
+}
+
 inline vint<float> as_int(vreal<float> x)
 {
     return _mm256_castps_si256(x);

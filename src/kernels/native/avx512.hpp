@@ -41,6 +41,16 @@ inline std::uint32_t bits(vmask<double> m)
 {
     return static_cast<std::uint32_t>(m.data);
 }
+// xsimd 8.1 computes `|` of masks in general registers.
+inline vmask<float> either(vmask<float> a, vmask<float> b)
+{
+    return _kor_mask16(a.data, b.data);
+}
+inline vmask<double> either(vmask<double> a, vmask<double> b)
+{
+    return _kor_mask8(a.data, b.data);
+}
+
 template <class Real>
 inline vmask<Real> from_bits(std::uint32_t pattern)
 {

@@ -44,6 +44,15 @@ inline std::uint32_t bits(vmask<double> m)
     return static_cast<std::uint32_t>(vaddvq_u64(vandq_u64(m, vld1q_u64(lane_bit))));
 }
 
+inline vmask<float> either(vmask<float> a, vmask<float> b)
+{
+    return a | b;
+}
+inline vmask<double> either(vmask<double> a, vmask<double> b)
+{
+    return a | b;
+}
+
 inline vint<float> as_int(vreal<float> x)
 {
     return vreinterpretq_s32_f32(x);

@@ -64,6 +64,15 @@ inline std::uint32_t bits(vmask<double> m)
     return static_cast<std::uint32_t>(_mm_movemask_pd(m));
 }
 
+inline vmask<float> either(vmask<float> a, vmask<float> b)
+{
+    return a | b;
+}
+inline vmask<double> either(vmask<double> a, vmask<double> b)
+{
+    return a | b;
+}
+
 inline vint<float> as_int(vreal<float> x)
 {
     return _mm_castps_si128(x);
