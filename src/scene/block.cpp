@@ -1,0 +1,85 @@
+#include "scene/block.hpp"
+
+#include <algorithm>
+#include <string>
+
+#include "scene/nearest_word.hpp"
+#include "scene/quote.hpp"
+
+namespace packtrace {
+namespace {
+
+bool contains(const Keys& keys, std::string_view key)
+{
+    return std::find(keys.begin(), keys.end(), key) != keys.end();
+}
+
+}  // namespace
+
+void Field::fail(const std::string& message) const
+{
+    packtrace::fail(source, entry.key.at, message);
+}
+
+Block::Block(const Field& field, std::string_view title, const Keys& once, const Keys& repeatable)
+    : field_(field), title_(title)
+{
+    check_block();
+    check_keys(once, repeatable);
+}
+
+void Block::check_block() const
+{
+    const std::string key(title_);
+    if (field_.entry.kind != EntryKind::block)
+        field_.fail("'" + key + "' is a block, not a value; write " + key + " { ... }");
+}
+
+void Block::check_keys(const Keys& once, const Keys& repeatable) const
+{
+    Keys known = once;
+    known.insert(known.end(), repeatable.begin(), repeatable.end());
+    std::vector<const Entry*> seen;
+    for (const Entry& entry : field_.entry.entries) {
+        const std::string_view key = entry.key.text;
+        if (contains(repeatable, key))
+            continue;
+        if (!contains(once, key))
+            fail(field_.source, entry.key.at,
+                 "unknown key " + quote(key) + " in " + std::string(title_) + "; " +
+                     suggest(key, known));
+        for (const Entry* earlier : seen)
+            if (earlier->key.text == key)
+                fail(field_.source, entry.key.at,
+                     quote(key) + " is given twice, first on line " +
+                         std::to_string(earlier->key.at.line) + "; remove one of them");
+        seen.push_back(&entry);
+    }
+}
+
+std::optional<Field> Block::find(std::string_view key) const
+{
+    for (const Entry& entry : field_.entry.entries)
+        if (entry.key.text == key)
+            return Field{field_.source, entry};
+    return std::nullopt;
+}
+
+Field Block::require(std::string_view key, std::string_view example) const
+{
+    if (const auto field = find(key))
+        return *field;
+    const std::string name(key);
+    field_.fail(std::string(title_) + " has no '" + name + "'; add for example " + name + " = " +
+                std::string(example));
+}
+
+std::vector<Field> Block::fields() const
+{
+    std::vector<Field> result;
+    for (const Entry& entry : field_.entry.entries)
+        result.push_back({field_.source, entry});
+    return result;
+}
+
+}  // namespace packtrace

@@ -1,0 +1,60 @@
+#pragma once
+
+#include <functional>
+#include <optional>
+#include <span>
+#include <string_view>
+#include <vector>
+
+#include "scene/source.hpp"
+#include "scene/syntax_tree.hpp"
+
+namespace packtrace {
+
+/// One `key = value` or `key { … }` with the source it came from, for messages.
+struct Field {
+    const Source& source;
+    const Entry& entry;
+
+    [[noreturn]] void fail(const std::string& message) const;
+};
+
+/// A list of keys; the literals behind them live for ever.
+using Keys = std::vector<std::string_view>;
+
+/// A block whose keys have been checked: each is known, and given once unless repeatable.
+class Block {
+public:
+    /// `title` names the block in messages: "sphere". Throws SceneError at a key that is
+    /// neither in `once` nor in `repeatable`, or is given twice and not in the latter.
+    Block(const Field& field, std::string_view title, const Keys& once,
+          const Keys& repeatable = {});
+
+    [[nodiscard]] std::optional<Field> find(std::string_view key) const;
+    /// Throws SceneError when the key is missing; `example` is a value for the message.
+    [[nodiscard]] Field require(std::string_view key, std::string_view example) const;
+    /// All entries, in the order written.
+    [[nodiscard]] std::vector<Field> fields() const;
+
+    /// Sets `target` to the key's value as `read(field)` gives it; leaves it without the key.
+    template <class Target, class Read>
+    void set(std::string_view key, Target& target, Read read) const
+    {
+        if (const auto field = find(key))
+            target = read(*field);
+    }
+
+    [[nodiscard]] const Field& field() const
+    {
+        return field_;
+    }
+
+private:
+    void check_block() const;
+    void check_keys(const Keys& once, const Keys& repeatable) const;
+
+    Field field_;
+    std::string_view title_;
+};
+
+}  // namespace packtrace

@@ -1,0 +1,76 @@
+#pragma once
+
+#include <tao/pegtl.hpp>
+
+/// The scene language's grammar; what the keys mean is not known here.
+namespace packtrace::grammar {
+
+using namespace tao::pegtl;
+
+/// Blocks stand at most this deep: scene, animation, key.
+inline constexpr int deepest_block = 3;
+
+struct comment : seq<one<'#'>, star<not_one<'\n'>>> {};
+struct gap : star<sor<plus<one<' ', '\t', '\r', '\n'>>, comment>> {};
+
+struct word_char : sor<alnum, one<'_', '.', '+', '-'>> {};
+struct word : plus<word_char> {};
+
+// 640 x 480; the blanks may be missing, so its numbers have to be known from a word's letters.
+struct sign : opt<one<'+', '-'>> {};
+struct mantissa : sor<seq<plus<digit>, opt<one<'.'>, star<digit>>>, seq<one<'.'>, plus<digit>>> {};
+struct exponent : seq<one<'e', 'E'>, sign, plus<digit>> {};
+struct number : seq<sign, mantissa, opt<exponent>> {};
+struct size_first : number {};
+struct size_second : number {};
+struct size_shape : seq<number, gap, one<'x'>, gap, number, not_at<word_char>> {};
+struct size_value : seq<at<size_shape>, size_first, gap, one<'x'>, gap, size_second> {};
+
+struct tuple_open : seq<star<sor<alnum, one<'_'>>>, one<'('>> {};
+struct tuple_part : word {};
+struct tuple_close : one<')'> {};
+struct tuple_value : if_must<tuple_open, gap, tuple_part, gap,
+                             star<one<','>, gap, must<tuple_part>, gap>, tuple_close> {};
+
+struct quoted_text : star<not_one<'"', '\n'>> {};
+struct closing_quote : one<'"'> {};
+struct quoted_value : if_must<one<'"'>, quoted_text, closing_quote> {};
+
+// A word before '=' or '{' is the next entry's key: the value before it was forgotten.
+struct next_entry : seq<gap, one<'=', '{'>> {};
+struct word_value : seq<word, not_at<next_entry>> {};
+
+struct item : sor<quoted_value, tuple_value, size_value, word_value> {};
+struct value : seq<item, star<gap, one<','>, gap, must<item>>> {};
+struct assignment : if_must<one<'='>, gap, value> {};
+
+template <int depth>
+struct entry;
+struct open_brace : one<'{'> {};
+struct close_brace : one<'}'> {};
+struct too_deep : failure {};
+template <int depth>
+struct block : if_must<open_brace, gap, star<entry<depth + 1>>, close_brace> {
+};
+template <>
+struct block<deepest_block> : if_must<one<'{'>, too_deep> {
+};
+
+struct key : word {};
+struct block_name : word {};
+struct name_text : quoted_text {};
+struct quoted_name : seq<one<'"'>, name_text, one<'"'>> {};
+template <int depth>
+struct named_block : seq<sor<block_name, quoted_name>, gap, block<depth>> {
+};
+template <int depth>
+struct right_side : sor<assignment, block<depth>, named_block<depth>> {
+};
+template <int depth>
+struct entry : seq<key, gap, must<right_side<depth>>, gap> {
+};
+
+struct end_of_file : eof {};
+struct file : seq<opt<utf8::bom>, gap, star<entry<0>>, must<end_of_file>> {};
+
+}  // namespace packtrace::grammar

@@ -1,0 +1,20 @@
+#pragma once
+
+#include <span>
+#include <string>
+#include <string_view>
+
+namespace packtrace {
+
+/// The word of `known` that `word` is most likely a slip of: at most two letters changed, put
+/// in, left out or swapped with their neighbour. Empty when there is none.
+[[nodiscard]] std::string_view nearest_word(std::string_view word,
+                                            std::span<const std::string_view> known);
+
+/// "did you mean 'radius'?", or "use one of: a, b, c" when nothing is near.
+[[nodiscard]] std::string suggest(std::string_view word, std::span<const std::string_view> known);
+
+/// "a, b, c".
+[[nodiscard]] std::string join(std::span<const std::string_view> words);
+
+}  // namespace packtrace

@@ -1,0 +1,42 @@
+#pragma once
+
+#include <packtrace/read_scene.hpp>
+
+#include <string>
+
+#include "catch.hpp"
+
+// Helpers for the tests of the scene reader.
+namespace packtrace::test {
+
+inline Scene parse(const std::string& text)
+{
+    return parse_scene(text, "x.scene");
+}
+
+/// The message that `text` is refused with.
+inline std::string error_of(const std::string& text)
+{
+    try {
+        (void)parse(text);
+    } catch (const SceneError& error) {
+        return error.what();
+    }
+    return "no error";
+}
+
+inline const char* const any_sphere = "sphere { center = (0, 0, 3) radius = 1 }\n";
+
+/// A scene of `text` and something to see.
+inline Scene parse_with_sphere(const std::string& text)
+{
+    return parse(any_sphere + text);
+}
+
+/// The error of a scene whose second line is `line`.
+inline std::string error_of_line(const std::string& line)
+{
+    return error_of(any_sphere + line);
+}
+
+}  // namespace packtrace::test
