@@ -1,9 +1,11 @@
 #pragma once
 
 #include <packtrace/scene.hpp>
-
 #include "catch.hpp"
 #include "reference/reference.hpp"
+
+#include <array>
+#include <cmath>
 
 // Small scenes for the tests of the scalar reference.
 namespace packtrace::test {
@@ -37,6 +39,27 @@ inline Material matte(const Rgb& color, double reflective = 0.0)
     return material;
 }
 
+/// A quadric by its coefficients A … J, in its own space.
+inline Object quadric(const std::array<double, 10>& coefficients, const Material& material = {})
+{
+    Quadric surface;
+    surface.coefficients = coefficients;
+    Object object;
+    object.surface = surface;
+    object.material = material;
+    return object;
+}
+
+/// A white material of another model.
+template <class Model>
+Material shaded(const Model& model, const Rgb& color = Rgb(1))
+{
+    Material material;
+    material.color = color;
+    material.model = model;
+    return material;
+}
+
 inline Light ambient(double intensity)
 {
     return {LightType::ambient, Rgb(intensity), Vec3(0.0)};
@@ -50,6 +73,13 @@ inline Light point_light(const Vec3& position, double intensity)
 inline Light directional(const Vec3& direction, double intensity)
 {
     return {LightType::directional, Rgb(intensity), direction};
+}
+
+/// What a camera ray along `dir` brings in double precision.
+inline reference::Vec3<double> trace(const Scene& scene, const reference::Vec3<double>& org,
+                                     const reference::Vec3<double>& dir)
+{
+    return reference::Reference<double>(scene).trace_ray(org, dir);
 }
 
 template <class Real>

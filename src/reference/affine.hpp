@@ -1,7 +1,6 @@
 #pragma once
 
 #include <packtrace/vec.hpp>
-
 #include "reference/vec3.hpp"
 
 namespace packtrace::reference {

@@ -33,6 +33,21 @@ QuadricBody<Real> convert_surface(const Quadric& quadric, int object)
 }  // namespace
 
 template <class Real>
+PlacedBody<Real> place_body(const Object& from, int object)
+{
+    return std::visit(
+        [&](const auto& surface) {
+            return PlacedBody<Real>{Affine<Real>(from.transform),
+                                    convert_surface<Real>(surface, object), object};
+        },
+        from.surface);
+}
+
+template PlacedBody<float> place_body(const Object&, int);
+template PlacedBody<double> place_body(const Object&, int);
+template PlacedBody<long double> place_body(const Object&, int);
+
+template <class Real>
 Bodies<Real>::Bodies(const Scene& scene)
 {
     for (const Object& from : scene.objects) {
@@ -46,12 +61,7 @@ Bodies<Real>::Bodies(const Scene& scene)
             planes.push_back(convert_surface<Real>(*plane, object));
         } else {
             places.push_back({BodyKind::placed, placed.size()});
-            std::visit(
-                [&](const auto& surface) {
-                    placed.push_back({Affine<Real>(from.transform),
-                                      convert_surface<Real>(surface, object), object});
-                },
-                from.surface);
+            placed.push_back(place_body<Real>(from, object));
         }
     }
 }

@@ -1,14 +1,13 @@
 #pragma once
 
-#include <variant>
-#include <vector>
-
 #include <packtrace/scene.hpp>
-
 #include "reference/affine.hpp"
 #include "reference/plane.hpp"
 #include "reference/quadric.hpp"
 #include "reference/sphere.hpp"
+
+#include <variant>
+#include <vector>
 
 namespace packtrace::reference {
 
@@ -36,6 +35,25 @@ struct Bodies {
 
     explicit Bodies(const Scene& scene);
 };
+
+/// Object number `object` of a scene in its own space, whether it has a matrix or not.
+template <class Real>
+[[nodiscard]] PlacedBody<Real> place_body(const Object& from, int object);
+
+/// Calls `visit` with one body after the other until it returns false.
+template <class Real, class Visit>
+void visit_bodies(const Bodies<Real>& bodies, const Visit& visit)
+{
+    for (const SphereBody<Real>& sphere : bodies.spheres)
+        if (!visit(sphere))
+            return;
+    for (const PlaneBody<Real>& plane : bodies.planes)
+        if (!visit(plane))
+            return;
+    for (const PlacedBody<Real>& body : bodies.placed)
+        if (!visit(body))
+            return;
+}
 
 template <class Real>
 [[nodiscard]] Roots<Real> roots_of(const PlacedBody<Real>& body, const Vec3<Real>& org,

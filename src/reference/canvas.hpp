@@ -2,7 +2,6 @@
 
 #include <packtrace/image.hpp>
 #include <packtrace/scene.hpp>
-
 #include "reference/vec3.hpp"
 
 namespace packtrace::reference {

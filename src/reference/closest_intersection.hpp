@@ -1,8 +1,8 @@
 #pragma once
 
-#include <limits>
-
 #include "reference/bodies.hpp"
+
+#include <limits>
 
 namespace packtrace::reference {
 

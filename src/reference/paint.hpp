@@ -1,12 +1,11 @@
 #pragma once
 
-#include <cmath>
-#include <vector>
-
 #include <packtrace/scene.hpp>
-
 #include "reference/surface_normal.hpp"
 #include "reference/vec3.hpp"
+
+#include <cmath>
+#include <vector>
 
 namespace packtrace::reference {
 

@@ -1,11 +1,11 @@
 #pragma once
 
+#include "reference/roots.hpp"
+#include "reference/vec3.hpp"
+
 #include <array>
 #include <cmath>
 #include <limits>
-
-#include "reference/roots.hpp"
-#include "reference/vec3.hpp"
 
 namespace packtrace::reference {
 
@@ -57,7 +57,7 @@ void add_side_roots(const QuadricBody<Real>& quadric, const Vec3<Real>& org, con
     const Real q = -(b + std::copysign(std::sqrt(discriminant), b));
     for (const Real t : {q / a, c / q}) {
         const Real z = p.z + t * dir.z;
-        if (std::isfinite(t) && quadric.low <= z && z <= quadric.high)
+        if (quadric.low <= z && z <= quadric.high)
             roots.add(t_near + t);
     }
 }

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <cmath>
+
 namespace packtrace::reference {
 
 /// Which piece of a surface a ray meets; only a capped quadric has more than its side.
@@ -15,9 +17,11 @@ struct Roots {
     Root root[4];
     int count = 0;
 
+    /// Leaves out an infinite or undefined t, as a parallel plane has.
     void add(Real t, Part part = Part::side)
     {
-        root[count++] = {t, part};
+        if (std::isfinite(t))
+            root[count++] = {t, part};
     }
     [[nodiscard]] const Root* begin() const
     {

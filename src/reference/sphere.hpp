@@ -1,11 +1,11 @@
 #pragma once
 
+#include "reference/roots.hpp"
+#include "reference/vec3.hpp"
+
 #include <cmath>
 #include <limits>
 #include <utility>
-
-#include "reference/roots.hpp"
-#include "reference/vec3.hpp"
 
 namespace packtrace::reference {
 

@@ -1,8 +1,8 @@
 #pragma once
 
-#include <cmath>
-
 #include <packtrace/vec.hpp>
+
+#include <cmath>
 
 namespace packtrace::reference {
 
@@ -63,6 +63,13 @@ struct Vec3 {
 
 template <class Real>
 using Color = Vec3<Real>;
+
+/// Whether a colour or coefficient is more than nothing in some channel.
+template <class Real>
+[[nodiscard]] constexpr bool any_positive(const Color<Real>& c)
+{
+    return c.x > 0 || c.y > 0 || c.z > 0;
+}
 
 template <class Real>
 [[nodiscard]] constexpr Real dot(const Vec3<Real>& a, const Vec3<Real>& b)

@@ -12,8 +12,14 @@ World<Real>::World(const Scene& scene)
 {
     for (const Object& object : scene.objects)
         paints.push_back(make_paint<Real>(object));
-    for (const Light& light : scene.lights)
-        lights.push_back({light.type, Color<Real>(light.intensity), Vec3<Real>(light.vector)});
+    for (const Light& light : scene.lights) {
+        const Vec3<Real> vector(light.vector);
+        const bool directional = light.type == LightType::directional;
+        lights.push_back({light.type, Color<Real>(light.intensity), vector,
+                          directional ? normalize(vector) : Vec3<Real>()});
+        if (light.type == LightType::ambient)
+            ambient += Color<Real>(light.intensity);
+    }
 }
 
 template struct World<float>;

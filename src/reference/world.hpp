@@ -1,13 +1,12 @@
 #pragma once
 
-#include <limits>
-#include <vector>
-
 #include <packtrace/scene.hpp>
-
 #include "reference/bodies.hpp"
 #include "reference/canvas.hpp"
 #include "reference/paint.hpp"
+
+#include <limits>
+#include <vector>
 
 namespace packtrace::reference {
 
@@ -19,6 +18,7 @@ struct LightSource {
     LightType type = LightType::ambient;
     Color<Real> intensity;
     Vec3<Real> vector;  ///< a point light's position, or the way to a directional light
+    Vec3<Real> unit;    ///< the way to a directional light, normalised
 };
 
 /// What every note needs of a scene, converted once to the precision of the reference.
@@ -27,6 +27,7 @@ struct World {
     Bodies<Real> bodies;
     std::vector<Paint<Real>> paints;  ///< by object number
     std::vector<LightSource<Real>> lights;
+    Color<Real> ambient;  ///< sum of the ambient lights
     Color<Real> background;
     ShadowKind shadows;
     int max_depth;
