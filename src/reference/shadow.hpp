@@ -1,0 +1,40 @@
+#pragma once
+
+#include "reference/epsilon.hpp"
+#include "reference/glass.hpp"
+#include "reference/way_to_light.hpp"
+#include "reference/world.hpp"
+
+namespace packtrace::reference {
+
+template <class Real>
+[[nodiscard]] bool any_within(const Roots<Real>& roots, Real t_min, Real t_max)
+{
+    for (const auto& root : roots)
+        if (root.t >= t_min && root.t <= t_max)
+            return true;
+    return false;
+}
+
+/// The share of a light that reaches `P`: one where nothing is in the way, nothing behind an
+/// opaque blocker; with transparent shadows the product of what each blocking object passes
+/// on, once however often the way crosses it.
+template <class Real>
+[[nodiscard]] Color<Real> light_share(const World<Real>& world, const Glass<Real>& glass,
+                                      const Vec3<Real>& P, const WayToLight<Real>& way)
+{
+    Color<Real> share(1, 1, 1);
+    if (world.shadows == ShadowKind::none)
+        return share;
+    visit_bodies(world.bodies, [&](const auto& body) {
+        if (!any_within(roots_of(body, P, way.L), epsilon<Real>, way.distance))
+            return true;
+        const bool opaque = world.shadows == ShadowKind::opaque;
+        share = opaque ? Color<Real>()
+                       : share * glass.bodies[static_cast<std::size_t>(body.object)].transmittance;
+        return any_positive(share);
+    });
+    return share;
+}
+
+}  // namespace packtrace::reference
