@@ -1,14 +1,13 @@
 // Note 001 against numbers worked out by hand from its text.
-#include <cmath>
-#include <utility>
-#include <vector>
-
 #include <packtrace/scene.hpp>
-
 #include "catch.hpp"
 #include "reference/note_001.hpp"
 #include "reference/render_reference.hpp"
 #include "reference_scenes.hpp"
+
+#include <cmath>
+#include <utility>
+#include <vector>
 
 namespace packtrace::test {
 namespace {
@@ -36,12 +35,6 @@ Scene four_spheres()
                      sphere({0, -5001, 0}, 5000, shiny({1, 1, 0}, 1000, 0.5))};
     scene.lights = {ambient(0.2), point_light({2, 1, 0}, 0.6), directional({1, 4, 4}, 0.2)};
     return scene;
-}
-
-V trace(const Scene& scene, const V& O, const V& D, double t_min = 0.001)
-{
-    const reference::World<double> world(scene);
-    return reference::Note001<double>(scene, world).trace_ray(O, D, t_min, inf, scene.max_depth);
 }
 
 V light_at(const Scene& scene, const V& P, const V& N, const V& view, double s)

@@ -1,5 +1,8 @@
 #include "reference/note_001.hpp"
 
+#include "reference/epsilon.hpp"
+#include "reference/model_of.hpp"
+
 #include <cmath>
 
 namespace packtrace::reference {
@@ -8,7 +11,7 @@ template <class Real>
 Note001<Real>::Note001(const Scene& scene, const World<Real>& world) : world_(world)
 {
     for (const Object& object : scene.objects) {
-        const auto& material = std::get<ScratchMaterial>(object.material.model);
+        const auto& material = model_of<ScratchMaterial>(object);
         shadings_.push_back(
             {static_cast<Real>(material.specular), static_cast<Real>(material.reflective)});
         is_a_sphere_.push_back(std::holds_alternative<Sphere>(object.surface));
@@ -54,7 +57,7 @@ bool Note001<Real>::in_shadow(const Vec3<Real>& P, const Vec3<Real>& L, Real t_m
 {
     if (world_.shadows == ShadowKind::none)
         return false;
-    const auto shadow_sphere = closest_intersection(world_.bodies, P, L, Real(0.001), t_max);
+    const auto shadow_sphere = closest_intersection(world_.bodies, P, L, epsilon<Real>, t_max);
     return static_cast<bool>(shadow_sphere);
 }
 
@@ -90,16 +93,15 @@ Color<Real> Note001<Real>::trace_ray(const Vec3<Real>& O, const Vec3<Real>& D, R
 
     // Compute the reflected color
     const Vec3<Real> R = reflect_ray(-D, N);
-    const Color<Real> reflected_color = trace_ray(P, R, Real(0.001), infinity<Real>, depth - 1);
+    const Color<Real> reflected_color = trace_ray(P, R, epsilon<Real>, infinity<Real>, depth - 1);
 
     return local_color * (1 - r) + reflected_color * r;
 }
 
 template <class Real>
-Color<Real> Note001<Real>::trace_pixel(int i, int j) const
+Color<Real> Note001<Real>::trace_ray(const Vec3<Real>& O, const Vec3<Real>& D) const
 {
-    const Vec3<Real> D = world_.canvas.canvas_to_viewport(i, j);
-    return trace_ray(world_.canvas.position, D, 1, infinity<Real>, world_.max_depth);
+    return trace_ray(O, D, 1, infinity<Real>, world_.max_depth);
 }
 
 template class Note001<float>;

@@ -1,8 +1,8 @@
 #pragma once
 
-#include <vector>
-
 #include "reference/world.hpp"
+
+#include <vector>
 
 namespace packtrace::reference {
 
@@ -21,8 +21,8 @@ public:
     /// `world` must outlive this; `scene` must be lit by Illumination::scratch.
     Note001(const Scene& scene, const World<Real>& world);
 
-    /// The body of the note's loop over the canvas, for column `i` and row `j`.
-    [[nodiscard]] Color<Real> trace_pixel(int i, int j) const;
+    /// The colour along a camera ray, from the projection plane on.
+    [[nodiscard]] Color<Real> trace_ray(const Vec3<Real>& O, const Vec3<Real>& D) const;
 
     [[nodiscard]] Color<Real> trace_ray(const Vec3<Real>& O, const Vec3<Real>& D, Real t_min,
                                         Real t_max, int depth) const;

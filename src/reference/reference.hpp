@@ -2,9 +2,14 @@
 
 #include <packtrace/image.hpp>
 #include <packtrace/scene.hpp>
-
+#include "reference/general.hpp"
+#include "reference/note_000.hpp"
 #include "reference/note_001.hpp"
+#include "reference/note_002.hpp"
+#include "reference/note_004.hpp"
 #include "reference/world.hpp"
+
+#include <variant>
 
 namespace packtrace::reference {
 
@@ -13,13 +18,17 @@ namespace packtrace::reference {
 template <class Real>
 class Reference {
 public:
-    /// Throws std::invalid_argument for an illumination model that has no reference.
+    /// Throws std::invalid_argument for a material of another model than the scene's.
     explicit Reference(const Scene& scene);
     Reference(const Reference&) = delete;
     Reference& operator=(const Reference&) = delete;
 
     /// The colour of the pixel in column `i` and row `j`, not clamped.
     [[nodiscard]] Color<Real> trace_pixel(int i, int j) const;
+
+    /// The colour along a camera ray; `dir` as the camera makes it, which for `scratch` counts:
+    /// t begins at 1.
+    [[nodiscard]] Color<Real> trace_ray(const Vec3<Real>& org, const Vec3<Real>& dir) const;
 
     /// Fills row `j` of `image`, which has the scene's size.
     void trace_row(int j, Image<Real>& image) const;
@@ -30,8 +39,13 @@ public:
     }
 
 private:
+    using Note =
+        std::variant<Note000<Real>, Note001<Real>, Note002<Real>, Note004<Real>, General<Real>>;
+
+    [[nodiscard]] static Note choose_note(const Scene& scene, const World<Real>& world);
+
     World<Real> world_;
-    Note001<Real> note_;
+    Note note_;
 };
 
 }  // namespace packtrace::reference

@@ -1,8 +1,6 @@
 #include "reference/render_reference.hpp"
 
-#include <algorithm>
-#include <cstddef>
-#include <mutex>
+#include "reference/reference.hpp"
 
 #include <tbb/blocked_range.h>
 #include <tbb/global_control.h>
@@ -10,7 +8,9 @@
 #include <tbb/partitioner.h>
 #include <tbb/task_arena.h>
 
-#include "reference/reference.hpp"
+#include <algorithm>
+#include <cstddef>
+#include <mutex>
 
 namespace packtrace {
 namespace {

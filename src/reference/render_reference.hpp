@@ -1,9 +1,9 @@
 #pragma once
 
-#include <functional>
-
 #include <packtrace/image.hpp>
 #include <packtrace/scene.hpp>
+
+#include <functional>
 
 namespace packtrace {
 

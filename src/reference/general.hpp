@@ -1,0 +1,44 @@
+#pragma once
+
+#include "reference/glass.hpp"
+#include "reference/world.hpp"
+
+#include <vector>
+
+namespace packtrace::reference {
+
+/// The one equation that all models lower to:
+///     I(ray) = ka A + sum_j s_j I_j (kd max(0, N.L_j) + ks max(0, R_j.V)^n)
+///              + kr I(reflected) + kt I(refracted)
+template <class Real>
+class General {
+public:
+    struct Coefficients {
+        Color<Real> ka;
+        Color<Real> kd;
+        Color<Real> ks;
+        Color<Real> kr;
+        Color<Real> kt;
+        Real n;
+    };
+
+    /// `world` must outlive this; `scene` must be lit by Illumination::general.
+    General(const Scene& scene, const World<Real>& world);
+
+    /// The light along a ray from the eye at `org`; `dir` need not be unit.
+    [[nodiscard]] Color<Real> trace_ray(const Vec3<Real>& org, const Vec3<Real>& dir) const;
+
+private:
+    [[nodiscard]] Color<Real> intensity(const Ray<Real>& ray, int depth) const;
+    [[nodiscard]] Color<Real> child(const Ray<Real>& ray, int depth) const;
+    [[nodiscard]] Color<Real> local(const Coefficients& k, const SurfacePoint<Real>& at,
+                                    const Vec3<Real>& V) const;
+
+    const World<Real>& world_;
+    std::vector<Coefficients> coefficients_;  // by object number
+    Glass<Real> glass_;
+    GlassStack around_eye_;
+    Color<Real> at_limit_;  // what a ray beyond the depth limit brings
+};
+
+}  // namespace packtrace::reference

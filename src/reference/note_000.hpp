@@ -1,0 +1,43 @@
+#pragma once
+
+#include "reference/glass.hpp"
+#include "reference/world.hpp"
+
+#include <vector>
+
+namespace packtrace::reference {
+
+/// Note 000, the Pascal sketch of a recursive `intensity`, under its names. Where it departs, a
+/// comment says so; docs/reference.md gathers the reasons.
+template <class Real>
+class Note000 {
+public:
+    /// The note's arrays Ka … S at one object.
+    struct Factors {
+        Color<Real> Ka;  ///< ambient, times the object's colour
+        Color<Real> Kd;  ///< diffuse, times the object's colour
+        Color<Real> Ks;  ///< mirror and highlight, white
+        Color<Real> Kr;  ///< refraction, white
+        Real S;
+    };
+
+    /// `world` must outlive this; `scene` must be lit by Illumination::sketch.
+    Note000(const Scene& scene, const World<Real>& world);
+
+    /// The light along a ray from the eye at `org`; `dir` need not be unit.
+    [[nodiscard]] Color<Real> trace_ray(const Vec3<Real>& org, const Vec3<Real>& dir) const;
+
+private:
+    [[nodiscard]] Color<Real> intensity(const Ray<Real>& r, int depth) const;
+    [[nodiscard]] Color<Real> escaped(const Ray<Real>& r) const;
+    [[nodiscard]] Color<Real> dull(const Factors& k, const Color<Real>& color,
+                                   const SurfacePoint<Real>& at, const Ray<Real>& flec) const;
+
+    const World<Real>& world_;
+    std::vector<Factors> factors_;  // by object number
+    Glass<Real> glass_;
+    GlassStack around_eye_;
+    int deepest_;  // the note's 5
+};
+
+}  // namespace packtrace::reference

@@ -1,0 +1,147 @@
+#include "reference/note_004.hpp"
+
+#include "reference/epsilon.hpp"
+#include "reference/model_of.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+namespace packtrace::reference {
+namespace {
+
+// The note's object.intersection: the least t in [t_min, t_max], or -1.0 for none.
+template <class Real>
+std::pair<Real, Part> intersection(const PlacedBody<Real>& object, const Vec3<Real>& e,
+                                   const Vec3<Real>& d, Real t_min, Real t_max)
+{
+    std::pair<Real, Part> least{-1, Part::side};
+    const auto roots =
+        std::visit([&](const auto& surface) { return roots_of(surface, e, d); }, object.surface);
+    for (const auto& root : roots)
+        if (root.t >= t_min && root.t <= t_max && (least.first == -1 || root.t < least.first))
+            least = {root.t, root.part};
+    return least;
+}
+
+// The note's object.normalVector, made unit; it does not turn to the viewer.
+template <class Real>
+Vec3<Real> normal_vector(const PlacedBody<Real>& object, const Vec3<Real>& I, Part part)
+{
+    return normalize(std::visit([&](const auto& surface) { return normal_at(surface, I, part); },
+                                object.surface));
+}
+
+// From `I` to the light in the object's own space; a directional light has no end.
+template <class Real>
+std::pair<Vec3<Real>, Real> to_light(const PlacedBody<Real>& object, const Vec3<Real>& I,
+                                     const LightSource<Real>& light)
+{
+    if (light.type == LightType::directional)
+        return {normalize(object.placement.vector_to_own(light.vector)), infinity<Real>};
+    const Vec3<Real> Ts = object.placement.point_to_own(light.vector);
+    const Real distance = length(Ts - I);
+    return {(Ts - I) / distance, distance};
+}
+
+}  // namespace
+
+template <class Real>
+Note004<Real>::Note004(const Scene& scene, const World<Real>& world) : world_(world)
+{
+    for (const Object& object : scene.objects) {
+        object_list_.push_back(place_body<Real>(object, static_cast<int>(object_list_.size())));
+        Material material;
+        for (std::size_t i = 0; i < 4; ++i)
+            material.r[i] = static_cast<Real>(model_of<ShaderMaterial>(object).reflectance[i]);
+        materials_.push_back(material);
+    }
+}
+
+template <class Real>
+void Note004<Real>::minimum_intersection(const Vec3<Real>& e, const Vec3<Real>& d,
+                                         std::vector<Tuple>& list) const
+{
+    list.clear();
+    for (int k = 0; k < static_cast<int>(object_list_.size()); ++k) {
+        const PlacedBody<Real>& object = object_list_[static_cast<std::size_t>(k)];
+        const Vec3<Real> Te = object.placement.point_to_own(e);
+        const Vec3<Real> Td = object.placement.vector_to_own(d);
+        const auto [t0, part] = intersection(object, Te, Td, epsilon<Real>, infinity<Real>);
+        if (t0 != -1)
+            list.push_back({k, t0, part});
+    }
+    std::sort(list.begin(), list.end(), [](const Tuple& a, const Tuple& b) {
+        return std::pair(a.t0, a.k) < std::pair(b.t0, b.k);
+    });
+}
+
+template <class Real>
+Color<Real> Note004<Real>::shader(const Tuple& intersection, const Vec3<Real>& d,
+                                  const Vec3<Real>& e, const LightSource<Real>& light) const
+{
+    const auto& [k, t0, part] = intersection;
+    const PlacedBody<Real>& object = object_list_[static_cast<std::size_t>(k)];
+    const Vec3<Real> Te = object.placement.point_to_own(e);
+    const Vec3<Real> Td = object.placement.vector_to_own(d);
+    const Vec3<Real> I = Te + Td * t0;
+    const Real* r = materials_[static_cast<std::size_t>(k)].r;
+    const Paint<Real>& paint = world_.paints[static_cast<std::size_t>(k)];
+    const Color<Real> c = paint.checkered ? checker_color(paint, I) : paint.color;
+    const Color<Real> Li = light.intensity;
+    // Not in the note: an ambient light has no place, and gives what a shadowed one does.
+    if (light.type == LightType::ambient)
+        return r[0] * (c * Li);
+    const auto [S, distance] = to_light(object, I, light);
+    const Vec3<Real> N = normal_vector(object, I, part);
+    const Vec3<Real> R = -S + (2 * dot(S, N)) * N;
+    const Vec3<Real> V = normalize(Te - I);
+    const Real Id = std::max(dot(N, S), Real(0));
+    const Real Is = std::max(dot(R, V), Real(0));
+    Real f = r[0];
+    if (!shadowed(object, I, S, distance))
+        f = r[0] + r[1] * Id + r[2] * std::pow(Is, r[3]);
+    return f * (c * Li);
+}
+
+template <class Real>
+bool Note004<Real>::shadowed(const PlacedBody<Real>& shaded, const Vec3<Real>& own_I,
+                             const Vec3<Real>& own_S, Real distance) const
+{
+    if (world_.shadows == ShadowKind::none)
+        return false;
+    const Vec3<Real> I = shaded.placement.point_to_world(own_I + epsilon<Real> * own_S);
+    const Vec3<Real> S = shaded.placement.vector_to_world(own_S);
+    for (const PlacedBody<Real>& object : object_list_) {
+        // The note assigns the results to I and S themselves, so that each object would start
+        // from the last one's space; each must start from the world's.
+        const Vec3<Real> Te = object.placement.point_to_own(I);
+        // Nor is S made unit here: t then counts the same in every space, and the way can end
+        // at the light, as "the ray from the intersection point to the light source" does.
+        const Vec3<Real> Td = object.placement.vector_to_own(S);
+        if (intersection(object, Te, Td, Real(0), distance - epsilon<Real>).first != -1)
+            return true;
+    }
+    return false;
+}
+
+// The note has one light source; here the colours of all are summed.
+template <class Real>
+Color<Real> Note004<Real>::trace_ray(const Vec3<Real>& e, const Vec3<Real>& d) const
+{
+    thread_local std::vector<Tuple> list;  // kept, so that no ray allocates
+    const Vec3<Real> direction = normalize(d);
+    minimum_intersection(e, direction, list);
+    if (list.empty())
+        return world_.background;
+    Color<Real> color;
+    for (const LightSource<Real>& light : world_.lights)
+        color += shader(list.front(), direction, e, light);
+    return color;
+}
+
+template class Note004<float>;
+template class Note004<double>;
+template class Note004<long double>;
+
+}  // namespace packtrace::reference

@@ -1,0 +1,54 @@
+#pragma once
+
+#include "reference/bodies.hpp"
+#include "reference/world.hpp"
+
+#include <vector>
+
+namespace packtrace::reference {
+
+/// Note 004, the assignment's algorithms for generic objects under a matrix, method by method
+/// and under its names. Where it departs, a comment says so; docs/reference.md gathers the
+/// reasons. Shading happens in the object's own space, as the note has it, which gives the
+/// lengths and angles of world space only under similarities.
+template <class Real>
+class Note004 {
+public:
+    /// The note's (k, t0), with the piece of a capped quadric that was hit.
+    struct Tuple {
+        int k;
+        Real t0;
+        Part part;
+    };
+
+    /// `world` must outlive this; `scene` must be lit by Illumination::shader.
+    Note004(const Scene& scene, const World<Real>& world);
+
+    /// The light along a ray from the camera at `e`; `d` need not be unit.
+    [[nodiscard]] Color<Real> trace_ray(const Vec3<Real>& e, const Vec3<Real>& d) const;
+
+    /// Fills `list` with one tuple for each object that the ray meets, by increasing t0; among
+    /// equal t0 the lower object first. `d` is unit.
+    void minimum_intersection(const Vec3<Real>& e, const Vec3<Real>& d,
+                              std::vector<Tuple>& list) const;
+
+    /// The colour that one light gives to the first object hit.
+    [[nodiscard]] Color<Real> shader(const Tuple& intersection, const Vec3<Real>& d,
+                                     const Vec3<Real>& e, const LightSource<Real>& light) const;
+
+    /// Whether something stands between `I` and the light in direction `S` (unit) at `distance`,
+    /// all three in the own space of `object`.
+    [[nodiscard]] bool shadowed(const PlacedBody<Real>& object, const Vec3<Real>& I,
+                                const Vec3<Real>& S, Real distance) const;
+
+private:
+    struct Material {
+        Real r[4];
+    };
+
+    const World<Real>& world_;
+    std::vector<PlacedBody<Real>> object_list_;
+    std::vector<Material> materials_;
+};
+
+}  // namespace packtrace::reference
