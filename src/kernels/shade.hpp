@@ -2,6 +2,7 @@
 
 #include "kernels/bounds.hpp"
 #include "kernels/lighting.hpp"
+#include "kernels/pixels.hpp"
 
 // Shading of a tile's hit points: light by light into the pixels, mirrored rays into the next
 // stream.
@@ -59,26 +60,6 @@ inline Vec3v<Real> local_color(const ShadeContext<Real>& context,
     return color;
 }
 
-/// Adds a packet of colours to its pixels in lane order. `pixel` may name one pixel twice.
-template <class Real>
-inline void add_to_pixels(Real (*pixels)[4], const vint<Real>& pixel, const Vec3v<Real>& color,
-                          std::uint32_t active)
-{
-    alignas(64) lane_int<Real> at[lanes<Real>];
-    alignas(64) Real channel[3][lanes<Real>];
-    store(at, pixel);
-    store(channel[0], color.x);
-    store(channel[1], color.y);
-    store(channel[2], color.z);
-    for (; active != 0; active &= active - 1) {
-        const int lane = __builtin_ctz(active);
-        Real* target = pixels[at[lane]];
-        target[0] += channel[0][lane];
-        target[1] += channel[1][lane];
-        target[2] += channel[2][lane];
-    }
-}
-
 /// Appends the mirrored rays of the lanes that reflect anything.
 template <class Real>
 inline void spawn_reflected(RayStream<Real>& next, const SurfacePacket<Real>& surface,
@@ -104,9 +85,9 @@ inline std::uint32_t any_channel(const Vec3v<Real>& v)
     return bits((v.x > zero) | (v.y > zero) | (v.z > zero));
 }
 
-template <class Real>
+template <PixelWrite Write, class Real>
 inline void shade_packet(const ShadeContext<Real>& context, const HitStream<Real>& hits, int first,
-                         Real (*pixels)[4], RayStream<Real>& next)
+                         TilePixelColors<Real>& pixels, RayStream<Real>& next)
 {
     const std::uint32_t active = first_lanes<Real>(hits.count - first);
     const vint<Real> pixel = load(hits.pixel + first);
@@ -122,17 +103,17 @@ inline void shade_packet(const ShadeContext<Real>& context, const HitStream<Real
         spawn_reflected(next, surface, weight * material.reflect, pixel,
                         active & any_channel(material.reflect));
     }
-    add_to_pixels(pixels, pixel, color, active);
+    write_colors<Write>(pixels, pixel, color, active);
 }
 
 /// Shades every hit of a stream; `next` is emptied first.
-template <class Real>
+template <PixelWrite Write, class Real>
 inline void shade_stream(const ShadeContext<Real>& context, const HitStream<Real>& hits,
-                         Real (*pixels)[4], RayStream<Real>& next)
+                         TilePixelColors<Real>& pixels, RayStream<Real>& next)
 {
     next.count = 0;
     for (int first = 0; first < hits.count; first += lanes<Real>)
-        shade_packet(context, hits, first, pixels, next);
+        shade_packet<Write>(context, hits, first, pixels, next);
 }
 
 }  // namespace

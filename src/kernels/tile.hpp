@@ -23,44 +23,6 @@ inline void find_blockers(const abi::SceneView<Real>& scene, const HitStream<Rea
 }
 
 template <class Real>
-inline void clear_pixels(const abi::SceneView<Real>& scene, TileMemory<Real>& memory)
-{
-    for (auto& pixel : memory.color)
-        for (int channel = 0; channel < 3; ++channel)
-            pixel[channel] = scene.background[channel];
-}
-
-/// Pixels whose camera ray hit something start from nothing instead of the background.
-template <class Real>
-inline void clear_hit_pixels(TileMemory<Real>& memory)
-{
-    for (int i = 0; i < memory.hits.count; ++i)
-        for (int channel = 0; channel < 3; ++channel)
-            memory.color[memory.hits.pixel[i]][channel] = 0;
-}
-
-/// Every second bit position of `number` filled from its low bits.
-constexpr int spread_bits(int number)
-{
-    return (number & 1) | ((number & 2) << 1) | ((number & 4) << 2) | ((number & 8) << 3);
-}
-
-template <class Real>
-inline void write_pixels(const abi::TileJob<Real>& job, const TileMemory<Real>& memory)
-{
-    for (int row = 0; row < job.height; ++row) {
-        Real* to = job.rgb + row * job.row_stride;
-        const int row_bits = spread_bits(row) << 1;
-        for (int column = 0; column < job.width; ++column, to += 3) {
-            const Real* from = memory.color[row_bits | spread_bits(column)];
-            to[0] = from[0];
-            to[1] = from[1];
-            to[2] = from[2];
-        }
-    }
-}
-
-template <class Real>
 inline abi::RayCounts render_tile(const abi::TileJob<Real>& job)
 {
     const abi::SceneView<Real>& scene = *job.scene;
@@ -71,25 +33,27 @@ inline abi::RayCounts render_tile(const abi::TileJob<Real>& job)
     // The first generation: camera rays against what the tile's beam may meet.
     find_objects(work.visible, camera_beam(job), scene);
     counts.camera = static_cast<unsigned>(job.width * job.height);
-    clear_pixels(scene, memory);
+    fill_pixels(memory.color, scene.background);
     memory.hits.count = 0;
     if (!work.visible.empty())
         trace_camera(job, work.visible, memory);
-    clear_hit_pixels(memory);
 
     // Each generation is shaded into the pixels and leaves its mirrored rays to the next.
     for (int depth = 0; memory.hits.count > 0; ++depth) {
-        const bool spawn = depth < scene.max_depth;
-        RayStream<Real>& next = memory.rays[depth & 1];
+        const ShadeContext<Real> context{&scene, work.blockers, depth < scene.max_depth, &counts};
+        RayStream<Real>& next = memory.rays;
         find_blockers(scene, memory.hits, work.blockers);
-        shade_stream<Real>({&scene, work.blockers, spawn, &counts}, memory.hits, memory.color,
-                           next);
+        if (depth == 0)
+            shade_stream<PixelWrite::set>(context, memory.hits, memory.color, next);
+        else
+            shade_stream<PixelWrite::add>(context, memory.hits, memory.color, next);
         if (next.count == 0)
             break;
         counts.reflected += static_cast<unsigned>(next.count);
         trace_secondary(scene, next, memory);
     }
-    write_pixels(job, memory);
+    for (int row = 0; row < job.height; ++row)
+        write_row(job.rgb + row * job.row_stride, memory.color, row, job.width);
     return counts;
 }
 

@@ -1,7 +1,7 @@
 #pragma once
 
 #include "kernel_abi/kernel_table.hpp"
-#include "kernels/vec3.hpp"
+#include "kernels/pixels.hpp"
 
 // The working memory of one tile: streams of rays in structure-of-arrays form.
 namespace packtrace::PACKTRACE_ISA {
@@ -36,8 +36,8 @@ struct alignas(64) HitStream {
 
 template <class Real>
 struct alignas(64) TileMemory {
-    Real color[abi::tile_pixels][4];  ///< r, g, b and one unused
-    RayStream<Real> rays[2];          ///< this generation and the next
+    TilePixelColors<Real> color;
+    RayStream<Real> rays;  ///< of the next generation
     HitStream<Real> hits;
 };
 

@@ -77,8 +77,8 @@ inline void trace_secondary(const abi::SceneView<Real>& scene, const RayStream<R
         closest_hit(hit, scene, from.rays);
         const std::uint32_t hits = hit_lanes(hit) & active;
         append_hits(memory.hits, from, hit, hits);
-        add_to_pixels(memory.color, from.pixel, from.weight * broadcast(scene.background),
-                      active & ~hits);
+        write_colors<PixelWrite::add>(memory.color, from.pixel,
+                                      from.weight * broadcast(scene.background), active & ~hits);
     }
 }
 

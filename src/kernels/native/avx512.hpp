@@ -91,6 +91,20 @@ inline vmask<double> int_less(vint<double> i, vint<double> j)
     return _mm512_cmplt_epi64_mask(i, j);
 }
 
+/// Pixels r, g, b, 0 of all lanes; lane l is row [l % 4][l / 4] of `to`.
+inline void store_pixels(float (*to)[4], vreal<float> r, vreal<float> g, vreal<float> b)
+{
+    const __m512 zero = _mm512_setzero_ps();
+    const __m512d rg_low = _mm512_castps_pd(_mm512_unpacklo_ps(r, g));
+    const __m512d rg_high = _mm512_castps_pd(_mm512_unpackhi_ps(r, g));
+    const __m512d b_low = _mm512_castps_pd(_mm512_unpacklo_ps(b, zero));
+    const __m512d b_high = _mm512_castps_pd(_mm512_unpackhi_ps(b, zero));
+    _mm512_storeu_ps(to[0], _mm512_castpd_ps(_mm512_unpacklo_pd(rg_low, b_low)));
+    _mm512_storeu_ps(to[4], _mm512_castpd_ps(_mm512_unpackhi_pd(rg_low, b_low)));
+    _mm512_storeu_ps(to[8], _mm512_castpd_ps(_mm512_unpacklo_pd(rg_high, b_high)));
+    _mm512_storeu_ps(to[12], _mm512_castpd_ps(_mm512_unpackhi_pd(rg_high, b_high)));
+}
+
 // The memory form of vcompressps is microcoded on Zen 4: compress in the register instead.
 inline vreal<float> compress(std::uint32_t pattern, vreal<float> x)
 {

@@ -102,6 +102,12 @@ inline vmask<double> from_bits<double>(std::uint32_t pattern)
     return vtstq_u64(vdupq_n_u64(pattern), vld1q_u64(lane_bit));
 }
 
+/// Pixels r, g, b, 0 of all lanes; lane l is row [l % 4][l / 4] of `to`.
+inline void store_pixels(float (*to)[4], vreal<float> r, vreal<float> g, vreal<float> b)
+{
+    vst4q_f32(to[0], (float32x4x4_t{{r, g, b, vdupq_n_f32(0.0f)}}));
+}
+
 template <class Real>
 inline xsimd::batch<Real, Arch> compress(std::uint32_t pattern, xsimd::batch<Real, Arch> x)
 {
