@@ -44,7 +44,8 @@ inline vmask<Real> may_meet(const Beam<Real>& beam, const Vec3v<Real>& v, const 
     const vreal<Real> size = radius + vreal<Real>(beam.radius) + slack;
     const vreal<Real> outside =
         msub(across, vreal<Real>(beam.cosine), along * vreal<Real>(beam.sine));
-    return (outside <= size) & (along >= -size) & (distance <= (vreal<Real>(beam.reach) + size));
+    return (outside <= size) & (along >= negated(size)) &
+           (distance <= (vreal<Real>(beam.reach) + size));
 }
 
 /// Whether every ray runs against `direction` or across it, by more than rounding can turn:

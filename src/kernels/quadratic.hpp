@@ -31,14 +31,14 @@ inline void keep_first_root(HitPacket<Real>& hit, const Quadratic<Real>& quadrat
     // Lanes that miss may hold a NaN here; no comparison lets it through. -q is used for q.
     const vreal<Real> root = sqrt(quadratic.discriminant);
     const vreal<Real> minus_q = quadratic.b + with_sign_of(root, quadratic.b);
-    vreal<Real> t = -quadratic.c / minus_q;
+    vreal<Real> t = negated(quadratic.c) / minus_q;
     const auto in_front = t > t_min;
     const std::uint32_t too_near = bits(active) & ~bits(in_front);
     if ((too_near & bits(minus_q < vreal<Real>(Real(0)))) == 0) {
         keep_closer<Real>(hit, active & in_front, t, object);
         return;
     }
-    const vreal<Real> other = -minus_q / quadratic.a;
+    const vreal<Real> other = negated(minus_q) / quadratic.a;
     const auto retry = from_bits<Real>(too_near) & (minus_q < vreal<Real>(Real(0)));
     t = select(retry, other, t);
     keep_closer<Real>(hit, active & (t > t_min), t, object);

@@ -91,6 +91,13 @@ inline batch<Real> abs(batch<Real> x)
     return xsimd::abs(x);
 }
 
+/// -x by its sign bit: xsimd's own is 0 - x with AVX-512, which gives +0 for +0.
+template <class Real>
+inline batch<Real> negated(batch<Real> x)
+{
+    return as_real(as_int(x) ^ as_int(vreal<Real>(Real(-0.0))));
+}
+
 /// `magnitude`, whose sign bit is clear, with the sign bit of `sign`.
 template <class Real>
 inline batch<Real> with_sign_of(batch<Real> magnitude, batch<Real> sign)

@@ -27,7 +27,7 @@ inline Vec3v<Real> unit_normal(const RecordPacket<8, Real>& surface, const Vec3v
     const Vec3v<Real> normal = scale<Real>(one / sqrt(dot(gradient, gradient)), gradient);
     const vreal<Real> zero(Real(0));
     const auto turn = (surface.field[7] > zero) & (dot(normal, dir) > zero);
-    return scale<Real>(select(turn, -one, one), normal);
+    return scale<Real>(select(turn, negated(one), one), normal);
 }
 
 /// 0 or 1 where the squares have their first or their other colour.
