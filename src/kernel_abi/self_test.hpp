@@ -22,9 +22,12 @@ enum class SimdOp : std::int32_t {
     max,
     less,
     less_equal,
+    greater,
+    greater_equal,
     equal,
     mask_and,
     mask_or,
+    either,
     mask_and_not,
     mask_not,
     bits,
@@ -35,12 +38,20 @@ enum class SimdOp : std::int32_t {
     int_equal,
     int_less,
     int_add,
+    int_sub,
+    int_and,
+    int_or,
+    shift_left,
+    shift_right,
     to_int,
     to_real,
     exponent_of,
     mantissa_of,
     scale_by_power,
     compress,
+    compress_store_real,
+    compress_store_int,
+    first_lane,
     any,
     none,
     all
@@ -48,8 +59,9 @@ enum class SimdOp : std::int32_t {
 
 inline constexpr int simd_op_count = static_cast<int>(SimdOp::all) + 1;
 
-/// One packet of operands in, one packet of results out. Masks come in as a < b, and go out as
-/// 1 and 0; a count or bit pattern goes out in lane 0 of `integers`.
+/// One packet of operands in, one packet of results out. Masks come in as a < b (a second one as
+/// b < c), and go out as 1 and 0 in `reals`; a truth value or bit pattern fills `integers`. Shifts
+/// are by the mantissa's bits.
 template <class Real>
 struct SelfTestJob {
     SimdOp op = SimdOp::add;
@@ -58,7 +70,7 @@ struct SelfTestJob {
     const Real* c = nullptr;
     const std::int64_t* i = nullptr;
     const std::int64_t* j = nullptr;
-    std::uint32_t mask = 0;            ///< for from_bits and compress
+    std::uint32_t mask = 0;            ///< lanes of from_bits and compress, count of first_lanes
     Real* reals = nullptr;             ///< one packet
     std::int64_t* integers = nullptr;  ///< one packet
 };

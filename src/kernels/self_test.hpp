@@ -39,6 +39,15 @@ struct SelfTestOperands {
     }
 };
 
+/// What compress_store leaves in memory.
+template <class Packet>
+inline Packet compressed(const Packet& x, std::uint32_t pattern)
+{
+    alignas(64) typename Packet::value_type by_lane[Packet::size];
+    compress_store(by_lane, pattern, x);
+    return load(by_lane);
+}
+
 /// Operations whose result is a packet of reals or a mask.
 template <class Real>
 inline vreal<Real> real_result(const abi::SelfTestJob<Real>& job, const SelfTestOperands<Real>& in)
@@ -61,7 +70,7 @@ inline vreal<Real> real_result(const abi::SelfTestJob<Real>& job, const SelfTest
         case SimdOp::nmadd:
             return nmadd(in.a, in.b, in.c);
         case SimdOp::neg:
-            return -in.a;
+            return negated(in.a);
         case SimdOp::abs:
             return abs(in.a);
         case SimdOp::sqrt:
@@ -78,12 +87,18 @@ inline vreal<Real> real_result(const abi::SelfTestJob<Real>& job, const SelfTest
             return in.as_numbers(in.a < in.b);
         case SimdOp::less_equal:
             return in.as_numbers(in.a <= in.b);
+        case SimdOp::greater:
+            return in.as_numbers(in.a > in.b);
+        case SimdOp::greater_equal:
+            return in.as_numbers(in.a >= in.b);
         case SimdOp::equal:
             return in.as_numbers(in.a == in.b);
         case SimdOp::mask_and:
             return in.as_numbers(in.m & odd);
         case SimdOp::mask_or:
             return in.as_numbers(in.m | odd);
+        case SimdOp::either:
+            return in.as_numbers(either(in.m, odd));
         case SimdOp::mask_and_not:
             return in.as_numbers(in.m & !odd);
         case SimdOp::mask_not:
@@ -106,6 +121,10 @@ inline vreal<Real> real_result(const abi::SelfTestJob<Real>& job, const SelfTest
             return scale_by_power<Real>(in.a, in.i);
         case SimdOp::compress:
             return compress(job.mask, in.a);
+        case SimdOp::compress_store_real:
+            return compressed(in.a, job.mask);
+        case SimdOp::first_lane:
+            return vreal<Real>(first_lane(in.a));
         default:
             return in.zero;
     }
@@ -121,6 +140,18 @@ inline vint<Real> int_result(const abi::SelfTestJob<Real>& job, const SelfTestOp
             return select(in.m, in.i, in.j);
         case SimdOp::int_add:
             return in.i + in.j;
+        case SimdOp::int_sub:
+            return in.i - in.j;
+        case SimdOp::int_and:
+            return in.i & in.j;
+        case SimdOp::int_or:
+            return in.i | in.j;
+        case SimdOp::shift_left:
+            return in.i << FloatFormat<Real>::mantissa_bits;
+        case SimdOp::shift_right:
+            return in.i >> FloatFormat<Real>::mantissa_bits;
+        case SimdOp::compress_store_int:
+            return compressed(in.i, job.mask);
         case SimdOp::to_int:
             return to_int<Real>(in.a);
         case SimdOp::exponent_of:
