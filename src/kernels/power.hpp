@@ -1,5 +1,6 @@
 #pragma once
 
+#include "kernels/exact_product.hpp"
 #include "kernels/float_bits.hpp"
 
 // x^n of a highlight, for cosines x and exponents up to 10 000. xsimd's pow differs between
@@ -71,10 +72,10 @@ inline TwoPart<Real> log2_two_part(batch<Real> x)
     const vreal<Real> g_low = m - (g - vreal<Real>(Real(1)));
     const vreal<Real> inverse = vreal<Real>(Real(1)) / g;
     const vreal<Real> s = f * inverse;
-    const vreal<Real> s_low = nmadd(s, g_low, nmadd(s, g, f)) * inverse;
+    const vreal<Real> s_low = nmadd(s, g_low, negated(exact_msub(s, g, f))) * inverse;
 
     const vreal<Real> product = vreal<Real>(scale_high) * s;
-    vreal<Real> low = msub(vreal<Real>(scale_high), s, product);
+    vreal<Real> low = exact_msub(vreal<Real>(scale_high), s, product);
     low = madd(vreal<Real>(scale_low), s, low);
     low = madd(vreal<Real>(scale_high), s_low, low);
     low = low + log2_tail<Real>(s);
@@ -103,14 +104,18 @@ inline batch<Real> highlight_power(batch<Real> x, batch<Real> n)
 {
     const TwoPart<Real> log = log2_two_part<Real>(x);
     const vreal<Real> smallest(Real(FloatFormat<Real>::smallest_exponent));
-    const vreal<Real> y = n * log.high;
-    const vreal<Real> y_low = madd(n, log.low, msub(n, log.high, y));
+    const vreal<Real> y_high = n * log.high;
+    const vreal<Real> y_low = madd(n, log.low, exact_msub(n, log.high, y_high));
+
+    // The low part may be a hundredth of the high one: it counts in the whole exponent too.
+    const vreal<Real> y = y_high + y_low;
+    const vreal<Real> rest = y_low - (y - y_high);
 
     // Lanes that end as 0 are kept in the range where the integer conversion holds.
     const vreal<Real> clamped = max(y, smallest);
     const vreal<Real> shift(FloatFormat<Real>::integer_shift);
     const vreal<Real> whole = (clamped + shift) - shift;
-    const vreal<Real> power = exp2_fraction<Real>((clamped - whole) + y_low);
+    const vreal<Real> power = exp2_fraction<Real>((clamped - whole) + rest);
     const vreal<Real> scaled = scale_by_power<Real>(power, to_int<Real>(clamped));
 
     const vreal<Real> smallest_x(Real(FloatFormat<Real>::smallest_normal));
