@@ -1,12 +1,6 @@
-// Compiled with vectorisation (see src/CMakeLists.txt), which the picture's floats must not
-// have: each byte here comes from one value alone.
 #include "image/quantise.hpp"
 
 #include <cmath>
-#include <stdexcept>
-
-#include <tbb/blocked_range.h>
-#include <tbb/parallel_for.h>
 
 namespace packtrace {
 namespace {
@@ -20,36 +14,18 @@ std::uint8_t to_byte(float value)
     return static_cast<std::uint8_t>(static_cast<int>(clamped + 0.5f));
 }
 
-void quantise_linear(const float* from, std::uint8_t* to, std::size_t count)
-{
-    for (std::size_t i = 0; i < count; ++i)
-        to[i] = to_byte(from[i]);
-}
-
-void quantise_gamma(const float* from, std::uint8_t* to, std::size_t count, float exponent)
-{
-    for (std::size_t i = 0; i < count; ++i)
-        to[i] = to_byte(from[i] > 0.0f ? std::pow(from[i], exponent) : 0.0f);
-}
-
 }  // namespace
 
-Bytes quantise(const Image<float>& image, double gamma)
+void quantise(std::span<const float> values, double gamma, std::uint8_t* to)
 {
-    if (!(gamma > 0.0) || std::isinf(gamma))
-        throw std::invalid_argument("gamma must be positive and finite");
+    if (gamma == 1.0) {
+        for (std::size_t i = 0; i < values.size(); ++i)
+            to[i] = to_byte(values[i]);
+        return;
+    }
     const auto exponent = static_cast<float>(1.0 / gamma);
-    Bytes bytes(image.rgb.size());
-    tbb::parallel_for(tbb::blocked_range<std::size_t>(0, bytes.size(), 1 << 16),
-                      [&](const tbb::blocked_range<std::size_t>& part) {
-                          const float* from = image.rgb.data() + part.begin();
-                          std::uint8_t* to = bytes.data() + part.begin();
-                          if (gamma == 1.0)
-                              quantise_linear(from, to, part.size());
-                          else
-                              quantise_gamma(from, to, part.size(), exponent);
-                      });
-    return bytes;
+    for (std::size_t i = 0; i < values.size(); ++i)
+        to[i] = to_byte(values[i] > 0.0f ? std::pow(values[i], exponent) : 0.0f);
 }
 
 }  // namespace packtrace

@@ -1,14 +1,12 @@
 #pragma once
 
-#include <packtrace/image.hpp>
-
-#include "image/bytes.hpp"
+#include <cstdint>
+#include <span>
 
 namespace packtrace {
 
-/// 8-bit samples of a picture, in its order: values raised to 1 / gamma, clamped to [0, 1] and
-/// rounded to the nearest of v / 255; NaN becomes 0. Throws std::invalid_argument unless gamma
-/// is positive and finite.
-[[nodiscard]] Bytes quantise(const Image<float>& image, double gamma);
+/// Rounds linear values to bytes, into `to`: raised to 1 / gamma, clamped to [0, 1], rounded to
+/// the nearest of v / 255; NaN becomes 0. `gamma` is positive.
+void quantise(std::span<const float> values, double gamma, std::uint8_t* to);
 
 }  // namespace packtrace

@@ -5,7 +5,6 @@
 #include "image/hdr.hpp"
 #include "image/pfm.hpp"
 #include "image/png.hpp"
-#include "image/quantise.hpp"
 
 namespace packtrace {
 namespace {
@@ -14,7 +13,7 @@ Bytes encode(ImageFormat format, const Image<float>& image, const ImageWriteOpti
 {
     switch (format) {
         case ImageFormat::png:
-            return encode_png(quantise(image, options.gamma), image.width, image.height);
+            return encode_png(image, {.gamma = options.gamma});
         case ImageFormat::pfm:
             return encode_pfm(image);
         case ImageFormat::hdr:
