@@ -1,0 +1,150 @@
+// Which instruction set a request gets, and what a wrong request is told.
+#include <packtrace/isa.hpp>
+
+#include <stdexcept>
+
+#include <packtrace/renderer.hpp>
+
+#include "catch.hpp"
+#include "dispatch/kernels.hpp"
+#include "environment.hpp"
+
+namespace packtrace::test {
+namespace {
+
+std::vector<IsaInfo> supported_isas()
+{
+    std::vector<IsaInfo> isas;
+    for (const IsaInfo& isa : list_isas())
+        if (isa.supported)
+            isas.push_back(isa);
+    return isas;
+}
+
+std::string supported_text()
+{
+    std::string text;
+    for (const IsaInfo& isa : supported_isas())
+        text += " " + isa.name;
+    return text;
+}
+
+std::string refusal(const std::string& request, int width)
+{
+    try {
+        return "accepted as " + choose_isa(request, width).name;
+    } catch (const std::invalid_argument& error) {
+        return error.what();
+    }
+}
+
+constexpr const char* variable = "PACKTRACE_ISA";
+
+}  // namespace
+
+TEST_CASE("instruction sets are listed narrowest first, doubles with half the lanes", "[isa]")
+{
+    const std::vector<IsaInfo> isas = list_isas();
+    REQUIRE_FALSE(isas.empty());
+    for (std::size_t i = 0; i < isas.size(); ++i) {
+        CHECK(isas[i].lanes_double * 2 == isas[i].lanes_single);
+        CHECK((i == 0 || isas[i - 1].lanes_single <= isas[i].lanes_single));
+    }
+    CHECK_FALSE(supported_isas().empty());
+}
+
+TEST_CASE("a forced instruction set is the one that runs", "[isa]")
+{
+    const ScopedVariable unset(variable, std::nullopt);
+    for (const IsaInfo& isa : supported_isas()) {
+        CHECK(choose_isa(isa.name).name == isa.name);
+        CHECK(choose_isa(isa.name, isa.lanes_single).name == isa.name);
+        CHECK(kernels_of(isa.name).isa == isa.name);
+        RenderOptions options;
+        options.isa = isa.name;
+        CHECK(Renderer<float>(Scene{}, options).isa().name == isa.name);
+        CHECK(Renderer<double>(Scene{}, options).isa().lanes_double == isa.lanes_double);
+    }
+}
+
+TEST_CASE("auto takes the widest there is, or of the width asked for", "[isa]")
+{
+    const ScopedVariable unset(variable, std::nullopt);
+    CHECK(choose_isa().name == supported_isas().back().name);
+    for (const IsaInfo& isa : supported_isas())
+        CHECK(choose_isa("auto", isa.lanes_single).lanes_single == isa.lanes_single);
+}
+
+TEST_CASE("of two instruction sets of one width, auto takes the better one", "[isa]")
+{
+    const ScopedVariable unset(variable, std::nullopt);
+    std::string best;
+    for (const IsaInfo& isa : supported_isas())
+        if (isa.lanes_single == 4)
+            best = isa.name;
+    CHECK(choose_isa("auto", 4).name == best);
+}
+
+TEST_CASE("PACKTRACE_ISA decides for auto, and for nothing else", "[isa]")
+{
+    for (const IsaInfo& isa : supported_isas()) {
+        const ScopedVariable set(variable, isa.name);
+        CHECK(choose_isa().name == isa.name);
+        for (const IsaInfo& other : supported_isas())
+            CHECK(choose_isa(other.name).name == other.name);
+    }
+}
+
+TEST_CASE("an empty or auto PACKTRACE_ISA counts as none", "[isa]")
+{
+    for (const char* value : {"", "auto"}) {
+        const ScopedVariable set(variable, value);
+        CHECK(choose_isa().name == supported_isas().back().name);
+    }
+}
+
+TEST_CASE("an unknown instruction set is refused with what there is", "[isa]")
+{
+    CHECK(refusal("mmx", 0) ==
+          "isa: unknown instruction set 'mmx'; choose auto or one of:" + supported_text());
+    CHECK(refusal("", 0) ==
+          "isa: unknown instruction set ''; choose auto or one of:" + supported_text());
+    const ScopedVariable set(variable, "AVX2");
+    CHECK(refusal("auto", 0) ==
+          "PACKTRACE_ISA: unknown instruction set 'AVX2'; choose auto or "
+          "one of:" +
+              supported_text());
+}
+
+TEST_CASE("an instruction set the machine lacks is refused with what it has", "[isa]")
+{
+    const ScopedVariable unset(variable, std::nullopt);
+    for (const IsaInfo& isa : list_isas()) {
+        if (isa.supported)
+            continue;
+        CHECK(refusal(isa.name, 0) ==
+              "isa: this machine cannot run '" + isa.name + "'; it can run:" + supported_text());
+        CHECK_THROWS_AS(kernels_of(isa.name), std::invalid_argument);
+    }
+    CHECK_THROWS_AS(kernels_of("mmx"), std::invalid_argument);
+}
+
+TEST_CASE("a width that contradicts the instruction set is refused", "[isa]")
+{
+    const IsaInfo isa = supported_isas().front();
+    const std::string lanes = std::to_string(isa.lanes_single);
+    const std::string rest =
+        "'" + isa.name + "' has " + lanes + " lanes, not 5; leave out one of the two";
+    CHECK(refusal(isa.name, 5) == "isa: " + rest);
+    const ScopedVariable set(variable, isa.name);
+    CHECK(refusal("auto", 5) == "PACKTRACE_ISA: " + rest);
+}
+
+TEST_CASE("a width that no instruction set has is refused", "[isa]")
+{
+    const ScopedVariable unset(variable, std::nullopt);
+    CHECK(refusal("auto", 5) ==
+          "width: no instruction set of this machine has 5 lanes; it can run:" + supported_text());
+}
+
+}  // namespace packtrace::test
