@@ -1,0 +1,47 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include <packtrace/renderer.hpp>
+
+// Short calls of the packet kernels and the scalar reference.
+namespace packtrace::test {
+
+/// Those this machine can run, narrowest first.
+[[nodiscard]] inline std::vector<std::string> supported_isas()
+{
+    std::vector<std::string> names;
+    for (const IsaInfo& isa : list_isas())
+        if (isa.supported)
+            names.push_back(isa.name);
+    return names;
+}
+
+/// Those of one bit pattern: sse42 has no fused multiply-add.
+[[nodiscard]] inline std::vector<std::string> fused_isas()
+{
+    std::vector<std::string> names = supported_isas();
+    std::erase(names, "sse42");
+    return names;
+}
+
+template <class Real>
+[[nodiscard]] Image<Real> render_packets(const Scene& scene, const std::string& isa,
+                                         int threads = 0)
+{
+    RenderOptions options;
+    options.isa = isa;
+    options.threads = threads;
+    return render<Real>(scene, options);
+}
+
+template <class Real>
+[[nodiscard]] Image<Real> render_scalar(const Scene& scene)
+{
+    RenderOptions options;
+    options.kernel = Kernel::scalar;
+    return render<Real>(scene, options);
+}
+
+}  // namespace packtrace::test

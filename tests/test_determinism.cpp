@@ -1,0 +1,106 @@
+// The picture has the same bits whatever the width of packets and the number of threads.
+#include <cstring>
+
+#include <tbb/global_control.h>
+#include <packtrace/compare.hpp>
+
+#include "catch.hpp"
+#include "packet_scenes.hpp"
+#include "render_scene.hpp"
+
+namespace packtrace::test {
+namespace {
+
+template <class Real>
+bool same_bits(const Image<Real>& a, const Image<Real>& b)
+{
+    return a.width == b.width && a.height == b.height &&
+           std::memcmp(a.rgb.data(), b.rgb.data(), a.rgb.size() * sizeof(Real)) == 0;
+}
+
+/// Lets TBB use that many threads, also where the machine has fewer.
+class Parallelism {
+public:
+    explicit Parallelism(std::size_t threads)
+        : control_(tbb::global_control::max_allowed_parallelism, threads)
+    {
+    }
+
+private:
+    tbb::global_control control_;
+};
+
+}  // namespace
+
+TEMPLATE_TEST_CASE("the picture is the same for every width with fused multiply-add",
+                   "[determinism]", float, double)
+{
+    for (const NamedScene& named : packet_scenes()) {
+        Image<TestType> first;
+        for (const std::string& isa : fused_isas()) {
+            CAPTURE(named.name, isa);
+            const Image<TestType> picture = render_packets<TestType>(named.scene, isa);
+            if (first.rgb.empty())
+                first = picture;
+            CHECK(same_bits(picture, first));
+        }
+    }
+}
+
+TEST_CASE("the picture of note 001 in full size is the same for every width", "[determinism][slow]")
+{
+    const Scene scene = four_spheres(1024, 1024);
+    Image<float> first;
+    for (const std::string& isa : fused_isas()) {
+        CAPTURE(isa);
+        const Image<float> picture = render_packets<float>(scene, isa);
+        if (first.rgb.empty())
+            first = picture;
+        CHECK(same_bits(picture, first));
+    }
+}
+
+TEMPLATE_TEST_CASE("the picture is the same for every number of threads", "[determinism]", float,
+                   double)
+{
+    const Parallelism seven(7);
+    for (const Scene& scene : {four_spheres(301, 203), random_spheres(60, 9), checkered_room(8)})
+        for (const std::string& isa : supported_isas()) {
+            const Image<TestType> one = render_packets<TestType>(scene, isa, 1);
+            for (const int threads : {0, 2, 7}) {
+                CAPTURE(isa, threads);
+                CHECK(same_bits(render_packets<TestType>(scene, isa, threads), one));
+            }
+        }
+}
+
+TEST_CASE("a renderer gives the same picture every time", "[determinism]")
+{
+    for (const std::string& isa : supported_isas()) {
+        CAPTURE(isa);
+        RenderOptions options;
+        options.isa = isa;
+        const Renderer<float> renderer(four_spheres(117, 85), options);
+        Image<float> first;
+        (void)renderer.render(first);
+        Image<float> again(117, 85);
+        std::fill(again.rgb.begin(), again.rgb.end(), 7.0f);
+        for (int run = 0; run < 5; ++run) {
+            (void)renderer.render(again);
+            CHECK(same_bits(again, first));
+        }
+    }
+}
+
+TEST_CASE("without fused multiply-add the picture is close to that with it", "[determinism]")
+{
+    const Scene scene = four_spheres(251, 251);
+    const auto isas = supported_isas();
+    if (fused_isas().empty() || isas.front() != "sse42")
+        return;
+    const Image<float> plain = render_packets<float>(scene, "sse42");
+    const Image<float> fused = render_packets<float>(scene, fused_isas().front());
+    CHECK(compare(plain, fused).rmse <= 2e-4);
+}
+
+}  // namespace packtrace::test
