@@ -1,0 +1,123 @@
+#pragma once
+
+#include <limits>
+
+#include "closest_hits.hpp"
+
+// Holds closest hits of the kernels against long double ones.
+namespace packtrace::test {
+
+/// Everything a ray could hit, as exact as the inputs the kernels were given.
+template <class Real>
+[[nodiscard]] std::vector<ExactHit> exact_hits(const LongRay& ray, const LoweredScene& scene)
+{
+    std::vector<ExactHit> hits(scene.material_index.size());
+    for (const LoweredSphere& sphere : scene.spheres) {
+        // A huge sphere's centre is not rounded to float: it is given by a point of its
+        // surface, and held against the scene's own numbers. For doubles those are rounded too.
+        LongVec center(sphere.center);
+        long double radius2 = static_cast<long double>(sphere.radius) * sphere.radius;
+        if (!sphere.huge) {
+            center = LongVec(glm::vec<3, Real>(sphere.center));
+            radius2 = static_cast<Real>(sphere.radius * sphere.radius);
+        }
+        const bool by_anchor = sphere.huge && sizeof(Real) < sizeof(double);
+        const LongVec place(by_anchor ? sphere.anchor : sphere.center);
+        hits[static_cast<std::size_t>(sphere.object)] = exact_sphere(ray, center, radius2, place);
+    }
+    for (const LoweredPlane& plane : scene.planes)
+        hits[static_cast<std::size_t>(plane.object)] = exact_plane(
+            ray, LongVec(glm::vec<3, Real>(plane.point)), LongVec(glm::vec<3, Real>(plane.normal)));
+    return hits;
+}
+
+/// How many rays are wrong, and in what. Errors count in the unit roundoff of Real.
+struct HitErrors {
+    int rays = 0;
+    int hits = 0;
+    int undecidable = 0;  ///< rays that had an object within `band` of being hit or missed
+    int wrong_object = 0;
+    double worst_t = 0.0;    ///< of t's relative error over what the condition allows
+    double worst_ulp = 0.0;  ///< of t's error in units of its last place
+};
+
+/// Relative changes of the inputs, in roundoffs, within which hit or miss is not held to.
+inline constexpr long double band = 4.0L;
+
+/// t may be wrong by the inputs' rounding times this; 2.5 was measured.
+inline constexpr long double stability = 4.0L;
+
+template <class Real>
+class HitJudge {
+public:
+    explicit HitJudge(const LoweredScene& scene) : scene_(scene)
+    {
+    }
+
+    void judge(const TracedRay<Real>& traced)
+    {
+        const std::vector<ExactHit> exact = exact_hits<Real>(traced.ray, scene_);
+        errors.rays += 1;
+        errors.hits += traced.object >= 0;
+        errors.undecidable += std::any_of(exact.begin(), exact.end(),
+                                          [](const ExactHit& hit) { return undecidable(hit); });
+        errors.wrong_object += !is_closest(traced, exact);
+        if (traced.object >= 0)
+            judge_t(traced.t, exact[static_cast<std::size_t>(traced.object)]);
+    }
+
+    HitErrors errors;
+
+private:
+    static constexpr long double roundoff = std::numeric_limits<Real>::epsilon() / 2;
+
+    static bool undecidable(const ExactHit& hit)
+    {
+        return !(hit.margin >= band * roundoff);
+    }
+    static long double allowed(const ExactHit& hit)
+    {
+        return stability * hit.condition * roundoff * hit.t;
+    }
+
+    /// The object found is hit, and no other one surely nearer; none is found where all miss.
+    static bool is_closest(const TracedRay<Real>& traced, const std::vector<ExactHit>& exact)
+    {
+        const auto found = static_cast<std::size_t>(traced.object);
+        if (traced.object >= 0 && !exact[found].hit && !undecidable(exact[found]))
+            return false;
+        for (std::size_t other = 0; other < exact.size(); ++other) {
+            const ExactHit& hit = exact[other];
+            if (other == found || !hit.hit || undecidable(hit))
+                continue;
+            if (traced.object < 0 || hit.t + allowed(hit) < static_cast<long double>(traced.t))
+                return false;
+        }
+        return true;
+    }
+
+    void judge_t(Real t, const ExactHit& exact)
+    {
+        if (!exact.hit || undecidable(exact))
+            return;
+        const long double error = std::abs(static_cast<long double>(t) - exact.t);
+        const long double ulp = std::ldexp(2 * roundoff, std::ilogb(exact.t));
+        errors.worst_t = std::max(
+            errors.worst_t, static_cast<double>(error / (exact.condition * roundoff * exact.t)));
+        errors.worst_ulp = std::max(errors.worst_ulp, static_cast<double>(error / ulp));
+    }
+
+    const LoweredScene& scene_;
+};
+
+template <class Real>
+[[nodiscard]] HitErrors hit_errors(const abi::KernelTable& table, const Scene& scene)
+{
+    const TracingSetup<Real> setup(scene);
+    HitJudge<Real> judge(setup.lowered);
+    for (const TracedRay<Real>& traced : trace_closest(table, setup, scene))
+        judge.judge(traced);
+    return judge.errors;
+}
+
+}  // namespace packtrace::test

@@ -1,0 +1,113 @@
+// The kernels' closest hits against ray tests in long double.
+#include "catch.hpp"
+#include "hit_error.hpp"
+#include "ray_families.hpp"
+#include "simd_packet.hpp"
+
+namespace packtrace::test {
+namespace {
+
+/// Every family on every instruction set: the right object wherever that can be decided, and t
+/// as good as the rounded inputs allow.
+template <class Real>
+void check_families(const std::vector<RayFamily>& families)
+{
+    for (const RayFamily& family : families)
+        for (const abi::KernelTable* table : supported_kernels()) {
+            CAPTURE(family.name, table->isa);
+            const HitErrors errors = hit_errors<Real>(*table, family.scene);
+            CHECK(errors.wrong_object == 0);
+            CHECK(errors.worst_t <= static_cast<double>(stability));
+            CHECK(errors.hits >= errors.rays / 5);
+            CHECK(errors.undecidable <= errors.rays / 10);
+        }
+}
+
+/// The object each of a scene's camera rays hits first.
+template <class Real>
+std::vector<int> closest_objects(const abi::KernelTable& table, const Scene& scene)
+{
+    std::vector<int> objects;
+    for (const TracedRay<Real>& traced : trace_closest(table, TracingSetup<Real>(scene), scene))
+        objects.push_back(traced.object);
+    return objects;
+}
+
+/// `object` with a copy of itself at the end of the scene, behind as many others as fill more
+/// than one packet.
+Scene with_a_double(Scene scene, std::size_t object)
+{
+    SceneRandom random(31);
+    for (int i = 0; i < 20; ++i)
+        add_sphere(scene, random.inside({-3, -3, 20}, {3, 3, 30}), 0.5, scratch(Rgb(1), -1, 0));
+    scene.objects.push_back(scene.objects[object]);
+    return scene;
+}
+
+int count(const std::vector<int>& objects, std::size_t object)
+{
+    return static_cast<int>(std::count(objects.begin(), objects.end(), static_cast<int>(object)));
+}
+
+}  // namespace
+
+TEMPLATE_TEST_CASE("spheres are hit where long double says", "[intersections]", float, double)
+{
+    check_families<TestType>(sphere_families());
+}
+
+TEMPLATE_TEST_CASE("planes are hit where long double says", "[intersections]", float, double)
+{
+    check_families<TestType>(plane_families());
+}
+
+TEMPLATE_TEST_CASE("huge spheres are hit where long double says", "[intersections]", float, double)
+{
+    check_families<TestType>(huge_families());
+}
+
+TEST_CASE("a ground of radius 5000 is hit within 200 units of t's last place in floats",
+          "[intersections]")
+{
+    for (const abi::KernelTable* table : supported_kernels()) {
+        CAPTURE(table->isa);
+        const HitErrors errors = hit_errors<float>(*table, ground(5000, 0));
+        CHECK(errors.worst_ulp > 0.0);
+        CHECK(errors.worst_ulp <= 200.0);
+    }
+}
+
+TEMPLATE_TEST_CASE("of two coincident objects the one of lower number is hit", "[intersections]",
+                   float, double)
+{
+    // A sphere, the huge sphere, and a plane.
+    Scene scene = four_spheres(48, 48);
+    add_plane(scene, {0, 0, 9}, {0.1, 0.2, -1}, scratch(Rgb(1), -1, 0));
+    for (const std::size_t object : {std::size_t{0}, std::size_t{3}, std::size_t{4}}) {
+        const Scene doubled = with_a_double(scene, object);
+        for (const abi::KernelTable* table : supported_kernels()) {
+            CAPTURE(table->isa, object);
+            const std::vector<int> objects = closest_objects<TestType>(*table, doubled);
+            CHECK(count(objects, object) > 0);
+            CHECK(count(objects, doubled.objects.size() - 1) == 0);
+            CHECK(objects == closest_objects<TestType>(*table, with_a_double(scene, 1)));
+        }
+    }
+}
+
+TEMPLATE_TEST_CASE("rays that hit nothing say so", "[intersections]", float, double)
+{
+    Scene scene = four_spheres(48, 48);
+    scene.camera.position = {0, 80, 0};
+    scene.objects.resize(3);
+    for (const abi::KernelTable* table : supported_kernels()) {
+        CAPTURE(table->isa);
+        const TracingSetup<TestType> setup(scene);
+        int wrong = 0;
+        for (const TracedRay<TestType>& traced : trace_closest(*table, setup, scene))
+            wrong += traced.object != -1 || !std::isinf(traced.t);
+        CHECK(wrong == 0);
+    }
+}
+
+}  // namespace packtrace::test
