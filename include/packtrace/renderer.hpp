@@ -15,10 +15,11 @@ struct FrameCounts {
     std::uint64_t camera = 0;
     std::uint64_t shadow = 0;
     std::uint64_t reflected = 0;
+    std::uint64_t refracted = 0;
 
     [[nodiscard]] std::uint64_t total() const
     {
-        return camera + shadow + reflected;
+        return camera + shadow + reflected + refracted;
     }
 };
 

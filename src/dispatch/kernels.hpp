@@ -22,4 +22,15 @@ namespace packtrace {
 template <class Real>
 [[nodiscard]] const abi::PrecisionTable<Real>& precision(const abi::KernelTable& table);
 
+/// The narrowest kernels that know everything a scene uses.
+template <class Real>
+[[nodiscard]] const abi::FeatureKernels<Real>& kernels_for(const abi::PrecisionTable<Real>& table,
+                                                           abi::Features needed)
+{
+    for (const auto& kernels : table.kernels)
+        if (abi::covers(kernels.features, needed))
+            return kernels;
+    return table.kernels[abi::feature_set_count - 1];
+}
+
 }  // namespace packtrace

@@ -3,6 +3,7 @@
 #include <cstddef>
 #include <cstdint>
 
+#include "kernel_abi/features.hpp"
 #include "kernel_abi/scene_view.hpp"
 #include "kernel_abi/self_test.hpp"
 
@@ -33,7 +34,7 @@ struct TileJob {
 template <class Real>
 struct TileHits {
     Real t[tile_pixels];
-    lane_int<Real> object[tile_pixels];  ///< -1 for a miss
+    lane_int<Real> surface[tile_pixels];  ///< -1 for a miss
 };
 
 /// How many rays of each kind were traced.
@@ -41,16 +42,24 @@ struct RayCounts {
     std::uint64_t camera = 0;
     std::uint64_t shadow = 0;
     std::uint64_t reflected = 0;
+    std::uint64_t refracted = 0;
+};
+
+/// The kernels of one precision for one feature set.
+template <class Real>
+struct FeatureKernels {
+    Features features;
+    std::size_t (*scratch_bytes)(const SceneView<Real>& scene) = nullptr;
+    RayCounts (*render_tile)(const TileJob<Real>& job) = nullptr;
+    /// The tile's camera rays only; `rgb` is not used.
+    void (*closest_tile)(const TileJob<Real>& job, TileHits<Real>& hits) = nullptr;
 };
 
 /// The kernels of one precision.
 template <class Real>
 struct PrecisionTable {
     int lanes = 0;
-    std::size_t (*scratch_bytes)(const SceneView<Real>& scene) = nullptr;
-    RayCounts (*render_tile)(const TileJob<Real>& job) = nullptr;
-    /// The tile's camera rays only; `rgb` is not used.
-    void (*closest_tile)(const TileJob<Real>& job, TileHits<Real>& hits) = nullptr;
+    FeatureKernels<Real> kernels[feature_set_count];
     /// y[i] = x[i]^n[i] as highlights use it: x in [0, 1 + 1e-6], n > 0.
     void (*highlight_power)(const Real* x, const Real* n, Real* y, int count) = nullptr;
     /// Runs one operation of simd.hpp over whole packets; see self_test.hpp.

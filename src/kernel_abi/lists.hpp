@@ -3,6 +3,9 @@
 #include <cstdint>
 #include <type_traits>
 
+// Surfaces are what rays hit: one an object, but three for a capped quadric. They are numbered in
+// object order.
+//
 // Plain views of the lowered scene as the kernels read it. Arrays belong to the host, are
 // 64-byte aligned and padded so that reading a whole packet from any valid index is safe.
 namespace packtrace::abi {
@@ -14,7 +17,7 @@ inline constexpr int padding = 16;
 template <class Real>
 using lane_int = std::conditional_t<sizeof(Real) == 4, std::int32_t, std::int64_t>;
 
-/// Spheres |P - center|² = radius², in rising object order.
+/// Spheres |P - center|² = radius², in rising order.
 template <class Real>
 struct SphereListView {
     const Real* center_x = nullptr;
@@ -22,7 +25,7 @@ struct SphereListView {
     const Real* center_z = nullptr;
     const Real* radius = nullptr;
     const Real* radius2 = nullptr;  ///< radius², rounded once from double
-    const lane_int<Real>* object = nullptr;
+    const lane_int<Real>* surface = nullptr;
     int count = 0;
 };
 
@@ -35,7 +38,7 @@ struct HugeSphere {
     Real normal[3];
     Real curvature;
     Real offset;  ///< k0
-    std::int32_t object;
+    std::int32_t surface;
 };
 
 /// normal·(P - point) = 0.
@@ -43,7 +46,29 @@ template <class Real>
 struct PlaneRecord {
     Real point[3];
     Real normal[3];
-    std::int32_t object;
+    std::int32_t surface;
+};
+
+/// A quadric under an affine map. With w = (P - center) - center_low and p = inverse w its
+/// equation is s0 x² + s1 y² + s2 z² + 2 linear z + constant = 0, negative inside. Its height in
+/// its own space, which clipping goes by, is clip·w + clip_offset.
+template <class Real>
+struct QuadricRecord {
+    Real center[3];
+    Real center_low[3];  ///< what rounding left of the centre
+    Real inverse[3][3];  ///< rows
+    Real square[3];
+    Real linear;
+    Real constant;
+    Real clip[3];
+    Real clip_offset;
+    Real clip_low;  ///< -infinity where nothing is clipped
+    Real clip_high;
+    Real bound[3];      ///< centre of a ball around the clipped surface
+    Real bound_radius;  ///< infinite for an unbounded one
+    std::int32_t clipped;
+    std::int32_t capped;
+    std::int32_t surface;  ///< its number; with caps the next is the low one's, then the high's
 };
 
 template <class Record>

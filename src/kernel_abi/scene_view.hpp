@@ -5,24 +5,40 @@
 
 namespace packtrace::abi {
 
+/// How many glass bodies a ray remembers to be inside of.
+inline constexpr int glass_depth = 8;
+
+/// What a ray's t and the light's way count in: the notes differ.
+enum class RayUnits : std::int32_t {
+    as_given,  ///< directions keep the length they come with (note 001)
+    unit       ///< directions are unit
+};
+
 /// A lowered scene in one precision, as the kernels see it.
 template <class Real>
 struct SceneView {
     SphereListView<Real> spheres;
     RecordList<HugeSphere<Real>> huge_spheres;
     RecordList<PlaneRecord<Real>> planes;
+    RecordList<QuadricRecord<Real>> quadrics;
 
-    const SurfaceRecord<Real>* surfaces = nullptr;  ///< by object
-    const MaterialIndex* material_index = nullptr;  ///< by object
+    const SurfaceRecord<Real>* surfaces = nullptr;               ///< by surface; planes, spheres
+    const CurvedSurfaceRecord<Real>* curved_surfaces = nullptr;  ///< by surface; every kind
+    const MaterialIndex* material_index = nullptr;               ///< by surface
     const MaterialRecord<Real>* materials = nullptr;
     const CheckerRecord<Real>* checkers = nullptr;
-    int checker_count = 0;
+    /// Refractive index by object; [-1] is outside everything.
+    const Real* ior = nullptr;
     RecordList<LightRecord<Real>> lights;  ///< ambient light is in the materials
 
     Real background[3] = {};
+    Real limit_color[3] = {};  ///< what rays beyond the depth limit bring
     int max_depth = 0;
     bool shadows = true;
-    /// Secondary and shadow rays start this far along their (unnormalised) direction.
+    bool transparent_shadows = false;  ///< blockers pass on their transmitted share
+    bool visible_lights = false;       ///< a ray that escapes towards a light sees it (note 000)
+    RayUnits units = RayUnits::as_given;
+    /// Secondary and shadow rays start this far along their direction.
     Real epsilon = 0;
 };
 
@@ -37,6 +53,8 @@ struct CameraView {
     Real first_x = 0;
     Real first_y = 0;
     Real t_min = 0;  ///< camera rays hit nothing nearer
+    /// The glass the eye is in, by object number, innermost first; -1 ends it.
+    std::int32_t inside[glass_depth] = {-1, -1, -1, -1, -1, -1, -1, -1};
 };
 
 }  // namespace packtrace::abi

@@ -6,7 +6,7 @@
 // where kernels fetch them by lane, so that a record is an array of its fields.
 namespace packtrace::abi {
 
-/// Unit normal of a plane or sphere at P, before normalising: normal + curvature (P - anchor).
+/// Outward normal of a plane or sphere at P, before normalising: normal + curvature (P - anchor).
 /// A plane has curvature 0; a sphere has its centre as anchor and normal 0.
 template <class Real>
 struct SurfaceRecord {
@@ -16,8 +16,18 @@ struct SurfaceRecord {
     Real faces_viewer;  ///< 1: the normal is turned against the ray; 0: it points outwards
 };
 
+/// The same for surfaces of every kind: normal + curvature (P - anchor) with a symmetric matrix
+/// for curvature, half the gradient of a quadric.
+template <class Real>
+struct CurvedSurfaceRecord {
+    Real anchor[3];
+    Real normal[3];
+    Real curvature[6];  ///< xx, yy, zz, xy, xz, yz
+    Real faces_viewer;
+};
+
 /// I = local (ambient + Σ light (diffuse max(0, N·L) + highlight max(0, R·V)^shininess))
-///     + reflect I(reflected); `local` counts only where the reflected ray is traced.
+///     + reflect I(reflected) + transmit I(refracted); `local` counts only above the depth limit.
 template <class Real>
 struct MaterialRecord {
     Real ambient[3];  ///< times the scene's ambient light
@@ -25,16 +35,18 @@ struct MaterialRecord {
     Real highlight[3];
     Real reflect[3];
     Real local[3];
+    Real transmit[3];
     Real shininess;
     /// Cosines below this give a highlight that is exactly 0.
     Real highlight_floor;
 };
 
-/// Where an object finds its material: `first`, or with a checker the one after it on the
-/// squares of the other colour.
+/// Where a surface finds its object and material: `first`, or with a checker the one after it on
+/// the squares of the other colour.
 struct MaterialIndex {
     std::int32_t first;
     std::int32_t checker;  ///< index into the checkers, -1 for none
+    std::int32_t object;
 };
 
 /// Squares on a plane: the parity of floor(u·P + u_offset) + floor(v·P + v_offset).

@@ -1,7 +1,6 @@
 #pragma once
 
 #include "kernels/beam.hpp"
-#include "kernels/tile_memory.hpp"
 
 // Bounds of a stream's points, and the beams of shadow rays towards or along them.
 namespace packtrace::PACKTRACE_ISA {
@@ -39,8 +38,8 @@ inline void extent(const Real* values, int count, Real& low, Real& high)
 }
 
 /// `count` > 0.
-template <class Real>
-inline Box<Real> box_of(const StreamArray<Real> (&points)[3], int count)
+template <class Real, std::size_t Size>
+inline Box<Real> box_of(const Real (&points)[3][Size], int count)
 {
     Box<Real> box;
     for (int axis = 0; axis < 3; ++axis)

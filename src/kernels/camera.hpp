@@ -59,15 +59,18 @@ struct TileCamera {
     }
 };
 
-/// Rays `first` to `first + lanes`: directions forward + x right + y up.
+/// Rays `first` to `first + lanes`: directions forward + x right + y up, made unit for the
+/// models that want it.
 template <class Real>
-inline RayPacket<Real> camera_rays(const TileCamera<Real>& camera, int first)
+inline RayPacket<Real> camera_rays(const TileCamera<Real>& camera, int first, abi::RayUnits units)
 {
     const vreal<Real> x = vreal<Real>(camera.left) + load(tile_pixels<Real>.column + first);
     const vreal<Real> y = vreal<Real>(camera.top) - load(tile_pixels<Real>.row + first);
-    const Vec3v<Real> dir =
+    Vec3v<Real> dir =
         madd<Real>(x, broadcast(camera.view.right),
                    madd<Real>(y, broadcast(camera.view.up), broadcast(camera.view.forward)));
+    if (units == abi::RayUnits::unit)
+        dir = scale<Real>(vreal<Real>(Real(1)) / sqrt(dot(dir, dir)), dir);
     return make_rays<Real>(broadcast(camera.view.origin), dir, camera.view.t_min);
 }
 

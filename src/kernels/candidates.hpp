@@ -8,7 +8,7 @@ namespace packtrace::PACKTRACE_ISA {
 namespace {
 
 /// Spheres for rays that share their origin: `x, y, z` is that origin relative to the centre,
-/// `constant` what sphere_constant gives there. In rising object order.
+/// `constant` what sphere_constant gives there. In rising order.
 template <class Real>
 struct SharedOriginSpheres {
     Real* x = nullptr;
@@ -16,7 +16,7 @@ struct SharedOriginSpheres {
     Real* z = nullptr;
     Real* radius2 = nullptr;
     Real* constant = nullptr;
-    lane_int<Real>* object = nullptr;
+    lane_int<Real>* surface = nullptr;
     int count = 0;
 };
 
@@ -53,7 +53,7 @@ inline void find_candidates(SharedOriginSpheres<Real>& list, const Beam<Real>& b
         compress_store(list.z + list.count, kept, o.z);
         compress_store(list.radius2 + list.count, kept, radius2);
         compress_store(list.constant + list.count, kept, sphere_constant<Real>(o, radius2));
-        compress_store(list.object + list.count, kept, load(spheres.object + first));
+        compress_store(list.surface + list.count, kept, load(spheres.surface + first));
         list.count += __builtin_popcount(kept);
     }
 }

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "kernels/shared_origin.hpp"
+#include "kernels/object_lists.hpp"
 
 // Closest hits of a packet among lists of objects.
 namespace packtrace::PACKTRACE_ISA {
@@ -8,56 +8,45 @@ namespace {
 
 template <class Real>
 inline void keep_quadratic(HitPacket<Real>& hit, const Quadratic<Real>& quadratic,
-                           const RayPacket<Real>& rays, std::int32_t object)
+                           const RayPacket<Real>& rays, std::int32_t surface)
 {
     const auto active = may_hit(quadratic);
     if (any(active))
-        keep_first_root<Real>(hit, quadratic, active, rays.t_min, object);
-}
-
-/// `Spheres` is a list of the scene's or of a beam's spheres.
-template <class Spheres, class Real>
-inline void closest_sphere(HitPacket<Real>& hit, const Spheres& spheres,
-                           const RayPacket<Real>& rays)
-{
-    for (int i = 0; i < spheres.count; ++i)
-        keep_quadratic(hit, quadratic_of(spheres, i, rays), rays,
-                       static_cast<std::int32_t>(spheres.object[i]));
+        keep_first_root<Real>(hit, quadratic, active, rays.t_min, surface);
 }
 
 template <class Plane, class Real>
 inline void keep_plane(HitPacket<Real>& hit, const Plane& plane, const RayPacket<Real>& rays)
 {
     const vreal<Real> t = plane_t(plane, rays);
-    keep_closer<Real>(hit, t > rays.t_min, t, plane.object);
+    keep_closer<Real>(hit, t > rays.t_min, t, plane.surface);
 }
 
-/// Rays from anywhere against all objects of the scene.
-template <class Real>
-inline void closest_hit(HitPacket<Real>& hit, const abi::SceneView<Real>& scene,
-                        const RayPacket<Real>& rays)
+template <class Quadric, class Real>
+inline void keep_quadric(HitPacket<Real>& hit, const Quadric& quadric, const RayPacket<Real>& rays)
 {
-    closest_sphere(hit, scene.spheres, rays);
-    for (int i = 0; i < scene.huge_spheres.count; ++i) {
-        const abi::HugeSphere<Real>& sphere = scene.huge_spheres.data[i];
-        keep_quadratic(hit, quadratic_of(sphere, rays), rays, sphere.object);
-    }
-    for (int i = 0; i < scene.planes.count; ++i)
-        keep_plane(hit, scene.planes.data[i], rays);
+    const std::int32_t surface = record_of<Real>(quadric).surface;
+    visit_crossings(quadric, rays, [&](vmask<Real> valid, const vreal<Real>& t, int piece) {
+        keep_closer<Real>(hit, valid & (t > rays.t_min), t, surface + piece);
+    });
 }
 
-/// Rays from the objects' shared origin against those objects.
-template <class Real>
-inline void closest_hit(HitPacket<Real>& hit, const SharedOriginObjects<Real>& objects,
-                        const RayPacket<Real>& rays)
+/// Rays against all objects of a scene, or from their shared origin against those of a beam.
+template <abi::Features F, class Objects, class Real>
+inline void closest_hit(HitPacket<Real>& hit, const Objects& objects, const RayPacket<Real>& rays)
 {
-    closest_sphere(hit, objects.spheres, rays);
-    for (int i = 0; i < objects.huge_count; ++i) {
-        const SharedOriginHuge<Real>& sphere = objects.huge_spheres[i];
-        keep_quadratic(hit, quadratic_of(sphere, rays), rays, sphere.object);
-    }
-    for (int i = 0; i < objects.plane_count; ++i)
-        keep_plane(hit, objects.planes[i], rays);
+    const ObjectLists<Real, Objects> lists{objects};
+    const auto& spheres = lists.spheres();
+    for (int i = 0; i < spheres.count; ++i)
+        keep_quadratic(hit, quadratic_of(spheres, i, rays), rays,
+                       static_cast<std::int32_t>(spheres.surface[i]));
+    for (int i = 0; i < lists.huge_count(); ++i)
+        keep_quadratic(hit, quadratic_of(lists.huge(i), rays), rays, lists.huge(i).surface);
+    for (int i = 0; i < lists.plane_count(); ++i)
+        keep_plane(hit, lists.plane(i), rays);
+    if constexpr (F.quadrics)
+        for (int i = 0; i < lists.quadric_count(); ++i)
+            keep_quadric(hit, lists.quadric(i), rays);
 }
 
 }  // namespace

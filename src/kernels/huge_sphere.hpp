@@ -55,7 +55,7 @@ struct SharedOriginHuge {
     Real constant;
     Real curvature;
     Real curved;
-    std::int32_t object;
+    std::int32_t surface;
 };
 
 template <class Real>
@@ -67,7 +67,7 @@ inline SharedOriginHuge<Real> share_origin(const abi::HugeSphere<Real>& sphere,
             first_lane<Real>(at.constant),
             sphere.curvature,
             first_lane<Real>(vreal<Real>(sphere.curvature) * at.constant),
-            sphere.object};
+            sphere.surface};
 }
 
 template <class Real>

@@ -12,9 +12,10 @@ namespace {
 /// The direction towards one light and what it would give if nothing were in between.
 template <class Real>
 struct LightPacket {
-    Vec3v<Real> to_light;   ///< not unit
-    vreal<Real> diffuse;    ///< max(0, N·L), unit vectors
-    vreal<Real> highlight;  ///< R·V, unit vectors, where positive and above the floor
+    Vec3v<Real> to_light;        ///< not unit
+    vreal<Real> diffuse;         ///< max(0, N·L), unit vectors
+    vreal<Real> highlight;       ///< R·V, unit vectors, where positive and above the floor
+    vreal<Real> inverse_length;  ///< of to_light
     std::uint32_t has_highlight;
     std::uint32_t wanted;  ///< lanes the light can add anything to
 };
@@ -36,6 +37,7 @@ inline LightPacket<Real> light_at(const abi::LightRecord<Real>& light,
     const vreal<Real> normal_dir = dot(surface.normal, surface.dir);
     const vreal<Real> mirror =
         nmadd(normal_light + normal_light, normal_dir, dot(result.to_light, surface.dir));
+    result.inverse_length = inverse_length;
     result.diffuse = max(normal_light, zero) * inverse_length;
     result.highlight = mirror * inverse_length * surface.inverse_length;
 

@@ -9,7 +9,7 @@ namespace {
 /// abi::MaterialRecord, one per lane.
 template <class Real>
 struct MaterialPacket {
-    Vec3v<Real> ambient, diffuse, highlight, reflect, local;
+    Vec3v<Real> ambient, diffuse, highlight, reflect, local, transmit;
     vreal<Real> shininess, highlight_floor;
 };
 
@@ -17,10 +17,10 @@ template <class Real>
 inline MaterialPacket<Real> fetch_materials(const abi::SceneView<Real>& scene,
                                             const vint<Real>& material, std::uint32_t active)
 {
-    static_assert(sizeof(abi::MaterialRecord<Real>) == 17 * sizeof(Real));
-    const auto record = fetch_records<17, Real>(&scene.materials->ambient[0], material, active);
-    return {record.vector(0),  record.vector(3), record.vector(6), record.vector(9),
-            record.vector(12), record.field[15], record.field[16]};
+    static_assert(sizeof(abi::MaterialRecord<Real>) == 20 * sizeof(Real));
+    const auto record = fetch_records<20, Real>(&scene.materials->ambient[0], material, active);
+    return {record.vector(0),  record.vector(3),  record.vector(6), record.vector(9),
+            record.vector(12), record.vector(15), record.field[18], record.field[19]};
 }
 
 }  // namespace

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "kernels/closest.hpp"
+#include "kernels/object_lists.hpp"
 
 // Which rays of a packet meet any object on the way to a light.
 namespace packtrace::PACKTRACE_ISA {
@@ -34,54 +34,55 @@ struct NoEnd {
     }
 };
 
-template <class End, class Real>
-struct OcclusionTest {
-    const End& end;
-    const RayPacket<Real>& rays;
-    std::uint32_t open;  ///< lanes still to be decided
-
-    template <class Spheres>
-    void spheres(const Spheres& list)
-    {
-        for (int i = 0; i < list.count && open != 0; ++i)
-            open &= ~bits(end.blocked_by(quadratic_of(list, i, rays), rays));
-    }
-    template <class HugeSphere>
-    void huge_spheres(const HugeSphere* list, int count)
-    {
-        for (int i = 0; i < count && open != 0; ++i)
-            open &= ~bits(end.blocked_by(quadratic_of(list[i], rays), rays));
-    }
-    template <class Plane>
-    void planes(const Plane* list, int count)
-    {
-        for (int i = 0; i < count && open != 0; ++i)
-            open &= ~bits(end.blocked_at(plane_t(list[i], rays), rays));
-    }
-};
-
-/// The lanes of `wanted` that are blocked, for rays from anywhere.
-template <class End, class Real>
-inline std::uint32_t occluded(const End& end, const abi::SceneView<Real>& scene,
-                              const RayPacket<Real>& rays, std::uint32_t wanted)
+template <class End, class Quadric, class Real>
+inline std::uint32_t quadric_blocks(const End& end, const Quadric& quadric,
+                                    const RayPacket<Real>& rays)
 {
-    OcclusionTest<End, Real> test{end, rays, wanted};
-    test.spheres(scene.spheres);
-    test.huge_spheres(scene.huge_spheres.data, scene.huge_spheres.count);
-    test.planes(scene.planes.data, scene.planes.count);
-    return wanted & ~test.open;
+    std::uint32_t blocked = 0;
+    visit_crossings(quadric, rays, [&](vmask<Real> valid, const vreal<Real>& t, int) {
+        blocked |= bits(valid & end.blocked_at(t, rays));
+    });
+    return blocked;
 }
 
-/// The same for rays from the objects' shared origin.
-template <class End, class Real>
-inline std::uint32_t occluded(const End& end, const SharedOriginObjects<Real>& objects,
-                              const RayPacket<Real>& rays, std::uint32_t wanted)
+/// Calls `blocker(surface, lanes)` for each object with the lanes it blocks, until that returns
+/// false.
+template <abi::Features F, class End, class Objects, class Real, class Blocker>
+inline void visit_blockers(const End& end, const Objects& objects, const RayPacket<Real>& rays,
+                           const Blocker& blocker)
 {
-    OcclusionTest<End, Real> test{end, rays, wanted};
-    test.spheres(objects.spheres);
-    test.huge_spheres(objects.huge_spheres, objects.huge_count);
-    test.planes(objects.planes, objects.plane_count);
-    return wanted & ~test.open;
+    const ObjectLists<Real, Objects> lists{objects};
+    const auto& spheres = lists.spheres();
+    for (int i = 0; i < spheres.count; ++i)
+        if (!blocker(static_cast<std::int32_t>(spheres.surface[i]),
+                     bits(end.blocked_by(quadratic_of(spheres, i, rays), rays))))
+            return;
+    for (int i = 0; i < lists.huge_count(); ++i)
+        if (!blocker(lists.huge(i).surface,
+                     bits(end.blocked_by(quadratic_of(lists.huge(i), rays), rays))))
+            return;
+    for (int i = 0; i < lists.plane_count(); ++i)
+        if (!blocker(lists.plane(i).surface,
+                     bits(end.blocked_at(plane_t(lists.plane(i), rays), rays))))
+            return;
+    if constexpr (F.quadrics)
+        for (int i = 0; i < lists.quadric_count(); ++i)
+            if (!blocker(record_of<Real>(lists.quadric(i)).surface,
+                         quadric_blocks(end, lists.quadric(i), rays)))
+                return;
+}
+
+/// The lanes of `wanted` that are blocked by anything.
+template <abi::Features F, class End, class Objects, class Real>
+inline std::uint32_t occluded(const End& end, const Objects& objects, const RayPacket<Real>& rays,
+                              std::uint32_t wanted)
+{
+    std::uint32_t open = wanted;
+    visit_blockers<F>(end, objects, rays, [&](std::int32_t, std::uint32_t blocked) {
+        open &= ~blocked;
+        return open != 0;
+    });
+    return wanted & ~open;
 }
 
 }  // namespace

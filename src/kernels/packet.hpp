@@ -17,8 +17,8 @@ struct RayPacket {
 /// The closest hit so far of each lane.
 template <class Real>
 struct HitPacket {
-    vreal<Real> t;      ///< hits must lie before it
-    vint<Real> object;  ///< -1: none yet
+    vreal<Real> t;       ///< hits must lie before it
+    vint<Real> surface;  ///< -1: none yet
 };
 
 template <class Real>
@@ -33,18 +33,18 @@ inline HitPacket<Real> no_hit(Real t_max)
     return {vreal<Real>(t_max), vint<Real>(lane_int<Real>(-1))};
 }
 
-/// Takes the hits at `t` where `valid` and closer; at equal t the lower object number wins, so
+/// Takes the hits at `t` where `valid` and closer; at equal t the lower surface number wins, so
 /// that the order of testing does not matter.
 template <class Real>
 inline void keep_closer(HitPacket<Real>& hit, batch_bool<Real> valid, batch<Real> t,
-                        std::int32_t object)
+                        std::int32_t surface)
 {
-    const vint<Real> number(static_cast<lane_int<Real>>(object));
+    const vint<Real> number(static_cast<lane_int<Real>>(surface));
     const auto nearer = valid & (t < hit.t);
-    const auto ties = valid & (t == hit.t) & int_less(number, hit.object);
+    const auto ties = valid & (t == hit.t) & int_less(number, hit.surface);
     const auto take = either(nearer, ties);
     hit.t = select(take, t, hit.t);
-    hit.object = select(take, number, hit.object);
+    hit.surface = select(take, number, hit.surface);
 }
 
 }  // namespace

@@ -26,7 +26,7 @@ template <class Real>
 struct SharedOriginPlane {
     Real normal[3];
     Real height;
-    std::int32_t object;
+    std::int32_t surface;
 };
 
 template <class Real>
@@ -35,7 +35,7 @@ inline SharedOriginPlane<Real> share_origin(const abi::PlaneRecord<Real>& plane,
 {
     return {{plane.normal[0], plane.normal[1], plane.normal[2]},
             first_lane<Real>(plane_height<Real>(plane, origin)),
-            plane.object};
+            plane.surface};
 }
 
 template <class Real>

@@ -26,7 +26,7 @@ inline vmask<Real> may_hit(const Quadratic<Real>& q)
 /// the first root that can count, and q/a only matters where b < 0 and c/q is too near.
 template <class Real>
 inline void keep_first_root(HitPacket<Real>& hit, const Quadratic<Real>& quadratic,
-                            vmask<Real> active, const vreal<Real>& t_min, std::int32_t object)
+                            vmask<Real> active, const vreal<Real>& t_min, std::int32_t surface)
 {
     // Lanes that miss may hold a NaN here; no comparison lets it through. -q is used for q.
     const vreal<Real> root = sqrt(quadratic.discriminant);
@@ -35,13 +35,13 @@ inline void keep_first_root(HitPacket<Real>& hit, const Quadratic<Real>& quadrat
     const auto in_front = t > t_min;
     const std::uint32_t too_near = bits(active) & ~bits(in_front);
     if ((too_near & bits(minus_q < vreal<Real>(Real(0)))) == 0) {
-        keep_closer<Real>(hit, active & in_front, t, object);
+        keep_closer<Real>(hit, active & in_front, t, surface);
         return;
     }
     const vreal<Real> other = negated(minus_q) / quadratic.a;
     const auto retry = from_bits<Real>(too_near) & (minus_q < vreal<Real>(Real(0)));
     t = select(retry, other, t);
-    keep_closer<Real>(hit, active & (t > t_min), t, object);
+    keep_closer<Real>(hit, active & (t > t_min), t, surface);
 }
 
 /// Lanes with a root between t_min and t_max, from the signs of the quadratic F at both ends:

@@ -1,9 +1,11 @@
 #pragma once
 
+#include "kernel_abi/features.hpp"
 #include "kernel_abi/scene_view.hpp"
 #include "kernels/candidates.hpp"
 #include "kernels/huge_sphere.hpp"
 #include "kernels/plane.hpp"
+#include "kernels/quadric.hpp"
 
 // All objects as rays see them that start from one point: what depends on the origin alone is
 // computed once a tile, by the operations a single packet would use, so with the same bits.
@@ -15,12 +17,14 @@ struct SharedOriginObjects {
     SharedOriginSpheres<Real> spheres;
     SharedOriginHuge<Real>* huge_spheres = nullptr;
     SharedOriginPlane<Real>* planes = nullptr;
+    SharedOriginQuadric<Real>* quadrics = nullptr;
     int huge_count = 0;
     int plane_count = 0;
+    int quadric_count = 0;
 
     bool empty() const
     {
-        return spheres.count + huge_count + plane_count == 0;
+        return spheres.count + huge_count + plane_count + quadric_count == 0;
     }
 };
 
@@ -43,8 +47,23 @@ inline bool leaves_behind(const Beam<Real>& beam, const SharedOriginPlane<Real>&
     return plane.height != 0 && runs_against(beam, towards);
 }
 
-/// Fills `objects` with what rays of `beam`, all from its base, may meet.
+/// Quadrics are few enough to be looked at one by one.
 template <class Real>
+inline void find_quadrics(SharedOriginObjects<Real>& objects, const Beam<Real>& beam,
+                          const abi::SceneView<Real>& scene)
+{
+    const Vec3v<Real> origin = broadcast(beam.base);
+    objects.quadric_count = 0;
+    for (int i = 0; i < scene.quadrics.count; ++i) {
+        const abi::QuadricRecord<Real>& quadric = scene.quadrics.data[i];
+        const Vec3v<Real> to_bound = broadcast(quadric.bound) - origin;
+        if (!beam.bounded || any(may_meet<Real>(beam, to_bound, vreal<Real>(quadric.bound_radius))))
+            objects.quadrics[objects.quadric_count++] = share_origin<Real>(quadric, origin);
+    }
+}
+
+/// Fills `objects` with what rays of `beam`, all from its base, may meet.
+template <abi::Features F, class Real>
 inline void find_objects(SharedOriginObjects<Real>& objects, const Beam<Real>& beam,
                          const abi::SceneView<Real>& scene)
 {
@@ -62,6 +81,8 @@ inline void find_objects(SharedOriginObjects<Real>& objects, const Beam<Real>& b
         if (!leaves_behind(beam, plane))
             objects.planes[objects.plane_count++] = plane;
     }
+    if constexpr (F.quadrics)
+        find_quadrics(objects, beam, scene);
 }
 
 }  // namespace

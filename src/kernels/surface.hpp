@@ -1,5 +1,6 @@
 #pragma once
 
+#include "kernel_abi/features.hpp"
 #include "kernel_abi/scene_view.hpp"
 #include "kernels/records.hpp"
 
@@ -10,24 +11,62 @@ namespace {
 template <class Real>
 struct SurfacePacket {
     Vec3v<Real> point;
-    Vec3v<Real> normal;          ///< unit
-    Vec3v<Real> dir;             ///< of the ray that came here, not unit
+    Vec3v<Real> normal;          ///< unit; turned against the ray where the model says so
+    Vec3v<Real> dir;             ///< of the ray that came here
     vreal<Real> inverse_length;  ///< 1 / |dir|
     vint<Real> material;
+    vint<Real> object;
+    std::uint32_t leaving;  ///< lanes that come from the inside
 };
 
-/// Normal of a plane or sphere at `point` (abi::SurfaceRecord), made unit.
+/// The normal as it stands, not unit, and whether it is turned against the ray.
 template <class Real>
-inline Vec3v<Real> unit_normal(const RecordPacket<8, Real>& surface, const Vec3v<Real>& point,
-                               const Vec3v<Real>& dir)
+struct GradientPacket {
+    Vec3v<Real> gradient;
+    vreal<Real> faces_viewer;
+};
+
+/// Planes and spheres (abi::SurfaceRecord).
+template <class Real>
+inline GradientPacket<Real> round_gradient(const abi::SceneView<Real>& scene,
+                                           const Vec3v<Real>& point, const vint<Real>& surface,
+                                           std::uint32_t active)
 {
-    const Vec3v<Real> gradient =
-        madd<Real>(surface.field[6], point - surface.vector(0), surface.vector(3));
-    const vreal<Real> one(Real(1));
-    const Vec3v<Real> normal = scale<Real>(one / sqrt(dot(gradient, gradient)), gradient);
+    static_assert(sizeof(abi::SurfaceRecord<Real>) == 8 * sizeof(Real));
+    const auto record = fetch_records<8, Real>(&scene.surfaces->anchor[0], surface, active);
+    return {madd<Real>(record.field[6], point - record.vector(0), record.vector(3)),
+            record.field[7]};
+}
+
+/// Surfaces of every kind (abi::CurvedSurfaceRecord).
+template <class Real>
+inline GradientPacket<Real> curved_gradient(const abi::SceneView<Real>& scene,
+                                            const Vec3v<Real>& point, const vint<Real>& surface,
+                                            std::uint32_t active)
+{
+    static_assert(sizeof(abi::CurvedSurfaceRecord<Real>) == 13 * sizeof(Real));
+    const auto record = fetch_records<13, Real>(&scene.curved_surfaces->anchor[0], surface, active);
+    const Vec3v<Real> p = point - record.vector(0);
+    const Vec3v<Real> n = record.vector(3);
+    const auto& g = record.field;
+    const Vec3v<Real> x_row{g[6], g[9], g[10]};
+    const Vec3v<Real> y_row{g[9], g[7], g[11]};
+    const Vec3v<Real> z_row{g[10], g[11], g[8]};
+    return {n + Vec3v<Real>{dot(x_row, p), dot(y_row, p), dot(z_row, p)}, g[12]};
+}
+
+/// Fills `normal` and `leaving`. The apex of a cone has no normal; there it is 0.
+template <class Real>
+inline void set_normal(SurfacePacket<Real>& surface, const GradientPacket<Real>& from)
+{
     const vreal<Real> zero(Real(0));
-    const auto turn = (surface.field[7] > zero) & (dot(normal, dir) > zero);
-    return scale<Real>(select(turn, negated(one), one), normal);
+    const vreal<Real> length2 = dot(from.gradient, from.gradient);
+    const vreal<Real> inverse = select(length2 > zero, vreal<Real>(Real(1)) / sqrt(length2), zero);
+    const Vec3v<Real> outward = scale<Real>(inverse, from.gradient);
+    const auto leaving = dot(outward, surface.dir) > zero;
+    const auto turn = (from.faces_viewer > zero) & leaving;
+    surface.leaving = bits(leaving);
+    surface.normal = select(turn, scale<Real>(vreal<Real>(Real(-1)), outward), outward);
 }
 
 /// 0 or 1 where the squares have their first or their other colour.
@@ -42,35 +81,39 @@ inline vint<Real> checker_parity(const abi::CheckerRecord<Real>& checker, const 
     return select(odd, vint<Real>(lane_int<Real>(1)), vint<Real>(lane_int<Real>(0)));
 }
 
+/// Fills `material` and `object`.
 template <class Real>
-inline vint<Real> material_of(const abi::SceneView<Real>& scene, const vint<Real>& object,
-                              const Vec3v<Real>& point, std::uint32_t active)
+inline void set_material(SurfacePacket<Real>& surface, const abi::SceneView<Real>& scene,
+                         const vint<Real>& number, std::uint32_t active)
 {
-    vint<Real> material(lane_int<Real>(0));
-    for_each_distinct<Real>(object, active, [&](lane_int<Real> number, vmask<Real> same) {
-        const abi::MaterialIndex index = scene.material_index[number];
+    surface.material = vint<Real>(lane_int<Real>(0));
+    surface.object = surface.material;
+    for_each_distinct<Real>(number, active, [&](lane_int<Real> value, vmask<Real> same) {
+        const abi::MaterialIndex index = scene.material_index[value];
         vint<Real> chosen(static_cast<lane_int<Real>>(index.first));
         if (index.checker >= 0)
-            chosen = chosen + checker_parity(scene.checkers[index.checker], point);
-        material = select(same, chosen, material);
+            chosen = chosen + checker_parity(scene.checkers[index.checker], surface.point);
+        surface.material = select(same, chosen, surface.material);
+        surface.object =
+            select(same, vint<Real>(static_cast<lane_int<Real>>(index.object)), surface.object);
     });
-    return material;
 }
 
-template <class Real>
+template <abi::Features F, class Real>
 inline SurfacePacket<Real> surface_at(const abi::SceneView<Real>& scene, const Vec3v<Real>& point,
-                                      const Vec3v<Real>& dir, const vint<Real>& object,
+                                      const Vec3v<Real>& dir, const vint<Real>& number,
                                       std::uint32_t active)
 {
-    static_assert(sizeof(abi::SurfaceRecord<Real>) == 8 * sizeof(Real));
-    const auto surface = fetch_records<8, Real>(&scene.surfaces->anchor[0], object, active);
-    SurfacePacket<Real> result;
-    result.point = point;
-    result.dir = dir;
-    result.normal = unit_normal<Real>(surface, point, dir);
-    result.inverse_length = vreal<Real>(Real(1)) / sqrt(dot(dir, dir));
-    result.material = material_of(scene, object, point, active);
-    return result;
+    SurfacePacket<Real> surface;
+    surface.point = point;
+    surface.dir = dir;
+    if constexpr (F.quadrics)
+        set_normal(surface, curved_gradient(scene, point, number, active));
+    else
+        set_normal(surface, round_gradient(scene, point, number, active));
+    surface.inverse_length = vreal<Real>(Real(1)) / sqrt(dot(dir, dir));
+    set_material(surface, scene, number, active);
+    return surface;
 }
 
 }  // namespace

@@ -1,5 +1,6 @@
 #include "kernels/table.hpp"
 
+#include "kernels/closest_tile.hpp"
 #include "kernels/self_test.hpp"
 #include "kernels/tile.hpp"
 
@@ -23,14 +24,20 @@ void power_of_arrays(const Real* x, const Real* n, Real* y, int count)
     }
 }
 
+template <abi::Features F, class Real>
+constexpr abi::FeatureKernels<Real> feature_kernels()
+{
+    return {F, scratch_bytes<F, Real>, render_tile<F, Real>, closest_tile<F, Real>};
+}
+
 template <class Real>
 constexpr abi::PrecisionTable<Real> precision_table()
 {
     abi::PrecisionTable<Real> table;
     table.lanes = lanes<Real>;
-    table.scratch_bytes = scratch_bytes<Real>;
-    table.render_tile = render_tile<Real>;
-    table.closest_tile = closest_tile<Real>;
+    table.kernels[0] = feature_kernels<abi::feature_sets[0], Real>();
+    table.kernels[1] = feature_kernels<abi::feature_sets[1], Real>();
+    table.kernels[2] = feature_kernels<abi::feature_sets[2], Real>();
     table.highlight_power = power_of_arrays<Real>;
     table.self_test = self_test<Real>;
     return table;

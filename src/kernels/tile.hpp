@@ -1,5 +1,7 @@
 #pragma once
 
+#include "kernels/bounds.hpp"
+#include "kernels/shade.hpp"
 #include "kernels/trace_stream.hpp"
 #include "kernels/workspace.hpp"
 
@@ -8,8 +10,8 @@ namespace packtrace::PACKTRACE_ISA {
 namespace {
 
 /// Per point light, what may stand between it and the hit points.
-template <class Real>
-inline void find_blockers(const abi::SceneView<Real>& scene, const HitStream<Real>& hits,
+template <abi::Features F, class Real>
+inline void find_blockers(const abi::SceneView<Real>& scene, const HitStream<F, Real>& hits,
                           SharedOriginObjects<Real>* blockers)
 {
     if (!scene.shadows || hits.count == 0)
@@ -18,73 +20,81 @@ inline void find_blockers(const abi::SceneView<Real>& scene, const HitStream<Rea
     for (int i = 0; i < scene.lights.count; ++i) {
         const abi::LightRecord<Real>& light = scene.lights.data[i];
         if (light.kind == abi::LightKind::point)
-            find_objects(blockers[i], segment_beam(light.vector, box), scene);
+            find_objects<F>(blockers[i], segment_beam(light.vector, box), scene);
     }
 }
 
-template <class Real>
+/// What stays the same while a tile is rendered.
+template <abi::Features F, class Real>
+struct TileRun {
+    const abi::SceneView<Real>& scene;
+    Workspace<F, Real>& work;
+    abi::RayCounts& counts;
+};
+
+/// Shades the chunk's hits, of rays after `depth` bounces, into the pixels, and gathers their
+/// children in the stream of the next generation, which is returned; null when there are none.
+template <PixelWrite Write, abi::Features F, class Real>
+inline RayStream<F, Real>* shade_chunk(const TileRun<F, Real>& run, int depth)
+{
+    const ShadeContext<Real> context{&run.scene, run.work.blockers, depth, &run.counts};
+    const HitStream<F, Real>& hits = run.work.memory->hits;
+    if (hits.count == 0)
+        return nullptr;
+    find_blockers(run.scene, hits, run.work.blockers);
+    RayStream<F, Real>* next = context.spawns() ? run.work.streams + depth : nullptr;
+    if (next != nullptr)
+        next->count = 0;
+    if constexpr (F.glass)
+        run.work.refracted->count = 0;
+    shade_stream<Write>(context, hits, run.work.memory->color,
+                        Children<F, Real>{next, run.work.refracted});
+    if (next == nullptr)
+        return nullptr;
+    run.counts.reflected += static_cast<unsigned>(next->count);
+    if constexpr (F.glass) {
+        run.counts.refracted += static_cast<unsigned>(run.work.refracted->count);
+        append_stream(*next, *run.work.refracted);
+    }
+    return next;
+}
+
+/// Traces a generation chunk by chunk, each with all its descendants before the next: memory
+/// grows with the depth, not with the number of rays.
+template <abi::Features F, class Real>
+void trace_generation(const TileRun<F, Real>& run, const RayStream<F, Real>& rays, int depth)
+{
+    for (int begin = 0; begin < rays.count; begin += chunk_rays) {
+        const int end = begin + chunk_rays < rays.count ? begin + chunk_rays : rays.count;
+        trace_secondary(run.scene, rays, begin, end, *run.work.memory);
+        if (const auto* next = shade_chunk<PixelWrite::add>(run, depth))
+            trace_generation(run, *next, depth + 1);
+    }
+}
+
+template <abi::Features F, class Real>
 inline abi::RayCounts render_tile(const abi::TileJob<Real>& job)
 {
     const abi::SceneView<Real>& scene = *job.scene;
-    Workspace<Real> work(job.scratch, scene);
-    TileMemory<Real>& memory = *work.memory;
+    Workspace<F, Real> work(job.scratch, scene);
+    TileMemory<F, Real>& memory = *work.memory;
     abi::RayCounts counts;
-
-    // The first generation: camera rays against what the tile's beam may meet.
-    find_objects(work.visible, camera_beam(job), scene);
     counts.camera = static_cast<unsigned>(job.width * job.height);
+
+    // Camera rays, against what the tile's beam may meet; a hit's first light replaces the
+    // background.
+    find_objects<F>(work.visible, camera_beam(job), scene);
     fill_pixels(memory.color, scene.background);
     memory.hits.count = 0;
-    if (!work.visible.empty())
+    if (!work.visible.empty() || scene.visible_lights)
         trace_camera(job, work.visible, memory);
 
-    // Each generation is shaded into the pixels and leaves its mirrored rays to the next.
-    for (int depth = 0; memory.hits.count > 0; ++depth) {
-        const ShadeContext<Real> context{&scene, work.blockers, depth < scene.max_depth, &counts};
-        RayStream<Real>& next = memory.rays;
-        find_blockers(scene, memory.hits, work.blockers);
-        if (depth == 0)
-            shade_stream<PixelWrite::set>(context, memory.hits, memory.color, next);
-        else
-            shade_stream<PixelWrite::add>(context, memory.hits, memory.color, next);
-        if (next.count == 0)
-            break;
-        counts.reflected += static_cast<unsigned>(next.count);
-        trace_secondary(scene, next, memory);
-    }
+    const TileRun<F, Real> run{scene, work, counts};
+    if (const auto* next = shade_chunk<PixelWrite::set>(run, 0))
+        trace_generation(run, *next, 1);
     for (int row = 0; row < job.height; ++row)
         write_row(job.rgb + row * job.row_stride, memory.color, row, job.width);
     return counts;
-}
-
-template <class Real>
-inline void store_misses(abi::TileHits<Real>& hits)
-{
-    const HitPacket<Real> miss = no_hit<Real>(static_cast<Real>(__builtin_inf()));
-    for (int first = 0; first < abi::tile_pixels; first += lanes<Real>) {
-        store(hits.t + first, miss.t);
-        store(hits.object + first, miss.object);
-    }
-}
-
-template <class Real>
-inline void closest_tile(const abi::TileJob<Real>& job, abi::TileHits<Real>& hits)
-{
-    const abi::SceneView<Real>& scene = *job.scene;
-    Workspace<Real> work(job.scratch, scene);
-    find_objects(work.visible, camera_beam(job), scene);
-    if (work.visible.empty()) {
-        store_misses(hits);
-        return;
-    }
-    const TileCamera<Real> camera(job);
-    for (int first = 0; first < abi::tile_pixels; first += lanes<Real>) {
-        const RayPacket<Real> rays = camera_rays(camera, first);
-        HitPacket<Real> hit = no_hit<Real>(static_cast<Real>(__builtin_inf()));
-        closest_hit(hit, work.visible, rays);
-        store(hits.t + first, hit.t);
-        store(hits.object + first, hit.object);
-    }
 }
 
 }  // namespace

@@ -1,58 +1,109 @@
 #pragma once
 
 #include "kernel_abi/kernel_table.hpp"
+#include "kernels/glass.hpp"
 #include "kernels/pixels.hpp"
 
 // The working memory of one tile: streams of rays in structure-of-arrays form.
 namespace packtrace::PACKTRACE_ISA {
 namespace {
 
-/// Room for a tile's rays and for one packet written past the last.
-inline constexpr int stream_capacity = abi::tile_pixels + abi::padding;
+/// Hits are shaded, and rays traced, at most this many at a time, whatever the packet width.
+inline constexpr int chunk_rays = abi::tile_pixels;
 
-template <class Real>
-using StreamArray = Real[stream_capacity];
+/// A chunk's children: one a ray, or two where glass refracts.
+template <abi::Features F>
+inline constexpr int stream_rays = F.glass ? 2 * chunk_rays : chunk_rays;
+
+/// Room for one packet is left behind the last ray.
+template <abi::Features F, class Element>
+using StreamArray = Element[stream_rays<F> + abi::padding];
+
+/// The glass each ray is in, only where there is any.
+template <bool Glass, abi::Features F, class Real>
+struct GlassArrays {
+};
+template <abi::Features F, class Real>
+struct GlassArrays<true, F, Real> {
+    StreamArray<F, lane_int<Real>> inside[abi::glass_depth];
+};
 
 /// Rays of one generation, in an order that does not depend on the packet width.
-template <class Real>
-struct alignas(64) RayStream {
-    StreamArray<Real> org[3];
-    StreamArray<Real> dir[3];
-    StreamArray<Real> weight[3];        ///< throughput of the path so far, per channel
-    StreamArray<lane_int<Real>> pixel;  ///< number in the tile, along its Z-order curve
+template <abi::Features F, class Real>
+struct alignas(64) RayStream : GlassArrays<F.glass, F, Real> {
+    StreamArray<F, Real> org[3];
+    StreamArray<F, Real> dir[3];
+    StreamArray<F, Real> weight[3];        ///< throughput of the path so far, per channel
+    StreamArray<F, lane_int<Real>> pixel;  ///< number in the tile, along its Z-order curve
     int count = 0;
 };
 
-/// The rays of a generation that hit something, where they did.
-template <class Real>
-struct alignas(64) HitStream {
-    StreamArray<Real> point[3];
-    StreamArray<Real> dir[3];
-    StreamArray<Real> weight[3];
-    StreamArray<lane_int<Real>> pixel;
-    StreamArray<lane_int<Real>> object;
+/// The rays of a chunk that hit something, where they did.
+template <abi::Features F, class Real>
+struct alignas(64) HitStream : GlassArrays<F.glass, F, Real> {
+    StreamArray<F, Real> point[3];
+    StreamArray<F, Real> dir[3];
+    StreamArray<F, Real> weight[3];
+    StreamArray<F, lane_int<Real>> pixel;
+    StreamArray<F, lane_int<Real>> surface;
     int count = 0;
 };
 
-template <class Real>
+template <abi::Features F, class Real>
 struct alignas(64) TileMemory {
     TilePixelColors<Real> color;
-    RayStream<Real> rays;  ///< of the next generation
-    HitStream<Real> hits;
+    HitStream<F, Real> hits;
 };
 
-template <class Real>
-inline Vec3v<Real> load3(const StreamArray<Real> (&from)[3], int first)
+template <class Real, std::size_t Size>
+inline Vec3v<Real> load3(const Real (&from)[3][Size], int first)
 {
     return {load(from[0] + first), load(from[1] + first), load(from[2] + first)};
 }
 
-template <class Real>
-inline void append3(StreamArray<Real> (&to)[3], int at, std::uint32_t pattern, const Vec3v<Real>& v)
+template <class Real, std::size_t Size>
+inline void append3(Real (&to)[3][Size], int at, std::uint32_t pattern, const Vec3v<Real>& v)
 {
     compress_store(to[0] + at, pattern, v.x);
     compress_store(to[1] + at, pattern, v.y);
     compress_store(to[2] + at, pattern, v.z);
+}
+
+/// The glass of a packet of a stream; nothing is read where the stream has none.
+template <template <abi::Features, class> class Stream, abi::Features F, class Real>
+inline GlassPacket<Real> load_glass(const Stream<F, Real>& stream, int first)
+{
+    GlassPacket<Real> glass;
+    for (int i = 0; i < abi::glass_depth; ++i) {
+        if constexpr (F.glass)
+            glass.body[i] = load(stream.inside[i] + first);
+        else
+            glass.body[i] = no_body<Real>();
+    }
+    return glass;
+}
+
+template <class Element>
+inline void copy(Element* to, const Element* from, int count)
+{
+    for (int i = 0; i < count; ++i)
+        to[i] = from[i];
+}
+
+/// Appends the rays of `from` to `to`.
+template <abi::Features F, class Real>
+inline void append_stream(RayStream<F, Real>& to, const RayStream<F, Real>& from)
+{
+    for (int axis = 0; axis < 3; ++axis) {
+        copy(to.org[axis] + to.count, from.org[axis], from.count);
+        copy(to.dir[axis] + to.count, from.dir[axis], from.count);
+        copy(to.weight[axis] + to.count, from.weight[axis], from.count);
+    }
+    copy(to.pixel + to.count, from.pixel, from.count);
+    if constexpr (F.glass)
+        for (int i = 0; i < abi::glass_depth; ++i)
+            copy(to.inside[i] + to.count, from.inside[i], from.count);
+    to.count += from.count;
 }
 
 }  // namespace

@@ -8,31 +8,35 @@
 namespace packtrace::PACKTRACE_ISA {
 namespace {
 
+/// A packet of rays with all that its hits take along.
 template <class Real>
-struct HitRays {
+struct TracedRays {
     RayPacket<Real> rays;
-    Vec3v<Real> weight;
-    vint<Real> pixel;
+    PathPacket<Real> path;
+    GlassPacket<Real> inside;
 };
 
-template <class Real>
-inline void append_hits(HitStream<Real>& hits, const HitRays<Real>& from,
+template <abi::Features F, class Real>
+inline void append_hits(HitStream<F, Real>& hits, const TracedRays<Real>& from,
                         const HitPacket<Real>& hit, std::uint32_t active)
 {
     if (active == 0)
         return;
     append3(hits.point, hits.count, active, madd<Real>(hit.t, from.rays.dir, from.rays.org));
     append3(hits.dir, hits.count, active, from.rays.dir);
-    append3(hits.weight, hits.count, active, from.weight);
-    compress_store(hits.pixel + hits.count, active, from.pixel);
-    compress_store(hits.object + hits.count, active, hit.object);
+    append3(hits.weight, hits.count, active, from.path.weight);
+    compress_store(hits.pixel + hits.count, active, from.path.pixel);
+    compress_store(hits.surface + hits.count, active, hit.surface);
+    if constexpr (F.glass)
+        for (int i = 0; i < abi::glass_depth; ++i)
+            compress_store(hits.inside[i] + hits.count, active, from.inside.body[i]);
     hits.count += __builtin_popcount(active);
 }
 
 template <class Real>
 inline std::uint32_t hit_lanes(const HitPacket<Real>& hit)
 {
-    return ~bits(int_equal(hit.object, vint<Real>(lane_int<Real>(-1)))) & all_lanes<Real>;
+    return ~bits(int_equal(hit.surface, vint<Real>(lane_int<Real>(-1)))) & all_lanes<Real>;
 }
 
 template <class Real>
@@ -43,42 +47,82 @@ inline vint<Real> lane_numbers(int first)
     return load(number) + vint<Real>(static_cast<lane_int<Real>>(first));
 }
 
-/// The camera rays of a tile; pixels start as the background, and as 0 where something is hit.
 template <class Real>
+inline GlassPacket<Real> glass_around_eye(const abi::CameraView<Real>& camera)
+{
+    GlassPacket<Real> glass;
+    for (int i = 0; i < abi::glass_depth; ++i)
+        glass.body[i] = vint<Real>(static_cast<lane_int<Real>>(camera.inside[i]));
+    return glass;
+}
+
+/// What rays that hit nothing bring: the background, or the lights they run straight to.
+template <class Real>
+inline Vec3v<Real> escaped(const abi::SceneView<Real>& scene, const RayPacket<Real>& rays)
+{
+    const Vec3v<Real> background = broadcast(scene.background);
+    if (!scene.visible_lights)
+        return background;
+    const vreal<Real> zero(Real(0));
+    const vreal<Real> parallel(scene.epsilon * scene.epsilon);
+    Vec3v<Real> seen{zero, zero, zero};
+    std::uint32_t any_seen = 0;
+    for (int i = 0; i < scene.lights.count; ++i) {
+        const abi::LightRecord<Real>& light = scene.lights.data[i];
+        Vec3v<Real> way = broadcast(light.vector);
+        if (light.kind == abi::LightKind::point)
+            way = way - rays.org;
+        const Vec3v<Real> sine = cross(rays.dir, way);
+        const auto sees =
+            (dot(rays.dir, way) > zero) & (dot(sine, sine) <= parallel * rays.dir2 * dot(way, way));
+        seen = select(sees, seen + broadcast(light.intensity), seen);
+        any_seen |= bits(sees);
+    }
+    return select(from_bits<Real>(any_seen), seen, background);
+}
+
+/// The camera rays of a tile; the pixels hold the background already.
+template <abi::Features F, class Real>
 inline void trace_camera(const abi::TileJob<Real>& job, const SharedOriginObjects<Real>& visible,
-                         TileMemory<Real>& memory)
+                         TileMemory<F, Real>& memory)
 {
     const TileCamera<Real> camera(job);
+    const GlassPacket<Real> inside = glass_around_eye(camera.view);
     const vreal<Real> one(Real(1));
     for (int first = 0; first < abi::tile_pixels; first += lanes<Real>) {
-        const std::uint32_t inside = lanes_inside(job, first);
-        if (inside == 0)
+        const std::uint32_t pixels = lanes_inside(job, first);
+        if (pixels == 0)
             continue;
-        const RayPacket<Real> rays = camera_rays(camera, first);
+        const RayPacket<Real> rays = camera_rays(camera, first, job.scene->units);
         HitPacket<Real> hit = no_hit<Real>(static_cast<Real>(__builtin_inf()));
-        closest_hit(hit, visible, rays);
-        append_hits<Real>(memory.hits, {rays, {one, one, one}, lane_numbers<Real>(first)}, hit,
-                          hit_lanes(hit) & inside);
+        closest_hit<F>(hit, visible, rays);
+        const std::uint32_t hits = hit_lanes(hit) & pixels;
+        const TracedRays<Real> from{rays, {{one, one, one}, lane_numbers<Real>(first)}, inside};
+        append_hits(memory.hits, from, hit, hits);
+        if (job.scene->visible_lights)
+            write_colors<PixelWrite::set>(memory.color, from.path.pixel, escaped(*job.scene, rays),
+                                          pixels & ~hits);
     }
 }
 
-/// A stream of secondary rays; the background goes into the pixels of those that miss.
-template <class Real>
-inline void trace_secondary(const abi::SceneView<Real>& scene, const RayStream<Real>& stream,
-                            TileMemory<Real>& memory)
+/// A chunk of a stream of secondary rays; what those that miss bring goes into the pixels.
+template <abi::Features F, class Real>
+inline void trace_secondary(const abi::SceneView<Real>& scene, const RayStream<F, Real>& stream,
+                            int begin, int end, TileMemory<F, Real>& memory)
 {
     memory.hits.count = 0;
-    for (int first = 0; first < stream.count; first += lanes<Real>) {
-        const std::uint32_t active = first_lanes<Real>(stream.count - first);
-        const HitRays<Real> from{
+    for (int first = begin; first < end; first += lanes<Real>) {
+        const std::uint32_t active = first_lanes<Real>(end - first);
+        const TracedRays<Real> from{
             make_rays<Real>(load3(stream.org, first), load3(stream.dir, first), scene.epsilon),
-            load3(stream.weight, first), load(stream.pixel + first)};
+            {load3(stream.weight, first), load(stream.pixel + first)},
+            load_glass(stream, first)};
         HitPacket<Real> hit = no_hit<Real>(static_cast<Real>(__builtin_inf()));
-        closest_hit(hit, scene, from.rays);
+        closest_hit<F>(hit, scene, from.rays);
         const std::uint32_t hits = hit_lanes(hit) & active;
         append_hits(memory.hits, from, hit, hits);
-        write_colors<PixelWrite::add>(memory.color, from.pixel,
-                                      from.weight * broadcast(scene.background), active & ~hits);
+        write_colors<PixelWrite::add>(memory.color, from.path.pixel,
+                                      from.path.weight * escaped(scene, from.rays), active & ~hits);
     }
 }
 

@@ -42,17 +42,21 @@ inline SharedOriginObjects<Real> take_objects(Arena& arena, const abi::SceneView
     objects.spheres.z = arena.take<Real>(spheres);
     objects.spheres.radius2 = arena.take<Real>(spheres);
     objects.spheres.constant = arena.take<Real>(spheres);
-    objects.spheres.object = arena.take<lane_int<Real>>(spheres);
+    objects.spheres.surface = arena.take<lane_int<Real>>(spheres);
     objects.huge_spheres =
         arena.take<SharedOriginHuge<Real>>(static_cast<std::size_t>(scene.huge_spheres.count));
     objects.planes =
         arena.take<SharedOriginPlane<Real>>(static_cast<std::size_t>(scene.planes.count));
+    objects.quadrics =
+        arena.take<SharedOriginQuadric<Real>>(static_cast<std::size_t>(scene.quadrics.count));
     return objects;
 }
 
-template <class Real>
+template <abi::Features F, class Real>
 struct Workspace {
-    TileMemory<Real>* memory = nullptr;
+    TileMemory<F, Real>* memory = nullptr;
+    RayStream<F, Real>* streams = nullptr;  ///< of generations 1 … max_depth
+    RayStream<F, Real>* refracted = nullptr;
     SharedOriginObjects<Real> visible;              ///< from the camera
     SharedOriginObjects<Real>* blockers = nullptr;  ///< from each light
     std::size_t bytes = 0;
@@ -62,7 +66,10 @@ struct Workspace {
     {
         const std::size_t lights = static_cast<std::size_t>(scene.lights.count);
         Arena arena(scratch);
-        memory = arena.take<TileMemory<Real>>(1);
+        memory = arena.take<TileMemory<F, Real>>(1);
+        streams = arena.take<RayStream<F, Real>>(static_cast<std::size_t>(scene.max_depth));
+        if constexpr (F.glass)
+            refracted = arena.take<RayStream<F, Real>>(1);
         visible = take_objects(arena, scene);
         blockers = arena.take<SharedOriginObjects<Real>>(lights);
         for (std::size_t light = 0; light < lights; ++light) {
@@ -74,10 +81,10 @@ struct Workspace {
     }
 };
 
-template <class Real>
+template <abi::Features F, class Real>
 inline std::size_t scratch_bytes(const abi::SceneView<Real>& scene)
 {
-    return Workspace<Real>(nullptr, scene).bytes;
+    return Workspace<F, Real>(nullptr, scene).bytes;
 }
 
 }  // namespace

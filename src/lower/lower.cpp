@@ -1,29 +1,33 @@
-#include "lower/lowered_scene.hpp"
-
-#include <string>
-
-#include <packtrace/read_scene.hpp>
-
+#include "lower/eye_glass.hpp"
 #include "lower/lower_material.hpp"
+#include "lower/lower_model.hpp"
 #include "lower/lower_surface.hpp"
+#include "lower/lowered_scene.hpp"
 
 namespace packtrace {
 namespace {
 
-Rgb ambient_light(const Scene& scene)
+bool any_glass(const LoweredScene& lowered)
 {
-    Rgb sum{0.0};
-    for (const Light& light : scene.lights)
-        if (light.type == LightType::ambient)
-            sum += light.intensity;
-    return sum;
+    for (const LoweredMaterial& material : lowered.materials)
+        if (material.transmit != Rgb(0.0))
+            return true;
+    return false;
 }
 
-void lower_lights(const Scene& scene, LoweredScene& lowered)
+void lower_objects(const Scene& scene, LoweredScene& lowered)
 {
-    for (const Light& light : scene.lights)
-        if (light.type != LightType::ambient)
-            lowered.lights.push_back(light);
+    const LightSums lights = sum_lights(scene);
+    std::int32_t number = 0;
+    for (const Object& object : scene.objects) {
+        const auto index = lower_material(object, number++, lights, lowered);
+        const auto first = static_cast<std::int32_t>(lowered.material_index.size());
+        const int pieces = lower_surface(object, first, lowered);
+        for (int piece = 0; piece < pieces; ++piece) {
+            lowered.material_index.push_back(index);
+            lowered.faces_viewer.push_back(normal_faces_viewer(scene, object));
+        }
+    }
 }
 
 }  // namespace
@@ -31,19 +35,16 @@ void lower_lights(const Scene& scene, LoweredScene& lowered)
 LoweredScene lower(const Scene& scene)
 {
     LoweredScene lowered;
-    lowered.background = scene.background;
-    lowered.max_depth = scene.max_depth;
-    lowered.shadows = scene.shadows != ShadowKind::none;
-    lowered.epsilon = 0.001;
-    lowered.camera_t_min = 1.0;
-    lower_lights(scene, lowered);
-
-    const Rgb ambient = ambient_light(scene);
-    for (const Object& object : scene.objects) {
-        lower_surface(object, static_cast<std::int32_t>(lowered.material_index.size()), lowered);
-        lower_material(object, ambient, lowered);
-    }
+    lower_model_rules(scene, lowered);
+    lower_objects(scene, lowered);
     mark_huge_spheres(scene.camera.position, lowered);
+
+    lowered.features.quadrics = !lowered.quadrics.empty();
+    lowered.features.glass = any_glass(lowered);
+    lowered.transparent_shadows =
+        scene.shadows == ShadowKind::transparent && lowered.features.glass;
+    if (lowered.features.glass)
+        lowered.eye_inside = glass_around(scene.camera.position, scene.camera.rotation[2], lowered);
     return lowered;
 }
 

@@ -4,7 +4,16 @@
 
 namespace packtrace {
 
-/// Appends the material of `object`, times the scene's ambient light, and its checker.
-void lower_material(const Object& object, const Rgb& ambient, LoweredScene& lowered);
+/// Sums over all lights that materials take up at lowering.
+struct LightSums {
+    Rgb ambient{0.0};  ///< of the ambient lights
+    Rgb all{0.0};      ///< of every light
+};
+
+[[nodiscard]] LightSums sum_lights(const Scene& scene);
+
+/// Appends the material of `object` and its checker; returns where its surfaces find them.
+[[nodiscard]] abi::MaterialIndex lower_material(const Object& object, std::int32_t number,
+                                                const LightSums& lights, LoweredScene& lowered);
 
 }  // namespace packtrace

@@ -5,7 +5,8 @@
 
 #include <glm/geometric.hpp>
 #include <glm/matrix.hpp>
-#include <packtrace/read_scene.hpp>
+
+#include "lower/lower_quadric.hpp"
 
 namespace packtrace {
 namespace {
@@ -25,43 +26,62 @@ double similarity_scale(const Mat4& transform)
     return std::sqrt(scale2);
 }
 
-void lower_sphere(const Object& object, const Sphere& sphere, std::int32_t number,
+/// Under a similarity a sphere stays one; false when it does not.
+bool lower_sphere(const Sphere& sphere, const Mat4& transform, std::int32_t surface,
                   LoweredScene& lowered)
 {
-    const double scale = similarity_scale(object.transform);
+    const double scale = similarity_scale(transform);
     if (scale == 0.0)
-        throw SceneError("object '" + object.name +
-                         "': the packet kernels know spheres under similarity transforms only; "
-                         "use one factor for scale and no shear");
+        return false;
     LoweredSphere result;
-    result.center = Vec3(object.transform * glm::dvec4(sphere.center, 1.0));
+    result.center = Vec3(transform * glm::dvec4(sphere.center, 1.0));
     result.radius = scale * sphere.radius;
-    result.object = number;
+    result.surface = surface;
     lowered.spheres.push_back(result);
+    return true;
 }
 
-void lower_plane(const Object& object, const Plane& plane, std::int32_t number,
-                 LoweredScene& lowered)
+int lower_kind(const Object& object, const Sphere& sphere, std::int32_t surface,
+               LoweredScene& lowered)
+{
+    if (!lower_sphere(sphere, object.transform, surface, lowered)) {
+        // Moved to its own centre first, so that no digits are lost to it.
+        Object centered = object;
+        centered.transform[3] = object.transform * glm::dvec4(sphere.center, 1.0);
+        lowered.quadrics.push_back(
+            lower_quadric(centered, as_quadric({Vec3(0.0), sphere.radius}), surface));
+    }
+    return 1;
+}
+
+int lower_kind(const Object& object, const Plane& plane, std::int32_t surface,
+               LoweredScene& lowered)
 {
     LoweredPlane result;
     result.point = Vec3(object.transform * glm::dvec4(plane.point, 1.0));
     const Mat3 normal_map = glm::transpose(glm::inverse(Mat3(object.transform)));
     result.normal = glm::normalize(normal_map * plane.normal);
-    result.object = number;
+    result.surface = surface;
     lowered.planes.push_back(result);
+    return 1;
+}
+
+int lower_kind(const Object& object, const Quadric& quadric, std::int32_t surface,
+               LoweredScene& lowered)
+{
+    const bool unit_sphere = quadric.kind == QuadricKind::ellipsoid && !quadric.z_range;
+    if (unit_sphere && lower_sphere(Sphere{}, object.transform, surface, lowered))
+        return 1;
+    lowered.quadrics.push_back(lower_quadric(object, quadric, surface));
+    return quadric.capped ? 3 : 1;
 }
 
 }  // namespace
 
-void lower_surface(const Object& object, std::int32_t number, LoweredScene& lowered)
+int lower_surface(const Object& object, std::int32_t surface, LoweredScene& lowered)
 {
-    if (const auto* sphere = std::get_if<Sphere>(&object.surface))
-        lower_sphere(object, *sphere, number, lowered);
-    else if (const auto* plane = std::get_if<Plane>(&object.surface))
-        lower_plane(object, *plane, number, lowered);
-    else
-        throw SceneError("object '" + object.name +
-                         "': the packet kernels know spheres and planes only; remove it");
+    return std::visit([&](const auto& kind) { return lower_kind(object, kind, surface, lowered); },
+                      object.surface);
 }
 
 }  // namespace packtrace

@@ -4,8 +4,9 @@
 
 namespace packtrace {
 
-/// Appends the surface of `object` to the list of its kind, in world space.
-void lower_surface(const Object& object, std::int32_t number, LoweredScene& lowered);
+/// Appends the surface of `object`, numbered `surface`, to the list of its kind, in world space.
+/// Returns how many surface numbers it takes.
+[[nodiscard]] int lower_surface(const Object& object, std::int32_t surface, LoweredScene& lowered);
 
 /// Finds the spheres whose radius dwarfs the rest of the scene seen from `eye`, and their
 /// anchors.

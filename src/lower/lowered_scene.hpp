@@ -1,18 +1,20 @@
 #pragma once
 
 #include <cstdint>
+#include <limits>
 #include <vector>
 
 #include <packtrace/scene.hpp>
 
-#include "kernel_abi/shading.hpp"
+#include "kernel_abi/features.hpp"
+#include "kernel_abi/scene_view.hpp"
 
 namespace packtrace {
 
 struct LoweredSphere {
     Vec3 center{0.0};
     double radius = 1.0;
-    std::int32_t object = 0;
+    std::int32_t surface = 0;
     /// So large against the scene that kernels use its curvature at `anchor`, the point of its
     /// surface nearest the scene, in place of its centre.
     bool huge = false;
@@ -22,7 +24,31 @@ struct LoweredSphere {
 struct LoweredPlane {
     Vec3 point{0.0};
     Vec3 normal{0.0, 1.0, 0.0};  ///< unit
-    std::int32_t object = 0;
+    std::int32_t surface = 0;
+};
+
+/// s0 x² + s1 y² + s2 z² + 2 linear z + constant = 0 at p = inverse (P - center), negative inside.
+struct LoweredQuadric {
+    Vec3 center{0.0};
+    Mat3 inverse{1.0};
+    Vec3 square{0.0};
+    double linear = 0.0;
+    double constant = 0.0;
+    /// Height in the quadric's own space: clip·(P - center) + clip_offset.
+    Vec3 clip{0.0};
+    double clip_offset = 0.0;
+    double clip_low = -std::numeric_limits<double>::infinity();
+    double clip_high = std::numeric_limits<double>::infinity();
+    bool capped = false;
+    Vec3 bound{0.0};  ///< centre of a ball around what is left after clipping
+    double bound_radius = std::numeric_limits<double>::infinity();
+    std::int32_t surface = 0;  ///< with caps, the next two numbers are theirs, low and high
+
+    [[nodiscard]] bool clipped() const
+    {
+        return clip_low > -std::numeric_limits<double>::infinity() ||
+               clip_high < std::numeric_limits<double>::infinity();
+    }
 };
 
 /// Coefficients of the one shading equation (abi::MaterialRecord).
@@ -32,7 +58,9 @@ struct LoweredMaterial {
     Rgb highlight{0.0};
     Rgb reflect{0.0};
     Rgb local{1.0};
+    Rgb transmit{0.0};
     double shininess = 1.0;
+    double ior = 1.0;
 };
 
 struct LoweredChecker {
@@ -41,23 +69,32 @@ struct LoweredChecker {
     Vec3 v{0.0};
 };
 
-/// A scene brought down to what the kernels know: spheres and planes by kind, one equation of
-/// shading, world space, double precision.
+/// A scene brought down to what the kernels know: surfaces by kind, one equation of shading,
+/// world space, double precision.
 struct LoweredScene {
-    std::vector<LoweredSphere> spheres;  ///< rising object numbers
+    std::vector<LoweredSphere> spheres;  ///< rising surface numbers, as in every list
     std::vector<LoweredPlane> planes;
-    std::vector<abi::MaterialIndex> material_index;  ///< by object
+    std::vector<LoweredQuadric> quadrics;
+    std::vector<abi::MaterialIndex> material_index;  ///< by surface
+    std::vector<bool> faces_viewer;                  ///< by surface: normals turn to the ray
     std::vector<LoweredMaterial> materials;
     std::vector<LoweredChecker> checkers;
+    std::vector<double> ior;    ///< by object
     std::vector<Light> lights;  ///< none ambient
     Rgb background{0.0};
+    Rgb limit_color{0.0};  ///< what rays beyond the depth limit bring
     int max_depth = 0;
     bool shadows = true;
-    double epsilon = 0.0;       ///< start of secondary and shadow rays, in direction lengths
-    double camera_t_min = 0.0;  ///< start of camera rays
+    bool transparent_shadows = false;
+    bool visible_lights = false;
+    abi::RayUnits units = abi::RayUnits::as_given;
+    double epsilon = 0.0;                  ///< start of secondary and shadow rays
+    double camera_t_min = 0.0;             ///< start of camera rays
+    std::vector<std::int32_t> eye_inside;  ///< glass objects around the eye, innermost first
+    abi::Features features;
 };
 
-/// Lowers a scene. Throws SceneError for what it can't hold.
+/// Lowers a scene. Throws SceneError for what it can't hold: a quadric without a surface.
 [[nodiscard]] LoweredScene lower(const Scene& scene);
 
 }  // namespace packtrace

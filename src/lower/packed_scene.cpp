@@ -1,69 +1,10 @@
 #include "lower/packed_scene.hpp"
 
 #include <algorithm>
-#include <cmath>
-#include <limits>
 
-#include <glm/geometric.hpp>
+#include "lower/pack_record.hpp"
 
 namespace packtrace {
-namespace {
-
-template <class Real>
-void round_to(Real (&to)[3], const Vec3& from)
-{
-    for (int axis = 0; axis < 3; ++axis)
-        to[axis] = static_cast<Real>(from[axis]);
-}
-
-template <class Real>
-Vec3 widen(const Real (&from)[3])
-{
-    return {from[0], from[1], from[2]};
-}
-
-/// The curvature form around the anchor as rounded: what rounding moved goes into the offset.
-template <class Real>
-abi::HugeSphere<Real> pack_huge(const LoweredSphere& sphere)
-{
-    abi::HugeSphere<Real> packed;
-    round_to(packed.anchor, sphere.anchor);
-    const Vec3 outwards = widen(packed.anchor) - sphere.center;
-    const double distance = glm::length(outwards);
-    round_to(packed.normal, outwards / sphere.radius);
-    packed.curvature = static_cast<Real>(1.0 / sphere.radius);
-    packed.offset =
-        static_cast<Real>((distance - sphere.radius) * (distance + sphere.radius) / sphere.radius);
-    packed.object = sphere.object;
-    return packed;
-}
-
-/// Below this cosine the highlight is less than the smallest normal number and counts as 0; a
-/// little lower, so that the kernel's own power is 0 there too.
-template <class Real>
-Real highlight_floor(const LoweredMaterial& material)
-{
-    if (material.highlight == Rgb(0.0))
-        return std::numeric_limits<Real>::infinity();
-    const double smallest = std::numeric_limits<Real>::min_exponent - 1;
-    return static_cast<Real>(std::exp2(smallest / material.shininess) * (1.0 - 1e-6));
-}
-
-template <class Real>
-abi::MaterialRecord<Real> pack_material(const LoweredMaterial& material)
-{
-    abi::MaterialRecord<Real> packed;
-    round_to(packed.ambient, material.ambient);
-    round_to(packed.diffuse, material.diffuse);
-    round_to(packed.highlight, material.highlight);
-    round_to(packed.reflect, material.reflect);
-    round_to(packed.local, material.local);
-    packed.shininess = static_cast<Real>(material.shininess);
-    packed.highlight_floor = highlight_floor<Real>(material);
-    return packed;
-}
-
-}  // namespace
 
 template <class Real>
 PackedScene<Real>::PackedScene(const LoweredScene& lowered)
@@ -72,12 +13,17 @@ PackedScene<Real>::PackedScene(const LoweredScene& lowered)
     pack_spheres(lowered);
     pack_huge_spheres(lowered);
     pack_planes(lowered);
+    pack_quadrics(lowered);
+    pack_normals(lowered);
     pack_materials(lowered);
     pack_lights(lowered);
-    view_.surfaces = surfaces_.data();
     round_to(view_.background, lowered.background);
+    round_to(view_.limit_color, lowered.limit_color);
     view_.max_depth = lowered.max_depth;
     view_.shadows = lowered.shadows;
+    view_.transparent_shadows = lowered.transparent_shadows;
+    view_.visible_lights = lowered.visible_lights;
+    view_.units = lowered.units;
     view_.epsilon = static_cast<Real>(lowered.epsilon);
 }
 
@@ -86,7 +32,7 @@ void PackedScene<Real>::pack_spheres(const LoweredScene& lowered)
 {
     const std::size_t stride = lowered.spheres.size() + abi::padding;
     sphere_reals_ = AlignedArray<Real>(5 * stride);
-    sphere_objects_ = AlignedArray<abi::lane_int<Real>>(stride);
+    sphere_surfaces_ = AlignedArray<abi::lane_int<Real>>(stride);
     Real* reals = sphere_reals_.data();
     std::size_t count = 0;
     for (const LoweredSphere& sphere : lowered.spheres) {
@@ -97,8 +43,8 @@ void PackedScene<Real>::pack_spheres(const LoweredScene& lowered)
                 static_cast<Real>(sphere.center[axis]);
         reals[3 * stride + count] = static_cast<Real>(sphere.radius);
         reals[4 * stride + count] = static_cast<Real>(sphere.radius * sphere.radius);
-        sphere_objects_[count] = sphere.object;
-        auto& surface = surfaces_[static_cast<std::size_t>(sphere.object)];
+        sphere_surfaces_[count] = sphere.surface;
+        auto& surface = surfaces_[static_cast<std::size_t>(sphere.surface)];
         round_to(surface.anchor, sphere.center);
         surface.curvature = static_cast<Real>(1.0 / sphere.radius);
         ++count;
@@ -108,7 +54,7 @@ void PackedScene<Real>::pack_spheres(const LoweredScene& lowered)
                      reals + 2 * stride,
                      reals + 3 * stride,
                      reals + 4 * stride,
-                     sphere_objects_.data(),
+                     sphere_surfaces_.data(),
                      static_cast<int>(count)};
 }
 
@@ -122,7 +68,7 @@ void PackedScene<Real>::pack_huge_spheres(const LoweredScene& lowered)
             continue;
         const auto packed = pack_huge<Real>(sphere);
         huge_spheres_[static_cast<std::size_t>(count++)] = packed;
-        auto& surface = surfaces_[static_cast<std::size_t>(sphere.object)];
+        auto& surface = surfaces_[static_cast<std::size_t>(sphere.surface)];
         std::copy(packed.anchor, packed.anchor + 3, surface.anchor);
         std::copy(packed.normal, packed.normal + 3, surface.normal);
         surface.curvature = packed.curvature;
@@ -138,12 +84,50 @@ void PackedScene<Real>::pack_planes(const LoweredScene& lowered)
         const LoweredPlane& plane = lowered.planes[i];
         round_to(planes_[i].point, plane.point);
         round_to(planes_[i].normal, plane.normal);
-        planes_[i].object = plane.object;
-        auto& surface = surfaces_[static_cast<std::size_t>(plane.object)];
+        planes_[i].surface = plane.surface;
+        auto& surface = surfaces_[static_cast<std::size_t>(plane.surface)];
         round_to(surface.normal, plane.normal);
-        surface.faces_viewer = 1;
     }
     view_.planes = {planes_.data(), static_cast<int>(lowered.planes.size())};
+}
+
+template <class Real>
+void PackedScene<Real>::pack_quadrics(const LoweredScene& lowered)
+{
+    quadrics_ = AlignedArray<abi::QuadricRecord<Real>>(lowered.quadrics.size());
+    for (std::size_t i = 0; i < lowered.quadrics.size(); ++i)
+        quadrics_[i] = pack_quadric<Real>(lowered.quadrics[i]);
+    view_.quadrics = {quadrics_.data(), static_cast<int>(lowered.quadrics.size())};
+}
+
+/// The round surfaces have their normals already; curved ones are only needed among quadrics.
+template <class Real>
+void PackedScene<Real>::pack_normals(const LoweredScene& lowered)
+{
+    const std::size_t count = surfaces_.size();
+    for (std::size_t i = 0; i < count; ++i)
+        surfaces_[i].faces_viewer = lowered.faces_viewer[i] ? Real(1) : Real(0);
+    view_.surfaces = surfaces_.data();
+
+    // The scene's glass kernel knows curved surfaces only.
+    if (!lowered.features.quadrics && !lowered.features.glass)
+        return;
+    curved_surfaces_ = AlignedArray<abi::CurvedSurfaceRecord<Real>>(count);
+    for (std::size_t i = 0; i < count; ++i) {
+        std::copy(surfaces_[i].anchor, surfaces_[i].anchor + 3, curved_surfaces_[i].anchor);
+        std::copy(surfaces_[i].normal, surfaces_[i].normal + 3, curved_surfaces_[i].normal);
+        std::fill_n(curved_surfaces_[i].curvature, 3, surfaces_[i].curvature);
+    }
+    for (const LoweredQuadric& quadric : lowered.quadrics) {
+        const auto first = static_cast<std::size_t>(quadric.surface);
+        curved_surfaces_[first] = side_normal<Real>(quadric);
+        for (int cap = 1; quadric.capped && cap <= 2; ++cap)
+            curved_surfaces_[first + static_cast<std::size_t>(cap)] =
+                cap_normal<Real>(quadric, cap);
+    }
+    for (std::size_t i = 0; i < count; ++i)
+        curved_surfaces_[i].faces_viewer = surfaces_[i].faces_viewer;
+    view_.curved_surfaces = curved_surfaces_.data();
 }
 
 template <class Real>
@@ -160,10 +144,14 @@ void PackedScene<Real>::pack_materials(const LoweredScene& lowered)
         round_to(checkers_[i].u, lowered.checkers[i].u);
         round_to(checkers_[i].v, lowered.checkers[i].v);
     }
+    ior_ = AlignedArray<Real>(lowered.ior.size() + 1);
+    ior_[0] = 1;
+    for (std::size_t i = 0; i < lowered.ior.size(); ++i)
+        ior_[i + 1] = static_cast<Real>(lowered.ior[i]);
+    view_.ior = ior_.data() + 1;
     view_.material_index = material_index_.data();
     view_.materials = materials_.data();
     view_.checkers = checkers_.data();
-    view_.checker_count = static_cast<int>(lowered.checkers.size());
 }
 
 template <class Real>

@@ -23,17 +23,22 @@ private:
     void pack_spheres(const LoweredScene& lowered);
     void pack_huge_spheres(const LoweredScene& lowered);
     void pack_planes(const LoweredScene& lowered);
+    void pack_quadrics(const LoweredScene& lowered);
+    void pack_normals(const LoweredScene& lowered);
     void pack_materials(const LoweredScene& lowered);
     void pack_lights(const LoweredScene& lowered);
 
     AlignedArray<Real> sphere_reals_;
-    AlignedArray<abi::lane_int<Real>> sphere_objects_;
+    AlignedArray<abi::lane_int<Real>> sphere_surfaces_;
     AlignedArray<abi::HugeSphere<Real>> huge_spheres_;
     AlignedArray<abi::PlaneRecord<Real>> planes_;
+    AlignedArray<abi::QuadricRecord<Real>> quadrics_;
     AlignedArray<abi::SurfaceRecord<Real>> surfaces_;
+    AlignedArray<abi::CurvedSurfaceRecord<Real>> curved_surfaces_;
     AlignedArray<abi::MaterialIndex> material_index_;
     AlignedArray<abi::MaterialRecord<Real>> materials_;
     AlignedArray<abi::CheckerRecord<Real>> checkers_;
+    AlignedArray<Real> ior_;
     AlignedArray<abi::LightRecord<Real>> lights_;
     abi::SceneView<Real> view_;
 };

@@ -3,12 +3,13 @@
 #include <packtrace/scene.hpp>
 
 #include "kernel_abi/scene_view.hpp"
+#include "lower/lowered_scene.hpp"
 
 namespace packtrace {
 
 /// The scene's camera over its own canvas, rounded to the kernels' precision.
 template <class Real>
-[[nodiscard]] abi::CameraView<Real> camera_view(const Scene& scene, double t_min)
+[[nodiscard]] abi::CameraView<Real> camera_view(const Scene& scene, const LoweredScene& lowered)
 {
     const CameraBasis basis = camera_basis(scene.camera, scene.width, scene.height);
     abi::CameraView<Real> view;
@@ -20,7 +21,9 @@ template <class Real>
     }
     view.first_x = static_cast<Real>(scene.camera.pixel_sample.x - 0.5 * scene.width);
     view.first_y = static_cast<Real>(0.5 * scene.height - scene.camera.pixel_sample.y);
-    view.t_min = static_cast<Real>(t_min);
+    view.t_min = static_cast<Real>(lowered.camera_t_min);
+    for (std::size_t i = 0; i < lowered.eye_inside.size(); ++i)
+        view.inside[i] = lowered.eye_inside[i];
     return view;
 }
 

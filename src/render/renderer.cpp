@@ -25,8 +25,8 @@ struct Renderer<Real>::State {
     int width;
     int height;
     IsaInfo isa;
-    const abi::PrecisionTable<Real>* kernels;
     LoweredScene lowered;
+    const abi::FeatureKernels<Real>* kernels;
     PackedScene<Real> packed;
     abi::CameraView<Real> camera;
     int threads;
@@ -38,10 +38,10 @@ struct Renderer<Real>::State {
         : width(scene.width),
           height(scene.height),
           isa(choose_isa(options.isa, options.width)),
-          kernels(&precision<Real>(kernels_of(isa.name))),
           lowered(lower(scene)),
+          kernels(&kernels_for(precision<Real>(kernels_of(isa.name)), lowered.features)),
           packed(lowered),
-          camera(camera_view<Real>(scene, lowered.camera_t_min)),
+          camera(camera_view<Real>(scene, lowered)),
           threads(options.threads),
           progress(options.progress),
           scratch_bytes(kernels->scratch_bytes(packed.view())),
@@ -80,6 +80,7 @@ struct Renderer<Real>::State {
                     sum.camera += rays.camera;
                     sum.shadow += rays.shadow;
                     sum.reflected += rays.reflected;
+                    sum.refracted += rays.refracted;
                     done.finish_piece();
                 }
             },
@@ -88,6 +89,7 @@ struct Renderer<Real>::State {
             a.camera += b.camera;
             a.shadow += b.shadow;
             a.reflected += b.reflected;
+            a.refracted += b.refracted;
             return a;
         });
     }

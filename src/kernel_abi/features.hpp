@@ -1,0 +1,25 @@
+#pragma once
+
+namespace packtrace::abi {
+
+/// What a scene uses. Kernels are compiled for feature sets, and have no branch, no array and
+/// no pass for what theirs lacks.
+struct Features {
+    bool quadrics = false;  ///< surfaces other than spheres and planes
+    bool glass = false;     ///< refracted rays, or shadows that let light through
+};
+
+/// The feature sets compiled in; a scene runs the first that covers it.
+inline constexpr Features feature_sets[] = {
+    {.quadrics = false, .glass = false},
+    {.quadrics = true, .glass = false},
+    {.quadrics = true, .glass = true},
+};
+inline constexpr int feature_set_count = 3;
+
+constexpr bool covers(Features set, Features needed)
+{
+    return (set.quadrics || !needed.quadrics) && (set.glass || !needed.glass);
+}
+
+}  // namespace packtrace::abi

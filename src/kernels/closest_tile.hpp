@@ -1,0 +1,41 @@
+#pragma once
+
+#include "kernels/trace_stream.hpp"
+#include "kernels/workspace.hpp"
+
+// The camera rays of a tile without any shading.
+namespace packtrace::PACKTRACE_ISA {
+namespace {
+
+template <class Real>
+inline void store_misses(abi::TileHits<Real>& hits)
+{
+    const HitPacket<Real> miss = no_hit<Real>(static_cast<Real>(__builtin_inf()));
+    for (int first = 0; first < abi::tile_pixels; first += lanes<Real>) {
+        store(hits.t + first, miss.t);
+        store(hits.surface + first, miss.surface);
+    }
+}
+
+template <abi::Features F, class Real>
+inline void closest_tile(const abi::TileJob<Real>& job, abi::TileHits<Real>& hits)
+{
+    const abi::SceneView<Real>& scene = *job.scene;
+    Workspace<F, Real> work(job.scratch, scene);
+    find_objects<F>(work.visible, camera_beam(job), scene);
+    if (work.visible.empty()) {
+        store_misses(hits);
+        return;
+    }
+    const TileCamera<Real> camera(job);
+    for (int first = 0; first < abi::tile_pixels; first += lanes<Real>) {
+        const RayPacket<Real> rays = camera_rays(camera, first, scene.units);
+        HitPacket<Real> hit = no_hit<Real>(static_cast<Real>(__builtin_inf()));
+        closest_hit<F>(hit, work.visible, rays);
+        store(hits.t + first, hit.t);
+        store(hits.surface + first, hit.surface);
+    }
+}
+
+}  // namespace
+}  // namespace packtrace::PACKTRACE_ISA

@@ -1,0 +1,81 @@
+#pragma once
+
+#include "kernels/shared_origin.hpp"
+
+// One way to walk the objects of a scene and those of a beam.
+namespace packtrace::PACKTRACE_ISA {
+namespace {
+
+template <class Real, class Objects>
+struct ObjectLists;
+
+template <class Real>
+struct ObjectLists<Real, abi::SceneView<Real>> {
+    const abi::SceneView<Real>& scene;
+
+    const abi::SphereListView<Real>& spheres() const
+    {
+        return scene.spheres;
+    }
+    int huge_count() const
+    {
+        return scene.huge_spheres.count;
+    }
+    const abi::HugeSphere<Real>& huge(int i) const
+    {
+        return scene.huge_spheres.data[i];
+    }
+    int plane_count() const
+    {
+        return scene.planes.count;
+    }
+    const abi::PlaneRecord<Real>& plane(int i) const
+    {
+        return scene.planes.data[i];
+    }
+    int quadric_count() const
+    {
+        return scene.quadrics.count;
+    }
+    const abi::QuadricRecord<Real>& quadric(int i) const
+    {
+        return scene.quadrics.data[i];
+    }
+};
+
+template <class Real>
+struct ObjectLists<Real, SharedOriginObjects<Real>> {
+    const SharedOriginObjects<Real>& objects;
+
+    const SharedOriginSpheres<Real>& spheres() const
+    {
+        return objects.spheres;
+    }
+    int huge_count() const
+    {
+        return objects.huge_count;
+    }
+    const SharedOriginHuge<Real>& huge(int i) const
+    {
+        return objects.huge_spheres[i];
+    }
+    int plane_count() const
+    {
+        return objects.plane_count;
+    }
+    const SharedOriginPlane<Real>& plane(int i) const
+    {
+        return objects.planes[i];
+    }
+    int quadric_count() const
+    {
+        return objects.quadric_count;
+    }
+    const SharedOriginQuadric<Real>& quadric(int i) const
+    {
+        return objects.quadrics[i];
+    }
+};
+
+}  // namespace
+}  // namespace packtrace::PACKTRACE_ISA

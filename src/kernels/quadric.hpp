@@ -1,0 +1,156 @@
+#pragma once
+
+#include "kernel_abi/lists.hpp"
+#include "kernels/quadratic.hpp"
+
+// Quadrics after the inverse transform (abi::QuadricRecord).
+namespace packtrace::PACKTRACE_ISA {
+namespace {
+
+/// What a quadric needs to know of a ray's origin, in the quadric's canonical space.
+template <class Real>
+struct QuadricOrigin {
+    Vec3v<Real> p;
+    vreal<Real> value;   ///< the left side of the equation there
+    vreal<Real> height;  ///< in the space that clipping goes by
+};
+
+template <class Real>
+inline Vec3v<Real> apply_inverse(const abi::QuadricRecord<Real>& quadric, const Vec3v<Real>& v)
+{
+    return {dot(broadcast(quadric.inverse[0]), v), dot(broadcast(quadric.inverse[1]), v),
+            dot(broadcast(quadric.inverse[2]), v)};
+}
+
+/// The centre is subtracted in two parts, so that a quadric far from the origin keeps its digits.
+template <class Real>
+inline QuadricOrigin<Real> quadric_origin(const abi::QuadricRecord<Real>& quadric,
+                                          const Vec3v<Real>& org)
+{
+    const Vec3v<Real> w = (org - broadcast(quadric.center)) - broadcast(quadric.center_low);
+    const Vec3v<Real> p = apply_inverse(quadric, w);
+    const Vec3v<Real> squares = broadcast(quadric.square) * p;
+    const vreal<Real> linear(quadric.linear);
+    QuadricOrigin<Real> origin;
+    origin.p = p;
+    origin.value = madd(linear + linear, p.z, dot(squares, p)) + vreal<Real>(quadric.constant);
+    origin.height = dot(broadcast(quadric.clip), w) + vreal<Real>(quadric.clip_offset);
+    return origin;
+}
+
+/// D = b² - a c without its cancelling terms: with the moment m = p × v of the ray in canonical
+/// space it is a sum over m's squares, as Lagrange's identity makes of a sphere's.
+template <class Real>
+inline vreal<Real> quadric_discriminant(const abi::QuadricRecord<Real>& quadric,
+                                        const Vec3v<Real>& p, const Vec3v<Real>& v,
+                                        const vreal<Real>& a)
+{
+    const Vec3v<Real> s = broadcast(quadric.square);
+    const Vec3v<Real> m = cross(p, v);
+    const vreal<Real> squares =
+        madd(s.x * s.y, m.z * m.z, madd(s.y * s.z, m.x * m.x, (s.z * s.x) * (m.y * m.y)));
+    const vreal<Real> linear(quadric.linear);
+    const vreal<Real> tilt = msub(s.y * v.y, m.x, (s.x * v.x) * m.y);
+    const vreal<Real> with_linear = linear * madd(linear, v.z * v.z, tilt + tilt);
+    return nmadd(a, vreal<Real>(quadric.constant), with_linear - squares);
+}
+
+template <class Real>
+inline Quadratic<Real> quadric_quadratic(const abi::QuadricRecord<Real>& quadric,
+                                         const QuadricOrigin<Real>& origin, const Vec3v<Real>& v)
+{
+    const Vec3v<Real> scaled = broadcast(quadric.square) * v;
+    Quadratic<Real> q;
+    q.a = dot(scaled, v);
+    q.b = madd(vreal<Real>(quadric.linear), v.z, dot(scaled, origin.p));
+    q.c = origin.value;
+    q.discriminant = quadric_discriminant<Real>(quadric, origin.p, v, q.a);
+    return q;
+}
+
+/// Calls `visit(valid, t, piece)` for the places where the rays of `active` cross the clipped and
+/// capped surface: piece 0 is the side, 1 and 2 the low and the high cap. A t may be infinite.
+template <class Real, class Visit>
+inline void visit_crossings(const abi::QuadricRecord<Real>& quadric,
+                            const QuadricOrigin<Real>& origin, const RayPacket<Real>& rays,
+                            const Visit& visit)
+{
+    const Vec3v<Real> v = apply_inverse(quadric, rays.dir);
+    const Quadratic<Real> quadratic = quadric_quadratic(quadric, origin, v);
+    const auto crosses = quadratic.discriminant >= vreal<Real>(Real(0));
+    const vreal<Real> climb = dot(broadcast(quadric.clip), rays.dir);
+    const vreal<Real> low(quadric.clip_low);
+    const vreal<Real> high(quadric.clip_high);
+    if (any(crosses)) {
+        // Press et al.: neither root cancels; with a = 0 the first is infinite.
+        const vreal<Real> root = sqrt(quadratic.discriminant);
+        const vreal<Real> minus_q = quadratic.b + with_sign_of(root, quadratic.b);
+        for (const vreal<Real>& t :
+             {negated(minus_q) / quadratic.a, negated(quadratic.c) / minus_q}) {
+            auto valid = crosses;
+            if (quadric.clipped) {
+                const vreal<Real> height = madd(t, climb, origin.height);
+                valid = valid & (height >= low) & (height <= high);
+            }
+            visit(valid, t, 0);
+        }
+    }
+    if (!quadric.capped)
+        return;
+    for (int cap = 1; cap <= 2; ++cap) {
+        const vreal<Real> t = ((cap == 1 ? low : high) - origin.height) / climb;
+        const vreal<Real> value =
+            madd(madd(quadratic.a, t, quadratic.b + quadratic.b), t, quadratic.c);
+        visit(value <= vreal<Real>(Real(0)), t, cap);
+    }
+}
+
+/// A quadric seen from an origin that all rays share.
+template <class Real>
+struct SharedOriginQuadric {
+    const abi::QuadricRecord<Real>* record;
+    Real p[3];
+    Real value;
+    Real height;
+};
+
+template <class Real>
+inline SharedOriginQuadric<Real> share_origin(const abi::QuadricRecord<Real>& quadric,
+                                              const Vec3v<Real>& org)
+{
+    const QuadricOrigin<Real> at = quadric_origin<Real>(quadric, org);
+    return {&quadric,
+            {first_lane<Real>(at.p.x), first_lane<Real>(at.p.y), first_lane<Real>(at.p.z)},
+            first_lane<Real>(at.value),
+            first_lane<Real>(at.height)};
+}
+
+template <class Real, class Visit>
+inline void visit_crossings(const abi::QuadricRecord<Real>& quadric, const RayPacket<Real>& rays,
+                            const Visit& visit)
+{
+    visit_crossings(quadric, quadric_origin<Real>(quadric, rays.org), rays, visit);
+}
+
+template <class Real, class Visit>
+inline void visit_crossings(const SharedOriginQuadric<Real>& quadric, const RayPacket<Real>& rays,
+                            const Visit& visit)
+{
+    const QuadricOrigin<Real> origin{broadcast(quadric.p), vreal<Real>(quadric.value),
+                                     vreal<Real>(quadric.height)};
+    visit_crossings(*quadric.record, origin, rays, visit);
+}
+
+template <class Real>
+inline const abi::QuadricRecord<Real>& record_of(const abi::QuadricRecord<Real>& quadric)
+{
+    return quadric;
+}
+template <class Real>
+inline const abi::QuadricRecord<Real>& record_of(const SharedOriginQuadric<Real>& quadric)
+{
+    return *quadric.record;
+}
+
+}  // namespace
+}  // namespace packtrace::PACKTRACE_ISA

@@ -1,0 +1,25 @@
+#pragma once
+
+#include "kernel_abi/kernel_table.hpp"
+#include "kernels/shared_origin.hpp"
+
+namespace packtrace::PACKTRACE_ISA {
+namespace {
+
+/// What shading a tile needs besides the hits themselves.
+template <class Real>
+struct ShadeContext {
+    const abi::SceneView<Real>* scene;
+    /// For each point light, what may stand between it and the hits.
+    const SharedOriginObjects<Real>* blockers;
+    int depth;  ///< reflections and refractions before these hits
+    abi::RayCounts* counts;
+
+    bool spawns() const
+    {
+        return depth < scene->max_depth;
+    }
+};
+
+}  // namespace
+}  // namespace packtrace::PACKTRACE_ISA

@@ -1,0 +1,69 @@
+#pragma once
+
+#include "kernels/glass.hpp"
+#include "kernels/tile_memory.hpp"
+
+// Children of a packet of hits: mirrored and refracted rays, appended to streams.
+namespace packtrace::PACKTRACE_ISA {
+namespace {
+
+template <abi::Features F, class Real>
+inline void append_ray(RayStream<F, Real>& next, const Vec3v<Real>& org, const Vec3v<Real>& dir,
+                       const Vec3v<Real>& weight, const vint<Real>& pixel, std::uint32_t active)
+{
+    append3(next.org, next.count, active, org);
+    append3(next.dir, next.count, active, dir);
+    append3(next.weight, next.count, active, weight);
+    compress_store(next.pixel + next.count, active, pixel);
+}
+
+/// `append_ray` does not count, so that the glass of the same rays goes to the same place.
+template <abi::Features F, class Real>
+inline void append_glass(RayStream<F, Real>& next, const GlassPacket<Real>& inside,
+                         std::uint32_t active)
+{
+    if constexpr (F.glass)
+        for (int i = 0; i < abi::glass_depth; ++i)
+            compress_store(next.inside[i] + next.count, active, inside.body[i]);
+}
+
+template <class Real>
+inline Vec3v<Real> mirrored(const SurfacePacket<Real>& surface)
+{
+    const vreal<Real> twice = dot(surface.normal, surface.dir) * vreal<Real>(Real(-2));
+    return madd<Real>(twice, surface.normal, surface.dir);
+}
+
+/// A hit's share of its pixel, and where that is.
+template <class Real>
+struct PathPacket {
+    Vec3v<Real> weight;
+    vint<Real> pixel;
+};
+
+template <abi::Features F, class Real>
+inline void spawn_mirrored(RayStream<F, Real>& next, const SurfacePacket<Real>& surface,
+                           const PathPacket<Real>& path, const Vec3v<Real>& reflect,
+                           const GlassPacket<Real>& inside, std::uint32_t active)
+{
+    if (active == 0)
+        return;
+    append_ray(next, surface.point, mirrored(surface), path.weight * reflect, path.pixel, active);
+    append_glass(next, inside, active);
+    next.count += __builtin_popcount(active);
+}
+
+template <abi::Features F, class Real>
+inline void spawn_refracted(RayStream<F, Real>& next, const SurfacePacket<Real>& surface,
+                            const PathPacket<Real>& path, const Vec3v<Real>& transmit,
+                            const RefractedPacket<Real>& refracted, std::uint32_t active)
+{
+    if (active == 0)
+        return;
+    append_ray(next, surface.point, refracted.dir, path.weight * transmit, path.pixel, active);
+    append_glass(next, refracted.inside, active);
+    next.count += __builtin_popcount(active);
+}
+
+}  // namespace
+}  // namespace packtrace::PACKTRACE_ISA

@@ -1,0 +1,127 @@
+#include "lower/canonical_form.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include <glm/geometric.hpp>
+#include <glm/matrix.hpp>
+
+#include "lower/symmetric_eigen.hpp"
+
+namespace packtrace {
+namespace {
+
+constexpr double negligible = 1e-12;
+
+double largest(const Vec3& v)
+{
+    return std::max({std::abs(v.x), std::abs(v.y), std::abs(v.z)});
+}
+
+int rank_of(const Vec3& square)
+{
+    return (square.x != 0.0) + (square.y != 0.0) + (square.z != 0.0);
+}
+
+/// Eigenvalues that are nothing against the largest become 0 and go last; axes follow.
+void sort_axes(SymmetricEigen& eigen)
+{
+    const double limit = negligible * largest(eigen.values);
+    for (int axis = 0; axis < 3; ++axis)
+        if (std::abs(eigen.values[axis]) <= limit)
+            eigen.values[axis] = 0.0;
+    for (int pass = 0; pass < 2; ++pass)
+        for (int axis = 0; axis < 2; ++axis)
+            if (eigen.values[axis] == 0.0 && eigen.values[axis + 1] != 0.0) {
+                std::swap(eigen.values[axis], eigen.values[axis + 1]);
+                std::swap(eigen.vectors[axis], eigen.vectors[axis + 1]);
+            }
+}
+
+/// Turns the axes without a square so that the rest of the linear part lies along the last.
+void align_linear(SymmetricEigen& eigen, const Vec3& slope)
+{
+    if (rank_of(eigen.values) >= 2)
+        return;
+    Vec3 direction = slope;
+    if (eigen.values.x != 0.0)
+        direction -= eigen.vectors[0] * glm::dot(eigen.vectors[0], slope);
+    if (glm::length(direction) <= negligible * glm::length(slope))
+        return;
+    eigen.vectors[2] = glm::normalize(direction);
+    if (eigen.values.x == 0.0) {
+        const int smallest = std::abs(eigen.vectors[2].x) < 0.6 ? 0 : 1;
+        Vec3 other{0.0};
+        other[smallest] = 1.0;
+        eigen.vectors[0] = glm::normalize(glm::cross(other, eigen.vectors[2]));
+    }
+    eigen.vectors[1] = glm::cross(eigen.vectors[2], eigen.vectors[0]);
+}
+
+/// Moves along the axes until no axis has both a square and a slope.
+void complete_squares(CanonicalForm& form, const Vec3& slope, double constant)
+{
+    Vec3 shift{0.0};  // along the axes
+    form.constant = constant;
+    for (int axis = 0; axis < 3; ++axis) {
+        const double half = 0.5 * glm::dot(form.axes[axis], slope);
+        if (form.square[axis] != 0.0) {
+            shift[axis] = -half / form.square[axis];
+            form.constant -= half * half / form.square[axis];
+        } else if (axis == 2 && std::abs(half) > negligible * glm::length(slope)) {
+            form.linear = half;
+        }
+    }
+    if (form.linear != 0.0) {
+        shift.z = -form.constant / (2.0 * form.linear);
+        form.constant = 0.0;
+    }
+    form.center = form.axes * shift;
+}
+
+}  // namespace
+
+CanonicalForm canonical_form(const std::array<double, 10>& coefficients)
+{
+    const auto& [A, B, C, D, E, F, G, H, I, J] = coefficients;
+    Mat3 matrix;
+    matrix[0] = {A, D / 2, E / 2};
+    matrix[1] = {D / 2, B, F / 2};
+    matrix[2] = {E / 2, F / 2, C};
+    const Vec3 slope{G, H, I};
+    SymmetricEigen eigen = symmetric_eigen(matrix);
+    sort_axes(eigen);
+    align_linear(eigen, slope);
+
+    CanonicalForm form;
+    form.axes = eigen.vectors;
+    form.square = eigen.values;
+    complete_squares(form, slope, J);
+    // A constant that is only what cancelling squares left over is none.
+    const double scale = std::abs(J) + std::abs(form.constant - J);
+    if (std::abs(form.constant) <= negligible * scale)
+        form.constant = 0.0;
+    return form;
+}
+
+std::optional<std::string> why_no_surface(const CanonicalForm& form)
+{
+    const int rank = rank_of(form.square);
+    if (rank == 0 && form.linear == 0.0)
+        return "all coefficients but the last are 0";
+    if (form.linear != 0.0)
+        return std::nullopt;
+    const bool positive = form.square.x > 0.0;
+    for (int axis = 1; axis < rank; ++axis)
+        if ((form.square[axis] > 0.0) != positive)
+            return std::nullopt;
+    if (form.constant == 0.0) {
+        static const char* const shape[] = {"", "a plane counted twice", "a line", "a point"};
+        return std::string("its surface is only ") + shape[rank];
+    }
+    if ((form.constant > 0.0) == positive)
+        return "no point satisfies its equation";
+    return std::nullopt;
+}
+
+}  // namespace packtrace

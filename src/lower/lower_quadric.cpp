@@ -1,0 +1,119 @@
+#include "lower/lower_quadric.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include <glm/geometric.hpp>
+#include <glm/matrix.hpp>
+#include <packtrace/read_scene.hpp>
+
+#include "lower/canonical_form.hpp"
+
+namespace packtrace {
+namespace {
+
+struct Ball {
+    Vec3 center{0.0};
+    double radius = std::numeric_limits<double>::infinity();
+};
+
+double frobenius_norm(const Mat3& m)
+{
+    return std::sqrt(glm::dot(m[0], m[0]) + glm::dot(m[1], m[1]) + glm::dot(m[2], m[2]));
+}
+
+/// The half axes of an ellipsoid in canonical space, or nothing for other surfaces.
+std::optional<Vec3> half_axes(const CanonicalForm& form)
+{
+    const Vec3 ratio = -form.constant / form.square;
+    if (form.linear != 0.0 || !(ratio.x > 0.0 && ratio.y > 0.0 && ratio.z > 0.0))
+        return std::nullopt;
+    return glm::sqrt(ratio);
+}
+
+/// The largest value of -(C z² + I z + J) within the range: x² A + y² B is at most that.
+double widest_section(const std::array<double, 10>& k, const ZRange& range)
+{
+    const auto section = [&](double z) { return -((k[2] * z + k[8]) * z + k[9]); };
+    double widest = std::max(section(range.low), section(range.high));
+    const double top = k[2] > 0.0 ? -k[8] / (2.0 * k[2]) : range.low;
+    if (top > range.low && top < range.high)
+        widest = std::max(widest, section(top));
+    return std::max(widest, 0.0);
+}
+
+/// A ball in own space around a clipped surface that is round about its z axis.
+std::optional<Mat3> clipped_box(const Quadric& quadric)
+{
+    const auto& k = quadric.coefficients;
+    const bool about_z = k[3] == 0.0 && k[4] == 0.0 && k[5] == 0.0 && k[6] == 0.0 && k[7] == 0.0;
+    if (!quadric.z_range || !about_z || !(k[0] > 0.0) || !(k[1] > 0.0))
+        return std::nullopt;
+    const double widest = widest_section(k, *quadric.z_range);
+    Mat3 box(0.0);
+    box[0][0] = std::sqrt(widest / k[0]);
+    box[1][1] = std::sqrt(widest / k[1]);
+    box[2][2] = 0.5 * (quadric.z_range->high - quadric.z_range->low);
+    return box;
+}
+
+Ball bounding_ball(const Quadric& quadric, const CanonicalForm& form, const Mat4& transform)
+{
+    const Mat3 linear(transform);
+    // Rounding of the bound itself; far more than it can be.
+    constexpr double slack = 1.0 + 1e-9;
+    if (const auto axes = half_axes(form)) {
+        Mat3 ellipsoid = linear * form.axes;
+        for (int axis = 0; axis < 3; ++axis)
+            ellipsoid[axis] *= (*axes)[axis];
+        return {Vec3(transform * glm::dvec4(form.center, 1.0)), frobenius_norm(ellipsoid) * slack};
+    }
+    if (const auto box = clipped_box(quadric)) {
+        const double middle = 0.5 * (quadric.z_range->low + quadric.z_range->high);
+        return {Vec3(transform * glm::dvec4(0.0, 0.0, middle, 1.0)),
+                frobenius_norm(linear * *box) * slack};
+    }
+    return {};
+}
+
+}  // namespace
+
+LoweredQuadric lower_quadric(const Object& object, const Quadric& quadric, std::int32_t surface)
+{
+    const CanonicalForm form = canonical_form(quadric.coefficients);
+    if (const auto reason = why_no_surface(form))
+        throw SceneError("object '" + object.name + "': the quadric has no surface: " + *reason +
+                         "; change its coefficients");
+    const Mat3 own_from_world = glm::inverse(Mat3(object.transform));
+
+    LoweredQuadric lowered;
+    lowered.center = Vec3(object.transform * glm::dvec4(form.center, 1.0));
+    lowered.inverse = glm::transpose(form.axes) * own_from_world;
+    lowered.square = form.square;
+    lowered.linear = form.linear;
+    lowered.constant = form.constant;
+    lowered.clip = Vec3(0.0, 0.0, 1.0) * own_from_world;
+    lowered.clip_offset = form.center.z;
+    if (quadric.z_range) {
+        lowered.clip_low = quadric.z_range->low;
+        lowered.clip_high = quadric.z_range->high;
+    }
+    lowered.capped = quadric.capped;
+    const Ball ball = bounding_ball(quadric, form, object.transform);
+    lowered.bound = ball.center;
+    lowered.bound_radius = ball.radius;
+    lowered.surface = surface;
+    return lowered;
+}
+
+Quadric as_quadric(const Sphere& sphere)
+{
+    const Vec3& c = sphere.center;
+    Quadric quadric;
+    quadric.coefficients = {
+        1, 1,        1,        0,        0,
+        0, -2 * c.x, -2 * c.y, -2 * c.z, glm::dot(c, c) - sphere.radius * sphere.radius};
+    return quadric;
+}
+
+}  // namespace packtrace

@@ -1,0 +1,31 @@
+#pragma once
+
+#include "kernel_abi/scene_view.hpp"
+#include "lower/lowered_scene.hpp"
+
+// Lowered records in the kernels' precision: every value is rounded once, from double.
+namespace packtrace {
+
+template <class Real>
+void round_to(Real (&to)[3], const Vec3& from)
+{
+    for (int axis = 0; axis < 3; ++axis)
+        to[axis] = static_cast<Real>(from[axis]);
+}
+
+template <class Real>
+[[nodiscard]] abi::HugeSphere<Real> pack_huge(const LoweredSphere& sphere);
+
+template <class Real>
+[[nodiscard]] abi::QuadricRecord<Real> pack_quadric(const LoweredQuadric& quadric);
+
+template <class Real>
+[[nodiscard]] abi::MaterialRecord<Real> pack_material(const LoweredMaterial& material);
+
+/// The gradients of a quadric's side and of its caps.
+template <class Real>
+[[nodiscard]] abi::CurvedSurfaceRecord<Real> side_normal(const LoweredQuadric& quadric);
+template <class Real>
+[[nodiscard]] abi::CurvedSurfaceRecord<Real> cap_normal(const LoweredQuadric& quadric, int cap);
+
+}  // namespace packtrace
