@@ -6,8 +6,11 @@
 #include "scene/nearest_word.hpp"
 #include "scene/quote.hpp"
 
-namespace packtrace {
+namespace packtrace::reader {
 namespace {
+
+/// The one block with a name before its brace.
+constexpr std::string_view named_block = "material";
 
 bool contains(const Keys& keys, std::string_view key)
 {
@@ -18,7 +21,7 @@ bool contains(const Keys& keys, std::string_view key)
 
 void Field::fail(const std::string& message) const
 {
-    packtrace::fail(source, entry.key.at, message);
+    reader::fail(source, entry.key.at, message);
 }
 
 Block::Block(const Field& field, std::string_view title, const Keys& once, const Keys& repeatable)
@@ -32,7 +35,12 @@ void Block::check_block() const
 {
     const std::string key(title_);
     if (field_.entry.kind != EntryKind::block)
-        field_.fail("'" + key + "' is a block, not a value; write " + key + " { ... }");
+        field_.fail("'" + key + "' is a block, not a value; write " + key +
+                    (key == named_block ? " gold { ... }" : " { ... }"));
+    if (field_.entry.name && key != named_block)
+        reader::fail(field_.source, field_.entry.name->at,
+                     "only a material is named before its brace; write name = \"...\" between "
+                     "the braces of an object");
 }
 
 void Block::check_keys(const Keys& once, const Keys& repeatable) const
@@ -45,14 +53,14 @@ void Block::check_keys(const Keys& once, const Keys& repeatable) const
         if (contains(repeatable, key))
             continue;
         if (!contains(once, key))
-            fail(field_.source, entry.key.at,
-                 "unknown key " + quote(key) + " in " + std::string(title_) + "; " +
-                     suggest(key, known));
+            reader::fail(field_.source, entry.key.at,
+                         "unknown key " + quote(key) + " in " + std::string(title_) + "; " +
+                             suggest(key, known));
         for (const Entry* earlier : seen)
             if (earlier->key.text == key)
-                fail(field_.source, entry.key.at,
-                     quote(key) + " is given twice, first on line " +
-                         std::to_string(earlier->key.at.line) + "; remove one of them");
+                reader::fail(field_.source, entry.key.at,
+                             quote(key) + " is given twice, first on line " +
+                                 std::to_string(earlier->key.at.line) + "; remove one of them");
         seen.push_back(&entry);
     }
 }
@@ -82,4 +90,4 @@ std::vector<Field> Block::fields() const
     return result;
 }
 
-}  // namespace packtrace
+}  // namespace packtrace::reader

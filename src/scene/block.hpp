@@ -9,7 +9,7 @@
 #include "scene/source.hpp"
 #include "scene/syntax_tree.hpp"
 
-namespace packtrace {
+namespace packtrace::reader {
 
 /// One `key = value` or `key { … }` with the source it came from, for messages.
 struct Field {
@@ -57,4 +57,4 @@ private:
     std::string_view title_;
 };
 
-}  // namespace packtrace
+}  // namespace packtrace::reader

@@ -8,7 +8,7 @@
 #include "scene/scene_builder.hpp"
 #include "scene/values.hpp"
 
-namespace packtrace {
+namespace packtrace::reader {
 namespace {
 
 constexpr double orthonormal_tolerance = 1e-6;
@@ -47,34 +47,34 @@ double read_fov(const Field& field)
     return fov;
 }
 
-Mat3 rotation_towards(const Block& block, const Field& target, const Vec3& position)
-{
-    Vec3 up{0.0, 1.0, 0.0};
-    block.set("up", up, read_direction);
-    try {
-        return look_at(position, read_point(target), up);
-    } catch (const std::invalid_argument&) {
-        target.fail(
-            "'look_at' is the camera's own position or straight along 'up'; move one of them "
-            "or give another up");
-    }
-}
-
 void build_rotation(const Block& block, Camera& camera)
 {
     const auto rotation = block.find("rotation");
     const auto target = block.find("look_at");
     if (rotation && target)
         rotation->fail("'rotation' and 'look_at' both turn the camera; remove one of them");
-    if (const auto up = block.find("up"); up && !target)
-        up->fail("'up' has no effect without 'look_at'; add look_at or remove it");
+    if (const auto up_field = block.find("up"); up_field && !target)
+        up_field->fail("'up' has no effect without 'look_at'; add look_at or remove it");
+    Vec3 up{0.0, 1.0, 0.0};
+    block.set("up", up, read_direction);
     if (rotation)
         camera.rotation = read_rotation(*rotation);
     if (target)
-        camera.rotation = rotation_towards(block, *target, camera.position);
+        camera.rotation = view_rotation(*target, camera.position, read_point(*target), up);
 }
 
 }  // namespace
+
+Mat3 view_rotation(const Field& field, const Vec3& position, const Vec3& target, const Vec3& up)
+{
+    try {
+        return look_at(position, target, up);
+    } catch (const std::invalid_argument&) {
+        field.fail(
+            "'look_at' is the camera's own position or straight along 'up'; move one of them "
+            "or give another up");
+    }
+}
 
 void build_camera(const Field& field, Camera& camera)
 {
@@ -84,4 +84,4 @@ void build_camera(const Field& field, Camera& camera)
     build_rotation(block, camera);
 }
 
-}  // namespace packtrace
+}  // namespace packtrace::reader

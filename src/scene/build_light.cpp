@@ -1,7 +1,7 @@
 #include "scene/scene_builder.hpp"
 #include "scene/values.hpp"
 
-namespace packtrace {
+namespace packtrace::reader {
 namespace {
 
 constexpr std::string_view light_types[] = {"ambient", "point", "directional"};
@@ -37,4 +37,4 @@ Light build_light(const Field& field)
     return light;
 }
 
-}  // namespace packtrace
+}  // namespace packtrace::reader

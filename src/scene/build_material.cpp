@@ -8,7 +8,7 @@
 #include "scene/scene_builder.hpp"
 #include "scene/values.hpp"
 
-namespace packtrace {
+namespace packtrace::reader {
 namespace {
 
 double read_reflective(const Field& field)
@@ -122,15 +122,15 @@ Material build_material(const Block& block, Illumination illumination)
 NamedMaterials build_named_materials(const Block& file, Illumination illumination)
 {
     NamedMaterials materials;
-    std::map<std::string_view, std::size_t> lines;
+    std::map<std::string_view, std::uint32_t> lines;
     for (const Field& field : file.fields()) {
         if (field.entry.key.text != "material")
             continue;
         refuse_foreign_keys(field, illumination);
         const Block block(field, "material", material_keys(illumination));
-        const Word& name = field.entry.name;
-        if (name.text.empty())
+        if (!field.entry.name || field.entry.name->text.empty())
             field.fail("the material has no name; write material gold { ... }");
+        const Word& name = *field.entry.name;
         const auto [earlier, added] = lines.emplace(name.text, name.at.line);
         if (!added)
             fail(field.source, name.at,
@@ -142,4 +142,4 @@ NamedMaterials build_named_materials(const Block& file, Illumination illuminatio
     return materials;
 }
 
-}  // namespace packtrace
+}  // namespace packtrace::reader

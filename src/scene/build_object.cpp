@@ -1,11 +1,12 @@
 #include <string>
+#include <variant>
 
 #include "scene/nearest_word.hpp"
 #include "scene/quote.hpp"
 #include "scene/scene_builder.hpp"
 #include "scene/values.hpp"
 
-namespace packtrace {
+namespace packtrace::reader {
 namespace {
 
 Keys object_keys(std::string_view keyword, Illumination illumination)
@@ -13,7 +14,7 @@ Keys object_keys(std::string_view keyword, Illumination illumination)
     Keys keys = surface_keys(keyword);
     for (const std::string_view key : material_keys(illumination))
         keys.push_back(key);
-    keys.insert(keys.end(), {"name", "material"});
+    keys.insert(keys.end(), {"name", "material", "checker"});
     return keys;
 }
 
@@ -63,18 +64,20 @@ Checker read_checker(const Field& field, Material& material)
     return checker;
 }
 
-void build_checker(const Block& block, Illumination illumination, Material& material)
+void build_checker(const Block& block, Illumination illumination, Object& object)
 {
     const auto field = block.find("checker");
     if (!field)
         return;
+    if (!std::holds_alternative<Plane>(object.surface))
+        field->fail("only a plane can have a checker; remove it and use color");
     if (illumination == Illumination::general)
         field->fail(
             "'checker' has no effect under illumination = general, whose coefficients "
             "know no colour; remove it");
     if (block.find("color"))
         field->fail("'checker' gives both colours; remove 'color'");
-    material.checker = read_checker(*field, material);
+    object.material.checker = read_checker(*field, object.material);
 }
 
 }  // namespace
@@ -88,8 +91,8 @@ Object build_object(const Field& field, Illumination illumination, const NamedMa
     object.surface = build_surface(block, keyword);
     object.transform = build_transform(block);
     object.material = object_material(block, illumination, materials);
-    build_checker(block, illumination, object.material);
+    build_checker(block, illumination, object);
     return object;
 }
 
-}  // namespace packtrace
+}  // namespace packtrace::reader

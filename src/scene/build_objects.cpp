@@ -5,7 +5,7 @@
 #include "scene/scene_builder.hpp"
 #include "scene/values.hpp"
 
-namespace packtrace {
+namespace packtrace::reader {
 namespace {
 
 /// Gives each object its own name, or the next "sphere 1" of its kind.
@@ -42,7 +42,7 @@ private:
     }
 
     std::map<std::string, std::size_t> unnamed_;
-    std::map<std::string, std::size_t> lines_;
+    std::map<std::string, std::uint32_t> lines_;
 };
 
 }  // namespace
@@ -61,4 +61,4 @@ void build_objects(const Block& file, const NamedMaterials& materials, Scene& sc
              "the scene has no object; add one, e.g. sphere { center = (0, 0, 3) radius = 1 }");
 }
 
-}  // namespace packtrace
+}  // namespace packtrace::reader

@@ -1,11 +1,6 @@
-#include <packtrace/read_scene.hpp>
-
-#include "scene/check_text.hpp"
-#include "scene/load_text.hpp"
 #include "scene/scene_builder.hpp"
-#include "scene/syntax_tree.hpp"
 
-namespace packtrace {
+namespace packtrace::reader {
 namespace {
 
 const Keys& scene_keys()
@@ -24,20 +19,12 @@ Keys repeatable_keys()
     return keys;
 }
 
-/// Only a material takes a name before its brace.
-void refuse_block_names(const Block& file)
-{
-    for (const Field& field : file.fields())
-        if (field.entry.name.text.data() != nullptr && field.entry.key.text != "material")
-            fail(field.source, field.entry.name.at,
-                 "only a material is named before its brace; write name = \"...\" between "
-                 "the braces");
-}
+}  // namespace
 
-Scene build_scene(const Block& file)
+Scene build_scene(const Source& source, const Entry& tree)
 {
+    const Block file({source, tree}, "the scene", scene_keys(), repeatable_keys());
     Scene scene;
-    refuse_block_names(file);
     scene.illumination = read_illumination(file);
     build_settings(file, scene);
     if (const auto camera = file.find("camera"))
@@ -47,22 +34,9 @@ Scene build_scene(const Block& file)
     for (const Field& field : file.fields())
         if (field.entry.key.text == "light")
             scene.lights.push_back(build_light(field));
+    if (const auto animation = file.find("animation"))
+        scene.animation = build_animation(*animation, scene.camera);
     return scene;
 }
 
-}  // namespace
-
-Scene parse_scene(std::string_view text, const std::string& name)
-{
-    const Source source{name, text};
-    check_text(source);
-    const Entry tree = parse_tree(source);
-    return build_scene(Block({source, tree}, "the scene", scene_keys(), repeatable_keys()));
-}
-
-Scene read_scene(const std::filesystem::path& file)
-{
-    return parse_scene(load_text(file), file.string());
-}
-
-}  // namespace packtrace
+}  // namespace packtrace::reader

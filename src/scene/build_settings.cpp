@@ -5,7 +5,7 @@
 #include "scene/scene_builder.hpp"
 #include "scene/values.hpp"
 
-namespace packtrace {
+namespace packtrace::reader {
 namespace {
 
 constexpr double largest_side = 65536.0;
@@ -81,4 +81,4 @@ void build_settings(const Block& file, Scene& scene)
         read_depth_limit(*field, scene);
 }
 
-}  // namespace packtrace
+}  // namespace packtrace::reader

@@ -1,12 +1,10 @@
 #include <algorithm>
-#include <string>
-
-#include <glm/geometric.hpp>
 
 #include "scene/scene_builder.hpp"
+#include "scene/unit_vector.hpp"
 #include "scene/values.hpp"
 
-namespace packtrace {
+namespace packtrace::reader {
 namespace {
 
 Sphere build_sphere(const Block& block)
@@ -17,19 +15,11 @@ Sphere build_sphere(const Block& block)
     return sphere;
 }
 
-/// Divides by the largest component first: no length under- or overflows.
-Vec3 unit(const Vec3& direction)
-{
-    const double largest =
-        std::max({std::abs(direction.x), std::abs(direction.y), std::abs(direction.z)});
-    return glm::normalize(direction / largest);
-}
-
 Plane build_plane(const Block& block)
 {
     Plane plane;
     plane.point = read_point(block.require("point", "(0, -1, 0)"));
-    plane.normal = unit(read_direction(block.require("normal", "(0, 1, 0)")));
+    plane.normal = unit_vector(read_direction(block.require("normal", "(0, 1, 0)")));
     plane_axes(plane);
     return plane;
 }
@@ -38,7 +28,8 @@ Plane build_plane(const Block& block)
 
 const Keys& surface_keywords()
 {
-    static const Keys keywords{"sphere", "plane"};
+    static const Keys keywords{"sphere",     "plane",       "ellipsoid",    "cylinder", "cone",
+                               "paraboloid", "hyperboloid", "hyperboloid2", "saddle",   "quadric"};
     return keywords;
 }
 
@@ -52,14 +43,20 @@ Keys surface_keys(std::string_view keyword)
 {
     if (keyword == "sphere")
         return {"center", "radius"};
-    return {"point", "normal", "checker"};
+    if (keyword == "plane")
+        return {"point", "normal"};
+    if (keyword == "quadric")
+        return {"coefficients", "z_range", "capped"};
+    return {"z_range", "capped"};
 }
 
 Surface build_surface(const Block& block, std::string_view keyword)
 {
     if (keyword == "sphere")
         return build_sphere(block);
-    return build_plane(block);
+    if (keyword == "plane")
+        return build_plane(block);
+    return build_quadric(block, keyword);
 }
 
-}  // namespace packtrace
+}  // namespace packtrace::reader

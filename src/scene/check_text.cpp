@@ -6,7 +6,7 @@
 
 #include "scene/quote.hpp"
 
-namespace packtrace {
+namespace packtrace::reader {
 namespace {
 
 bool is_text(char c)
@@ -18,12 +18,12 @@ bool is_text(char c)
 void check_line(const Source& source, std::size_t number, std::string_view line)
 {
     if (line.size() > longest_line)
-        fail(source, {number, longest_line + 1},
+        fail(source, Position::of(number, longest_line + 1),
              "the line has more than " + std::to_string(longest_line) +
                  " bytes; break it into several");
     const auto odd = std::find_if_not(line.begin(), line.end(), is_text);
     if (odd != line.end())
-        fail(source, {number, static_cast<std::size_t>(odd - line.begin()) + 1},
+        fail(source, Position::of(number, static_cast<std::size_t>(odd - line.begin()) + 1),
              "the byte " + quote(std::string_view(&*odd, 1)) +
                  " does not belong in text; is this a binary file? give a scene file");
 }
@@ -48,4 +48,4 @@ void check_text(const Source& source)
     }
 }
 
-}  // namespace packtrace
+}  // namespace packtrace::reader

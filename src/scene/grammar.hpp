@@ -3,7 +3,7 @@
 #include <tao/pegtl.hpp>
 
 /// The scene language's grammar; what the keys mean is not known here.
-namespace packtrace::grammar {
+namespace packtrace::reader::grammar {
 
 using namespace tao::pegtl;
 
@@ -53,7 +53,7 @@ template <int depth>
 struct block : if_must<open_brace, gap, star<entry<depth + 1>>, close_brace> {
 };
 template <>
-struct block<deepest_block> : if_must<one<'{'>, too_deep> {
+struct block<deepest_block> : if_must<at<open_brace>, too_deep> {
 };
 
 struct key : word {};
@@ -73,4 +73,4 @@ struct entry : seq<key, gap, must<right_side<depth>>, gap> {
 struct end_of_file : eof {};
 struct file : seq<opt<utf8::bom>, gap, star<entry<0>>, must<end_of_file>> {};
 
-}  // namespace packtrace::grammar
+}  // namespace packtrace::reader::grammar

@@ -11,7 +11,7 @@
 #include "scene/check_text.hpp"
 #include "scene/quote.hpp"
 
-namespace packtrace {
+namespace packtrace::reader {
 namespace {
 
 [[noreturn]] void fail_file(const std::filesystem::path& file, const std::string& reason)
@@ -50,4 +50,4 @@ std::string load_text(const std::filesystem::path& file)
     return text;
 }
 
-}  // namespace packtrace
+}  // namespace packtrace::reader

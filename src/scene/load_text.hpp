@@ -3,10 +3,10 @@
 #include <filesystem>
 #include <string>
 
-namespace packtrace {
+namespace packtrace::reader {
 
 /// A scene file's bytes; no more are read than tell that it is longer than a scene may be.
 /// Throws SceneError for a file that can't be read.
 [[nodiscard]] std::string load_text(const std::filesystem::path& file);
 
-}  // namespace packtrace
+}  // namespace packtrace::reader

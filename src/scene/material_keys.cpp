@@ -6,7 +6,7 @@
 #include "scene/quote.hpp"
 #include "scene/scene_builder.hpp"
 
-namespace packtrace {
+namespace packtrace::reader {
 namespace {
 
 struct Model {
@@ -59,4 +59,4 @@ void refuse_foreign_keys(const Field& field, Illumination illumination)
     }
 }
 
-}  // namespace packtrace
+}  // namespace packtrace::reader

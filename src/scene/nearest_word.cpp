@@ -7,7 +7,7 @@
 
 #include "scene/quote.hpp"
 
-namespace packtrace {
+namespace packtrace::reader {
 namespace {
 
 constexpr std::size_t largest_slip = 2;
@@ -67,4 +67,4 @@ std::string join(std::span<const std::string_view> words)
     return result;
 }
 
-}  // namespace packtrace
+}  // namespace packtrace::reader

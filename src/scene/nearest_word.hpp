@@ -4,7 +4,7 @@
 #include <string>
 #include <string_view>
 
-namespace packtrace {
+namespace packtrace::reader {
 
 /// The word of `known` that `word` is most likely a slip of: at most two letters changed, put
 /// in, left out or swapped with their neighbour. Empty when there is none.
@@ -17,4 +17,4 @@ namespace packtrace {
 /// "a, b, c".
 [[nodiscard]] std::string join(std::span<const std::string_view> words);
 
-}  // namespace packtrace
+}  // namespace packtrace::reader

@@ -7,7 +7,7 @@
 
 #include "scene/quote.hpp"
 
-namespace packtrace {
+namespace packtrace::reader {
 
 double to_number(const Field& field, const Word& word)
 {
@@ -39,4 +39,4 @@ std::string to_text(double number)
     return error == std::errc{} ? std::string(buffer, end) : std::string("?");
 }
 
-}  // namespace packtrace
+}  // namespace packtrace::reader

@@ -5,7 +5,7 @@
 #include "scene/block.hpp"
 #include "scene/syntax_tree.hpp"
 
-namespace packtrace {
+namespace packtrace::reader {
 
 /// The finite number that `word` spells, the same in every locale. Throws SceneError at the
 /// word; `field` is the value it is part of.
@@ -14,4 +14,4 @@ namespace packtrace {
 /// As text for a message: the shortest that reads back as the same number.
 [[nodiscard]] std::string to_text(double number);
 
-}  // namespace packtrace
+}  // namespace packtrace::reader

@@ -9,14 +9,14 @@
 #include "scene/syntax_tree.hpp"
 #include "scene/tree_builder.hpp"
 
-namespace packtrace {
+namespace packtrace::reader {
 namespace {
 
 template <class Input>
 Word word_at(const Input& in)
 {
     const auto at = in.position();
-    return {{at.line, at.column}, std::string_view(in.begin(), in.size())};
+    return {Position::of(at.line, at.column), std::string_view(in.begin(), in.size())};
 }
 
 // What the builder is told when a rule has matched.
@@ -120,7 +120,7 @@ struct Control : tao::pegtl::normal<Rule> {
     [[noreturn]] static void raise(const Input& in, TreeBuilder& builder)
     {
         const auto at = in.position();
-        fail_syntax(SyntaxRule<Rule>::value, builder, {at.line, at.column},
+        fail_syntax(SyntaxRule<Rule>::value, builder, Position::of(at.line, at.column),
                     std::string_view(in.current(), in.size()));
     }
 };
@@ -135,4 +135,4 @@ Entry parse_tree(const Source& source)
     return builder.take();
 }
 
-}  // namespace packtrace
+}  // namespace packtrace::reader

@@ -2,7 +2,7 @@
 
 #include <cstddef>
 
-namespace packtrace {
+namespace packtrace::reader {
 namespace {
 
 constexpr std::size_t longest_quote = 40;
@@ -65,4 +65,4 @@ std::string quote(std::string_view text)
     return '\'' + escape(text.substr(0, end)) + (end < text.size() ? "...'" : "'");
 }
 
-}  // namespace packtrace
+}  // namespace packtrace::reader

@@ -3,7 +3,7 @@
 #include <string>
 #include <string_view>
 
-namespace packtrace {
+namespace packtrace::reader {
 
 /// `text` fit for one line of a terminal: control characters and bytes that are not UTF-8
 /// become \xNN.
@@ -12,4 +12,4 @@ namespace packtrace {
 /// `text` in single quotes for a message: escaped, and cut after a few dozen bytes.
 [[nodiscard]] std::string quote(std::string_view text);
 
-}  // namespace packtrace
+}  // namespace packtrace::reader

@@ -4,7 +4,7 @@
 
 #include "scene/quote.hpp"
 
-namespace packtrace {
+namespace packtrace::reader {
 
 void fail(const Source& source, Position at, const std::string& message)
 {
@@ -12,4 +12,4 @@ void fail(const Source& source, Position at, const std::string& message)
                      std::to_string(at.column) + ": " + message);
 }
 
-}  // namespace packtrace
+}  // namespace packtrace::reader

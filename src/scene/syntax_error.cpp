@@ -7,7 +7,7 @@
 
 #include "scene/quote.hpp"
 
-namespace packtrace {
+namespace packtrace::reader {
 namespace {
 
 bool is_word_byte(char c)
@@ -72,4 +72,4 @@ void fail_syntax(Expected expected, const TreeBuilder& builder, Position at, std
     fail(builder.source(), at, describe(expected, key, rest));
 }
 
-}  // namespace packtrace
+}  // namespace packtrace::reader

@@ -6,7 +6,7 @@
 #include "scene/source.hpp"
 #include "scene/tree_builder.hpp"
 
-namespace packtrace {
+namespace packtrace::reader {
 
 /// What the grammar wanted where it found something else.
 enum class Expected { value, part, tuple_end, quote_end, right_side, block_end, shallower, entry };
@@ -49,4 +49,4 @@ struct SyntaxRule<grammar::end_of_file> {
 [[noreturn]] void fail_syntax(Expected expected, const TreeBuilder& builder, Position at,
                               std::string_view rest);
 
-}  // namespace packtrace
+}  // namespace packtrace::reader

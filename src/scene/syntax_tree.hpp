@@ -1,11 +1,12 @@
 #pragma once
 
+#include <optional>
 #include <string_view>
 #include <vector>
 
 #include "scene/source.hpp"
 
-namespace packtrace {
+namespace packtrace::reader {
 
 /// A run of letters, digits and `_ . + -`: a number, a key or a name, told apart by its reader.
 struct Word {
@@ -36,7 +37,7 @@ enum class EntryKind {
 struct Entry {
     EntryKind kind = EntryKind::value;
     Word key;
-    Word name;                   ///< of a block; empty when it has none
+    std::optional<Word> name;    ///< before a block's brace
     std::vector<Item> value;     ///< at least one item for EntryKind::value
     std::vector<Entry> entries;  ///< of a block
 };
@@ -45,4 +46,4 @@ struct Entry {
 /// SceneError at the first place that breaks the grammar.
 [[nodiscard]] Entry parse_tree(const Source& source);
 
-}  // namespace packtrace
+}  // namespace packtrace::reader

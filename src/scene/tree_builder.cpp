@@ -1,8 +1,24 @@
 #include "scene/tree_builder.hpp"
 
+#include <string>
 #include <utility>
 
-namespace packtrace {
+namespace packtrace::reader {
+namespace {
+
+// A tree takes far more memory than its text. These bound it for a text that is no scene: no
+// key takes as many numbers, and no scene of the largest size has as many keys.
+constexpr std::size_t most_items = 64;
+constexpr std::size_t most_entries = 8'000'000;
+
+}  // namespace
+
+void TreeBuilder::check_room(std::size_t count, std::size_t limit, Position at,
+                             const char* things) const
+{
+    if (count >= limit)
+        fail(source_, at, "more than " + std::to_string(limit) + ' ' + things + "; remove some");
+}
 
 TreeBuilder::TreeBuilder(const Source& source) : source_(source), open_(1)
 {
@@ -11,6 +27,7 @@ TreeBuilder::TreeBuilder(const Source& source) : source_(source), open_(1)
 
 void TreeBuilder::begin_entry(Word key)
 {
+    check_room(entries_++, most_entries, key.at, "keys in a file");
     Entry entry;
     entry.key = key;
     open_.push_back(std::move(entry));
@@ -38,12 +55,16 @@ void TreeBuilder::end_entry()
 
 void TreeBuilder::add_item(ItemKind kind, Word word)
 {
-    open_.back().value.push_back({kind, word.at, word.text, {}});
+    std::vector<Item>& value = open_.back().value;
+    check_room(value.size(), most_items, word.at, "items in a value");
+    value.push_back({kind, word.at, word.text, {}});
 }
 
 void TreeBuilder::add_part(Word part)
 {
-    open_.back().value.back().parts.push_back(part);
+    std::vector<Word>& parts = open_.back().value.back().parts;
+    check_room(parts.size(), most_items, part.at, "numbers in a tuple");
+    parts.push_back(part);
 }
 
 const Source& TreeBuilder::source() const
@@ -66,4 +87,4 @@ Entry TreeBuilder::take()
     return std::move(open_.front());
 }
 
-}  // namespace packtrace
+}  // namespace packtrace::reader

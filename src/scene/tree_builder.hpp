@@ -6,7 +6,7 @@
 #include "scene/source.hpp"
 #include "scene/syntax_tree.hpp"
 
-namespace packtrace {
+namespace packtrace::reader {
 
 /// Grows the syntax tree while the grammar matches; its calls follow the text from left to right.
 class TreeBuilder {
@@ -19,7 +19,7 @@ public:
     void end_entry();
 
     void add_item(ItemKind kind, Word word);
-    /// Another part of the last item, a tuple or size.
+    /// Another part of the last item, which is a tuple or size.
     void add_part(Word part);
 
     [[nodiscard]] const Source& source() const;
@@ -29,9 +29,12 @@ public:
     [[nodiscard]] Entry take();
 
 private:
+    void check_room(std::size_t count, std::size_t limit, Position at, const char* things) const;
+
     const Source& source_;
     std::vector<Entry> open_;  ///< the file, then what is being read in it, outermost first
     std::vector<Position> braces_;
+    std::size_t entries_ = 0;  ///< in the file so far
 };
 
-}  // namespace packtrace
+}  // namespace packtrace::reader

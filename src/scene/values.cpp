@@ -6,7 +6,7 @@
 #include "scene/numbers.hpp"
 #include "scene/quote.hpp"
 
-namespace packtrace {
+namespace packtrace::reader {
 namespace {
 
 [[noreturn]] void fail_kind(const Field& field, Position at, const std::string& wanted,
@@ -123,10 +123,11 @@ double read_not_negative(const Field& field)
 
 int read_integer(const Field& field, int low, int high)
 {
-    const double number =
-        read_number_in(field, {static_cast<double>(low), static_cast<double>(high)});
+    const Item& item = only_item(field, ItemKind::word, "a whole number", std::to_string(low));
+    const double number = to_number(field, {item.at, item.text});
+    check_range(field, item.at, number, {static_cast<double>(low), static_cast<double>(high)});
     if (number != std::floor(number))
-        fail_kind(field, field.entry.value[0].at, "a whole number, not " + to_text(number),
+        fail_kind(field, item.at, "a whole number, not " + to_text(number),
                   to_text(std::floor(number)));
     return static_cast<int>(number);
 }
@@ -223,4 +224,4 @@ std::size_t read_choice(const Field& field, std::span<const std::string_view> ch
              suggest(item.text, choices));
 }
 
-}  // namespace packtrace
+}  // namespace packtrace::reader

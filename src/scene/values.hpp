@@ -14,7 +14,7 @@
 
 // Each takes a field's value as one kind of thing, or throws SceneError that says what the key
 // wants. Numbers are finite throughout.
-namespace packtrace {
+namespace packtrace::reader {
 
 /// Both ends belong to the range.
 struct Range {
@@ -60,4 +60,4 @@ inline constexpr Range not_negative{0.0, std::numeric_limits<double>::max()};
 [[nodiscard]] double item_number(const Field& field, const Item& item);
 [[nodiscard]] Rgb item_color(const Field& field, const Item& item);
 
-}  // namespace packtrace
+}  // namespace packtrace::reader

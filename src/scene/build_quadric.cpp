@@ -1,0 +1,75 @@
+#include <algorithm>
+#include <array>
+#include <vector>
+
+#include "scene/numbers.hpp"
+#include "scene/scene_builder.hpp"
+#include "scene/values.hpp"
+
+namespace packtrace::reader {
+namespace {
+
+struct NamedQuadric {
+    std::string_view keyword;
+    QuadricKind kind;
+    std::array<double, 10> coefficients;  ///< of x² y² z² xy xz yz x y z 1
+};
+
+constexpr NamedQuadric named_quadrics[] = {
+    {"ellipsoid", QuadricKind::ellipsoid, {1, 1, 1, 0, 0, 0, 0, 0, 0, -1}},
+    {"cylinder", QuadricKind::cylinder, {1, 1, 0, 0, 0, 0, 0, 0, 0, -1}},
+    {"cone", QuadricKind::cone, {1, 1, -1, 0, 0, 0, 0, 0, 0, 0}},
+    {"paraboloid", QuadricKind::paraboloid, {1, 1, 0, 0, 0, 0, 0, 0, -1, 0}},
+    {"hyperboloid", QuadricKind::hyperboloid, {1, 1, -1, 0, 0, 0, 0, 0, 0, -1}},
+    {"hyperboloid2", QuadricKind::hyperboloid2, {1, 1, -1, 0, 0, 0, 0, 0, 0, 1}},
+    {"saddle", QuadricKind::saddle, {1, -1, 0, 0, 0, 0, 0, 0, -1, 0}},
+};
+
+std::array<double, 10> read_coefficients(const Field& field)
+{
+    const std::vector<double> numbers = read_numbers(field, 10);
+    std::array<double, 10> coefficients{};
+    std::copy(numbers.begin(), numbers.end(), coefficients.begin());
+    return coefficients;
+}
+
+ZRange read_z_range(const Field& field)
+{
+    const Vec2 ends = read_pair(field);
+    if (!(ends.x < ends.y))
+        fail(field.source, field.entry.value[0].at,
+             "'z_range' is (" + to_text(ends.x) + ", " + to_text(ends.y) +
+                 "), upside down or empty; write the lower end first, then a higher one");
+    return {ends.x, ends.y};
+}
+
+void build_clipping(const Block& block, Quadric& quadric)
+{
+    block.set("z_range", quadric.z_range, read_z_range);
+    block.set("capped", quadric.capped, read_flag);
+    if (quadric.capped && !quadric.z_range)
+        block.find("capped")->fail(
+            "'capped' closes the ends of a z_range, and there is none; add for example "
+            "z_range = (-1, 1) or remove it");
+}
+
+}  // namespace
+
+Quadric build_quadric(const Block& block, std::string_view keyword)
+{
+    Quadric quadric;
+    const auto* named =
+        std::find_if(std::begin(named_quadrics), std::end(named_quadrics),
+                     [&](const NamedQuadric& candidate) { return candidate.keyword == keyword; });
+    if (named != std::end(named_quadrics)) {
+        quadric.kind = named->kind;
+        quadric.coefficients = named->coefficients;
+    } else {
+        quadric.coefficients =
+            read_coefficients(block.require("coefficients", "(1, 1, 1, 0, 0, 0, 0, 0, 0, -1)"));
+    }
+    build_clipping(block, quadric);
+    return quadric;
+}
+
+}  // namespace packtrace::reader

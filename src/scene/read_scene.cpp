@@ -1,0 +1,22 @@
+#include <packtrace/read_scene.hpp>
+
+#include "scene/check_text.hpp"
+#include "scene/load_text.hpp"
+#include "scene/scene_builder.hpp"
+#include "scene/syntax_tree.hpp"
+
+namespace packtrace {
+
+Scene parse_scene(std::string_view text, const std::string& name)
+{
+    const reader::Source source{name, text};
+    reader::check_text(source);
+    return reader::build_scene(source, reader::parse_tree(source));
+}
+
+Scene read_scene(const std::filesystem::path& file)
+{
+    return parse_scene(reader::load_text(file), file.string());
+}
+
+}  // namespace packtrace

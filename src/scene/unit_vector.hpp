@@ -1,0 +1,18 @@
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+
+#include <glm/geometric.hpp>
+#include <packtrace/vec.hpp>
+
+namespace packtrace::reader {
+
+/// `v` at length 1, however long or short it is; (0, 0, 0) stays as it is.
+[[nodiscard]] inline Vec3 unit_vector(const Vec3& v)
+{
+    const double largest = std::max({std::abs(v.x), std::abs(v.y), std::abs(v.z)});
+    return largest == 0.0 ? v : glm::normalize(v / largest);
+}
+
+}  // namespace packtrace::reader
