@@ -26,7 +26,7 @@ bool is_rotation(const Mat3& rotation)
 
 Mat3 read_rotation(const Field& field)
 {
-    const std::vector<double> rows = read_numbers(field, 9);
+    const std::vector<double> rows = read_numbers(field, 9, "(1, 0, 0, 0, 1, 0, 0, 0, 1)");
     Mat3 rotation;
     for (int row = 0; row < 3; ++row)
         for (int column = 0; column < 3; ++column)

@@ -62,7 +62,7 @@ WhittedMaterial build_whitted(const Block& block)
 std::array<double, 4> read_reflectance(const Field& field)
 {
     std::array<double, 4> reflectance{};
-    const std::vector<double> numbers = read_numbers(field, 4);
+    const std::vector<double> numbers = read_numbers(field, 4, "(0.2, 0.6, 0.2, 16)");
     for (std::size_t i = 0; i < 4; ++i) {
         if (numbers[i] < 0.0)
             fail(field.source, field.entry.value[0].parts[i].at,

@@ -50,15 +50,14 @@ Material object_material(const Block& block, Illumination illumination,
 
 Checker read_checker(const Field& field, Material& material)
 {
+    const std::string form = "(255, 255, 255), (0, 0, 0), 1";
     const std::vector<Item>& items = field.entry.value;
     if (items.size() != 3)
-        field.fail(
-            "'checker' wants two colours and a size; write checker = (255, 255, 255), "
-            "(0, 0, 0), 1");
+        field.fail("'checker' wants two colours and a size; write checker = " + form);
     Checker checker;
-    material.color = item_color(field, items[0]);
-    checker.other = item_color(field, items[1]);
-    checker.size = item_number(field, items[2]);
+    material.color = item_color(field, items[0], form);
+    checker.other = item_color(field, items[1], form);
+    checker.size = item_number(field, items[2], form);
     if (!(checker.size > 0.0))
         fail(field.source, items[2].at, "the checker's size is not above 0; use a longer edge");
     return checker;

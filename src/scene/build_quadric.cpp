@@ -25,9 +25,11 @@ constexpr NamedQuadric named_quadrics[] = {
     {"saddle", QuadricKind::saddle, {1, -1, 0, 0, 0, 0, 0, 0, -1, 0}},
 };
 
+constexpr std::string_view sphere_form = "(1, 1, 1, 0, 0, 0, 0, 0, 0, -1)";
+
 std::array<double, 10> read_coefficients(const Field& field)
 {
-    const std::vector<double> numbers = read_numbers(field, 10);
+    const std::vector<double> numbers = read_numbers(field, 10, sphere_form);
     std::array<double, 10> coefficients{};
     std::copy(numbers.begin(), numbers.end(), coefficients.begin());
     return coefficients;
@@ -65,8 +67,7 @@ Quadric build_quadric(const Block& block, std::string_view keyword)
         quadric.kind = named->kind;
         quadric.coefficients = named->coefficients;
     } else {
-        quadric.coefficients =
-            read_coefficients(block.require("coefficients", "(1, 1, 1, 0, 0, 0, 0, 0, 0, -1)"));
+        quadric.coefficients = read_coefficients(block.require("coefficients", sphere_form));
     }
     build_clipping(block, quadric);
     return quadric;

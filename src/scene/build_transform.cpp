@@ -34,7 +34,8 @@ Mat4 read_scale(const Field& field)
 {
     if (field.entry.kind == EntryKind::value && field.entry.value[0].kind == ItemKind::word)
         return glm::scale(Mat4(1.0), Vec3(read_number(field)));
-    return glm::scale(Mat4(1.0), read_point(field));
+    const std::vector<double> factors = read_numbers(field, 3, "(1, 2, 3)");
+    return glm::scale(Mat4(1.0), Vec3(factors[0], factors[1], factors[2]));
 }
 
 struct SineCosine {
@@ -72,7 +73,7 @@ Mat4 axis_rotation(const Vec3& axis, double degrees)
 /// rotate = (axis x, y, z, degrees)
 Mat4 read_rotate(const Field& field)
 {
-    const std::vector<double> numbers = read_numbers(field, 4);
+    const std::vector<double> numbers = read_numbers(field, 4, "(0, 1, 0, 45)");
     const Vec3 axis{numbers[0], numbers[1], numbers[2]};
     if (axis == Vec3(0.0))
         fail(field.source, field.entry.value[0].at,
@@ -84,7 +85,8 @@ Mat4 read_rotate(const Field& field)
 /// matrix = three rows of four numbers
 Mat4 read_matrix(const Field& field)
 {
-    const std::vector<double> rows = read_numbers(field, 12);
+    const std::vector<double> rows =
+        read_numbers(field, 12, "(1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0)");
     Mat4 matrix(1.0);
     for (int row = 0; row < 3; ++row)
         for (int column = 0; column < 4; ++column)

@@ -60,8 +60,10 @@ struct key : word {};
 struct block_name : word {};
 struct name_text : quoted_text {};
 struct quoted_name : seq<one<'"'>, name_text, one<'"'>> {};
+struct any_name : sor<block_name, quoted_name> {};
+// Looked at first, so that an error is reported at the word after the key.
 template <int depth>
-struct named_block : seq<sor<block_name, quoted_name>, gap, block<depth>> {
+struct named_block : seq<at<any_name, gap, open_brace>, any_name, gap, block<depth>> {
 };
 template <int depth>
 struct right_side : sor<assignment, block<depth>, named_block<depth>> {

@@ -35,7 +35,10 @@ double to_number(const Field& field, const Word& word)
 std::string to_text(double number)
 {
     char buffer[32];
-    const auto [end, error] = std::to_chars(buffer, buffer + sizeof buffer, number);
+    // 1000000 rather than 1e+06.
+    const bool whole = std::abs(number) < 1e15 && number == std::floor(number);
+    const auto format = whole ? std::chars_format::fixed : std::chars_format::general;
+    const auto [end, error] = std::to_chars(buffer, buffer + sizeof buffer, number, format);
     return error == std::errc{} ? std::string(buffer, end) : std::string("?");
 }
 

@@ -50,7 +50,17 @@ struct Action<grammar::open_brace> {
     }
 };
 
-struct NameBlock {
+/// The text between quotes, at the place of the first.
+template <class Input>
+Word quoted_at(const Input& in)
+{
+    Word word = word_at(in);
+    --word.at.column;
+    return word;
+}
+
+template <>
+struct Action<grammar::block_name> {
     template <class Input>
     static void apply(const Input& in, TreeBuilder& builder)
     {
@@ -58,25 +68,29 @@ struct NameBlock {
     }
 };
 template <>
-struct Action<grammar::block_name> : NameBlock {
-};
-template <>
-struct Action<grammar::name_text> : NameBlock {
-};
-
-template <ItemKind kind>
-struct AddItem {
+struct Action<grammar::name_text> {
     template <class Input>
     static void apply(const Input& in, TreeBuilder& builder)
     {
-        builder.add_item(kind, word_at(in));
+        builder.name_block(quoted_at(in));
+    }
+};
+
+template <>
+struct Action<grammar::word_value> {
+    template <class Input>
+    static void apply(const Input& in, TreeBuilder& builder)
+    {
+        builder.add_item(ItemKind::word, word_at(in));
     }
 };
 template <>
-struct Action<grammar::word_value> : AddItem<ItemKind::word> {
-};
-template <>
-struct Action<grammar::quoted_text> : AddItem<ItemKind::text> {
+struct Action<grammar::quoted_text> {
+    template <class Input>
+    static void apply(const Input& in, TreeBuilder& builder)
+    {
+        builder.add_item(ItemKind::text, quoted_at(in));
+    }
 };
 
 template <>

@@ -1,38 +1,26 @@
 #pragma once
 
-#include <array>
 #include <cstddef>
-#include <limits>
 #include <span>
-#include <string>
 #include <string_view>
 #include <vector>
 
 #include <packtrace/vec.hpp>
 
 #include "scene/block.hpp"
+#include "scene/item_checks.hpp"
 
 // Each takes a field's value as one kind of thing, or throws SceneError that says what the key
 // wants. Numbers are finite throughout.
 namespace packtrace::reader {
-
-/// Both ends belong to the range.
-struct Range {
-    double low = -std::numeric_limits<double>::max();
-    double high = std::numeric_limits<double>::max();
-};
-
-/// 0 or more.
-inline constexpr Range not_negative{0.0, std::numeric_limits<double>::max()};
 
 [[nodiscard]] double read_number(const Field& field);
 [[nodiscard]] double read_number_in(const Field& field, Range range);
 /// Above 0.
 [[nodiscard]] double read_positive(const Field& field);
 [[nodiscard]] double read_not_negative(const Field& field);
+/// A whole number, both ends included.
 [[nodiscard]] int read_integer(const Field& field, int low, int high);
-/// true or false
-[[nodiscard]] bool read_flag(const Field& field);
 
 /// (x, y, z)
 [[nodiscard]] Vec3 read_point(const Field& field);
@@ -42,8 +30,9 @@ inline constexpr Range not_negative{0.0, std::numeric_limits<double>::max()};
 [[nodiscard]] Vec2 read_pair(const Field& field);
 /// `width x height`, both above 0.
 [[nodiscard]] Vec2 read_size(const Field& field);
-/// A tuple of just so many numbers.
-[[nodiscard]] std::vector<double> read_numbers(const Field& field, std::size_t count);
+/// A tuple of just so many numbers; `form` is an example for messages.
+[[nodiscard]] std::vector<double> read_numbers(const Field& field, std::size_t count,
+                                               std::string_view form);
 
 /// (r, g, b) in 0 to 255 or rgb(r, g, b) in 0 to 1, linear in 0 to 1.
 [[nodiscard]] Rgb read_color(const Field& field);
@@ -52,12 +41,14 @@ inline constexpr Range not_negative{0.0, std::numeric_limits<double>::max()};
 
 /// A word, or text in quotes.
 [[nodiscard]] std::string_view read_name(const Field& field);
-/// The index in `choices` of the word the value is.
+/// The index in `choices` of the word that the value is.
 [[nodiscard]] std::size_t read_choice(const Field& field,
                                       std::span<const std::string_view> choices);
+/// true or false
+[[nodiscard]] bool read_flag(const Field& field);
 
-// The same of one item of a longer value.
-[[nodiscard]] double item_number(const Field& field, const Item& item);
-[[nodiscard]] Rgb item_color(const Field& field, const Item& item);
+// The same of one item of a longer value, which `form` shows in messages.
+[[nodiscard]] double item_number(const Field& field, const Item& item, std::string_view form);
+[[nodiscard]] Rgb item_color(const Field& field, const Item& item, std::string_view form);
 
 }  // namespace packtrace::reader
