@@ -53,9 +53,7 @@ struct TracingSetup {
     abi::CameraView<Real> camera;
 
     explicit TracingSetup(const Scene& scene)
-        : lowered(lower(scene)),
-          packed(lowered),
-          camera(camera_view<Real>(scene, lowered.camera_t_min))
+        : lowered(lower(scene)), packed(lowered), camera(camera_view<Real>(scene, lowered))
     {
     }
 };
@@ -72,7 +70,7 @@ void append_tile(std::vector<TracedRay<Real>>& rays, const abi::CameraView<Real>
         traced.ray.dir = rounded_direction(camera, x, y, fused);
         traced.ray.t_min = camera.t_min;
         traced.t = hits.t[number];
-        traced.object = static_cast<int>(hits.object[number]);
+        traced.object = static_cast<int>(hits.surface[number]);
         rays.push_back(traced);
     }
 }
@@ -83,7 +81,8 @@ template <class Real>
                                                          const TracingSetup<Real>& setup,
                                                          const Scene& scene)
 {
-    const abi::PrecisionTable<Real>& kernels = precision<Real>(table);
+    const abi::FeatureKernels<Real>& kernels =
+        kernels_for(precision<Real>(table), setup.lowered.features);
     const bool fused = std::string(table.isa) != "sse42";
     const AlignedArray<std::byte> scratch(kernels.scratch_bytes(setup.packed.view()));
     std::vector<TracedRay<Real>> rays;

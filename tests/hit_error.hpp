@@ -23,10 +23,10 @@ template <class Real>
         }
         const bool by_anchor = sphere.huge && sizeof(Real) < sizeof(double);
         const LongVec place(by_anchor ? sphere.anchor : sphere.center);
-        hits[static_cast<std::size_t>(sphere.object)] = exact_sphere(ray, center, radius2, place);
+        hits[static_cast<std::size_t>(sphere.surface)] = exact_sphere(ray, center, radius2, place);
     }
     for (const LoweredPlane& plane : scene.planes)
-        hits[static_cast<std::size_t>(plane.object)] = exact_plane(
+        hits[static_cast<std::size_t>(plane.surface)] = exact_plane(
             ray, LongVec(glm::vec<3, Real>(plane.point)), LongVec(glm::vec<3, Real>(plane.normal)));
     return hits;
 }
