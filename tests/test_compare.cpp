@@ -263,7 +263,7 @@ TEST_CASE("packtrace compare refuses wrong use with exit 2 and one line", "[comp
         {{"compare", a, a, "--threshold", "nan"}, "'nan' is not a number from 0 up"},
         {{"compare", a, a, "--threshold", "-1"}, "'-1' is not a number from 0 up"},
         {{"compare", a, a, "--max-error", "inf"}, "'inf' is not a number from 0 up"},
-        {{"compare", a, a, "--worst", "-2"}, "'-2' is not a whole number in 0..2147483647"},
+        {{"compare", a, a, "--worst", "-2"}, "'-2' is not a whole number from 0 to 2147483647"},
         {{"compare", a, a, "--worst", "2.5"}, "'2.5' is not a whole number"},
         {{"compare", a, a, a}, "not expected"},
         {{"compare", a, a, "--nonsense"}, "--nonsense"},

@@ -16,5 +16,8 @@ struct Failed {};
 // Each adds its subcommand to `app`; one file a subcommand. A callback reports errors by
 // throwing: std::exception for bad input (exit 1), CLI::Error for wrong use (exit 2).
 void add_compare(CLI::App& app);
+void add_demo(CLI::App& app);
+void add_info(CLI::App& app);
+void add_render(CLI::App& app);
 
 }  // namespace packtrace::cli

@@ -106,20 +106,27 @@ void add_compare(CLI::App& app)
     CLI::App* command =
         app.add_subcommand("compare", "Measure how far one picture is from another");
     const auto arguments = std::make_shared<CompareArguments>();
-    command->add_option("A", arguments->a, "Picture: .png, .pfm or .hdr")->required();
-    command->add_option("B", arguments->b, "Picture of the same size")->required();
+    command->add_option("A", arguments->a, "Picture: .png, .pfm or .hdr")
+        ->required()
+        ->type_name("");
+    command->add_option("B", arguments->b, "Picture of the same size")->required()->type_name("");
     command
         ->add_option("--threshold", arguments->options.threshold,
                      "Error above which a pixel counts as off (default 1/255)")
-        ->check(non_negative_number());
-    command->add_option("--worst", arguments->options.worst, "How many of the worst pixels to list")
+        ->check(non_negative_number())
+        ->type_name("T");
+    command
+        ->add_option("--worst", arguments->options.worst,
+                     "How many of the worst pixels to list (default 5)")
         ->check(whole_number(0, INT_MAX))
-        ->capture_default_str();
-    command->add_option("--heatmap", arguments->heatmap, "Write a picture of the error per pixel");
+        ->type_name("N");
+    command->add_option("--heatmap", arguments->heatmap, "Write a picture of the error per pixel")
+        ->type_name("IMAGE");
     command
         ->add_option("--max-error", arguments->max_error,
                      "Exit 1 when the largest error exceeds this")
-        ->check(non_negative_number());
+        ->check(non_negative_number())
+        ->type_name("X");
     command->add_flag("--json", arguments->json, "Print JSON; infinite numbers become null");
     command->callback([arguments] { run_compare(*arguments); });
 }

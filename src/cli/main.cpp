@@ -1,5 +1,6 @@
 #include <exception>
 #include <iostream>
+#include <new>
 
 #include "cli/command.hpp"
 
@@ -19,13 +20,22 @@ int run(int argc, char** argv)
 {
     CLI::App app{"packtrace: a SIMD ray-packet tracer for spheres, planes and quadrics"};
     app.set_version_flag("--version", "packtrace " PACKTRACE_VERSION);
-    app.require_subcommand(1);
+    // Not required here: a mistyped one would be called missing.
+    app.require_subcommand(0, 1);
+    add_render(app);
     add_compare(app);
+    add_info(app);
+    add_demo(app);
     try {
         app.parse(argc, argv);
+        if (app.get_subcommands().empty())
+            throw CLI::RequiredError::Subcommand(1);
     } catch (const CLI::ParseError& end) {
         return report_parse_end(app, end);
     } catch (const Failed&) {
+        return exit_failed;
+    } catch (const std::bad_alloc&) {
+        std::cerr << "packtrace: not enough memory\n";
         return exit_failed;
     } catch (const std::exception& error) {
         std::cerr << error.what() << '\n';

@@ -1,9 +1,10 @@
 #include "cli/validators.hpp"
 
+#include <algorithm>
 #include <charconv>
 #include <cmath>
 #include <optional>
-#include <string>
+#include <utility>
 
 namespace packtrace::cli {
 namespace {
@@ -20,43 +21,57 @@ std::optional<Number> parse(const std::string& text)
     return value;
 }
 
+// `accepts` tells whether a text is good, `wanted` what it should be. The help shows no more
+// than the option's own words.
+template <class Accepts>
+CLI::Validator validator(Accepts accepts, std::string wanted)
+{
+    return CLI::Validator(
+        [accepts, wanted = std::move(wanted)](std::string& text) -> std::string {
+            return accepts(text) ? std::string() : "'" + text + "' is not " + wanted;
+        },
+        "");
+}
+
 }  // namespace
 
 CLI::Validator non_negative_number()
 {
-    return CLI::Validator(
-        [](std::string& text) -> std::string {
-            const std::optional<double> value = parse<double>(text);
-            if (value && std::isfinite(*value) && *value >= 0.0)
-                return {};
-            return "'" + text + "' is not a number from 0 up";
-        },
-        "NUMBER>=0");
+    const auto accepts = [](const std::string& text) {
+        const std::optional<double> value = parse<double>(text);
+        return value && std::isfinite(*value) && *value >= 0.0;
+    };
+    return validator(accepts, "a number from 0 up");
 }
 
 CLI::Validator positive_number()
 {
-    return CLI::Validator(
-        [](std::string& text) -> std::string {
-            const std::optional<double> value = parse<double>(text);
-            if (value && std::isfinite(*value) && *value > 0.0)
-                return {};
-            return "'" + text + "' is not a number above 0";
-        },
-        "NUMBER>0");
+    const auto accepts = [](const std::string& text) {
+        const std::optional<double> value = parse<double>(text);
+        return value && std::isfinite(*value) && *value > 0.0;
+    };
+    return validator(accepts, "a number above 0");
 }
 
 CLI::Validator whole_number(int least, int most)
 {
-    const std::string range = std::to_string(least) + ".." + std::to_string(most);
-    return CLI::Validator(
-        [least, most, range](std::string& text) -> std::string {
-            const std::optional<int> value = parse<int>(text);
-            if (value && *value >= least && *value <= most)
-                return {};
-            return "'" + text + "' is not a whole number in " + range;
-        },
-        range);
+    const auto accepts = [least, most](const std::string& text) {
+        const std::optional<int> value = parse<int>(text);
+        return value && *value >= least && *value <= most;
+    };
+    return validator(
+        accepts, "a whole number from " + std::to_string(least) + " to " + std::to_string(most));
+}
+
+CLI::Validator one_of(std::vector<std::string> words)
+{
+    std::string wanted = words.front();
+    for (std::size_t i = 1; i < words.size(); ++i)
+        wanted += (i + 1 < words.size() ? ", " : " or ") + words[i];
+    const auto accepts = [words = std::move(words)](const std::string& text) {
+        return std::find(words.begin(), words.end(), text) != words.end();
+    };
+    return validator(accepts, wanted);
 }
 
 }  // namespace packtrace::cli

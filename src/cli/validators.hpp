@@ -1,5 +1,8 @@
 #pragma once
 
+#include <string>
+#include <vector>
+
 #include <CLI/CLI.hpp>
 
 namespace packtrace::cli {
@@ -12,5 +15,7 @@ namespace packtrace::cli {
 [[nodiscard]] CLI::Validator positive_number();
 /// A whole number from `least` to `most`.
 [[nodiscard]] CLI::Validator whole_number(int least, int most);
+/// One of a few words.
+[[nodiscard]] CLI::Validator one_of(std::vector<std::string> words);
 
 }  // namespace packtrace::cli

@@ -1,0 +1,129 @@
+#include "cli/common_options.hpp"
+
+#include <charconv>
+#include <stdexcept>
+#include <utility>
+
+#include "cli/validators.hpp"
+
+namespace packtrace::cli {
+namespace {
+
+// As the scene language has them.
+constexpr int largest_side = 65536;
+constexpr int deepest = 64;
+constexpr int most_threads = 1024;
+
+// The two numbers of "640x480"; zeros when it is something else.
+std::pair<int, int> parse_size(const std::string& text)
+{
+    int width = 0;
+    int height = 0;
+    const char* end = text.data() + text.size();
+    const auto [x, first_error] = std::from_chars(text.data(), end, width);
+    if (first_error != std::errc{} || x == end || *x != 'x')
+        return {};
+    const auto [stop, second_error] = std::from_chars(x + 1, end, height);
+    if (second_error != std::errc{} || stop != end)
+        return {};
+    return {width, height};
+}
+
+std::string check_size(const std::string& text)
+{
+    const auto [width, height] = parse_size(text);
+    if (width >= 1 && width <= largest_side && height >= 1 && height <= largest_side)
+        return {};
+    return "'" + text + "' is not a size such as 640x480, of sides from 1 to " +
+           std::to_string(largest_side);
+}
+
+}  // namespace
+
+void add_isa_options(CLI::App& command, IsaArguments& arguments)
+{
+    command
+        .add_option("--isa", arguments.isa,
+                    "Instruction set (default PACKTRACE_ISA, else the widest; see info)")
+        ->type_name("NAME");
+    command
+        .add_option("--width", arguments.width,
+                    "Lanes of a packet of floats: 4, 8 or 16 (default any)")
+        ->check(one_of({"4", "8", "16"}))
+        ->type_name("N");
+}
+
+void add_picture_options(CLI::App& command, PictureArguments& arguments)
+{
+    command
+        .add_option("--size", arguments.size,
+                    "Size of the picture (default " + arguments.size.value_or("the scene's") + ")")
+        ->check(CLI::Validator(check_size, ""))
+        ->type_name("WxH");
+    command
+        .add_option("--depth", arguments.depth,
+                    "Reflections after the camera ray (default the scene's)")
+        ->check(whole_number(0, deepest))
+        ->type_name("N");
+}
+
+void add_threads_option(CLI::App& command, int& threads)
+{
+    command.add_option("--threads", threads, "Threads (default one a processor)")
+        ->check(whole_number(1, most_threads))
+        ->type_name("N");
+}
+
+void add_kernel_options(CLI::App& command, KernelArguments& arguments)
+{
+    command.add_option("--kernel", arguments.kernel, "packet (default), or the scalar reference")
+        ->check(one_of({"packet", "scalar"}))
+        ->type_name("packet|scalar");
+    command
+        .add_option("--precision", arguments.precision,
+                    "single (default), double, or extended (scalar only)")
+        ->check(one_of({"single", "double", "extended"}))
+        ->type_name("single|double|extended");
+    add_isa_options(command, arguments.isa);
+    add_threads_option(command, arguments.threads);
+}
+
+IsaInfo chosen_isa(const IsaArguments& arguments)
+{
+    try {
+        return choose_isa(arguments.isa.value_or("auto"), arguments.width.value_or(0));
+    } catch (const std::invalid_argument& error) {
+        // It names the option, or the environment variable.
+        const std::string what = error.what();
+        throw CLI::ValidationError(what.starts_with("PACKTRACE_ISA") ? what : "--" + what);
+    }
+}
+
+void apply(const PictureArguments& arguments, Scene& scene)
+{
+    if (arguments.size)
+        std::tie(scene.width, scene.height) = parse_size(*arguments.size);
+    if (arguments.depth)
+        scene.max_depth = *arguments.depth;
+}
+
+RenderOptions render_options(const KernelArguments& arguments)
+{
+    RenderOptions options;
+    options.threads = arguments.threads;
+    if (arguments.kernel == "scalar") {
+        options.kernel = Kernel::scalar;
+        if (arguments.isa.isa || arguments.isa.width)
+            throw CLI::ValidationError(std::string(arguments.isa.isa ? "--isa" : "--width") +
+                                       ": only packets have one; leave it out or use "
+                                       "--kernel packet");
+        return options;
+    }
+    if (arguments.precision == "extended")
+        throw CLI::ValidationError(
+            "--precision: packets are single or double; extended needs --kernel scalar");
+    options.isa = chosen_isa(arguments.isa).name;
+    return options;
+}
+
+}  // namespace packtrace::cli

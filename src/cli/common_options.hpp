@@ -1,0 +1,48 @@
+#pragma once
+
+#include <optional>
+#include <string>
+
+#include <packtrace/isa.hpp>
+#include <packtrace/render.hpp>
+#include <packtrace/scene.hpp>
+
+#include <CLI/CLI.hpp>
+
+namespace packtrace::cli {
+
+/// `--isa` and `--width`.
+struct IsaArguments {
+    std::optional<std::string> isa;
+    std::optional<int> width;
+};
+
+/// What picture to render of a scene: `--size` and `--depth`.
+struct PictureArguments {
+    std::optional<std::string> size;
+    std::optional<int> depth;
+};
+
+/// How to render it: `--kernel`, `--precision`, `--threads` and those of IsaArguments.
+struct KernelArguments {
+    std::string kernel = "packet";
+    std::string precision = "single";
+    IsaArguments isa;
+    int threads = 0;
+};
+
+void add_isa_options(CLI::App& command, IsaArguments& arguments);
+void add_picture_options(CLI::App& command, PictureArguments& arguments);
+void add_kernel_options(CLI::App& command, KernelArguments& arguments);
+void add_threads_option(CLI::App& command, int& threads);
+
+/// The instruction set asked for. Throws CLI::ValidationError when there is no such one here.
+[[nodiscard]] IsaInfo chosen_isa(const IsaArguments& arguments);
+
+/// Puts the size and depth asked for into the scene.
+void apply(const PictureArguments& arguments, Scene& scene);
+
+/// Throws CLI::ValidationError for options that contradict each other.
+[[nodiscard]] RenderOptions render_options(const KernelArguments& arguments);
+
+}  // namespace packtrace::cli

@@ -1,0 +1,117 @@
+#include <iostream>
+#include <memory>
+#include <optional>
+#include <string>
+
+#include <packtrace/isa.hpp>
+#include <packtrace/read_scene.hpp>
+
+#include <nlohmann/json.hpp>
+
+#include "cli/command.hpp"
+#include "cli/common_options.hpp"
+#include "cli/scene_summary.hpp"
+#include "cli/text_table.hpp"
+
+namespace packtrace::cli {
+namespace {
+
+struct InfoArguments {
+    std::string scene;
+    IsaArguments isa;
+    bool json = false;
+};
+
+void print_isas(const IsaInfo& chosen)
+{
+    TextTable table(1, {"instruction set", "float lanes", "double lanes", "supported", "chosen"});
+    for (const IsaInfo& isa : list_isas())
+        table.add({isa.name, std::to_string(isa.lanes_single), std::to_string(isa.lanes_double),
+                   isa.supported ? "yes" : "no", isa.name == chosen.name ? "yes" : ""});
+    table.print(std::cout);
+}
+
+std::string listed(const Census& census)
+{
+    std::string text;
+    int total = 0;
+    for (const auto& [kind, count] : census) {
+        text += (text.empty() ? " (" : ", ") + std::to_string(count) + " " + kind;
+        total += count;
+    }
+    return std::to_string(total) + text + (text.empty() ? "" : ")");
+}
+
+void print_scene(const std::string& file, const Scene& scene)
+{
+    std::cout << "\nscene    " << file << "\nsize     " << scene.width << " x " << scene.height
+              << "\nobjects  " << listed(count_objects(scene)) << "\nlights   "
+              << listed(count_lights(scene)) << "\nmodel    " << name_of(scene.illumination)
+              << "\ndepth    " << scene.max_depth << "\nshadows  " << name_of(scene.shadows)
+              << '\n';
+}
+
+nlohmann::ordered_json counted(const Census& census)
+{
+    nlohmann::ordered_json json = nlohmann::ordered_json::object();
+    for (const auto& [kind, count] : census)
+        json[kind] = count;
+    return json;
+}
+
+nlohmann::ordered_json scene_json(const std::string& file, const Scene& scene)
+{
+    return {{"file", file},
+            {"width", scene.width},
+            {"height", scene.height},
+            {"objects", counted(count_objects(scene))},
+            {"lights", counted(count_lights(scene))},
+            {"model", name_of(scene.illumination)},
+            {"depth", scene.max_depth},
+            {"shadows", name_of(scene.shadows)}};
+}
+
+void print_json(const IsaInfo& chosen, const std::string& file, const std::optional<Scene>& scene)
+{
+    nlohmann::ordered_json json;
+    json["version"] = PACKTRACE_VERSION;
+    json["isas"] = nlohmann::ordered_json::array();
+    for (const IsaInfo& isa : list_isas())
+        json["isas"].push_back({{"name", isa.name},
+                                {"lanes_single", isa.lanes_single},
+                                {"lanes_double", isa.lanes_double},
+                                {"supported", isa.supported}});
+    json["chosen"] = chosen.name;
+    if (scene)
+        json["scene"] = scene_json(file, *scene);
+    std::cout << json.dump(2, ' ', false, nlohmann::json::error_handler_t::replace) << '\n';
+}
+
+void run_info(const InfoArguments& arguments)
+{
+    const IsaInfo chosen = chosen_isa(arguments.isa);
+    std::optional<Scene> scene;
+    if (!arguments.scene.empty())
+        scene = read_scene(arguments.scene);
+    if (arguments.json)
+        return print_json(chosen, arguments.scene, scene);
+    std::cout << "packtrace " PACKTRACE_VERSION "\n\n";
+    print_isas(chosen);
+    if (scene)
+        print_scene(arguments.scene, *scene);
+}
+
+}  // namespace
+
+void add_info(CLI::App& app)
+{
+    CLI::App* command =
+        app.add_subcommand("info", "Show what this machine can run, and what a scene holds");
+    const auto arguments = std::make_shared<InfoArguments>();
+    command->add_option("SCENE", arguments->scene, "Scene file to look into")->type_name("");
+    add_isa_options(*command, arguments->isa);
+    command->add_flag("--json", arguments->json, "Print JSON");
+    command->callback([arguments] { run_info(*arguments); });
+}
+
+}  // namespace packtrace::cli

@@ -1,0 +1,114 @@
+#include <packtrace/render.hpp>
+
+#include <chrono>
+#include <cstdio>
+#include <iostream>
+#include <memory>
+#include <string>
+#include <type_traits>
+
+#include <packtrace/image_io.hpp>
+#include <packtrace/read_scene.hpp>
+
+#include "cli/command.hpp"
+#include "cli/common_options.hpp"
+#include "cli/progress_bar.hpp"
+#include "cli/thread_limit.hpp"
+#include "cli/validators.hpp"
+#include "image/format.hpp"
+
+namespace packtrace::cli {
+namespace {
+
+struct RenderArguments {
+    std::string scene;
+    std::string output;
+    KernelArguments kernel;
+    PictureArguments picture;
+    ImageWriteOptions write;
+    bool quiet = false;
+};
+
+template <class Real>
+Image<float> render_as(const Scene& scene, const RenderOptions& options)
+{
+    if constexpr (std::is_same_v<Real, float>)
+        return render<float>(scene, options);
+    else
+        return convert<float>(render<Real>(scene, options));
+}
+
+Image<float> render_picture(const Scene& scene, const std::string& precision,
+                            const RenderOptions& options)
+{
+    if (precision == "double")
+        return render_as<double>(scene, options);
+    if (precision == "extended")
+        return render_as<long double>(scene, options);
+    return render_as<float>(scene, options);
+}
+
+void print_summary(const RenderArguments& arguments, const RenderOptions& options,
+                   const Image<float>& image, double seconds)
+{
+    const std::string kernel =
+        options.kernel == Kernel::scalar ? "scalar" : "packet, " + options.isa;
+    const double pixels = static_cast<double>(image.width) * image.height;
+    char text[160];
+    std::snprintf(text, sizeof text, ": %d x %d, %s, %s, %.1f ms, %.1f Mpixel/s\n", image.width,
+                  image.height, kernel.c_str(), arguments.kernel.precision.c_str(), 1e3 * seconds,
+                  1e-6 * pixels / seconds);
+    std::cerr << arguments.output << text;
+}
+
+void check_gamma(const RenderArguments& arguments)
+{
+    if (arguments.write.gamma != 1.0 && image_format(arguments.output) != ImageFormat::png)
+        throw CLI::ValidationError("--gamma: only PNG has one; .pfm and .hdr hold linear values");
+}
+
+void run_render(const RenderArguments& arguments)
+{
+    RenderOptions options = render_options(arguments.kernel);
+    check_gamma(arguments);
+    // Before the work, so that a wrong name doesn't cost it.
+    check_image_writable(arguments.output);
+    Scene scene = read_scene(arguments.scene);
+    apply(arguments.picture, scene);
+
+    const ThreadLimit limit(options.threads);
+    const auto start = std::chrono::steady_clock::now();
+    Image<float> image;
+    {
+        ProgressBar bar(arguments.quiet ? Verbosity::quiet : Verbosity::normal);
+        options.progress = [&bar](double share) { bar.update(share); };
+        image = render_picture(scene, arguments.kernel.precision, options);
+    }
+    const std::chrono::duration<double> time = std::chrono::steady_clock::now() - start;
+    write_image(arguments.output, image, arguments.write);
+    if (!arguments.quiet)
+        print_summary(arguments, options, image, time.count());
+}
+
+}  // namespace
+
+void add_render(CLI::App& app)
+{
+    CLI::App* command = app.add_subcommand("render", "Render a scene to a picture");
+    const auto arguments = std::make_shared<RenderArguments>();
+    command->add_option("SCENE", arguments->scene, "Scene file")->required()->type_name("");
+    command->add_option("-o,--output", arguments->output, "Picture to write: .png, .pfm or .hdr")
+        ->required()
+        ->type_name("IMAGE");
+    add_kernel_options(*command, arguments->kernel);
+    add_picture_options(*command, arguments->picture);
+    command
+        ->add_option("--gamma", arguments->write.gamma,
+                     "Raise a PNG's values to 1/G; 1 (default) writes them linear")
+        ->check(positive_number())
+        ->type_name("G");
+    command->add_flag("-q,--quiet", arguments->quiet, "No progress bar, no summary");
+    command->callback([arguments] { run_render(*arguments); });
+}
+
+}  // namespace packtrace::cli

@@ -1,0 +1,29 @@
+#pragma once
+
+#include <iosfwd>
+#include <string>
+#include <vector>
+
+namespace packtrace::cli {
+
+/// Rows of words, printed in columns: the first `left` columns from the left, the others to
+/// the right.
+class TextTable {
+public:
+    TextTable(std::size_t left, std::vector<std::string> head);
+
+    /// A row has as many words as the head.
+    void add(std::vector<std::string> row);
+    void print(std::ostream& to) const;
+
+private:
+    std::size_t left_;
+    std::vector<std::vector<std::string>> rows_;
+};
+
+/// A number with a fixed count of decimals.
+[[nodiscard]] std::string fixed(double value, int decimals);
+/// A number with two digits and an exponent where it needs one.
+[[nodiscard]] std::string brief(double value);
+
+}  // namespace packtrace::cli

@@ -1,0 +1,384 @@
+#include <cstdlib>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include <packtrace/image_io.hpp>
+#include <packtrace/isa.hpp>
+#include <packtrace/read_scene.hpp>
+#include <packtrace/render.hpp>
+
+#include <nlohmann/json.hpp>
+
+#include "catch.hpp"
+#include "run_on_terminal.hpp"
+#include "run_program.hpp"
+
+namespace packtrace {
+namespace {
+
+using test::ContainsSubstring;
+using test::ProgramResult;
+using test::read_text;
+using test::run_packtrace;
+using test::TempFolder;
+using test::write_text;
+using Words = std::vector<std::string>;
+
+const std::string four_spheres = PACKTRACE_SOURCE_DIR "/scenes/four_spheres.scene";
+
+// `packtrace render SCENE -o OUTPUT --size 40x30 …`
+ProgramResult render_small(const std::string& scene, const std::string& output, const Words& more,
+                           const std::string& environment = "")
+{
+    Words words{"render", scene, "-o", output, "--size", "40x30"};
+    words.insert(words.end(), more.begin(), more.end());
+    return run_packtrace(words, environment);
+}
+
+bool is_one_line(const std::string& text)
+{
+    return !text.empty() && text.find('\n') == text.size() - 1;
+}
+
+Scene small_scene()
+{
+    Scene scene = read_scene(four_spheres);
+    scene.width = 40;
+    scene.height = 30;
+    return scene;
+}
+
+}  // namespace
+
+TEST_CASE("every command has a help text that names its options", "[cli]")
+{
+    const std::vector<std::pair<Words, std::string>> helps{
+        {{"--help"}, "Subcommands:"},           {{"render", "--help"}, "--precision"},
+        {{"compare", "--help"}, "--max-error"}, {{"info", "--help"}, "--json"},
+        {{"demo", "--help"}, "--rounds"},
+    };
+    for (const auto& [words, option] : helps) {
+        const ProgramResult result = run_packtrace(words);
+        CHECK(result.exit_code == 0);
+        CHECK(result.err.empty());
+        CHECK_THAT(result.out, ContainsSubstring(option));
+        CHECK_THAT(result.out, ContainsSubstring("--help"));
+    }
+    // Commands that are listed have their own help above.
+    const std::string listed = run_packtrace({"--help"}).out;
+    const std::string commands = listed.substr(listed.find("Subcommands:"));
+    CHECK(std::count(commands.begin(), commands.end(), '\n') <=
+          static_cast<std::ptrdiff_t>(helps.size() + 1));
+}
+
+TEST_CASE("the version is one line", "[cli]")
+{
+    const ProgramResult result = run_packtrace({"--version"});
+    CHECK(result.exit_code == 0);
+    CHECK_THAT(result.out, ContainsSubstring("packtrace "));
+    CHECK(is_one_line(result.out));
+}
+
+TEST_CASE("render writes what the library renders", "[cli]")
+{
+    const TempFolder folder;
+    const ProgramResult result = render_small(four_spheres, folder / "a.pfm", {});
+    CHECK(result.exit_code == 0);
+    CHECK(result.out.empty());
+    CHECK(is_one_line(result.err));
+    CHECK_THAT(result.err, ContainsSubstring("a.pfm: 40 x 30, packet, " + choose_isa().name));
+    const Image<float> expected = render<float>(small_scene());
+    CHECK((read_image(folder / "a.pfm").rgb == expected.rgb));
+}
+
+TEST_CASE("render takes the scalar kernel in three precisions", "[cli]")
+{
+    const TempFolder folder;
+    RenderOptions scalar;
+    scalar.kernel = Kernel::scalar;
+    const Scene scene = small_scene();
+    const std::vector<std::pair<std::string, Image<float>>> expected{
+        {"single", render<float>(scene, scalar)},
+        {"double", convert<float>(render<double>(scene, scalar))},
+        {"extended", convert<float>(render<long double>(scene, scalar))}};
+    CHECK((expected[0].second.rgb != expected[1].second.rgb));
+    for (const auto& [precision, image] : expected) {
+        const ProgramResult result =
+            render_small(four_spheres, folder / "a.pfm",
+                         {"--kernel", "scalar", "--precision", precision, "--quiet"});
+        CHECK(result.exit_code == 0);
+        CHECK(result.err.empty());
+        CHECK((read_image(folder / "a.pfm").rgb == image.rgb));
+    }
+}
+
+TEST_CASE("render takes every instruction set, width and number of threads", "[cli]")
+{
+    const TempFolder folder;
+    for (const IsaInfo& isa : list_isas()) {
+        if (!isa.supported)
+            continue;
+        const Words forced{"--isa", isa.name, "--width", std::to_string(isa.lanes_single)};
+        const ProgramResult result = render_small(four_spheres, folder / "a.png", forced);
+        CHECK(result.exit_code == 0);
+        CHECK_THAT(result.err, ContainsSubstring("packet, " + isa.name));
+        const ProgramResult variable =
+            render_small(four_spheres, folder / "a.png", {}, "PACKTRACE_ISA=" + isa.name);
+        CHECK_THAT(variable.err, ContainsSubstring("packet, " + isa.name));
+    }
+    for (const std::string threads : {"1", "2", "7"}) {
+        const ProgramResult result =
+            render_small(four_spheres, folder / (threads + ".pfm"), {"--threads", threads, "-q"});
+        CHECK(result.err.empty());
+        CHECK(read_text(folder / (threads + ".pfm")) == read_text(folder / "1.pfm"));
+    }
+}
+
+TEST_CASE("render's depth and gamma change the picture", "[cli]")
+{
+    const TempFolder folder;
+    Scene scene = small_scene();
+    scene.max_depth = 0;
+    CHECK(render_small(four_spheres, folder / "flat.pfm", {"--depth", "0"}).exit_code == 0);
+    CHECK((read_image(folder / "flat.pfm").rgb == render<float>(scene).rgb));
+
+    CHECK(render_small(four_spheres, folder / "g.png", {"--gamma", "2.2"}).exit_code == 0);
+    write_image(folder / "expected.png", render<float>(small_scene()), {.gamma = 2.2});
+    CHECK(read_text(folder / "g.png") == read_text(folder / "expected.png"));
+}
+
+TEST_CASE("wrong use exits 2 with one line and leaves no file", "[cli]")
+{
+    const TempFolder folder;
+    const std::string out = folder / "a.png";
+    const std::vector<std::pair<Words, std::string>> wrong{
+        {{}, "subcommand is required"},
+        {{"rendr"}, "not expected: rendr"},
+        {{"render"}, "SCENE is required"},
+        {{"render", four_spheres}, "--output is required"},
+        {{"render", four_spheres, "-o", out, "--kernel", "gpu"}, "'gpu' is not packet or scalar"},
+        {{"render", four_spheres, "-o", out, "--precision", "half"},
+         "'half' is not single, double or extended"},
+        {{"render", four_spheres, "-o", out, "--precision", "extended"},
+         "extended needs --kernel scalar"},
+        {{"render", four_spheres, "-o", out, "--isa", "mmx"},
+         "--isa: unknown instruction set 'mmx'"},
+        {{"render", four_spheres, "-o", out, "--isa", ""}, "--isa: unknown instruction set ''"},
+        {{"render", four_spheres, "-o", out, "--width", "5"}, "'5' is not 4, 8 or 16"},
+        {{"render", four_spheres, "-o", out, "--kernel", "scalar", "--isa", "auto"},
+         "--isa: only packets have one"},
+        {{"render", four_spheres, "-o", out, "--kernel", "scalar", "--width", "4"},
+         "--width: only packets have one"},
+        {{"render", four_spheres, "-o", out, "--threads", "0"}, "'0' is not a whole number"},
+        {{"render", four_spheres, "-o", out, "--threads", "2x"}, "'2x' is not a whole number"},
+        {{"render", four_spheres, "-o", out, "--size", "0x5"}, "'0x5' is not a size"},
+        {{"render", four_spheres, "-o", out, "--size", "640"}, "'640' is not a size"},
+        {{"render", four_spheres, "-o", out, "--size", "64x48x3"}, "'64x48x3' is not a size"},
+        {{"render", four_spheres, "-o", out, "--size", "70000x1"}, "from 1 to 65536"},
+        {{"render", four_spheres, "-o", out, "--depth", "-1"}, "'-1' is not a whole number"},
+        {{"render", four_spheres, "-o", out, "--gamma", "0"}, "'0' is not a number above 0"},
+        {{"render", four_spheres, "-o", out, "--gamma", "nan"}, "'nan' is not a number above 0"},
+        {{"render", four_spheres, "-o", folder / "a.pfm", "--gamma", "2"}, "only PNG has one"},
+        {{"render", four_spheres, "-o", out, "--nonsense"}, "--nonsense"},
+        {{"info", "--isa", "mmx"}, "--isa: unknown instruction set 'mmx'"},
+        {{"demo", "--rounds", "0"}, "'0' is not a whole number"},
+    };
+    for (const auto& [words, reason] : wrong) {
+        const ProgramResult result = run_packtrace(words);
+        INFO(reason);
+        CHECK(result.exit_code == 2);
+        CHECK(result.out.empty());
+        CHECK(is_one_line(result.err));
+        CHECK_THAT(result.err, ContainsSubstring(reason));
+        CHECK(folder.names().empty());
+    }
+}
+
+TEST_CASE("a wrong PACKTRACE_ISA exits 2 and names the variable", "[cli]")
+{
+    const TempFolder folder;
+    const ProgramResult result =
+        render_small(four_spheres, folder / "a.png", {}, "PACKTRACE_ISA=mmx");
+    CHECK(result.exit_code == 2);
+    CHECK(is_one_line(result.err));
+    CHECK_THAT(result.err, ContainsSubstring("PACKTRACE_ISA: unknown instruction set 'mmx'"));
+    CHECK(folder.names().empty());
+    // The scalar kernel has no use for it.
+    const Words scalar{"--kernel", "scalar"};
+    CHECK(render_small(four_spheres, folder / "a.png", scalar, "PACKTRACE_ISA=mmx").exit_code == 0);
+}
+
+TEST_CASE("bad scenes exit 1 with one line, at once, and leave no picture", "[cli]")
+{
+    const TempFolder folder;
+    const std::string light = "light { type = ambient intensity = 0.2 }\n";
+    const std::string sphere = "sphere { center = (0,0,5) radius = 1 }\n";
+    std::string binary(5000, '\0');
+    for (std::size_t i = 0; i < binary.size(); ++i)
+        binary[i] = static_cast<char>(i * 167 % 256);
+    const std::size_t huge = 100'000'000;
+    const std::vector<std::pair<std::string, std::string>> scenes{
+        {"empty", ""},
+        {"binary", binary},
+        {"missing brace", "sphere { center = (0,0,5) radius = 1\n" + light},
+        {"unknown key", light + "sphere { center = (0,0,5) radius = 1 colour = (1,2,3) }\n"},
+        {"negative radius", light + "sphere { center = (0,0,5) radius = -1 }\n"},
+        {"nan", light + "sphere { center = (0,0,nan) radius = 1 }\n"},
+        {"long word", light + sphere + std::string(huge, 'a')},
+        {"long number", light + "sphere { center = (0,0,5) radius = " + std::string(huge, '1')},
+        {"many brackets", light + "sphere { center = " + std::string(huge, '(')},
+    };
+    for (const auto& [name, text] : scenes) {
+        write_text(folder / "bad.scene", text);
+        const ProgramResult result = render_small(folder / "bad.scene", folder / "a.png", {});
+        INFO(name << ": " << result.err.substr(0, 200));
+        CHECK(result.exit_code == 1);
+        CHECK(result.out.empty());
+        CHECK(is_one_line(result.err));
+        CHECK(result.err.size() < 400);
+        CHECK_THAT(result.err, ContainsSubstring("bad.scene:"));
+        CHECK(result.seconds < 1.0);
+        CHECK(folder.names() == Words{"bad.scene"});
+    }
+}
+
+TEST_CASE("a scene that is missing or a folder exits 1 and says so", "[cli]")
+{
+    const TempFolder folder;
+    const ProgramResult missing = render_small(folder / "none.scene", folder / "a.png", {});
+    CHECK(missing.exit_code == 1);
+    CHECK(is_one_line(missing.err));
+    CHECK_THAT(missing.err, ContainsSubstring("No such file or directory"));
+    const ProgramResult directory = render_small(folder / "", folder / "a.png", {});
+    CHECK(directory.exit_code == 1);
+    CHECK(is_one_line(directory.err));
+    CHECK(folder.names().empty());
+}
+
+TEST_CASE("an output that can't be written is told before the rendering", "[cli]")
+{
+    const TempFolder folder;
+    const std::vector<std::pair<std::string, std::string>> outputs{
+        {"a.jpg", "use .png, .pfm or .hdr"},
+        {"none/a.png", "No such file or directory"},
+        {"folder.png", "Is a directory"}};
+    std::filesystem::create_directory(folder / "folder.png");
+    for (const auto& [name, reason] : outputs) {
+        // A picture that would take minutes.
+        const ProgramResult result = run_packtrace({"render", four_spheres, "-o", folder / name,
+                                                    "--size", "20000x20000", "--kernel", "scalar"});
+        CHECK(result.exit_code == 1);
+        CHECK(is_one_line(result.err));
+        CHECK_THAT(result.err, ContainsSubstring(name));
+        CHECK_THAT(result.err, ContainsSubstring(reason));
+        CHECK(result.seconds < 1.0);
+        CHECK(folder.names() == Words{"folder.png"});
+    }
+}
+
+TEST_CASE("an existing picture is replaced, and kept when writing fails", "[cli]")
+{
+    const TempFolder folder;
+    write_text(folder / "a.pfm", "old");
+    // A limit of one block on the size of files stands for a full disk.
+    const ProgramResult full =
+        render_small(four_spheres, folder / "a.pfm", {}, "trap '' XFSZ; ulimit -f 1;");
+    CHECK(full.exit_code == 1);
+    CHECK(full.err == (folder / "a.pfm").string() + ": can't write: File too large\n");
+    CHECK(folder.names() == Words{"a.pfm"});
+    CHECK(read_text(folder / "a.pfm") == "old");
+
+    CHECK(render_small(four_spheres, folder / "a.pfm", {}).exit_code == 0);
+    CHECK(folder.names() == Words{"a.pfm"});
+    CHECK(read_text(folder / "a.pfm").substr(0, 9) == "PF\n40 30\n");
+}
+
+TEST_CASE("info tells the machine's instruction sets and the one chosen", "[cli]")
+{
+    const ProgramResult text = run_packtrace({"info"});
+    CHECK(text.exit_code == 0);
+    CHECK(text.err.empty());
+    const auto json = nlohmann::json::parse(run_packtrace({"info", "--json"}).out);
+    CHECK(json["chosen"] == choose_isa().name);
+    const std::vector<IsaInfo> isas = list_isas();
+    REQUIRE(json["isas"].size() == isas.size());
+    for (std::size_t i = 0; i < isas.size(); ++i) {
+        CHECK_THAT(text.out, ContainsSubstring(isas[i].name));
+        CHECK(json["isas"][i]["name"] == isas[i].name);
+        CHECK(json["isas"][i]["lanes_single"] == isas[i].lanes_single);
+        CHECK(json["isas"][i]["lanes_double"] == isas[i].lanes_double);
+        CHECK(json["isas"][i]["supported"] == isas[i].supported);
+        if (isas[i].supported)
+            CHECK(nlohmann::json::parse(
+                      run_packtrace({"info", "--json", "--isa", isas[i].name}).out)["chosen"] ==
+                  isas[i].name);
+    }
+}
+
+TEST_CASE("info tells what a scene holds", "[cli]")
+{
+    const ProgramResult text = run_packtrace({"info", four_spheres});
+    CHECK_THAT(text.out, ContainsSubstring("objects  4 (4 sphere)\n"));
+    CHECK_THAT(text.out, ContainsSubstring("lights   3 (1 ambient, 1 point, 1 directional)\n"));
+    const auto scene =
+        nlohmann::json::parse(run_packtrace({"info", four_spheres, "--json"}).out)["scene"];
+    CHECK(scene["width"] == 512);
+    CHECK(scene["objects"] == nlohmann::json({{"sphere", 4}}));
+    CHECK(scene["lights"] == nlohmann::json({{"ambient", 1}, {"point", 1}, {"directional", 1}}));
+    CHECK(scene["model"] == "scratch");
+    CHECK(scene["depth"] == 3);
+    CHECK(scene["shadows"] == "opaque");
+    CHECK(run_packtrace({"info", four_spheres + "x"}).exit_code == 1);
+}
+
+TEST_CASE("demo renders with every kernel and writes the picture", "[cli]")
+{
+    const TempFolder folder;
+    const ProgramResult result =
+        run_packtrace({"demo", four_spheres, "-o", folder / "out", "--size", "64x48", "--rounds",
+                       "2", "--threads", "2"});
+    CHECK(result.exit_code == 0);
+    CHECK(result.err.empty());
+    const auto rows = [&](const std::string& kernel) {
+        std::size_t count = 0;
+        for (std::size_t at = result.out.find("\n" + kernel); at != std::string::npos;
+             at = result.out.find("\n" + kernel, at + 1))
+            ++count;
+        return count;
+    };
+    std::size_t supported = 0;
+    for (const IsaInfo& isa : list_isas())
+        supported += isa.supported;
+    CHECK(rows("scalar  double") == 1);
+    CHECK(rows("scalar  single") == 1);
+    CHECK(rows("packet  double") == supported);
+    CHECK(rows("packet  single") == supported + 1);
+    CHECK(read_image(folder / "out/four_spheres.png").width == 64);
+    CHECK_THAT(result.out, ContainsSubstring((folder / "out/four_spheres.png").string()));
+}
+
+TEST_CASE("a long render shows its progress on a terminal only", "[cli][slow]")
+{
+    const TempFolder folder;
+    const Words words{"render",      four_spheres, "-o",        folder / "a.png",
+                      "--size",      "1800x1800",  "--kernel",  "scalar",
+                      "--precision", "extended",   "--threads", "1"};
+    const ProgramResult piped = run_packtrace(words);
+    REQUIRE(piped.seconds > 1.2);
+    CHECK(is_one_line(piped.err));
+    CHECK(piped.err.find('\r') == std::string::npos);
+
+    const std::string shown = test::run_on_terminal(words);
+    CHECK_THAT(shown, ContainsSubstring("\r[####"));
+    CHECK_THAT(shown, ContainsSubstring(" %"));
+    // The bar is cleared before the summary.
+    CHECK_THAT(shown,
+               ContainsSubstring("\r\033[K" + (folder / "a.png").string() + ": 1800 x 1800"));
+
+    Words quiet = words;
+    quiet.push_back("--quiet");
+    CHECK(test::run_on_terminal(quiet).empty());
+}
+
+}  // namespace packtrace
