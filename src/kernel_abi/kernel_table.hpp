@@ -4,6 +4,7 @@
 #include <cstdint>
 
 #include "kernel_abi/features.hpp"
+#include "kernel_abi/ray_streams.hpp"
 #include "kernel_abi/scene_view.hpp"
 #include "kernel_abi/self_test.hpp"
 
@@ -53,6 +54,13 @@ struct FeatureKernels {
     RayCounts (*render_tile)(const TileJob<Real>& job) = nullptr;
     /// The tile's camera rays only; `rgb` is not used.
     void (*closest_tile)(const TileJob<Real>& job, TileHits<Real>& hits) = nullptr;
+    void (*closest_hits)(const SceneView<Real>& scene, const RaysView<Real>& rays,
+                         const HitsView<Real>& hits) = nullptr;
+    /// mask[i] is 1 where ray i hits anything, else 0.
+    void (*occluded)(const SceneView<Real>& scene, const RaysView<Real>& rays,
+                     std::uint8_t* mask) = nullptr;
+    void (*all_hits)(const SceneView<Real>& scene, const RaysView<Real>& rays,
+                     const HitSink<Real>& sink) = nullptr;
 };
 
 /// The kernels of one precision.

@@ -49,5 +49,32 @@ inline void closest_hit(HitPacket<Real>& hit, const Objects& objects, const RayP
             keep_quadric(hit, lists.quadric(i), rays);
 }
 
+/// Calls `visit(valid, t, surface)` for every crossing of every surface of a scene; only those
+/// where `valid`, and with a finite t, are one.
+template <abi::Features F, class Real, class Visit>
+inline void visit_all_crossings(const abi::SceneView<Real>& scene, const RayPacket<Real>& rays,
+                                const Visit& visit)
+{
+    const auto quadratic_crossings = [&](const Quadratic<Real>& quadratic, std::int32_t surface) {
+        visit_roots(quadratic,
+                    [&](vmask<Real> valid, const vreal<Real>& t) { visit(valid, t, surface); });
+    };
+    for (int i = 0; i < scene.spheres.count; ++i)
+        quadratic_crossings(quadratic_of(scene.spheres, i, rays),
+                            static_cast<std::int32_t>(scene.spheres.surface[i]));
+    for (int i = 0; i < scene.huge_spheres.count; ++i)
+        quadratic_crossings(quadratic_of(scene.huge_spheres.data[i], rays),
+                            scene.huge_spheres.data[i].surface);
+    for (int i = 0; i < scene.planes.count; ++i)
+        visit(from_bits<Real>(all_lanes<Real>), plane_t(scene.planes.data[i], rays),
+              scene.planes.data[i].surface);
+    if constexpr (F.quadrics)
+        for (int i = 0; i < scene.quadrics.count; ++i)
+            visit_crossings(scene.quadrics.data[i], rays,
+                            [&](vmask<Real> valid, const vreal<Real>& t, int piece) {
+                                visit(valid, t, scene.quadrics.data[i].surface + piece);
+                            });
+}
+
 }  // namespace
 }  // namespace packtrace::PACKTRACE_ISA

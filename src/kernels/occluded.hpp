@@ -21,6 +21,25 @@ struct SegmentEnd {
     }
 };
 
+/// Any range from t_min to t_max, for rays from outside.
+template <class Real>
+struct StreamRange {
+    vreal<Real> t_max;
+
+    vmask<Real> blocked_by(const Quadratic<Real>& quadratic, const RayPacket<Real>& rays) const
+    {
+        std::uint32_t blocked = 0;
+        visit_roots(quadratic, [&](vmask<Real> valid, const vreal<Real>& t) {
+            blocked |= bits(valid & blocked_at(t, rays));
+        });
+        return from_bits<Real>(blocked);
+    }
+    vmask<Real> blocked_at(const vreal<Real>& t, const RayPacket<Real>& rays) const
+    {
+        return (t > rays.t_min) & (t < t_max);
+    }
+};
+
 /// From the shaded points to a directional light: t > t_min without end.
 template <class Real>
 struct NoEnd {

@@ -44,6 +44,19 @@ inline void keep_first_root(HitPacket<Real>& hit, const Quadratic<Real>& quadrat
     keep_closer<Real>(hit, active & (t > t_min), t, surface);
 }
 
+/// Calls `visit(valid, t)` for either root, which may be infinite or NaN.
+template <class Real, class Visit>
+inline void visit_roots(const Quadratic<Real>& quadratic, const Visit& visit)
+{
+    const auto crosses = quadratic.discriminant >= vreal<Real>(Real(0));
+    if (none(crosses))
+        return;
+    const vreal<Real> root = sqrt(quadratic.discriminant);
+    const vreal<Real> minus_q = quadratic.b + with_sign_of(root, quadratic.b);
+    visit(crosses, negated(quadratic.c) / minus_q);
+    visit(crosses, negated(minus_q) / quadratic.a);
+}
+
 /// Lanes with a root between t_min and t_max, from the signs of the quadratic F at both ends:
 /// either they differ, or both are positive and F dips below zero between them. No square
 /// root, no division.

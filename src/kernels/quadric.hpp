@@ -77,24 +77,17 @@ inline void visit_crossings(const abi::QuadricRecord<Real>& quadric,
 {
     const Vec3v<Real> v = apply_inverse(quadric, rays.dir);
     const Quadratic<Real> quadratic = quadric_quadratic(quadric, origin, v);
-    const auto crosses = quadratic.discriminant >= vreal<Real>(Real(0));
     const vreal<Real> climb = dot(broadcast(quadric.clip), rays.dir);
     const vreal<Real> low(quadric.clip_low);
     const vreal<Real> high(quadric.clip_high);
-    if (any(crosses)) {
-        // Press et al.: neither root cancels; with a = 0 the first is infinite.
-        const vreal<Real> root = sqrt(quadratic.discriminant);
-        const vreal<Real> minus_q = quadratic.b + with_sign_of(root, quadratic.b);
-        for (const vreal<Real>& t :
-             {negated(minus_q) / quadratic.a, negated(quadratic.c) / minus_q}) {
-            auto valid = crosses;
-            if (quadric.clipped) {
-                const vreal<Real> height = madd(t, climb, origin.height);
-                valid = valid & (height >= low) & (height <= high);
-            }
-            visit(valid, t, 0);
+    visit_roots(quadratic, [&](vmask<Real> crosses, const vreal<Real>& t) {
+        auto valid = crosses;
+        if (quadric.clipped) {
+            const vreal<Real> height = madd(t, climb, origin.height);
+            valid = valid & (height >= low) & (height <= high);
         }
-    }
+        visit(valid, t, 0);
+    });
     if (!quadric.capped)
         return;
     for (int cap = 1; cap <= 2; ++cap) {

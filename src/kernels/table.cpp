@@ -1,6 +1,7 @@
 #include "kernels/table.hpp"
 
 #include "kernels/closest_tile.hpp"
+#include "kernels/ray_streams.hpp"
 #include "kernels/self_test.hpp"
 #include "kernels/tile.hpp"
 
@@ -27,7 +28,13 @@ void power_of_arrays(const Real* x, const Real* n, Real* y, int count)
 template <abi::Features F, class Real>
 constexpr abi::FeatureKernels<Real> feature_kernels()
 {
-    return {F, scratch_bytes<F, Real>, render_tile<F, Real>, closest_tile<F, Real>};
+    return {F,
+            scratch_bytes<F, Real>,
+            render_tile<F, Real>,
+            closest_tile<F, Real>,
+            closest_hits<F, Real>,
+            occluded_rays<F, Real>,
+            all_hits<F, Real>};
 }
 
 template <class Real>

@@ -1,0 +1,78 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <span>
+
+#include <packtrace/render.hpp>
+#include <packtrace/scene.hpp>
+
+namespace packtrace {
+
+/// Rays as arrays of their components, `count` elements each; nothing is copied or kept. A hit
+/// counts where t_min < t < t_max; t_min >= 0. Directions need not be unit, t counts in their
+/// lengths. A ray with a NaN anywhere hits nothing.
+template <class Real>
+struct RaysView {
+    const Real* org_x = nullptr;
+    const Real* org_y = nullptr;
+    const Real* org_z = nullptr;
+    const Real* dir_x = nullptr;
+    const Real* dir_y = nullptr;
+    const Real* dir_z = nullptr;
+    const Real* t_min = nullptr;
+    const Real* t_max = nullptr;
+    std::size_t count = 0;
+};
+
+/// Where closest hits go: `object` is the index in Scene::objects, -1 for a miss, whose `t` is
+/// the ray's t_max. Normals are unit and point outwards; leave them null where not wanted.
+template <class Real>
+struct HitsView {
+    Real* t = nullptr;
+    std::int32_t* object = nullptr;
+    Real* normal_x = nullptr;
+    Real* normal_y = nullptr;
+    Real* normal_z = nullptr;
+};
+
+/// One meeting of a ray with a surface.
+template <class Real>
+struct SurfaceHit {
+    Real t = 0;
+    std::int32_t object = -1;
+    Real normal[3] = {};  ///< unit, outwards
+};
+
+/// A scene made ready for rays of the caller's own, by the packet kernels or the scalar
+/// reference. `Real` is float or double. All members may be called from several threads at
+/// once; `closest_hits` and `occluded` allocate nothing with the packet kernels.
+template <class Real>
+class RayScene {
+public:
+    /// Of the options `kernel`, `isa` and `width` count. Throws SceneError for a scene that
+    /// cannot be held, std::invalid_argument for impossible options.
+    explicit RayScene(const Scene& scene, const RenderOptions& options = {});
+    ~RayScene();
+    RayScene(RayScene&&) noexcept;
+    RayScene& operator=(RayScene&&) noexcept;
+
+    /// The first hit of each ray; at equal t that of the lower object number.
+    void closest_hits(const RaysView<Real>& rays, const HitsView<Real>& hits) const;
+
+    /// mask[i] becomes 1 where ray i hits anything, else 0.
+    void occluded(const RaysView<Real>& rays, std::uint8_t* mask) const;
+
+    /// Every hit of each ray, sorted by t, then object; `take` is called once a ray, in order.
+    /// A ray that touches a surface without crossing it may meet it twice at the same t.
+    using TakeHits = std::function<void(std::size_t ray, std::span<const SurfaceHit<Real>> hits)>;
+    void all_hits(const RaysView<Real>& rays, const TakeHits& take) const;
+
+private:
+    struct State;
+    std::unique_ptr<State> state_;
+};
+
+}  // namespace packtrace

@@ -1,0 +1,27 @@
+#pragma once
+
+#include <memory>
+
+#include <packtrace/intersect.hpp>
+
+namespace packtrace {
+
+/// What answers a RayScene's questions.
+template <class Real>
+class RayBackend {
+public:
+    virtual ~RayBackend() = default;
+    virtual void closest_hits(const RaysView<Real>& rays, const HitsView<Real>& hits) const = 0;
+    virtual void occluded(const RaysView<Real>& rays, std::uint8_t* mask) const = 0;
+    virtual void all_hits(const RaysView<Real>& rays,
+                          const typename RayScene<Real>::TakeHits& take) const = 0;
+};
+
+template <class Real>
+[[nodiscard]] std::unique_ptr<RayBackend<Real>> packet_backend(const Scene& scene,
+                                                               const RenderOptions& options);
+
+template <class Real>
+[[nodiscard]] std::unique_ptr<RayBackend<Real>> scalar_backend(const Scene& scene);
+
+}  // namespace packtrace

@@ -1,0 +1,118 @@
+#include <algorithm>
+#include <utility>
+#include <vector>
+
+#include <packtrace/isa.hpp>
+
+#include "dispatch/kernels.hpp"
+#include "lower/packed_scene.hpp"
+#include "render/ray_backend.hpp"
+
+namespace packtrace {
+namespace {
+
+// Kernels count in ints; longer streams go in pieces.
+constexpr std::size_t longest_stream = std::size_t{1} << 20;
+
+// All hits are gathered before they are sorted; shorter pieces bound that memory.
+constexpr std::size_t longest_gathering = 256;
+
+template <class Real>
+abi::RaysView<Real> piece_of(const RaysView<Real>& rays, std::size_t first, std::size_t longest)
+{
+    abi::RaysView<Real> piece;
+    const Real* const org[3] = {rays.org_x, rays.org_y, rays.org_z};
+    const Real* const dir[3] = {rays.dir_x, rays.dir_y, rays.dir_z};
+    for (int axis = 0; axis < 3; ++axis) {
+        piece.org[axis] = org[axis] + first;
+        piece.dir[axis] = dir[axis] + first;
+    }
+    piece.t_min = rays.t_min + first;
+    piece.t_max = rays.t_max + first;
+    piece.count = static_cast<int>(std::min(rays.count - first, longest));
+    return piece;
+}
+
+template <class Real>
+abi::HitsView<Real> piece_of(const HitsView<Real>& hits, std::size_t first)
+{
+    abi::HitsView<Real> piece{hits.t + first, hits.object + first, {}};
+    if (hits.normal_x != nullptr) {
+        piece.normal[0] = hits.normal_x + first;
+        piece.normal[1] = hits.normal_y + first;
+        piece.normal[2] = hits.normal_z + first;
+    }
+    return piece;
+}
+
+template <class Real>
+using HitsByRay = std::vector<std::vector<SurfaceHit<Real>>>;
+
+template <class Real>
+void gather(void* by_ray, int ray, Real t, std::int32_t object, const Real (&normal)[3])
+{
+    auto& hits = (*static_cast<HitsByRay<Real>*>(by_ray))[static_cast<std::size_t>(ray)];
+    hits.push_back({t, object, {normal[0], normal[1], normal[2]}});
+}
+
+template <class Real>
+class PacketBackend final : public RayBackend<Real> {
+public:
+    PacketBackend(const Scene& scene, const RenderOptions& options)
+        : lowered_(lower(scene)),
+          packed_(lowered_),
+          kernels_(
+              kernels_for(precision<Real>(kernels_of(choose_isa(options.isa, options.width).name)),
+                          lowered_.features))
+    {
+    }
+
+    void closest_hits(const RaysView<Real>& rays, const HitsView<Real>& hits) const override
+    {
+        for (std::size_t first = 0; first < rays.count; first += longest_stream)
+            kernels_.closest_hits(packed_.view(), piece_of(rays, first, longest_stream),
+                                  piece_of(hits, first));
+    }
+
+    void occluded(const RaysView<Real>& rays, std::uint8_t* mask) const override
+    {
+        for (std::size_t first = 0; first < rays.count; first += longest_stream)
+            kernels_.occluded(packed_.view(), piece_of(rays, first, longest_stream), mask + first);
+    }
+
+    void all_hits(const RaysView<Real>& rays,
+                  const typename RayScene<Real>::TakeHits& take) const override
+    {
+        HitsByRay<Real> by_ray(std::min(rays.count, longest_gathering));
+        for (std::size_t first = 0; first < rays.count; first += longest_gathering) {
+            const auto piece = piece_of(rays, first, longest_gathering);
+            kernels_.all_hits(packed_.view(), piece, {&by_ray, gather<Real>});
+            for (int ray = 0; ray < piece.count; ++ray) {
+                auto& hits = by_ray[static_cast<std::size_t>(ray)];
+                std::sort(hits.begin(), hits.end(), [](const auto& a, const auto& b) {
+                    return std::pair(a.t, a.object) < std::pair(b.t, b.object);
+                });
+                take(first + static_cast<std::size_t>(ray), hits);
+                hits.clear();
+            }
+        }
+    }
+
+private:
+    LoweredScene lowered_;
+    PackedScene<Real> packed_;
+    const abi::FeatureKernels<Real>& kernels_;
+};
+
+}  // namespace
+
+template <class Real>
+std::unique_ptr<RayBackend<Real>> packet_backend(const Scene& scene, const RenderOptions& options)
+{
+    return std::make_unique<PacketBackend<Real>>(scene, options);
+}
+
+template std::unique_ptr<RayBackend<float>> packet_backend(const Scene&, const RenderOptions&);
+template std::unique_ptr<RayBackend<double>> packet_backend(const Scene&, const RenderOptions&);
+
+}  // namespace packtrace

@@ -1,0 +1,99 @@
+#include <cmath>
+#include <limits>
+#include <vector>
+
+#include "reference/all_hits.hpp"
+#include "reference/bodies.hpp"
+#include "reference/closest_intersection.hpp"
+#include "reference/surface_normal.hpp"
+#include "render/ray_backend.hpp"
+
+namespace packtrace {
+namespace {
+
+template <class Real>
+struct ScalarRay {
+    reference::Vec3<Real> org;
+    reference::Vec3<Real> dir;
+    Real t_min;
+    Real t_max;
+
+    ScalarRay(const RaysView<Real>& rays, std::size_t i)
+        : org{rays.org_x[i], rays.org_y[i], rays.org_z[i]},
+          dir{rays.dir_x[i], rays.dir_y[i], rays.dir_z[i]},
+          t_min(rays.t_min[i]),
+          t_max(rays.t_max[i])
+    {
+    }
+};
+
+template <class Real>
+class ScalarBackend final : public RayBackend<Real> {
+public:
+    explicit ScalarBackend(const Scene& scene) : bodies_(scene)
+    {
+    }
+
+    void closest_hits(const RaysView<Real>& rays, const HitsView<Real>& hits) const override
+    {
+        for (std::size_t i = 0; i < rays.count; ++i) {
+            const ScalarRay<Real> ray(rays, i);
+            const auto hit = closest(ray);
+            hits.t[i] = hit ? hit.t : ray.t_max;
+            hits.object[i] = hit.object;
+            if (hits.normal_x == nullptr || !hit)
+                continue;
+            const auto normal = reference::outward_normal(bodies_, hit, ray.org + hit.t * ray.dir);
+            hits.normal_x[i] = normal.x;
+            hits.normal_y[i] = normal.y;
+            hits.normal_z[i] = normal.z;
+        }
+    }
+
+    void occluded(const RaysView<Real>& rays, std::uint8_t* mask) const override
+    {
+        for (std::size_t i = 0; i < rays.count; ++i)
+            mask[i] = closest(ScalarRay<Real>(rays, i)) ? 1 : 0;
+    }
+
+    void all_hits(const RaysView<Real>& rays,
+                  const typename RayScene<Real>::TakeHits& take) const override
+    {
+        std::vector<SurfaceHit<Real>> found;
+        for (std::size_t i = 0; i < rays.count; ++i) {
+            const ScalarRay<Real> ray(rays, i);
+            found.clear();
+            for (const auto& hit :
+                 reference::all_hits(bodies_, ray.org, ray.dir, ray.t_min, ray.t_max))
+                if (hit.t > ray.t_min && hit.t < ray.t_max)
+                    found.push_back(
+                        {hit.t, hit.object, {hit.normal.x, hit.normal.y, hit.normal.z}});
+            take(i, found);
+        }
+    }
+
+private:
+    // The reference's ranges are closed, those of RaysView open.
+    [[nodiscard]] reference::Hit<Real> closest(const ScalarRay<Real>& ray) const
+    {
+        const Real inf = std::numeric_limits<Real>::infinity();
+        return reference::closest_intersection(bodies_, ray.org, ray.dir,
+                                               std::nextafter(ray.t_min, inf),
+                                               std::nextafter(ray.t_max, -inf));
+    }
+
+    reference::Bodies<Real> bodies_;
+};
+
+}  // namespace
+
+template <class Real>
+std::unique_ptr<RayBackend<Real>> scalar_backend(const Scene& scene)
+{
+    return std::make_unique<ScalarBackend<Real>>(scene);
+}
+
+template std::unique_ptr<RayBackend<float>> scalar_backend(const Scene&);
+template std::unique_ptr<RayBackend<double>> scalar_backend(const Scene&);
+
+}  // namespace packtrace

@@ -1,0 +1,177 @@
+#include <packtrace/intersect.hpp>
+
+#include <array>
+#include <cmath>
+#include <limits>
+#include <random>
+#include <vector>
+
+#include <packtrace/isa.hpp>
+
+#include <glm/gtc/matrix_transform.hpp>
+
+#include "catch.hpp"
+#include "reference_scenes.hpp"
+
+// Rays of the caller's own: packets against the scalar reference, in double precision.
+namespace packtrace::test {
+namespace {
+
+struct RayArrays {
+    std::array<std::vector<double>, 8> columns;
+
+    [[nodiscard]] RaysView<double> view() const
+    {
+        const auto& c = columns;
+        return {c[0].data(), c[1].data(), c[2].data(), c[3].data(), c[4].data(),
+                c[5].data(), c[6].data(), c[7].data(), c[0].size()};
+    }
+};
+
+RayArrays random_rays(int count)
+{
+    std::mt19937 random(7);
+    std::uniform_real_distribution<double> place(-4.0, 4.0);
+    RayArrays rays;
+    for (int i = 0; i < count; ++i) {
+        for (std::size_t column = 0; column < 6; ++column)
+            rays.columns[column].push_back(place(random));
+        rays.columns[6].push_back(i % 3 == 0 ? 0.5 : 0.0);
+        rays.columns[7].push_back(i % 5 == 0 ? 1.5 : std::numeric_limits<double>::infinity());
+    }
+    return rays;
+}
+
+Scene mixed_scene()
+{
+    Scene scene;
+    scene.objects = {sphere({0, 0, 0}, 1.5), plane({0, -2, 0}, {0.2, 1, 0.1}),
+                     sphere({0, -5002, 0}, 5000), sphere({2, 1, -1}, 0.7)};
+    for (int i = 0; i < 4; ++i) {
+        Quadric surface;
+        surface.coefficients = {1, i == 2 ? -1.0 : 1.0, i == 1 ? -1.0 : 0.0, 0, 0, 0, 0,
+                                0, i == 2 ? -1.0 : 0.0, i == 3 ? -0.5 : -1.0};
+        surface.z_range = ZRange{-1.0, 0.8};
+        surface.capped = i != 2;
+        Object object;
+        object.surface = surface;
+        object.transform = glm::rotate(glm::translate(Mat4(1.0), {i - 1.0, 0.5 * i, 1.0 - i}),
+                                       0.7 * i, Vec3(1, 2, 3));
+        scene.objects.push_back(object);
+    }
+    return scene;
+}
+
+RenderOptions on(const std::string& isa)
+{
+    RenderOptions options;
+    options.isa = isa;
+    return options;
+}
+
+RenderOptions scalar()
+{
+    RenderOptions options;
+    options.kernel = Kernel::scalar;
+    return options;
+}
+
+struct Closest {
+    std::vector<double> t, nx, ny, nz;
+    std::vector<std::int32_t> object;
+    std::vector<std::uint8_t> mask;
+};
+
+Closest closest(const RenderOptions& options, const RayArrays& rays)
+{
+    const RayScene<double> scene(mixed_scene(), options);
+    const std::size_t n = rays.columns[0].size();
+    Closest result;
+    for (auto* column : {&result.t, &result.nx, &result.ny, &result.nz})
+        column->resize(n);
+    result.object.resize(n);
+    result.mask.resize(n);
+    scene.closest_hits(rays.view(), {result.t.data(), result.object.data(), result.nx.data(),
+                                     result.ny.data(), result.nz.data()});
+    scene.occluded(rays.view(), result.mask.data());
+    return result;
+}
+
+using AllHits = std::vector<std::vector<SurfaceHit<double>>>;
+
+AllHits all_hits(const RenderOptions& options, const RayArrays& rays)
+{
+    const RayScene<double> scene(mixed_scene(), options);
+    AllHits result;
+    scene.all_hits(rays.view(), [&](std::size_t ray, auto hits) {
+        REQUIRE(ray == result.size());
+        result.emplace_back(hits.begin(), hits.end());
+    });
+    return result;
+}
+
+}  // namespace
+
+TEST_CASE("packets find the closest hits of any rays, with outward normals", "[ray_scene]")
+{
+    for (const int count : {1, 3, 16, 1237}) {
+        const RayArrays rays = random_rays(count);
+        const Closest truth = closest(scalar(), rays);
+        for (const IsaInfo& isa : list_isas()) {
+            if (!isa.supported)
+                continue;
+            CAPTURE(isa.name, count);
+            const Closest found = closest(on(isa.name), rays);
+            CHECK(found.object == truth.object);
+            CHECK(found.mask == truth.mask);
+            for (std::size_t i = 0; i < found.t.size(); ++i) {
+                if (truth.object[i] < 0) {
+                    CHECK(found.t[i] == rays.columns[7][i]);
+                    continue;
+                }
+                CHECK(std::abs(found.t[i] - truth.t[i]) <= 1e-10 * truth.t[i]);
+                CHECK(std::abs(found.nx[i] - truth.nx[i]) < 1e-9);
+                CHECK(std::abs(found.ny[i] - truth.ny[i]) < 1e-9);
+                CHECK(std::abs(found.nz[i] - truth.nz[i]) < 1e-9);
+            }
+        }
+    }
+}
+
+TEST_CASE("packets list all hits of a ray in order", "[ray_scene]")
+{
+    const RayArrays rays = random_rays(700);
+    const AllHits truth = all_hits(scalar(), rays);
+    std::size_t most = 0;
+    for (const IsaInfo& isa : list_isas()) {
+        if (!isa.supported)
+            continue;
+        CAPTURE(isa.name);
+        const AllHits found = all_hits(on(isa.name), rays);
+        REQUIRE(found.size() == truth.size());
+        for (std::size_t ray = 0; ray < found.size(); ++ray) {
+            CAPTURE(ray);
+            most = std::max(most, truth[ray].size());
+            REQUIRE(found[ray].size() == truth[ray].size());
+            for (std::size_t i = 0; i < found[ray].size(); ++i) {
+                CHECK(found[ray][i].object == truth[ray][i].object);
+                CHECK(std::abs(found[ray][i].t - truth[ray][i].t) <= 1e-9 * truth[ray][i].t);
+                for (int axis = 0; axis < 3; ++axis)
+                    CHECK(std::abs(found[ray][i].normal[axis] - truth[ray][i].normal[axis]) < 1e-8);
+            }
+        }
+    }
+    CHECK(most >= 6);
+}
+
+TEST_CASE("a ray with a NaN hits nothing", "[ray_scene]")
+{
+    RayArrays rays = random_rays(8);
+    for (std::size_t column = 0; column < 8; ++column)
+        rays.columns[column][column] = std::numeric_limits<double>::quiet_NaN();
+    for (const IsaInfo& isa : list_isas())
+        if (isa.supported)
+            CHECK(closest(on(isa.name), rays).object == std::vector<std::int32_t>(8, -1));
+}
+
+}  // namespace packtrace::test
