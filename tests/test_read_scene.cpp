@@ -1,5 +1,8 @@
 #include <packtrace/read_scene.hpp>
 
+#include <fstream>
+#include <string>
+
 #include "catch.hpp"
 #include "scene_text.hpp"
 
@@ -207,6 +210,23 @@ TEST_CASE("objects and lights keep the file's order", "[read_scene]")
     REQUIRE(scene.lights.size() == 2);
     CHECK(scene.lights[0].type == LightType::point);
     CHECK(scene.lights[1].type == LightType::ambient);
+}
+
+TEST_CASE("every example of the language's reference is read", "[read_scene]")
+{
+    std::ifstream reference(PACKTRACE_SOURCE_DIR "/docs/scene.md");
+    int examples = 0;
+    for (std::string line; std::getline(reference, line);) {
+        if (line != "```scene")
+            continue;
+        std::string text;
+        while (std::getline(reference, line) && line != "```")
+            text += line + '\n';
+        CAPTURE(text);
+        CHECK_FALSE(parse(text).objects.empty());
+        ++examples;
+    }
+    CHECK(examples >= 10);
 }
 
 }  // namespace packtrace

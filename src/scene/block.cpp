@@ -1,10 +1,10 @@
 #include "scene/block.hpp"
 
-#include <algorithm>
-#include <string>
-
 #include "scene/nearest_word.hpp"
 #include "scene/quote.hpp"
+
+#include <algorithm>
+#include <string>
 
 namespace packtrace::reader {
 namespace {

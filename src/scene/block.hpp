@@ -1,13 +1,12 @@
 #pragma once
 
-#include <functional>
-#include <optional>
-#include <span>
-#include <string_view>
-#include <vector>
-
 #include "scene/source.hpp"
 #include "scene/syntax_tree.hpp"
+
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
 
 namespace packtrace::reader {
 

@@ -1,11 +1,11 @@
-#include <stdexcept>
-
-#include <glm/geometric.hpp>
-
-#include "scene/numbers.hpp"
 #include "scene/scene_builder.hpp"
 #include "scene/unit_vector.hpp"
 #include "scene/values.hpp"
+
+#include <glm/geometric.hpp>
+
+#include <string>
+#include <vector>
 
 namespace packtrace::reader {
 namespace {

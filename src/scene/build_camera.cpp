@@ -1,12 +1,12 @@
-#include <cmath>
-#include <stdexcept>
-#include <vector>
-
-#include <glm/matrix.hpp>
-
 #include "scene/numbers.hpp"
 #include "scene/scene_builder.hpp"
 #include "scene/values.hpp"
+
+#include <glm/matrix.hpp>
+
+#include <cmath>
+#include <stdexcept>
+#include <vector>
 
 namespace packtrace::reader {
 namespace {

@@ -1,12 +1,12 @@
-#include <algorithm>
-#include <array>
-#include <string>
-
-#include "scene/nearest_word.hpp"
 #include "scene/numbers.hpp"
 #include "scene/quote.hpp"
 #include "scene/scene_builder.hpp"
 #include "scene/values.hpp"
+
+#include <array>
+#include <cstdint>
+#include <map>
+#include <string>
 
 namespace packtrace::reader {
 namespace {

@@ -1,10 +1,10 @@
-#include <string>
-#include <variant>
-
 #include "scene/nearest_word.hpp"
 #include "scene/quote.hpp"
 #include "scene/scene_builder.hpp"
 #include "scene/values.hpp"
+
+#include <string>
+#include <variant>
 
 namespace packtrace::reader {
 namespace {

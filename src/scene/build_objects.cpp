@@ -1,9 +1,11 @@
-#include <map>
-#include <string>
-
 #include "scene/quote.hpp"
 #include "scene/scene_builder.hpp"
 #include "scene/values.hpp"
+
+#include <cstddef>
+#include <cstdint>
+#include <map>
+#include <string>
 
 namespace packtrace::reader {
 namespace {

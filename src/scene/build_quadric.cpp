@@ -1,10 +1,10 @@
-#include <algorithm>
-#include <array>
-#include <vector>
-
 #include "scene/numbers.hpp"
 #include "scene/scene_builder.hpp"
 #include "scene/values.hpp"
+
+#include <algorithm>
+#include <array>
+#include <vector>
 
 namespace packtrace::reader {
 namespace {

@@ -1,9 +1,9 @@
-#include <cmath>
-
 #include "scene/numbers.hpp"
 #include "scene/quote.hpp"
 #include "scene/scene_builder.hpp"
 #include "scene/values.hpp"
+
+#include <cmath>
 
 namespace packtrace::reader {
 namespace {

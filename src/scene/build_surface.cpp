@@ -1,8 +1,8 @@
-#include <algorithm>
-
 #include "scene/scene_builder.hpp"
 #include "scene/unit_vector.hpp"
 #include "scene/values.hpp"
+
+#include <algorithm>
 
 namespace packtrace::reader {
 namespace {

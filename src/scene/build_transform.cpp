@@ -1,13 +1,15 @@
-#include <cmath>
-#include <vector>
+#include "scene/scene_builder.hpp"
+#include "scene/unit_vector.hpp"
+#include "scene/values.hpp"
 
 #include <glm/ext/matrix_transform.hpp>
 #include <glm/matrix.hpp>
 #include <glm/trigonometric.hpp>
 
-#include "scene/scene_builder.hpp"
-#include "scene/unit_vector.hpp"
-#include "scene/values.hpp"
+#include <algorithm>
+#include <cmath>
+#include <string>
+#include <vector>
 
 namespace packtrace::reader {
 namespace {

@@ -1,10 +1,10 @@
 #include "scene/check_text.hpp"
 
+#include "scene/quote.hpp"
+
 #include <algorithm>
 #include <string>
 #include <string_view>
-
-#include "scene/quote.hpp"
 
 namespace packtrace::reader {
 namespace {

@@ -1,8 +1,8 @@
 #pragma once
 
-#include <cstddef>
-
 #include "scene/source.hpp"
+
+#include <cstddef>
 
 namespace packtrace::reader {
 

@@ -1,9 +1,9 @@
 #include "scene/item_checks.hpp"
 
-#include <string>
-
 #include "scene/numbers.hpp"
 #include "scene/quote.hpp"
+
+#include <string>
 
 namespace packtrace::reader {
 

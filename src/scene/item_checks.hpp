@@ -1,12 +1,12 @@
 #pragma once
 
+#include "scene/block.hpp"
+#include "scene/syntax_tree.hpp"
+
 #include <cstddef>
 #include <limits>
 #include <string_view>
 #include <vector>
-
-#include "scene/block.hpp"
-#include "scene/syntax_tree.hpp"
 
 // What the readers of values share. `wanted` says what a key wants, `form` shows it in an example.
 namespace packtrace::reader {

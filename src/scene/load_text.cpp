@@ -1,15 +1,15 @@
 #include "scene/load_text.hpp"
 
+#include <packtrace/read_scene.hpp>
+
+#include "scene/check_text.hpp"
+#include "scene/quote.hpp"
+
 #include <cerrno>
 #include <cstring>
 #include <fstream>
 #include <string>
 #include <system_error>
-
-#include <packtrace/read_scene.hpp>
-
-#include "scene/check_text.hpp"
-#include "scene/quote.hpp"
 
 namespace packtrace::reader {
 namespace {

@@ -1,10 +1,10 @@
-#include <algorithm>
-#include <array>
-#include <string>
-
 #include "scene/nearest_word.hpp"
 #include "scene/quote.hpp"
 #include "scene/scene_builder.hpp"
+
+#include <algorithm>
+#include <array>
+#include <string>
 
 namespace packtrace::reader {
 namespace {

@@ -1,11 +1,11 @@
 #include "scene/nearest_word.hpp"
 
+#include "scene/quote.hpp"
+
 #include <algorithm>
 #include <cstddef>
 #include <numeric>
 #include <vector>
-
-#include "scene/quote.hpp"
 
 namespace packtrace::reader {
 namespace {

@@ -1,11 +1,11 @@
 #include "scene/numbers.hpp"
 
+#include "scene/quote.hpp"
+
 #include <charconv>
 #include <cmath>
 #include <string>
 #include <system_error>
-
-#include "scene/quote.hpp"
 
 namespace packtrace::reader {
 

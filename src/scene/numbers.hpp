@@ -1,9 +1,10 @@
 #pragma once
 
-#include <string_view>
-
 #include "scene/block.hpp"
 #include "scene/syntax_tree.hpp"
+
+#include <string>
+#include <string_view>
 
 namespace packtrace::reader {
 

@@ -1,13 +1,11 @@
-#include <string>
-#include <string_view>
-
-#include <tao/pegtl.hpp>
-
 #include "scene/grammar.hpp"
-#include "scene/quote.hpp"
 #include "scene/syntax_error.hpp"
 #include "scene/syntax_tree.hpp"
 #include "scene/tree_builder.hpp"
+
+#include <tao/pegtl.hpp>
+
+#include <string_view>
 
 namespace packtrace::reader {
 namespace {

@@ -1,9 +1,9 @@
-#include <cmath>
-#include <string>
-
 #include "scene/numbers.hpp"
 #include "scene/quote.hpp"
 #include "scene/values.hpp"
+
+#include <cmath>
+#include <string>
 
 namespace packtrace::reader {
 

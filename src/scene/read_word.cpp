@@ -1,8 +1,8 @@
-#include <string>
-
 #include "scene/nearest_word.hpp"
 #include "scene/quote.hpp"
 #include "scene/values.hpp"
+
+#include <string>
 
 namespace packtrace::reader {
 

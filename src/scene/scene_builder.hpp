@@ -1,12 +1,12 @@
 #pragma once
 
-#include <map>
-#include <string>
-#include <string_view>
-
 #include <packtrace/scene.hpp>
 
 #include "scene/block.hpp"
+
+#include <map>
+#include <string>
+#include <string_view>
 
 // The steps from a block of the syntax tree to a part of the scene. Each throws SceneError at
 // the place that is wrong.

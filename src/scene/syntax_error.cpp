@@ -1,11 +1,11 @@
 #include "scene/syntax_error.hpp"
 
+#include "scene/quote.hpp"
+
 #include <algorithm>
 #include <cctype>
 #include <cstddef>
 #include <string>
-
-#include "scene/quote.hpp"
 
 namespace packtrace::reader {
 namespace {

@@ -1,10 +1,10 @@
 #pragma once
 
-#include <string_view>
-
 #include "scene/grammar.hpp"
 #include "scene/source.hpp"
 #include "scene/tree_builder.hpp"
+
+#include <string_view>
 
 namespace packtrace::reader {
 

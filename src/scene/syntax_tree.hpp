@@ -1,10 +1,10 @@
 #pragma once
 
+#include "scene/source.hpp"
+
 #include <optional>
 #include <string_view>
 #include <vector>
-
-#include "scene/source.hpp"
 
 namespace packtrace::reader {
 

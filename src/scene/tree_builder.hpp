@@ -1,10 +1,11 @@
 #pragma once
 
-#include <string_view>
-#include <vector>
-
 #include "scene/source.hpp"
 #include "scene/syntax_tree.hpp"
+
+#include <cstddef>
+#include <string_view>
+#include <vector>
 
 namespace packtrace::reader {
 

@@ -1,10 +1,11 @@
 #pragma once
 
-#include <algorithm>
-#include <cmath>
+#include <packtrace/vec.hpp>
 
 #include <glm/geometric.hpp>
-#include <packtrace/vec.hpp>
+
+#include <algorithm>
+#include <cmath>
 
 namespace packtrace::reader {
 

@@ -1,14 +1,14 @@
 #pragma once
 
-#include <cstddef>
-#include <span>
-#include <string_view>
-#include <vector>
-
 #include <packtrace/vec.hpp>
 
 #include "scene/block.hpp"
 #include "scene/item_checks.hpp"
+
+#include <cstddef>
+#include <span>
+#include <string_view>
+#include <vector>
 
 // Each takes a field's value as one kind of thing, or throws SceneError that says what the key
 // wants. Numbers are finite throughout.
