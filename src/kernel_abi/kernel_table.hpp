@@ -54,13 +54,6 @@ struct FeatureKernels {
     RayCounts (*render_tile)(const TileJob<Real>& job) = nullptr;
     /// The tile's camera rays only; `rgb` is not used.
     void (*closest_tile)(const TileJob<Real>& job, TileHits<Real>& hits) = nullptr;
-    void (*closest_hits)(const SceneView<Real>& scene, const RaysView<Real>& rays,
-                         const HitsView<Real>& hits) = nullptr;
-    /// mask[i] is 1 where ray i hits anything, else 0.
-    void (*occluded)(const SceneView<Real>& scene, const RaysView<Real>& rays,
-                     std::uint8_t* mask) = nullptr;
-    void (*all_hits)(const SceneView<Real>& scene, const RaysView<Real>& rays,
-                     const HitSink<Real>& sink) = nullptr;
 };
 
 /// The kernels of one precision.
@@ -68,6 +61,14 @@ template <class Real>
 struct PrecisionTable {
     int lanes = 0;
     FeatureKernels<Real> kernels[feature_set_count];
+    // Rays of the caller's own, against surfaces of every kind.
+    void (*closest_hits)(const SceneView<Real>& scene, const RaysView<Real>& rays,
+                         const HitsView<Real>& hits) = nullptr;
+    /// mask[i] is 1 where ray i hits anything, else 0.
+    void (*occluded)(const SceneView<Real>& scene, const RaysView<Real>& rays,
+                     std::uint8_t* mask) = nullptr;
+    void (*all_hits)(const SceneView<Real>& scene, const RaysView<Real>& rays,
+                     const HitSink<Real>& sink) = nullptr;
     /// y[i] = x[i]^n[i] as highlights use it: x in [0, 1 + 1e-6], n > 0.
     void (*highlight_power)(const Real* x, const Real* n, Real* y, int count) = nullptr;
     /// Runs one operation of simd.hpp over whole packets; see self_test.hpp.

@@ -74,52 +74,5 @@ inline RayPacket<Real> camera_rays(const TileCamera<Real>& camera, int first, ab
     return make_rays<Real>(broadcast(camera.view.origin), dir, camera.view.t_min);
 }
 
-/// The beam through a tile: around its middle, as wide as its farthest corner.
-template <class Real>
-inline Beam<Real> camera_beam(const abi::TileJob<Real>& job)
-{
-    const abi::CameraView<Real>& camera = *job.camera;
-    const Real left = static_cast<Real>(job.x) + camera.first_x;
-    const Real top = camera.first_y - static_cast<Real>(job.y);
-    const Real half = Real(0.5) * static_cast<Real>(abi::tile_size - 1);
-
-    // Lane 0 is the middle, lanes 1 to 4 the corners; packets of two take two more rounds.
-    Beam<Real> beam;
-    Real axis[3];
-    Real length2 = 0;
-    for (int i = 0; i < 3; ++i) {
-        axis[i] = camera.forward[i] + (left + half) * camera.right[i] + (top - half) * camera.up[i];
-        length2 += axis[i] * axis[i];
-        beam.base[i] = camera.origin[i];
-    }
-    const Real length = square_root<Real>(length2);
-    Real widest = 0;  // squared tangent of the angle to a corner
-    for (int corner = 0; corner < 4; ++corner) {
-        const Real dx = (corner & 1) ? half : -half;
-        const Real dy = (corner & 2) ? half : -half;
-        Real offset[3];
-        Real along = 0;
-        Real offset2 = 0;
-        for (int i = 0; i < 3; ++i) {
-            offset[i] = dx * camera.right[i] + dy * camera.up[i];
-            along += offset[i] * axis[i] / length;
-            offset2 += offset[i] * offset[i];
-        }
-        const Real corner_along = length + along;
-        const Real across2 = offset2 - along * along;
-        if (!(corner_along > 0))
-            return beam;
-        const Real tangent2 = across2 / (corner_along * corner_along);
-        widest = tangent2 > widest ? tangent2 : widest;
-    }
-    for (int i = 0; i < 3; ++i)
-        beam.axis[i] = axis[i] / length;
-    beam.cosine = Real(1) / square_root<Real>(Real(1) + widest);
-    beam.sine = square_root<Real>(widest) * beam.cosine;
-    beam.reach = static_cast<Real>(__builtin_inf());
-    beam.bounded = true;
-    return beam;
-}
-
 }  // namespace
 }  // namespace packtrace::PACKTRACE_ISA

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "kernels/camera_beam.hpp"
 #include "kernels/trace_stream.hpp"
 #include "kernels/workspace.hpp"
 
@@ -21,9 +22,10 @@ template <abi::Features F, class Real>
 inline void closest_tile(const abi::TileJob<Real>& job, abi::TileHits<Real>& hits)
 {
     const abi::SceneView<Real>& scene = *job.scene;
-    Workspace<F, Real> work(job.scratch, scene);
-    find_objects<F>(work.visible, camera_beam(job), scene);
-    if (work.visible.empty()) {
+    Arena arena(job.scratch);
+    SharedOriginObjects<Real> visible = take_objects(arena, scene);
+    find_objects<F>(visible, camera_beam(job), scene);
+    if (visible.empty()) {
         store_misses(hits);
         return;
     }
@@ -31,7 +33,7 @@ inline void closest_tile(const abi::TileJob<Real>& job, abi::TileHits<Real>& hit
     for (int first = 0; first < abi::tile_pixels; first += lanes<Real>) {
         const RayPacket<Real> rays = camera_rays(camera, first, scene.units);
         HitPacket<Real> hit = no_hit<Real>(static_cast<Real>(__builtin_inf()));
-        closest_hit<F>(hit, work.visible, rays);
+        closest_hit<F>(hit, visible, rays);
         store(hits.t + first, hit.t);
         store(hits.surface + first, hit.surface);
     }

@@ -28,13 +28,7 @@ void power_of_arrays(const Real* x, const Real* n, Real* y, int count)
 template <abi::Features F, class Real>
 constexpr abi::FeatureKernels<Real> feature_kernels()
 {
-    return {F,
-            scratch_bytes<F, Real>,
-            render_tile<F, Real>,
-            closest_tile<F, Real>,
-            closest_hits<F, Real>,
-            occluded_rays<F, Real>,
-            all_hits<F, Real>};
+    return {F, scratch_bytes<F, Real>, render_tile<F, Real>, closest_tile<F, Real>};
 }
 
 template <class Real>
@@ -45,6 +39,10 @@ constexpr abi::PrecisionTable<Real> precision_table()
     table.kernels[0] = feature_kernels<abi::feature_sets[0], Real>();
     table.kernels[1] = feature_kernels<abi::feature_sets[1], Real>();
     table.kernels[2] = feature_kernels<abi::feature_sets[2], Real>();
+    constexpr abi::Features any_surface{.quadrics = true};
+    table.closest_hits = closest_hits<any_surface, Real>;
+    table.occluded = occluded_rays<any_surface, Real>;
+    table.all_hits = all_hits<any_surface, Real>;
     table.highlight_power = power_of_arrays<Real>;
     table.self_test = self_test<Real>;
     return table;

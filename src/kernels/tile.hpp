@@ -1,6 +1,7 @@
 #pragma once
 
 #include "kernels/bounds.hpp"
+#include "kernels/camera_beam.hpp"
 #include "kernels/shade.hpp"
 #include "kernels/trace_stream.hpp"
 #include "kernels/workspace.hpp"

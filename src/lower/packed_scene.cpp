@@ -100,7 +100,8 @@ void PackedScene<Real>::pack_quadrics(const LoweredScene& lowered)
     view_.quadrics = {quadrics_.data(), static_cast<int>(lowered.quadrics.size())};
 }
 
-/// The round surfaces have their normals already; curved ones are only needed among quadrics.
+/// Round surfaces have their normals already; the kernels of every kind of surface take them in
+/// the form of the curved ones.
 template <class Real>
 void PackedScene<Real>::pack_normals(const LoweredScene& lowered)
 {
@@ -109,9 +110,6 @@ void PackedScene<Real>::pack_normals(const LoweredScene& lowered)
         surfaces_[i].faces_viewer = lowered.faces_viewer[i] ? Real(1) : Real(0);
     view_.surfaces = surfaces_.data();
 
-    // The scene's glass kernel knows curved surfaces only.
-    if (!lowered.features.quadrics && !lowered.features.glass)
-        return;
     curved_surfaces_ = AlignedArray<abi::CurvedSurfaceRecord<Real>>(count);
     for (std::size_t i = 0; i < count; ++i) {
         std::copy(surfaces_[i].anchor, surfaces_[i].anchor + 3, curved_surfaces_[i].anchor);

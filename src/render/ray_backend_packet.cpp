@@ -61,9 +61,7 @@ public:
     PacketBackend(const Scene& scene, const RenderOptions& options)
         : lowered_(lower(scene)),
           packed_(lowered_),
-          kernels_(
-              kernels_for(precision<Real>(kernels_of(choose_isa(options.isa, options.width).name)),
-                          lowered_.features))
+          kernels_(precision<Real>(kernels_of(choose_isa(options.isa, options.width).name)))
     {
     }
 
@@ -101,7 +99,7 @@ public:
 private:
     LoweredScene lowered_;
     PackedScene<Real> packed_;
-    const abi::FeatureKernels<Real>& kernels_;
+    const abi::PrecisionTable<Real>& kernels_;
 };
 
 }  // namespace
