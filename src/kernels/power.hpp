@@ -118,7 +118,7 @@ inline batch<Real> highlight_power(batch<Real> x, batch<Real> n)
     const vreal<Real> power = exp2_fraction<Real>((clamped - whole) + rest);
     const vreal<Real> scaled = scale_by_power<Real>(power, to_int<Real>(clamped));
 
-    const vreal<Real> smallest_x(Real(FloatFormat<Real>::smallest_normal));
+    const vreal<Real> smallest_x(static_cast<Real>(FloatFormat<Real>::smallest_normal));
     return select((y > smallest) & (x >= smallest_x), scaled, vreal<Real>(Real(0)));
 }
 
