@@ -26,17 +26,18 @@ struct ProgramResult {
     return quoted + "'";
 }
 
-/// Runs the packtrace program with `arguments`, and with `environment` (NAME=value words of the
-/// shell) before it.
+/// Runs the packtrace program with `arguments`, with `environment` (NAME=value words of the
+/// shell) before it and the file `input` as its standard input.
 [[nodiscard]] inline ProgramResult run_packtrace(const std::vector<std::string>& arguments,
-                                                 const std::string& environment = "")
+                                                 const std::string& environment = "",
+                                                 const std::string& input = "/dev/null")
 {
     const TempFolder folder;
     std::string command = environment + " " + shell_quoted(PACKTRACE_CLI);
     for (const std::string& argument : arguments)
         command += " " + shell_quoted(argument);
     command += " >" + shell_quoted((folder / "out").string()) + " 2>" +
-               shell_quoted((folder / "err").string()) + " </dev/null";
+               shell_quoted((folder / "err").string()) + " <" + shell_quoted(input);
 
     ProgramResult result;
     const auto start = std::chrono::steady_clock::now();

@@ -26,6 +26,7 @@ int run(int argc, char** argv)
     add_compare(app);
     add_info(app);
     add_demo(app);
+    add_onedim(app);
     try {
         app.parse(argc, argv);
         if (app.get_subcommands().empty())

@@ -4,6 +4,7 @@
 #include <cstdint>
 
 #include "kernel_abi/features.hpp"
+#include "kernel_abi/onedim.hpp"
 #include "kernel_abi/ray_streams.hpp"
 #include "kernel_abi/scene_view.hpp"
 #include "kernel_abi/self_test.hpp"
@@ -80,6 +81,7 @@ struct KernelTable {
     const char* isa = nullptr;
     PrecisionTable<float> single_precision;
     PrecisionTable<double> double_precision;
+    OnedimTable onedim;
 };
 
 }  // namespace packtrace::abi

@@ -1,6 +1,7 @@
 #include "kernels/table.hpp"
 
 #include "kernels/closest_tile.hpp"
+#include "kernels/onedim.hpp"
 #include "kernels/ray_streams.hpp"
 #include "kernels/self_test.hpp"
 #include "kernels/tile.hpp"
@@ -52,7 +53,7 @@ constexpr abi::PrecisionTable<Real> precision_table()
 #define PACKTRACE_TEXT(name) PACKTRACE_TEXT_OF(name)
 
 constexpr abi::KernelTable table = {PACKTRACE_TEXT(PACKTRACE_ISA), precision_table<float>(),
-                                    precision_table<double>()};
+                                    precision_table<double>(), onedim::table};
 
 }  // namespace
 

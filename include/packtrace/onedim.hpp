@@ -1,0 +1,92 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+/// The one-dimensional ray tracer of note 003: an eye looks along a line at n surfaces, and sees
+/// the darkest intensity that solves the line's equations (docs/onedim.md).
+namespace packtrace::onedim {
+
+/// From dark to bright.
+enum class Intensity : std::uint8_t { none, medium, all };
+
+/// Which way a surface faces: towards the eye or away from it.
+enum class Direction : std::uint8_t { towards, away };
+
+/// One surface, in a byte: solvers read many of them.
+struct Surface {
+    Direction direction : 1 = Direction::towards;
+    Intensity reflectance : 2 = Intensity::none;
+    Intensity translucence : 2 = Intensity::none;
+    Intensity emission : 2 = Intensity::none;
+
+    bool operator==(const Surface&) const = default;
+};
+
+/// Many systems in two arrays; a system's surfaces run from the nearest to the eye outwards.
+struct Systems {
+    std::vector<Surface> surfaces;  ///< of all systems, one after another
+    std::vector<std::size_t> ends;  ///< where each system ends in `surfaces`
+
+    [[nodiscard]] std::size_t size() const
+    {
+        return ends.size();
+    }
+    [[nodiscard]] std::span<const Surface> operator[](std::size_t k) const
+    {
+        const std::size_t begin = k == 0 ? 0 : ends[k - 1];
+        return {surfaces.data() + begin, ends[k] - begin};
+    }
+    void push_back(std::span<const Surface> system)
+    {
+        surfaces.insert(surfaces.end(), system.begin(), system.end());
+        ends.push_back(surfaces.size());
+    }
+    void clear()
+    {
+        surfaces.clear();
+        ends.clear();
+    }
+};
+
+/// scalar: sweeps the note's equations until nothing changes. linear: one table look-up a
+/// surface. bitsliced: as many systems at once as a SIMD register has bits.
+enum class Solver { scalar, linear, bitsliced };
+
+struct SolveOptions {
+    Solver solver = Solver::bitsliced;
+    std::string isa = "auto";  ///< bitsliced: see choose_isa
+};
+
+/// What the eye sees: L0 of the least solution.
+[[nodiscard]] Intensity solve(std::span<const Surface> system);
+
+/// L0 of every system, in order. Throws std::invalid_argument for an instruction set that is
+/// unknown or not supported.
+[[nodiscard]] std::vector<Intensity> solve(const Systems& systems,
+                                           const SolveOptions& options = {});
+
+/// `note` is the note's own (`Inr Inl ()`), `compact` one letter, `words` English.
+enum class Notation { note, compact, words };
+
+[[nodiscard]] std::string_view to_text(Intensity value, Notation notation);
+
+/// A system on one line, in the note's notation or (for `words` too) the compact one.
+[[nodiscard]] std::string to_text(std::span<const Surface> system, Notation notation);
+
+/// Why a line is no system.
+struct SyntaxError {
+    std::size_t column = 0;  ///< from 1, in bytes
+    std::string message;     ///< what was expected and what was found
+};
+
+/// Appends the system written on `line` in the note's or the compact notation, or leaves
+/// `systems` as it was and says what is wrong.
+[[nodiscard]] std::optional<SyntaxError> read_system(std::string_view line, Systems& systems);
+
+}  // namespace packtrace::onedim
