@@ -17,16 +17,25 @@ struct Ball {
     double radius = std::numeric_limits<double>::infinity();
 };
 
-double frobenius_norm(const Mat3& m)
+/// No less than the length of `m * u` for any unit u.
+double ellipsoid_radius(const Mat3& m)
 {
     return std::sqrt(glm::dot(m[0], m[0]) + glm::dot(m[1], m[1]) + glm::dot(m[2], m[2]));
+}
+
+/// The same for u with x² + y² <= 1 and |z| <= 1, whatever angles the columns are at.
+double drum_radius(const Mat3& m)
+{
+    return std::sqrt(glm::dot(m[0], m[0]) + glm::dot(m[1], m[1])) + glm::length(m[2]);
 }
 
 /// The half axes of an ellipsoid in canonical space, or nothing for other surfaces.
 std::optional<Vec3> half_axes(const CanonicalForm& form)
 {
     const Vec3 ratio = -form.constant / form.square;
-    if (form.linear != 0.0 || !(ratio.x > 0.0 && ratio.y > 0.0 && ratio.z > 0.0))
+    // Infinite where a cylinder has no square.
+    if (form.linear != 0.0 || !(ratio.x > 0.0 && ratio.y > 0.0 && ratio.z > 0.0) ||
+        !std::isfinite(ratio.x + ratio.y + ratio.z))
         return std::nullopt;
     return glm::sqrt(ratio);
 }
@@ -42,19 +51,20 @@ double widest_section(const std::array<double, 10>& k, const ZRange& range)
     return std::max(widest, 0.0);
 }
 
-/// A ball in own space around a clipped surface that is round about its z axis.
-std::optional<Mat3> clipped_box(const Quadric& quadric)
+/// The half axes, as columns, of a drum in own space around a clipped surface that is round
+/// about its z axis.
+std::optional<Mat3> clipped_drum(const Quadric& quadric)
 {
     const auto& k = quadric.coefficients;
     const bool about_z = k[3] == 0.0 && k[4] == 0.0 && k[5] == 0.0 && k[6] == 0.0 && k[7] == 0.0;
     if (!quadric.z_range || !about_z || !(k[0] > 0.0) || !(k[1] > 0.0))
         return std::nullopt;
     const double widest = widest_section(k, *quadric.z_range);
-    Mat3 box(0.0);
-    box[0][0] = std::sqrt(widest / k[0]);
-    box[1][1] = std::sqrt(widest / k[1]);
-    box[2][2] = 0.5 * (quadric.z_range->high - quadric.z_range->low);
-    return box;
+    Mat3 drum(0.0);
+    drum[0][0] = std::sqrt(widest / k[0]);
+    drum[1][1] = std::sqrt(widest / k[1]);
+    drum[2][2] = 0.5 * (quadric.z_range->high - quadric.z_range->low);
+    return drum;
 }
 
 Ball bounding_ball(const Quadric& quadric, const CanonicalForm& form, const Mat4& transform)
@@ -66,12 +76,13 @@ Ball bounding_ball(const Quadric& quadric, const CanonicalForm& form, const Mat4
         Mat3 ellipsoid = linear * form.axes;
         for (int axis = 0; axis < 3; ++axis)
             ellipsoid[axis] *= (*axes)[axis];
-        return {Vec3(transform * glm::dvec4(form.center, 1.0)), frobenius_norm(ellipsoid) * slack};
+        return {Vec3(transform * glm::dvec4(form.center, 1.0)),
+                ellipsoid_radius(ellipsoid) * slack};
     }
-    if (const auto box = clipped_box(quadric)) {
+    if (const auto drum = clipped_drum(quadric)) {
         const double middle = 0.5 * (quadric.z_range->low + quadric.z_range->high);
         return {Vec3(transform * glm::dvec4(0.0, 0.0, middle, 1.0)),
-                frobenius_norm(linear * *box) * slack};
+                drum_radius(linear * *drum) * slack};
     }
     return {};
 }

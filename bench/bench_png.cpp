@@ -1,0 +1,66 @@
+// What a picture file costs beside its rendering: note 001's scene at 1024 x 1024.
+#include <benchmark/benchmark.h>
+
+#include <filesystem>
+#include <string>
+
+#include <packtrace/image_io.hpp>
+#include <packtrace/renderer.hpp>
+
+#include <tbb/task_arena.h>
+
+#include "image/png.hpp"
+#include "png_picture.hpp"
+
+namespace packtrace {
+namespace {
+
+using namespace bench;
+
+// The measure of the writers below; argument: threads.
+void render_frame(benchmark::State& state)
+{
+    RenderOptions options;
+    options.threads = static_cast<int>(state.range(0));
+    const Renderer<float> renderer(scene(), options);
+    Image<float> image;
+    for (auto _ : state)
+        benchmark::DoNotOptimize(renderer.render(image));
+    state.SetItemsProcessed(state.iterations() * 1024 * 1024);
+}
+BENCHMARK(render_frame)->Arg(1)->Arg(2)->Apply(use_wall_and_cpu_time);
+
+// The whole of write_image, into a file; argument: threads.
+void write_png(benchmark::State& state)
+{
+    const auto file = std::filesystem::temp_directory_path() / "packtrace_bench.png";
+    tbb::task_arena arena(static_cast<int>(state.range(0)));
+    arena.execute([&] {
+        for (auto _ : state)
+            write_image(file, picture());
+    });
+    count(state, std::filesystem::file_size(file));
+    std::filesystem::remove(file);
+}
+BENCHMARK(write_png)->Arg(1)->Arg(2)->Apply(use_wall_and_cpu_time);
+
+// Row filters (0 none, 1 sub, 2 up) and levels of libdeflate, on one thread.
+void encode_png_bands(benchmark::State& state)
+{
+    const PngSettings settings{.filter = static_cast<PngFilter>(state.range(0)),
+                               .level = static_cast<int>(state.range(1))};
+    tbb::task_arena arena(1);
+    std::size_t bytes = 0;
+    arena.execute([&] {
+        for (auto _ : state)
+            bytes = encode_png(picture(), settings).size();
+    });
+    count(state, bytes);
+}
+BENCHMARK(encode_png_bands)
+    ->ArgNames({"filter", "level"})
+    ->ArgsProduct({{0, 1, 2}, {1, 2, 3, 6}})
+    ->Apply(use_wall_and_cpu_time);
+
+}  // namespace
+}  // namespace packtrace
