@@ -68,6 +68,9 @@ void build_settings(const Block& file, Scene& scene)
     // Note 001 samples its own integer canvas points.
     if (scene.illumination != Illumination::scratch)
         scene.camera.pixel_sample = {0.5, 0.5};
+    // Note 000 goes on while depth <= 5, the camera ray being the first.
+    if (scene.illumination == Illumination::sketch)
+        scene.max_depth = 4;
     file.set("viewport_size", scene.camera.viewport, read_size);
     file.set("projection_plane_d", scene.camera.distance, read_positive);
     file.set("pixel_sample", scene.camera.pixel_sample, read_pixel_sample);
