@@ -1,1 +1,36 @@
-# Tests that are scripts rather than Catch2 cases; each has a label, `fast` or `slow`.
+# Tests that are scripts rather than Catch2 cases; each has a label, `fast` or `slow`. Builds
+# with sanitizers are skipped: their objects are full of the sanitizer's own symbols and calls,
+# and they don't run under emulation.
+function(packtrace_script_test name label script)
+    set(command sh ${CMAKE_CURRENT_SOURCE_DIR}/${script} ${ARGN})
+    if(PACKTRACE_SANITIZE)
+        set(command sh -c "echo 'skipped: built with -fsanitize=${PACKTRACE_SANITIZE}'; exit 77")
+    endif()
+    add_test(NAME ${name} COMMAND ${command} COMMAND_EXPAND_LISTS)
+    set_tests_properties(${name} PROPERTIES LABELS ${label} SKIP_RETURN_CODE 77)
+endfunction()
+
+foreach(isa IN LISTS PACKTRACE_KERNELS)
+    set(objects $<TARGET_OBJECTS:packtrace_kernels_${isa}>)
+    packtrace_script_test(symbols.${isa} fast check_symbols.sh ${CMAKE_NM} ${isa} ${objects})
+endforeach()
+
+if("sse42" IN_LIST PACKTRACE_KERNELS)
+    foreach(isa IN LISTS PACKTRACE_KERNELS)
+        set(objects $<TARGET_OBJECTS:packtrace_kernels_${isa}>)
+        packtrace_script_test(instructions.${isa} fast check_instructions.sh ${CMAKE_OBJDUMP}
+                              ${isa} ${objects})
+    endforeach()
+    packtrace_script_test(instructions.host fast check_instructions.sh ${CMAKE_OBJDUMP} host
+                          $<TARGET_OBJECTS:packtrace>)
+    packtrace_script_test(instructions.library fast check_instructions.sh ${CMAKE_OBJDUMP} library
+                          $<TARGET_FILE:packtrace>)
+
+    find_program(PACKTRACE_QEMU qemu-x86_64 DOC "Emulator of a processor without AVX (qemu-user)")
+    set(without_avx check_without_avx.sh "${PACKTRACE_QEMU}" $<TARGET_FILE:packtrace_tests>
+        $<TARGET_FILE:packtrace_cli> ${PROJECT_SOURCE_DIR}/scenes/four_spheres.scene)
+    packtrace_script_test(without_avx fast ${without_avx} "[without_avx],[isa]")
+    # Tests of the command line start it outside the emulation.
+    packtrace_script_test(without_avx.slow slow ${without_avx}
+                          "~[slow]~[unchecked_avx]~[cli]")
+endif()

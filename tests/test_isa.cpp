@@ -1,6 +1,7 @@
 // Which instruction set a request gets, and what a wrong request is told.
 #include <packtrace/isa.hpp>
 
+#include <csignal>
 #include <stdexcept>
 
 #include <packtrace/renderer.hpp>
@@ -145,6 +146,34 @@ TEST_CASE("a width that no instruction set has is refused", "[isa]")
     const ScopedVariable unset(variable, std::nullopt);
     CHECK(refusal("auto", 5) ==
           "width: no instruction set of this machine has 5 lanes; it can run:" + supported_text());
+}
+
+// The next two are for a processor without AVX, which check_without_avx.sh emulates.
+
+TEST_CASE("without AVX sse42 is chosen, and forcing more is a clean error", "[.without_avx]")
+{
+    const ScopedVariable unset(variable, std::nullopt);
+    CHECK(choose_isa().name == "sse42");
+    CHECK(supported_text() == " sse42");
+    for (const char* wider : {"sse_fma", "avx2", "avx512"})
+        CHECK(refusal(wider, 0) ==
+              "isa: this machine cannot run '" + std::string(wider) + "'; it can run: sse42");
+    CHECK(refusal("auto", 8) ==
+          "width: no instruction set of this machine has 8 lanes; it can run: sse42");
+}
+
+TEST_CASE("the AVX kernels are run without asking the processor", "[.unchecked_avx]")
+{
+    // Not the test frame's handler, which would hide what the signal was.
+    std::signal(SIGILL, SIG_DFL);
+    for (const abi::KernelTable* table : all_kernels()) {
+        if (std::string(table->isa) != "avx2")
+            continue;
+        const float x[8] = {0.5f};
+        float y[8] = {};
+        table->single_precision.highlight_power(x, x, y, 8);
+        CHECK(y[0] > 0.0f);
+    }
 }
 
 }  // namespace packtrace::test

@@ -1,0 +1,39 @@
+#!/bin/sh
+# check_symbols.sh NM NAMESPACE OBJECT...
+#
+# Kernel objects are compiled for more than the machine may have. A symbol that other objects
+# could share (an inline function's weak copy, say) would let the linker put such code into the
+# whole program. So each symbol of the objects must be in packtrace::NAMESPACE, the weak and
+# local ones too; undefined ones must be functions of libc that compilers call on their own.
+set -u
+nm=$1
+namespace=$2
+shift 2
+allowed_undefined='memcpy|memmove|memset|memcmp|_GLOBAL_OFFSET_TABLE_'
+# Names as the compiler writes them: _ZN9packtrace4avx2…, statics within functions _ZZN….
+ours="^_Z(Z|GVZ?|T[VISH])*N[KVr]*9packtrace${#namespace}${namespace}"
+
+failed=0
+[ $# -gt 0 ] || { echo "no kernel objects for $namespace"; exit 1; }
+for object in "$@"; do
+    symbols=$("$nm" --format=posix "$object") || { echo "nm can't read $object"; exit 1; }
+    # Constants that the compiler names itself, .LC0, are no symbols to the linker.
+    names=$(printf '%s\n' "$symbols" | grep -v '^\.L')
+    undefined=$(printf '%s\n' "$names" | awk '$2 ~ /^[Uwv]$/ && NF < 4 {print $1}')
+    defined=$(printf '%s\n' "$names" | awk '!($2 ~ /^[Uwv]$/ && NF < 4) {print $1}')
+
+    foreign=$(printf '%s\n' "$defined" | grep -Ev "$ours")
+    wanted=$(printf '%s\n' "$undefined" | grep -v '^$' | grep -Evx "$allowed_undefined")
+    ours_count=$(printf '%s\n' "$defined" | grep -Ec "$ours")
+    if [ -n "$foreign$wanted" ]; then
+        echo "$object: symbols outside packtrace::$namespace:"
+        printf '%s\n' "$foreign" "$wanted" | grep -v '^$' | c++filt
+        failed=1
+    fi
+    if [ "$ours_count" -lt 2 ]; then
+        echo "$object: nm finds $ours_count symbols of packtrace::$namespace"
+        failed=1
+    fi
+done
+[ "$failed" = 0 ] && echo "packtrace::$namespace holds every symbol of its objects"
+exit "$failed"
