@@ -1,3 +1,19 @@
 #include <benchmark/benchmark.h>
 
-BENCHMARK_MAIN();
+#include "context.hpp"
+#include "register.hpp"
+
+int main(int argc, char** argv)
+{
+    for (const auto& [name, value] : packtrace::bench::context())
+        benchmark::AddCustomContext(name, value);
+    packtrace::bench::register_kernels();
+    packtrace::bench::register_frames();
+    packtrace::bench::register_power();
+
+    benchmark::Initialize(&argc, argv);
+    if (benchmark::ReportUnrecognizedArguments(argc, argv))
+        return 1;
+    benchmark::RunSpecifiedBenchmarks();
+    benchmark::Shutdown();
+}

@@ -26,7 +26,8 @@ if("sse42" IN_LIST PACKTRACE_KERNELS)
     packtrace_script_test(instructions.library fast check_instructions.sh ${CMAKE_OBJDUMP} library
                           $<TARGET_FILE:packtrace>)
 
-    find_program(PACKTRACE_QEMU qemu-x86_64 DOC "Emulator of a processor without AVX (qemu-user)")
+    find_program(PACKTRACE_QEMU NAMES qemu-x86_64 qemu-x86_64-static
+                 DOC "Emulator of a processor without AVX (qemu-user)")
     set(without_avx check_without_avx.sh "${PACKTRACE_QEMU}" $<TARGET_FILE:packtrace_tests>
         $<TARGET_FILE:packtrace_cli> ${PROJECT_SOURCE_DIR}/scenes/four_spheres.scene)
     packtrace_script_test(without_avx fast ${without_avx} "[without_avx],[isa]")

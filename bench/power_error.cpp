@@ -1,0 +1,46 @@
+// packtrace_power_error: writes the error of the highlights' power against long double as JSON,
+// by instruction set, precision and decade of the exponent; errors count in units of the last
+// place over powers above 1e-4.
+#include <iostream>
+
+#include <nlohmann/json.hpp>
+
+#include "context.hpp"
+#include "names.hpp"
+#include "power_error.hpp"
+
+namespace packtrace::bench {
+namespace {
+
+template <class Real>
+void append_errors(nlohmann::ordered_json& errors)
+{
+    for (const test::ExponentDecade& decade : test::exponent_decades) {
+        const auto samples = test::power_samples<Real>(decade, 1e-4, 4000);
+        for (const std::string& isa : supported_isas()) {
+            const auto error =
+                test::power_error(samples, test::highlight_powers(kernels_of(isa), samples));
+            errors.push_back({{"isa", isa},
+                              {"precision", precision_name<Real>()},
+                              {"exponents", {decade.first, decade.last}},
+                              {"max_ulp", error.max_ulp},
+                              {"p99_ulp", error.p99_ulp},
+                              {"max_abs", error.max_abs},
+                              {"samples", error.counted}});
+        }
+    }
+}
+
+}  // namespace
+}  // namespace packtrace::bench
+
+int main()
+{
+    nlohmann::ordered_json report;
+    for (const auto& [name, value] : packtrace::bench::context())
+        report["context"][name] = value;
+    report["errors"] = nlohmann::ordered_json::array();
+    packtrace::bench::append_errors<float>(report["errors"]);
+    packtrace::bench::append_errors<double>(report["errors"]);
+    std::cout << report.dump(2) << '\n';
+}
