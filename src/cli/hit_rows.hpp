@@ -1,0 +1,42 @@
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include <packtrace/intersect.hpp>
+#include <packtrace/scene.hpp>
+
+namespace packtrace::cli {
+
+/// Writes hits as CSV rows, numbers with 17 significant digits, objects by name.
+class HitRows {
+public:
+    static constexpr std::string_view closest_header = "hit,t,object,nx,ny,nz\n";
+    static constexpr std::string_view all_header = "ray,t,object,nx,ny,nz\n";
+    static constexpr std::string_view any_header = "hit\n";
+
+    explicit HitRows(const Scene& scene);
+
+    /// Appends a row of `closest_header`.
+    template <class Real>
+    void append_closest(std::string& rows, const SurfaceHit<Real>& hit) const;
+
+    /// Appends a row of `all_header` for each hit of the ray of that number.
+    template <class Real>
+    void append_all(std::string& rows, std::uint64_t ray,
+                    std::span<const SurfaceHit<Real>> hits) const;
+
+    /// Appends a row of `any_header`.
+    static void append_any(std::string& rows, std::uint8_t hit);
+
+private:
+    template <class Real>
+    void append_hit(std::string& rows, const SurfaceHit<Real>& hit) const;
+
+    std::vector<std::string> names_;  // in quotes where CSV wants them
+};
+
+}  // namespace packtrace::cli

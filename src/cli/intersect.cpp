@@ -1,0 +1,82 @@
+#include <memory>
+#include <string>
+
+#include <packtrace/read_scene.hpp>
+
+#include "cli/command.hpp"
+#include "cli/common_options.hpp"
+#include "cli/intersect_rays.hpp"
+#include "cli/thread_limit.hpp"
+#include "cli/validators.hpp"
+
+namespace packtrace::cli {
+namespace {
+
+struct IntersectArguments {
+    std::string scene;
+    std::string rays;
+    std::string output;
+    KernelArguments kernel;
+    bool all = false;
+    bool any = false;
+};
+
+RayQuery query_of(const IntersectArguments& arguments)
+{
+    return arguments.all ? RayQuery::all : arguments.any ? RayQuery::any : RayQuery::closest;
+}
+
+void run_intersect(const IntersectArguments& arguments)
+{
+    const RenderOptions options = render_options(arguments.kernel);
+    const ThreadLimit limit(options.threads);
+    // Before the work, so that a wrong name doesn't cost it.
+    TextOutput output(arguments.output);
+    const Scene scene = read_scene(arguments.scene);
+    RayBlocks rays(arguments.rays);
+    if (arguments.kernel.precision == "single")
+        intersect_rays<float>(scene, options, query_of(arguments), rays, output);
+    else
+        intersect_rays<double>(scene, options, query_of(arguments), rays, output);
+}
+
+// Not add_kernel_options: here double is the default, and nothing is wider.
+void add_options(CLI::App& command, KernelArguments& arguments)
+{
+    command.add_option("--kernel", arguments.kernel, "packet (default), or the scalar reference")
+        ->check(one_of({"packet", "scalar"}))
+        ->type_name("packet|scalar");
+    arguments.precision = "double";
+    command.add_option("--precision", arguments.precision, "double (default) or single")
+        ->check(one_of({"single", "double"}))
+        ->type_name("single|double");
+    add_isa_options(command, arguments.isa);
+    add_threads_option(command, arguments.threads);
+}
+
+}  // namespace
+
+void add_intersect(CLI::App& app)
+{
+    CLI::App* command =
+        app.add_subcommand("intersect", "Say where rays of your own meet a scene's objects");
+    const auto arguments = std::make_shared<IntersectArguments>();
+    command->add_option("SCENE", arguments->scene, "Scene file")->required()->type_name("");
+    command
+        ->add_option("RAYS", arguments->rays,
+                     "CSV of ox,oy,oz,dx,dy,dz[,t_min,t_max]; - is standard input")
+        ->required()
+        ->type_name("");
+    command
+        ->add_option("-o,--output", arguments->output,
+                     "CSV to write (default standard output): hit,t,object,nx,ny,nz")
+        ->type_name("FILE");
+    CLI::Option* all = command->add_flag(
+        "--all", arguments->all, "Write every hit of each ray in order: ray,t,object,nx,ny,nz");
+    command->add_flag("--any", arguments->any, "Write only whether a ray hits anything: hit")
+        ->excludes(all);
+    add_options(*command, arguments->kernel);
+    command->callback([arguments] { run_intersect(*arguments); });
+}
+
+}  // namespace packtrace::cli
