@@ -295,6 +295,24 @@ TEST_CASE("the help of intersect names the columns and every option", "[intersec
         CHECK_THAT(result.out, ContainsSubstring(word));
 }
 
+TEST_CASE("the reference page's example is what comes out", "[intersect_cli]")
+{
+    const std::string page = read_text(PACKTRACE_SOURCE_DIR "/docs/intersect.md");
+    const auto block = [&](const std::string& kind) {
+        const std::string begin = "```" + kind + "\n";
+        const std::size_t first = page.find(begin);
+        REQUIRE(first != std::string::npos);
+        const std::size_t start = first + begin.size();
+        return page.substr(start, page.find("```", start) - start);
+    };
+    const TempFolder folder;
+    write_text(folder / "a.scene", block("scene"));
+    write_text(folder / "rays.csv", block("rays"));
+    CHECK(
+        run_packtrace({"intersect", (folder / "a.scene").string(), (folder / "rays.csv").string()})
+            .out == block("hits"));
+}
+
 TEST_CASE("a million rays take no more memory than fifty thousand", "[intersect_cli][slow]")
 {
     const TempFolder folder;

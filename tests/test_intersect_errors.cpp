@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <cmath>
 #include <random>
 #include <string>
 #include <utility>
@@ -67,13 +68,42 @@ TEST_CASE("a wrong line is named by line and column, with what to do", "[interse
 TEST_CASE("what single precision can't hold is refused or becomes zero", "[intersect_errors]")
 {
     const Words single{"--precision", "single"};
-    CHECK(intersect("0,0,0,0,0,1e39\n").exit_code == 0);
-    CHECK(intersect("0,0,0,0,0,1e39\n", single).err ==
-          "rays.csv:1:11: dz '1e39' is out of the range of single precision\n");
-    // From inside, so that no root is near enough to 0 to move.
-    CHECK(intersect("0,0,5,1e-60,1e-400,1\n", single).out ==
-          "hit,t,object,nx,ny,nz\n1,1,ball,0,0,1\n");
-    CHECK(intersect("0,0,5,0,0,1e-60\n", single).exit_code == 1);
+    CHECK(intersect("1e39,0,0,0,0,1\n").exit_code == 0);
+    CHECK(intersect("1e39,0,0,0,0,1\n", single).err ==
+          "rays.csv:1:1: ox '1e39' is out of the range of single precision\n");
+    const std::string row = "hit,t,object,nx,ny,nz\n1,1,ball,0,0,1\n";
+    CHECK(intersect("0,0,5,0,1e-400,1\n").out == row);
+    CHECK(intersect("0,0,5,1e-60,1e-400,1\n", single).out == row);
+    CHECK_THAT(intersect("0,0,5,0,0,1e-60\n", single).err,
+               ContainsSubstring("rays.csv:1:7: the direction is zero"));
+}
+
+TEST_CASE("directions are taken as long or short as their precision can square",
+          "[intersect_errors]")
+{
+    const Words single{"--precision", "single"};
+    const auto along_z = [](const std::string& length) { return "0,0,0,0,0," + length + "\n"; };
+    for (const std::string kernel : {"packet", "scalar"}) {
+        const Words kernel_words{"--kernel", kernel};
+        for (const auto& [length, t] :
+             std::vector<std::pair<std::string, double>>{{"1e-100", 4e100}, {"1e100", 4e-100}}) {
+            const std::string out = intersect(along_z(length), kernel_words).out;
+            CHECK(std::abs(std::stod(out.substr(out.find("\n1,") + 3)) / t - 1) < 1e-14);
+        }
+    }
+    for (const auto& [length, t] :
+         std::vector<std::pair<std::string, double>>{{"1.01e-12", 4 / 1.01e-12}, {"1e12", 4e-12}}) {
+        const std::string out = intersect(along_z(length), single).out;
+        CHECK(std::abs(std::stod(out.substr(out.find("\n1,") + 3)) / t - 1) < 1e-6);
+    }
+    CHECK(intersect(along_z("9e-101")).err ==
+          "rays.csv:1:7: the direction is too short for double precision; scale it so that its "
+          "largest component lies between 1e-100 and 1e100\n");
+    CHECK_THAT(intersect(along_z("-1.1e100")).err, ContainsSubstring("too long for double"));
+    CHECK(intersect(along_z("1.1e12"), single).err ==
+          "rays.csv:1:7: the direction is too long for single precision; scale it so that its "
+          "largest component lies between 1e-12 and 1e12\n");
+    CHECK_THAT(intersect(along_z("9e-13"), single).err, ContainsSubstring("too short for single"));
 }
 
 TEST_CASE("of several wrong lines the first is named, however many threads", "[intersect_errors]")

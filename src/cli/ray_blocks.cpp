@@ -27,7 +27,8 @@ RayBlock RayBlocks::next()
     while (const std::optional<CsvLine> line = lines.next()) {
         if (format_.columns == 0)
             learn(format_, *line);
-        ray_ += line->number != format_.header_line ? 1 : 0;
+        if (line->number != format_.header_line)
+            ++ray_;
     }
     line_ = lines.number();
     block.format = format_;

@@ -33,18 +33,38 @@ public:
         for (std::size_t column = 0; column < format_.columns; ++column)
             if (column < t_min || !fields[column].empty())
                 row[column] = number(line, column, fields[column]);
-        if (row[dx] == 0 && row[dx + 1] == 0 && row[dx + 2] == 0)
-            fail_at(
-                format_, line, fields[dx].data(),
-                "the direction is zero and leads nowhere; make one of dx, dy, dz differ from 0");
+        check_direction(line, fields[dx].data(), row);
         for (std::size_t column = 0; column < row.size(); ++column)
             rays.columns[column].push_back(row[column]);
     }
 
 private:
     static constexpr Real infinity = std::numeric_limits<Real>::infinity();
-    static constexpr const char* precision =
-        std::numeric_limits<Real>::digits == 24 ? "single" : "double";
+    static constexpr bool is_single = std::numeric_limits<Real>::digits == 24;
+    static constexpr const char* precision = is_single ? "single" : "double";
+    static constexpr Real shortest = is_single ? Real(1e-12) : Real(1e-100);
+    static constexpr Real longest = is_single ? Real(1e12) : Real(1e100);
+    static constexpr const char* limits = is_single ? "1e-12 and 1e12" : "1e-100 and 1e100";
+
+    // Kernels square directions: far from 1 that over- or underflows, and a hit would be moved
+    // or lost.
+    void check_direction(const CsvLine& line, const char* at,
+                         const std::array<Real, most_ray_columns>& row) const
+    {
+        const Real largest =
+            std::max({std::abs(row[dx]), std::abs(row[dx + 1]), std::abs(row[dx + 2])});
+        if (largest == 0)
+            fail_at(
+                format_, line, at,
+                "the direction is zero and leads nowhere; make one of dx, dy, dz differ from 0");
+        if (largest < shortest || largest > longest)
+            fail_at(format_, line, at,
+                    std::string("the direction is too ") + (largest > 1 ? "long" : "short") +
+                        " for " + precision +
+                        " precision; scale it so that its largest component "
+                        "lies between " +
+                        limits);
+    }
 
     [[nodiscard]] Fields split(const CsvLine& line) const
     {
