@@ -5,48 +5,20 @@
 #include <iostream>
 #include <memory>
 #include <string>
-#include <type_traits>
 
 #include <packtrace/image_io.hpp>
 #include <packtrace/read_scene.hpp>
 
 #include "cli/command.hpp"
-#include "cli/common_options.hpp"
 #include "cli/progress_bar.hpp"
+#include "cli/render_animation.hpp"
+#include "cli/render_picture.hpp"
 #include "cli/thread_limit.hpp"
 #include "cli/validators.hpp"
 #include "image/format.hpp"
 
 namespace packtrace::cli {
 namespace {
-
-struct RenderArguments {
-    std::string scene;
-    std::string output;
-    KernelArguments kernel;
-    PictureArguments picture;
-    ImageWriteOptions write;
-    bool quiet = false;
-};
-
-template <class Real>
-Image<float> render_as(const Scene& scene, const RenderOptions& options)
-{
-    if constexpr (std::is_same_v<Real, float>)
-        return render<float>(scene, options);
-    else
-        return convert<float>(render<Real>(scene, options));
-}
-
-Image<float> render_picture(const Scene& scene, const std::string& precision,
-                            const RenderOptions& options)
-{
-    if (precision == "double")
-        return render_as<double>(scene, options);
-    if (precision == "extended")
-        return render_as<long double>(scene, options);
-    return render_as<float>(scene, options);
-}
 
 void print_summary(const RenderArguments& arguments, const RenderOptions& options,
                    const Image<float>& image, double seconds)
@@ -63,20 +35,13 @@ void print_summary(const RenderArguments& arguments, const RenderOptions& option
 
 void check_gamma(const RenderArguments& arguments)
 {
-    if (arguments.write.gamma != 1.0 && image_format(arguments.output) != ImageFormat::png)
+    if (arguments.write.gamma != 1.0 && !arguments.animation.y4m &&
+        image_format(arguments.output) != ImageFormat::png)
         throw CLI::ValidationError("--gamma: only PNG has one; .pfm and .hdr hold linear values");
 }
 
-void run_render(const RenderArguments& arguments)
+void render_one(const RenderArguments& arguments, const Scene& scene, RenderOptions options)
 {
-    RenderOptions options = render_options(arguments.kernel);
-    check_gamma(arguments);
-    // Before the work, so that a wrong name doesn't cost it.
-    check_image_writable(arguments.output);
-    Scene scene = read_scene(arguments.scene);
-    apply(arguments.picture, scene);
-
-    const ThreadLimit limit(options.threads);
     const auto start = std::chrono::steady_clock::now();
     Image<float> image;
     {
@@ -88,6 +53,24 @@ void run_render(const RenderArguments& arguments)
     write_image(arguments.output, image, arguments.write);
     if (!arguments.quiet)
         print_summary(arguments, options, image, time.count());
+}
+
+void run_render(const RenderArguments& arguments)
+{
+    const RenderOptions options = render_options(arguments.kernel);
+    check_animation_options(arguments);
+    check_gamma(arguments);
+    // Before the work, so that a wrong name doesn't cost it.
+    if (!arguments.animation.many())
+        check_image_writable(arguments.output);
+    Scene scene = read_scene(arguments.scene);
+    apply(arguments.picture, scene);
+    const ThreadLimit limit(options.threads);
+    if (arguments.animation.many())
+        return render_animation(arguments, scene, options);
+    if (arguments.animation.frame)
+        go_to_frame(scene, *arguments.animation.frame);
+    render_one(arguments, scene, options);
 }
 
 }  // namespace
@@ -102,9 +85,10 @@ void add_render(CLI::App& app)
         ->type_name("IMAGE");
     add_kernel_options(*command, arguments->kernel);
     add_picture_options(*command, arguments->picture);
+    add_animation_options(*command, arguments->animation);
     command
         ->add_option("--gamma", arguments->write.gamma,
-                     "Raise a PNG's values to 1/G; 1 (default) writes them linear")
+                     "Raise a PNG's or video's values to 1/G; 1 (default) writes them linear")
         ->check(positive_number())
         ->type_name("G");
     command->add_flag("-q,--quiet", arguments->quiet, "No progress bar, no summary");

@@ -1,0 +1,138 @@
+#include "cli/render_animation.hpp"
+
+#include <chrono>
+#include <iostream>
+#include <stdexcept>
+
+#include <packtrace/animate.hpp>
+
+#include "cli/frame_output.hpp"
+#include "cli/progress_bar.hpp"
+#include "cli/render_picture.hpp"
+#include "cli/text_table.hpp"
+#include "cli/validators.hpp"
+#include "render/frame_pattern.hpp"
+#include "render/frame_range.hpp"
+
+namespace packtrace::cli {
+namespace {
+
+/// What `call` returns; an argument it finds wrong becomes a wrong use of `option`.
+template <class Call>
+auto checked(const std::string& option, const Call& call)
+{
+    try {
+        return call();
+    } catch (const std::invalid_argument& error) {
+        throw CLI::ValidationError(option + ": " + error.what());
+    }
+}
+
+/// All frames when none are named.
+FrameRange frames_of(const AnimationArguments& arguments, const Scene& scene)
+{
+    const std::string option = arguments.frames ? "--frames" : "--y4m";
+    return checked(option, [&] {
+        if (!scene.animation)
+            throw std::invalid_argument("the scene has no animation");
+        const int frames = scene.animation->frames;
+        if (!arguments.frames)
+            return FrameRange{0, frames - 1};
+        const FrameRange range = parse_frame_range(*arguments.frames);
+        check_frame_range(range, frames);
+        return range;
+    });
+}
+
+struct Tally {
+    int rendered = 0;
+    int skipped = 0;
+    double seconds = 0.0;
+};
+
+void print_tally(const std::string& output, const Tally& tally)
+{
+    std::string text = output + ": " + std::to_string(tally.rendered) + " frames rendered";
+    if (tally.rendered > 0)
+        text += " in " + fixed(tally.seconds, 1) + " s, " +
+                fixed(1e3 * tally.seconds / tally.rendered, 1) + " ms each";
+    if (tally.skipped > 0)
+        text += ", " + std::to_string(tally.skipped) +
+                " were there already (--overwrite renders them again)";
+    std::cerr << text << '\n';
+}
+
+/// The bar shows the share of the whole animation.
+Tally render_frames(const RenderArguments& arguments, const Scene& scene, RenderOptions options,
+                    const FrameRange& range, FrameOutput& output)
+{
+    const auto start = std::chrono::steady_clock::now();
+    Tally tally;
+    Scene posed = scene;
+    ProgressBar bar(arguments.quiet ? Verbosity::quiet : Verbosity::normal);
+    for (int frame = range.first; frame <= range.last; ++frame) {
+        if (output.has(frame)) {
+            ++tally.skipped;
+            continue;
+        }
+        posed.camera = camera_at(scene, frame);
+        options.progress = [&](double share) {
+            bar.update((frame - range.first + share) / range.count());
+        };
+        output.write(frame, render_picture(posed, arguments.kernel.precision, options));
+        ++tally.rendered;
+    }
+    output.finish();
+    tally.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+    return tally;
+}
+
+}  // namespace
+
+void add_animation_options(CLI::App& command, AnimationArguments& arguments)
+{
+    command.add_option("--frame", arguments.frame, "Render one frame of the scene's animation")
+        ->check(whole_number(0, 999999))
+        ->type_name("N");
+    command
+        .add_option("--frames", arguments.frames,
+                    "Render these frames, both ends included; IMAGE has a %d or %04d for the "
+                    "number; those that are there already are skipped")
+        ->type_name("A..B");
+    command.add_flag("--overwrite", arguments.overwrite, "Render frames that are there too");
+    command.add_flag("--y4m", arguments.y4m,
+                     "Write the frames (default all) as one YUV4MPEG2 video; IMAGE is a file or -");
+    command.add_option("--fps", arguments.fps, "Frames per second of --y4m (default 30)")
+        ->check(whole_number(1, 1000))
+        ->type_name("N");
+}
+
+void check_animation_options(const RenderArguments& arguments)
+{
+    const AnimationArguments& animation = arguments.animation;
+    if (animation.frame && animation.many())
+        throw CLI::ValidationError("--frame: one frame only; leave out --frames and --y4m");
+    if (animation.overwrite && (!animation.frames || animation.y4m))
+        throw CLI::ValidationError("--overwrite: only --frames into picture files skips any");
+    if (animation.frames)
+        (void)checked("--frames", [&] { return parse_frame_range(*animation.frames); });
+    if (animation.frames && !animation.y4m)
+        (void)checked("--output", [&] { return FramePattern(arguments.output); });
+}
+
+void go_to_frame(Scene& scene, int frame)
+{
+    scene.camera = checked("--frame", [&] { return camera_at(scene, frame); });
+}
+
+void render_animation(const RenderArguments& arguments, const Scene& scene,
+                      const RenderOptions& options)
+{
+    const FrameRange range = frames_of(arguments.animation, scene);
+    const auto output = arguments.animation.y4m ? frame_stream(arguments) : frame_files(arguments);
+    const Tally tally = render_frames(arguments, scene, options, range, *output);
+    if (!arguments.quiet)
+        print_tally(arguments.output == "-" ? "standard output" : arguments.output, tally);
+}
+
+}  // namespace packtrace::cli
