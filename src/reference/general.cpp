@@ -2,14 +2,16 @@
 
 #include "reference/model_of.hpp"
 #include "reference/shadow.hpp"
+#include "reference/tree_recorder.hpp"
 
 #include <algorithm>
 #include <cmath>
 
 namespace packtrace::reference {
 
-template <class Real>
-General<Real>::General(const Scene& scene, const World<Real>& world) : world_(world)
+template <class Real, class Recorder>
+General<Real, Recorder>::General(const Scene& scene, const World<Real>& world, Recorder record)
+    : record_(record), world_(world)
 {
     for (const Object& object : scene.objects) {
         const auto& from = model_of<GeneralMaterial>(object);
@@ -23,53 +25,59 @@ General<Real>::General(const Scene& scene, const World<Real>& world) : world_(wo
         at_limit_ = world.background;
 }
 
-template <class Real>
-Color<Real> General<Real>::intensity(const Ray<Real>& ray, int depth) const
+template <class Real, class Recorder>
+Color<Real> General<Real, Recorder>::intensity(const Ray<Real>& ray, int depth) const
 {
+    const auto traced = record_.ray(ray.org, ray.dir);
     const auto at = closest_surface(world_, ray);
     if (!at)
-        return world_.background;
+        return record_.miss(world_.background);
+    record_.hit(at->t, at->object, at->P, at->N);
     const Coefficients& k = coefficients_[static_cast<std::size_t>(at->object)];
-    Color<Real> sum = local(k, *at, -ray.dir);
+    Color<Real> sum = record_.local(local(k, *at, -ray.dir));
 
     const auto refracted = any_positive(k.kt) ? glass_.refraction_ray(ray, *at) : std::nullopt;
     // Total internal reflection moves kt's share to the reflected ray.
     const Color<Real> kr = refracted ? k.kr : k.kr + k.kt;
-    if (any_positive(kr))
+    if (any_positive(kr)) {
+        record_.mirrored(kr);
         sum += kr * child(reflection_ray(ray, *at), depth);
-    if (refracted)
+    }
+    if (refracted) {
+        record_.refracted(k.kt);
         sum += k.kt * child(*refracted, depth);
+    }
     return sum;
 }
 
-template <class Real>
-Color<Real> General<Real>::child(const Ray<Real>& ray, int depth) const
+template <class Real, class Recorder>
+Color<Real> General<Real, Recorder>::child(const Ray<Real>& ray, int depth) const
 {
-    return depth <= 0 ? at_limit_ : intensity(ray, depth - 1);
+    return depth <= 0 ? record_.limit(at_limit_) : intensity(ray, depth - 1);
 }
 
-template <class Real>
-Color<Real> General<Real>::local(const Coefficients& k, const SurfacePoint<Real>& at,
-                                 const Vec3<Real>& V) const
+template <class Real, class Recorder>
+Color<Real> General<Real, Recorder>::local(const Coefficients& k, const SurfacePoint<Real>& at,
+                                           const Vec3<Real>& V) const
 {
     Color<Real> sum = k.ka * world_.ambient;
     for (const LightSource<Real>& light : world_.lights) {
         if (light.type == LightType::ambient)
             continue;
         const WayToLight<Real> way = way_to_light(light, at.P);
-        const Color<Real> s = light_share(world_, glass_, at.P, way);
+        const Color<Real> s = record_.share(light.number, light_share(world_, glass_, at.P, way));
         if (!any_positive(s))
             continue;
         const Real n_dot_l = std::max(dot(at.N, way.L), Real(0));
         const Real r_dot_v = dot(reflect_ray(way.L, at.N), V);
         const Real highlight = r_dot_v > 0 ? std::pow(r_dot_v, k.n) : Real(0);
-        sum += s * light.intensity * (k.kd * n_dot_l + k.ks * highlight);
+        sum += record_.adds(s * light.intensity * (k.kd * n_dot_l + k.ks * highlight));
     }
     return sum;
 }
 
-template <class Real>
-Color<Real> General<Real>::trace_ray(const Vec3<Real>& org, const Vec3<Real>& dir) const
+template <class Real, class Recorder>
+Color<Real> General<Real, Recorder>::trace_ray(const Vec3<Real>& org, const Vec3<Real>& dir) const
 {
     return intensity({org, normalize(dir), around_eye_}, world_.max_depth);
 }
@@ -77,5 +85,6 @@ Color<Real> General<Real>::trace_ray(const Vec3<Real>& org, const Vec3<Real>& di
 template class General<float>;
 template class General<double>;
 template class General<long double>;
+template class General<double, TreeRecorder>;
 
 }  // namespace packtrace::reference

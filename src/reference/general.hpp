@@ -1,6 +1,7 @@
 #pragma once
 
 #include "reference/glass.hpp"
+#include "reference/no_recorder.hpp"
 #include "reference/world.hpp"
 
 #include <vector>
@@ -10,7 +11,7 @@ namespace packtrace::reference {
 /// The one equation that all models lower to:
 ///     I(ray) = ka A + sum_j s_j I_j (kd max(0, N.L_j) + ks max(0, R_j.V)^n)
 ///              + kr I(reflected) + kt I(refracted)
-template <class Real>
+template <class Real, class Recorder = NoRecorder>
 class General {
 public:
     struct Coefficients {
@@ -23,7 +24,7 @@ public:
     };
 
     /// `world` must outlive this; `scene` must be lit by Illumination::general.
-    General(const Scene& scene, const World<Real>& world);
+    General(const Scene& scene, const World<Real>& world, Recorder record = {});
 
     /// The light along a ray from the eye at `org`; `dir` need not be unit.
     [[nodiscard]] Color<Real> trace_ray(const Vec3<Real>& org, const Vec3<Real>& dir) const;
@@ -34,6 +35,7 @@ private:
     [[nodiscard]] Color<Real> local(const Coefficients& k, const SurfacePoint<Real>& at,
                                     const Vec3<Real>& V) const;
 
+    [[no_unique_address]] Recorder record_;
     const World<Real>& world_;
     std::vector<Coefficients> coefficients_;  // by object number
     Glass<Real> glass_;

@@ -2,15 +2,16 @@
 
 #include "reference/model_of.hpp"
 #include "reference/shadow.hpp"
+#include "reference/tree_recorder.hpp"
 
 #include <algorithm>
 #include <cmath>
 
 namespace packtrace::reference {
 
-template <class Real>
-Note000<Real>::Note000(const Scene& scene, const World<Real>& world)
-    : world_(world), deepest_(scene.max_depth + 1)
+template <class Real, class Recorder>
+Note000<Real, Recorder>::Note000(const Scene& scene, const World<Real>& world, Recorder record)
+    : record_(record), world_(world), deepest_(scene.max_depth + 1)
 {
     for (const Object& object : scene.objects) {
         const auto& from = model_of<SketchMaterial>(object);
@@ -22,18 +23,20 @@ Note000<Real>::Note000(const Scene& scene, const World<Real>& world)
     around_eye_ = glass_.stack_at(world.bodies, world.canvas.position, world.canvas.forward);
 }
 
-template <class Real>
-Color<Real> Note000<Real>::intensity(const Ray<Real>& r, int depth) const
+template <class Real, class Recorder>
+Color<Real> Note000<Real, Recorder>::intensity(const Ray<Real>& r, int depth) const
 {
     // `depth` is this call's own copy, so nothing needs to take the one off again.
     depth = depth + 1;
     if (depth > deepest_)
-        return world_.background;
+        return record_.limit(world_.background);
+    const auto traced = record_.ray(r.org, r.dir);
 
     // Take closest intersection, which is object[j], and compute normal N there
     const auto at = closest_surface(world_, r);
     if (!at)
-        return escaped(r);
+        return record_.miss(escaped(r));
+    record_.hit(at->t, at->object, at->P, at->N);
     const auto j = static_cast<std::size_t>(at->object);
     const Factors& k = factors_[j];
     const Ray<Real> flec = reflection_ray(r, *at);
@@ -44,21 +47,25 @@ Color<Real> Note000<Real>::intensity(const Ray<Real>& r, int depth) const
     const Color<Real> mirrored = frac ? k.Ks : k.Ks + k.Kr;
 
     Color<Real> spec;
-    if (any_positive(mirrored))
+    if (any_positive(mirrored)) {
+        record_.mirrored(mirrored);
         spec = mirrored * intensity(flec, depth);
+    }
 
     Color<Real> refr;
-    if (frac)
+    if (frac) {
+        record_.refracted(k.Kr);
         refr = k.Kr * intensity(*frac, depth);
+    }
 
     const Color<Real> color = color_at(world_.paints[j], world_.bodies, at->object, at->P);
-    return spec + refr + dull(k, color, *at, flec);
+    return spec + refr + record_.local(dull(k, color, *at, flec));
 }
 
 // "If r parallel to L": L points from the ray's start to the light source, and parallel means
 // that the sine of the angle between them is at most epsilon.
-template <class Real>
-Color<Real> Note000<Real>::escaped(const Ray<Real>& r) const
+template <class Real, class Recorder>
+Color<Real> Note000<Real, Recorder>::escaped(const Ray<Real>& r) const
 {
     Color<Real> seen;
     bool parallel = false;
@@ -75,9 +82,9 @@ Color<Real> Note000<Real>::escaped(const Ray<Real>& r) const
 }
 
 // The note has one light source; here the lit part is summed over all.
-template <class Real>
-Color<Real> Note000<Real>::dull(const Factors& k, const Color<Real>& color,
-                                const SurfacePoint<Real>& at, const Ray<Real>& flec) const
+template <class Real, class Recorder>
+Color<Real> Note000<Real, Recorder>::dull(const Factors& k, const Color<Real>& color,
+                                          const SurfacePoint<Real>& at, const Ray<Real>& flec) const
 {
     Color<Real> sum = k.Ka * color * world_.ambient;
     for (const LightSource<Real>& lsou : world_.lights) {
@@ -85,20 +92,20 @@ Color<Real> Note000<Real>::dull(const Factors& k, const Color<Real>& color,
             continue;
         // Check for shadow
         const WayToLight<Real> way = way_to_light(lsou, at.P);
-        const Color<Real> lit = light_share(world_, glass_, at.P, way);
+        const Color<Real> lit = record_.share(lsou.number, light_share(world_, glass_, at.P, way));
         if (!any_positive(lit))
             continue;
         // Neither cosine may take light away, which the note leaves unsaid.
         const Real n_dot_l = std::max(dot(at.N, way.L), Real(0));
         const Real flec_dot_l = dot(flec.dir, way.L);
         const Real highlight = flec_dot_l > 0 ? std::pow(flec_dot_l, k.S) : Real(0);
-        sum += lit * lsou.intensity * (k.Kd * color * n_dot_l + k.Ks * highlight);
+        sum += record_.adds(lit * lsou.intensity * (k.Kd * color * n_dot_l + k.Ks * highlight));
     }
     return sum;
 }
 
-template <class Real>
-Color<Real> Note000<Real>::trace_ray(const Vec3<Real>& org, const Vec3<Real>& dir) const
+template <class Real, class Recorder>
+Color<Real> Note000<Real, Recorder>::trace_ray(const Vec3<Real>& org, const Vec3<Real>& dir) const
 {
     return intensity({org, normalize(dir), around_eye_}, 0);
 }
@@ -106,5 +113,6 @@ Color<Real> Note000<Real>::trace_ray(const Vec3<Real>& org, const Vec3<Real>& di
 template class Note000<float>;
 template class Note000<double>;
 template class Note000<long double>;
+template class Note000<double, TreeRecorder>;
 
 }  // namespace packtrace::reference

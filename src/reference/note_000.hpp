@@ -1,6 +1,7 @@
 #pragma once
 
 #include "reference/glass.hpp"
+#include "reference/no_recorder.hpp"
 #include "reference/world.hpp"
 
 #include <vector>
@@ -9,7 +10,7 @@ namespace packtrace::reference {
 
 /// Note 000, the Pascal sketch of a recursive `intensity`, under its names. Where it departs, a
 /// comment says so; docs/reference.md gathers the reasons.
-template <class Real>
+template <class Real, class Recorder = NoRecorder>
 class Note000 {
 public:
     /// The note's arrays Ka … S at one object.
@@ -22,7 +23,7 @@ public:
     };
 
     /// `world` must outlive this; `scene` must be lit by Illumination::sketch.
-    Note000(const Scene& scene, const World<Real>& world);
+    Note000(const Scene& scene, const World<Real>& world, Recorder record = {});
 
     /// The light along a ray from the eye at `org`; `dir` need not be unit.
     [[nodiscard]] Color<Real> trace_ray(const Vec3<Real>& org, const Vec3<Real>& dir) const;
@@ -33,6 +34,7 @@ private:
     [[nodiscard]] Color<Real> dull(const Factors& k, const Color<Real>& color,
                                    const SurfacePoint<Real>& at, const Ray<Real>& flec) const;
 
+    [[no_unique_address]] Recorder record_;
     const World<Real>& world_;
     std::vector<Factors> factors_;  // by object number
     Glass<Real> glass_;

@@ -2,13 +2,15 @@
 
 #include "reference/epsilon.hpp"
 #include "reference/model_of.hpp"
+#include "reference/tree_recorder.hpp"
 
 #include <cmath>
 
 namespace packtrace::reference {
 
-template <class Real>
-Note001<Real>::Note001(const Scene& scene, const World<Real>& world) : world_(world)
+template <class Real, class Recorder>
+Note001<Real, Recorder>::Note001(const Scene& scene, const World<Real>& world, Recorder record)
+    : record_(record), world_(world)
 {
     for (const Object& object : scene.objects) {
         const auto& material = model_of<ScratchMaterial>(object);
@@ -18,9 +20,9 @@ Note001<Real>::Note001(const Scene& scene, const World<Real>& world) : world_(wo
     }
 }
 
-template <class Real>
-Color<Real> Note001<Real>::compute_lighting(const Vec3<Real>& P, const Vec3<Real>& N,
-                                            const Vec3<Real>& V, Real s) const
+template <class Real, class Recorder>
+Color<Real> Note001<Real, Recorder>::compute_lighting(const Vec3<Real>& P, const Vec3<Real>& N,
+                                                      const Vec3<Real>& V, Real s) const
 {
     Color<Real> i(0, 0, 0);
     for (const LightSource<Real>& light : world_.lights) {
@@ -33,27 +35,27 @@ Color<Real> Note001<Real>::compute_lighting(const Vec3<Real>& P, const Vec3<Real
         const Real t_max = is_point ? Real(1) : infinity<Real>;
 
         // The listing kept only the `continue` of its shadow check.
-        if (in_shadow(P, L, t_max))
+        if (record_.blocked(light.number, in_shadow(P, L, t_max)))
             continue;
 
         // Diffuse
         const Real n_dot_l = dot(N, L);
         if (n_dot_l > 0)
-            i += light.intensity * (n_dot_l / (length(N) * length(L)));
+            i += record_.adds(light.intensity * (n_dot_l / (length(N) * length(L))));
 
         // Specular; the note lights it also where the light is behind the surface.
         if (s != -1) {
             const Vec3<Real> R = reflect_ray(L, N);
             const Real r_dot_v = dot(R, V);
             if (r_dot_v > 0)
-                i += light.intensity * std::pow(r_dot_v / (length(R) * length(V)), s);
+                i += record_.adds(light.intensity * std::pow(r_dot_v / (length(R) * length(V)), s));
         }
     }
     return i;
 }
 
-template <class Real>
-bool Note001<Real>::in_shadow(const Vec3<Real>& P, const Vec3<Real>& L, Real t_max) const
+template <class Real, class Recorder>
+bool Note001<Real, Recorder>::in_shadow(const Vec3<Real>& P, const Vec3<Real>& L, Real t_max) const
 {
     if (world_.shadows == ShadowKind::none)
         return false;
@@ -63,43 +65,47 @@ bool Note001<Real>::in_shadow(const Vec3<Real>& P, const Vec3<Real>& L, Real t_m
 
 // The note has only spheres and lets N point away from the centre even when seen from inside.
 // Planes and quadrics have no such side: theirs faces the viewer.
-template <class Real>
-Vec3<Real> Note001<Real>::normal(const Hit<Real>& closest, const Vec3<Real>& P,
-                                 const Vec3<Real>& D) const
+template <class Real, class Recorder>
+Vec3<Real> Note001<Real, Recorder>::normal(const Hit<Real>& closest, const Vec3<Real>& P,
+                                           const Vec3<Real>& D) const
 {
     const Vec3<Real> N = outward_normal(world_.bodies, closest, P);
     return is_a_sphere_[static_cast<std::size_t>(closest.object)] ? N : turned_against(N, D);
 }
 
-template <class Real>
-Color<Real> Note001<Real>::trace_ray(const Vec3<Real>& O, const Vec3<Real>& D, Real t_min,
-                                     Real t_max, int depth) const
+template <class Real, class Recorder>
+Color<Real> Note001<Real, Recorder>::trace_ray(const Vec3<Real>& O, const Vec3<Real>& D, Real t_min,
+                                               Real t_max, int depth) const
 {
+    const auto traced = record_.ray(O, D);
     const Hit<Real> closest = closest_intersection(world_.bodies, O, D, t_min, t_max);
     if (!closest)
-        return world_.background;
+        return record_.miss(world_.background);
 
     // Compute local color
     const auto object = static_cast<std::size_t>(closest.object);
     const Vec3<Real> P = O + closest.t * D;
     const Vec3<Real> N = normal(closest, P, D);
+    record_.hit(closest.t, closest.object, P, N);
     const Color<Real> color = color_at(world_.paints[object], world_.bodies, closest.object, P);
     const Color<Real> local_color = color * compute_lighting(P, N, -D, shadings_[object].specular);
+    record_.tint(color);
 
     // If we hit the recursion limit or the object is not reflective, we're done
     const Real r = shadings_[object].reflective;
     if (depth <= 0 || r <= 0)
-        return local_color;
+        return record_.local(local_color);
 
     // Compute the reflected color
     const Vec3<Real> R = reflect_ray(-D, N);
+    record_.mirrored(Color<Real>(r, r, r));
     const Color<Real> reflected_color = trace_ray(P, R, epsilon<Real>, infinity<Real>, depth - 1);
 
-    return local_color * (1 - r) + reflected_color * r;
+    return record_.local(local_color * (1 - r)) + reflected_color * r;
 }
 
-template <class Real>
-Color<Real> Note001<Real>::trace_ray(const Vec3<Real>& O, const Vec3<Real>& D) const
+template <class Real, class Recorder>
+Color<Real> Note001<Real, Recorder>::trace_ray(const Vec3<Real>& O, const Vec3<Real>& D) const
 {
     return trace_ray(O, D, 1, infinity<Real>, world_.max_depth);
 }
@@ -107,5 +113,6 @@ Color<Real> Note001<Real>::trace_ray(const Vec3<Real>& O, const Vec3<Real>& D) c
 template class Note001<float>;
 template class Note001<double>;
 template class Note001<long double>;
+template class Note001<double, TreeRecorder>;
 
 }  // namespace packtrace::reference

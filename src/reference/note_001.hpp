@@ -1,5 +1,6 @@
 #pragma once
 
+#include "reference/no_recorder.hpp"
 #include "reference/world.hpp"
 
 #include <vector>
@@ -9,7 +10,7 @@ namespace packtrace::reference {
 /// Note 001, the complete pseudocode of the raytracing chapters of "Computer Graphics from
 /// Scratch" (Gambetta), function by function and under its names. Where it departs, a comment
 /// says so; docs/reference.md gathers the reasons.
-template <class Real>
+template <class Real, class Recorder = NoRecorder>
 class Note001 {
 public:
     /// The shading keys of an object; its colour is in World::paints.
@@ -19,7 +20,7 @@ public:
     };
 
     /// `world` must outlive this; `scene` must be lit by Illumination::scratch.
-    Note001(const Scene& scene, const World<Real>& world);
+    Note001(const Scene& scene, const World<Real>& world, Recorder record = {});
 
     /// The colour along a camera ray, from the projection plane on.
     [[nodiscard]] Color<Real> trace_ray(const Vec3<Real>& O, const Vec3<Real>& D) const;
@@ -36,6 +37,7 @@ private:
     [[nodiscard]] Vec3<Real> normal(const Hit<Real>& closest, const Vec3<Real>& P,
                                     const Vec3<Real>& D) const;
 
+    [[no_unique_address]] Recorder record_;
     const World<Real>& world_;
     std::vector<Shading> shadings_;           // by object number
     std::vector<unsigned char> is_a_sphere_;  // by object number

@@ -2,14 +2,16 @@
 
 #include "reference/model_of.hpp"
 #include "reference/shadow.hpp"
+#include "reference/tree_recorder.hpp"
 
 #include <algorithm>
 #include <cmath>
 
 namespace packtrace::reference {
 
-template <class Real>
-Note002<Real>::Note002(const Scene& scene, const World<Real>& world) : world_(world)
+template <class Real, class Recorder>
+Note002<Real, Recorder>::Note002(const Scene& scene, const World<Real>& world, Recorder record)
+    : record_(record), world_(world)
 {
     for (const Object& object : scene.objects) {
         const auto& from = model_of<WhittedMaterial>(object);
@@ -21,16 +23,18 @@ Note002<Real>::Note002(const Scene& scene, const World<Real>& world) : world_(wo
     around_eye_ = glass_.stack_at(world.bodies, world.canvas.position, world.canvas.forward);
 }
 
-template <class Real>
-Color<Real> Note002<Real>::intensity(const Ray<Real>& ray, int depth) const
+template <class Real, class Recorder>
+Color<Real> Note002<Real, Recorder>::intensity(const Ray<Real>& ray, int depth) const
 {
+    const auto traced = record_.ray(ray.org, ray.dir);
     const auto at = closest_surface(world_, ray);
     if (!at)
-        return world_.background;
+        return record_.miss(world_.background);
+    record_.hit(at->t, at->object, at->P, at->N);
     const auto object = static_cast<std::size_t>(at->object);
     const Constants& k = constants_[object];
     const Color<Real> color = color_at(world_.paints[object], world_.bodies, at->object, at->P);
-    const Color<Real> local = lights(k, color, *at, -ray.dir);
+    const Color<Real> local = record_.local(lights(k, color, *at, -ray.dir));
 
     // The note's ray tree has no end of its own. Where ours ends, R and T are left out.
     if (depth <= 0)
@@ -42,10 +46,12 @@ Color<Real> Note002<Real>::intensity(const Ray<Real>& ray, int depth) const
 
     Color<Real> sum = local;
     if (any_positive(mirrored)) {
+        record_.mirrored(mirrored);
         const Color<Real> R = intensity(reflection_ray(ray, *at), depth - 1);
         sum += mirrored * R;
     }
     if (refracted) {
+        record_.refracted(k.kt);
         const Color<Real> T = intensity(*refracted, depth - 1);
         sum += k.kt * T;
     }
@@ -54,16 +60,17 @@ Color<Real> Note002<Real>::intensity(const Ray<Real>& ray, int depth) const
 
 // Ia + kd sum(N.Lj) + ks sum((Rj.V)^ns), each light by its intensity and the share of it that
 // the blockers pass on.
-template <class Real>
-Color<Real> Note002<Real>::lights(const Constants& k, const Color<Real>& color,
-                                  const SurfacePoint<Real>& at, const Vec3<Real>& V) const
+template <class Real, class Recorder>
+Color<Real> Note002<Real, Recorder>::lights(const Constants& k, const Color<Real>& color,
+                                            const SurfacePoint<Real>& at, const Vec3<Real>& V) const
 {
     Color<Real> sum = k.Ia * color * world_.ambient;
     for (const LightSource<Real>& light : world_.lights) {
         if (light.type == LightType::ambient)
             continue;
         const WayToLight<Real> way = way_to_light(light, at.P);
-        const Color<Real> seen = light_share(world_, glass_, at.P, way);
+        const Color<Real> seen =
+            record_.share(light.number, light_share(world_, glass_, at.P, way));
         if (!any_positive(seen))
             continue;
         const Vec3<Real> Lj = way.L;
@@ -71,13 +78,13 @@ Color<Real> Note002<Real>::lights(const Constants& k, const Color<Real>& color,
         const Real n_dot_l = std::max(dot(at.N, Lj), Real(0));
         const Real r_dot_v = dot(Rj, V);
         const Real highlight = r_dot_v > 0 ? std::pow(r_dot_v, k.ns) : Real(0);
-        sum += seen * light.intensity * (k.kd * color * n_dot_l + k.ks * highlight);
+        sum += record_.adds(seen * light.intensity * (k.kd * color * n_dot_l + k.ks * highlight));
     }
     return sum;
 }
 
-template <class Real>
-Color<Real> Note002<Real>::trace_ray(const Vec3<Real>& org, const Vec3<Real>& dir) const
+template <class Real, class Recorder>
+Color<Real> Note002<Real, Recorder>::trace_ray(const Vec3<Real>& org, const Vec3<Real>& dir) const
 {
     return intensity({org, normalize(dir), around_eye_}, world_.max_depth);
 }
@@ -85,5 +92,6 @@ Color<Real> Note002<Real>::trace_ray(const Vec3<Real>& org, const Vec3<Real>& di
 template class Note002<float>;
 template class Note002<double>;
 template class Note002<long double>;
+template class Note002<double, TreeRecorder>;
 
 }  // namespace packtrace::reference

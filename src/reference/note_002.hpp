@@ -1,6 +1,7 @@
 #pragma once
 
 #include "reference/glass.hpp"
+#include "reference/no_recorder.hpp"
 #include "reference/world.hpp"
 
 #include <vector>
@@ -10,7 +11,7 @@ namespace packtrace::reference {
 /// Note 002, Whitted's "An Improved Illumination Model for Shaded Display" (1980) as its author
 /// modified it: I = Ia + kd sum(N.Lj) + ks R + kt T with the highlight (Rj.V)^ns, and light
 /// through a transparent blocker. Under the note's names; docs/reference.md gathers departures.
-template <class Real>
+template <class Real, class Recorder = NoRecorder>
 class Note002 {
 public:
     struct Constants {
@@ -22,7 +23,7 @@ public:
     };
 
     /// `world` must outlive this; `scene` must be lit by Illumination::whitted.
-    Note002(const Scene& scene, const World<Real>& world);
+    Note002(const Scene& scene, const World<Real>& world, Recorder record = {});
 
     /// The light along a ray from the eye at `org`; `dir` need not be unit.
     [[nodiscard]] Color<Real> trace_ray(const Vec3<Real>& org, const Vec3<Real>& dir) const;
@@ -32,6 +33,7 @@ private:
     [[nodiscard]] Color<Real> lights(const Constants& k, const Color<Real>& color,
                                      const SurfacePoint<Real>& at, const Vec3<Real>& V) const;
 
+    [[no_unique_address]] Recorder record_;
     const World<Real>& world_;
     std::vector<Constants> constants_;  // by object number
     Glass<Real> glass_;

@@ -2,6 +2,7 @@
 
 #include "reference/epsilon.hpp"
 #include "reference/model_of.hpp"
+#include "reference/tree_recorder.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -46,8 +47,9 @@ std::pair<Vec3<Real>, Real> to_light(const PlacedBody<Real>& object, const Vec3<
 
 }  // namespace
 
-template <class Real>
-Note004<Real>::Note004(const Scene& scene, const World<Real>& world) : world_(world)
+template <class Real, class Recorder>
+Note004<Real, Recorder>::Note004(const Scene& scene, const World<Real>& world, Recorder record)
+    : record_(record), world_(world)
 {
     for (const Object& object : scene.objects) {
         object_list_.push_back(place_body<Real>(object, static_cast<int>(object_list_.size())));
@@ -58,9 +60,9 @@ Note004<Real>::Note004(const Scene& scene, const World<Real>& world) : world_(wo
     }
 }
 
-template <class Real>
-void Note004<Real>::minimum_intersection(const Vec3<Real>& e, const Vec3<Real>& d,
-                                         std::vector<Tuple>& list) const
+template <class Real, class Recorder>
+void Note004<Real, Recorder>::minimum_intersection(const Vec3<Real>& e, const Vec3<Real>& d,
+                                                   std::vector<Tuple>& list) const
 {
     list.clear();
     for (int k = 0; k < static_cast<int>(object_list_.size()); ++k) {
@@ -76,9 +78,10 @@ void Note004<Real>::minimum_intersection(const Vec3<Real>& e, const Vec3<Real>& 
     });
 }
 
-template <class Real>
-Color<Real> Note004<Real>::shader(const Tuple& intersection, const Vec3<Real>& d,
-                                  const Vec3<Real>& e, const LightSource<Real>& light) const
+template <class Real, class Recorder>
+Color<Real> Note004<Real, Recorder>::shader(const Tuple& intersection, const Vec3<Real>& d,
+                                            const Vec3<Real>& e,
+                                            const LightSource<Real>& light) const
 {
     const auto& [k, t0, part] = intersection;
     const PlacedBody<Real>& object = object_list_[static_cast<std::size_t>(k)];
@@ -99,14 +102,16 @@ Color<Real> Note004<Real>::shader(const Tuple& intersection, const Vec3<Real>& d
     const Real Id = std::max(dot(N, S), Real(0));
     const Real Is = std::max(dot(R, V), Real(0));
     Real f = r[0];
-    if (!shadowed(object, I, S, distance))
+    if (!record_.blocked(light.number, shadowed(object, I, S, distance)))
         f = r[0] + r[1] * Id + r[2] * std::pow(Is, r[3]);
+    // r0 is ambient light, which nothing keeps off.
+    (void)record_.adds((f - r[0]) * (c * Li));
     return f * (c * Li);
 }
 
-template <class Real>
-bool Note004<Real>::shadowed(const PlacedBody<Real>& shaded, const Vec3<Real>& own_I,
-                             const Vec3<Real>& own_S, Real distance) const
+template <class Real, class Recorder>
+bool Note004<Real, Recorder>::shadowed(const PlacedBody<Real>& shaded, const Vec3<Real>& own_I,
+                                       const Vec3<Real>& own_S, Real distance) const
 {
     if (world_.shadows == ShadowKind::none)
         return false;
@@ -126,22 +131,27 @@ bool Note004<Real>::shadowed(const PlacedBody<Real>& shaded, const Vec3<Real>& o
 }
 
 // The note has one light source; here the colours of all are summed.
-template <class Real>
-Color<Real> Note004<Real>::trace_ray(const Vec3<Real>& e, const Vec3<Real>& d) const
+template <class Real, class Recorder>
+Color<Real> Note004<Real, Recorder>::trace_ray(const Vec3<Real>& e, const Vec3<Real>& d) const
 {
     thread_local std::vector<Tuple> list;  // kept, so that no ray allocates
     const Vec3<Real> direction = normalize(d);
+    const auto traced = record_.ray(e, direction);
     minimum_intersection(e, direction, list);
     if (list.empty())
-        return world_.background;
+        return record_.miss(world_.background);
+    const Tuple& first = list.front();
+    record_.outward_hit(world_.bodies, Hit<Real>{first.t0, first.k, first.part},
+                        e + direction * first.t0);
     Color<Real> color;
     for (const LightSource<Real>& light : world_.lights)
-        color += shader(list.front(), direction, e, light);
-    return color;
+        color += shader(first, direction, e, light);
+    return record_.local(color);
 }
 
 template class Note004<float>;
 template class Note004<double>;
 template class Note004<long double>;
+template class Note004<double, TreeRecorder>;
 
 }  // namespace packtrace::reference

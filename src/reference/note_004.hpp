@@ -1,6 +1,7 @@
 #pragma once
 
 #include "reference/bodies.hpp"
+#include "reference/no_recorder.hpp"
 #include "reference/world.hpp"
 
 #include <vector>
@@ -11,7 +12,7 @@ namespace packtrace::reference {
 /// and under its names. Where it departs, a comment says so; docs/reference.md gathers the
 /// reasons. Shading happens in the object's own space, as the note has it, which gives the
 /// lengths and angles of world space only under similarities.
-template <class Real>
+template <class Real, class Recorder = NoRecorder>
 class Note004 {
 public:
     /// The note's (k, t0), with the piece of a capped quadric that was hit.
@@ -22,7 +23,7 @@ public:
     };
 
     /// `world` must outlive this; `scene` must be lit by Illumination::shader.
-    Note004(const Scene& scene, const World<Real>& world);
+    Note004(const Scene& scene, const World<Real>& world, Recorder record = {});
 
     /// The light along a ray from the camera at `e`; `d` need not be unit.
     [[nodiscard]] Color<Real> trace_ray(const Vec3<Real>& e, const Vec3<Real>& d) const;
@@ -46,6 +47,7 @@ private:
         Real r[4];
     };
 
+    [[no_unique_address]] Recorder record_;
     const World<Real>& world_;
     std::vector<PlacedBody<Real>> object_list_;
     std::vector<Material> materials_;

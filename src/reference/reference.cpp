@@ -1,46 +1,49 @@
 #include "reference/reference.hpp"
 
+#include "reference/tree_recorder.hpp"
+
 namespace packtrace::reference {
 
-template <class Real>
-typename Reference<Real>::Note Reference<Real>::choose_note(const Scene& scene,
-                                                            const World<Real>& world)
+template <class Real, class Recorder>
+typename Reference<Real, Recorder>::Note Reference<Real, Recorder>::choose_note(
+    const Scene& scene, const World<Real>& world, Recorder record)
 {
     switch (scene.illumination) {
         case Illumination::sketch:
-            return Note000<Real>(scene, world);
+            return Note000<Real, Recorder>(scene, world, record);
         case Illumination::scratch:
-            return Note001<Real>(scene, world);
+            return Note001<Real, Recorder>(scene, world, record);
         case Illumination::whitted:
-            return Note002<Real>(scene, world);
+            return Note002<Real, Recorder>(scene, world, record);
         case Illumination::shader:
-            return Note004<Real>(scene, world);
+            return Note004<Real, Recorder>(scene, world, record);
         case Illumination::general:
             break;
     }
-    return General<Real>(scene, world);
+    return General<Real, Recorder>(scene, world, record);
 }
 
-template <class Real>
-Reference<Real>::Reference(const Scene& scene) : world_(scene), note_(choose_note(scene, world_))
+template <class Real, class Recorder>
+Reference<Real, Recorder>::Reference(const Scene& scene, Recorder record)
+    : world_(scene), note_(choose_note(scene, world_, record))
 {
 }
 
-template <class Real>
-Color<Real> Reference<Real>::trace_ray(const Vec3<Real>& org, const Vec3<Real>& dir) const
+template <class Real, class Recorder>
+Color<Real> Reference<Real, Recorder>::trace_ray(const Vec3<Real>& org, const Vec3<Real>& dir) const
 {
     return std::visit([&](const auto& note) { return note.trace_ray(org, dir); }, note_);
 }
 
-template <class Real>
-Color<Real> Reference<Real>::trace_pixel(int i, int j) const
+template <class Real, class Recorder>
+Color<Real> Reference<Real, Recorder>::trace_pixel(int i, int j) const
 {
     return trace_ray(world_.canvas.position, world_.canvas.canvas_to_viewport(i, j));
 }
 
 // The last lines of note 001, one row of them.
-template <class Real>
-void Reference<Real>::trace_row(int j, Image<Real>& image) const
+template <class Real, class Recorder>
+void Reference<Real, Recorder>::trace_row(int j, Image<Real>& image) const
 {
     const auto trace_with = [&](const auto& note) {
         for (int i = 0; i < image.width; ++i) {
@@ -55,5 +58,6 @@ void Reference<Real>::trace_row(int j, Image<Real>& image) const
 template class Reference<float>;
 template class Reference<double>;
 template class Reference<long double>;
+template class Reference<double, TreeRecorder>;
 
 }  // namespace packtrace::reference

@@ -15,11 +15,12 @@ namespace packtrace::reference {
 
 /// A scene made ready for the scalar reference in one precision. Tracing changes nothing, so
 /// that pixels may be traced from several threads.
-template <class Real>
+/// `Recorder` is told what the note does; see NoRecorder.
+template <class Real, class Recorder = NoRecorder>
 class Reference {
 public:
     /// Throws std::invalid_argument for a material of another model than the scene's.
-    explicit Reference(const Scene& scene);
+    explicit Reference(const Scene& scene, Recorder record = {});
     Reference(const Reference&) = delete;
     Reference& operator=(const Reference&) = delete;
 
@@ -40,9 +41,11 @@ public:
 
 private:
     using Note =
-        std::variant<Note000<Real>, Note001<Real>, Note002<Real>, Note004<Real>, General<Real>>;
+        std::variant<Note000<Real, Recorder>, Note001<Real, Recorder>, Note002<Real, Recorder>,
+                     Note004<Real, Recorder>, General<Real, Recorder>>;
 
-    [[nodiscard]] static Note choose_note(const Scene& scene, const World<Real>& world);
+    [[nodiscard]] static Note choose_note(const Scene& scene, const World<Real>& world,
+                                          Recorder record);
 
     World<Real> world_;
     Note note_;

@@ -16,7 +16,8 @@ World<Real>::World(const Scene& scene)
         const Vec3<Real> vector(light.vector);
         const bool directional = light.type == LightType::directional;
         lights.push_back({light.type, Color<Real>(light.intensity), vector,
-                          directional ? normalize(vector) : Vec3<Real>()});
+                          directional ? normalize(vector) : Vec3<Real>(),
+                          static_cast<int>(lights.size())});
         if (light.type == LightType::ambient)
             ambient += Color<Real>(light.intensity);
     }

@@ -19,6 +19,7 @@ struct LightSource {
     Color<Real> intensity;
     Vec3<Real> vector;  ///< a point light's position, or the way to a directional light
     Vec3<Real> unit;    ///< the way to a directional light, normalised
+    int number = 0;     ///< in Scene::lights
 };
 
 /// What every note needs of a scene, converted once to the precision of the reference.
