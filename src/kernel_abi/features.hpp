@@ -7,6 +7,7 @@ namespace packtrace::abi {
 struct Features {
     bool quadrics = false;  ///< surfaces other than spheres and planes
     bool glass = false;     ///< refracted rays, or shadows that let light through
+    bool probe = false;     ///< reports of single rays to TileJob::probe
 };
 
 /// The feature sets compiled in; a scene runs the first that covers it.
@@ -14,12 +15,15 @@ inline constexpr Features feature_sets[] = {
     {.quadrics = false, .glass = false},
     {.quadrics = true, .glass = false},
     {.quadrics = true, .glass = true},
+    {.quadrics = true, .glass = true, .probe = true},
 };
-inline constexpr int feature_set_count = 3;
+inline constexpr int feature_set_count = 4;
 
+/// A probe is never chosen for a scene that does not ask for it.
 constexpr bool covers(Features set, Features needed)
 {
-    return (set.quadrics || !needed.quadrics) && (set.glass || !needed.glass);
+    return (set.quadrics || !needed.quadrics) && (set.glass || !needed.glass) &&
+           set.probe == needed.probe;
 }
 
 }  // namespace packtrace::abi

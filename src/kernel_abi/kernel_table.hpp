@@ -5,6 +5,7 @@
 
 #include "kernel_abi/features.hpp"
 #include "kernel_abi/onedim.hpp"
+#include "kernel_abi/probe.hpp"
 #include "kernel_abi/ray_streams.hpp"
 #include "kernel_abi/scene_view.hpp"
 #include "kernel_abi/self_test.hpp"
@@ -29,6 +30,8 @@ struct TileJob {
     std::ptrdiff_t row_stride = 0;  ///< elements from one row to the next
     /// Working memory of `scratch_bytes`, 64-byte aligned, one per thread.
     void* scratch = nullptr;
+    /// Must be set for kernels of Features::probe, and is not looked at by others.
+    const Probe<Real>* probe = nullptr;
 };
 
 /// Closest hits of a tile's camera rays, without shading. Rays are numbered along the tile's
@@ -53,7 +56,7 @@ struct FeatureKernels {
     Features features;
     std::size_t (*scratch_bytes)(const SceneView<Real>& scene) = nullptr;
     RayCounts (*render_tile)(const TileJob<Real>& job) = nullptr;
-    /// The tile's camera rays only; `rgb` is not used.
+    /// The tile's camera rays only; `rgb` is not used. Null for kernels of Features::probe.
     void (*closest_tile)(const TileJob<Real>& job, TileHits<Real>& hits) = nullptr;
 };
 

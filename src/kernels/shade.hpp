@@ -11,7 +11,8 @@ namespace {
 template <abi::Features F, class Real>
 inline Vec3v<Real> light_color(const ShadeContext<Real>& context, int number,
                                const SurfacePacket<Real>& surface,
-                               const MaterialPacket<Real>& material, std::uint32_t active)
+                               const MaterialPacket<Real>& material,
+                               const PacketProbe<F.probe, Real>& probe, std::uint32_t active)
 {
     const abi::LightRecord<Real>& light = context.scene->lights.data[number];
     const LightPacket<Real> packet = light_at(light, surface, material, active);
@@ -19,21 +20,27 @@ inline Vec3v<Real> light_color(const ShadeContext<Real>& context, int number,
         if (context.scene->transparent_shadows && packet.wanted != 0) {
             const Vec3v<Real> share =
                 transmitted<F>(context, number, packet, surface.point, packet.wanted);
-            return share * lit_color(light, packet, material, packet.wanted & any_channel(share));
+            const Vec3v<Real> color =
+                share * lit_color(light, packet, material, packet.wanted & any_channel(share));
+            probe.light(number, packet.wanted, share, color);
+            return color;
         }
     }
-    return lit_color(light, packet, material,
-                     unshadowed<F>(context, number, packet, surface.point, packet.wanted));
+    const std::uint32_t lit = unshadowed<F>(context, number, packet, surface.point, packet.wanted);
+    const Vec3v<Real> color = lit_color(light, packet, material, lit);
+    probe.light(number, packet.wanted, lit, color);
+    return color;
 }
 
 template <abi::Features F, class Real>
 inline Vec3v<Real> local_color(const ShadeContext<Real>& context,
                                const SurfacePacket<Real>& surface,
-                               const MaterialPacket<Real>& material, std::uint32_t active)
+                               const MaterialPacket<Real>& material,
+                               const PacketProbe<F.probe, Real>& probe, std::uint32_t active)
 {
     Vec3v<Real> color = material.ambient;
     for (int i = 0; i < context.scene->lights.count; ++i)
-        color = color + light_color<F>(context, i, surface, material, active);
+        color = color + light_color<F>(context, i, surface, material, probe, active);
     return color;
 }
 
@@ -73,19 +80,24 @@ inline void shade_packet(const ShadeContext<Real>& context, const HitStream<F, R
                          const Children<F, Real>& children)
 {
     const std::uint32_t active = first_lanes<Real>(hits.count - first);
-    const PathPacket<Real> path{load3(hits.weight, first), load(hits.pixel + first)};
+    const PathPacket<Real> path{load3(hits.weight, first), load(hits.pixel + first),
+                                load_path(hits, first)};
+    const PacketProbe<F.probe, Real> probe = packet_probe(hits, path, active);
     const SurfacePacket<Real> surface =
         surface_at<F>(*context.scene, load3(hits.point, first), load3(hits.dir, first),
                       load(hits.surface + first), active);
     const MaterialPacket<Real> material = fetch_materials(*context.scene, surface.material, active);
 
-    Vec3v<Real> color = local_color<F>(context, surface, material, active);
+    Vec3v<Real> color = local_color<F>(context, surface, material, probe, active);
     if (context.spawns()) {
         color = color * material.local;
+        probe.hit(surface, color);
         spawn_children(context, children, surface, material, path, load_glass(hits, first), active);
     } else {
         const Vec3v<Real> share = material.reflect + material.transmit;
-        color = madd<Real>(share, broadcast(context.scene->limit_color), color);
+        const Vec3v<Real> limit = broadcast(context.scene->limit_color);
+        probe.last_hit(surface, color, share, limit);
+        color = madd<Real>(share, limit, color);
     }
     write_colors<Write>(pixels, path.pixel, path.weight * color, active);
 }

@@ -1,7 +1,6 @@
 #pragma once
 
-#include "kernels/glass.hpp"
-#include "kernels/tile_memory.hpp"
+#include "kernels/probe.hpp"
 
 // Children of a packet of hits: mirrored and refracted rays, appended to streams.
 namespace packtrace::PACKTRACE_ISA {
@@ -27,19 +26,22 @@ inline void append_glass(RayStream<F, Real>& next, const GlassPacket<Real>& insi
             compress_store(next.inside[i] + next.count, active, inside.body[i]);
 }
 
+/// The children's ids: `branch` is 0 for mirrored and 1 for refracted rays.
+template <abi::Features F, class Real>
+inline void append_path(RayStream<F, Real>& next, const vint<Real>& parent, int branch,
+                        std::uint32_t active)
+{
+    if constexpr (F.probe)
+        compress_store(next.path + next.count, active,
+                       parent + parent + vint<Real>(static_cast<lane_int<Real>>(branch)));
+}
+
 template <class Real>
 inline Vec3v<Real> mirrored(const SurfacePacket<Real>& surface)
 {
     const vreal<Real> twice = dot(surface.normal, surface.dir) * vreal<Real>(Real(-2));
     return madd<Real>(twice, surface.normal, surface.dir);
 }
-
-/// A hit's share of its pixel, and where that is.
-template <class Real>
-struct PathPacket {
-    Vec3v<Real> weight;
-    vint<Real> pixel;
-};
 
 template <abi::Features F, class Real>
 inline void spawn_mirrored(RayStream<F, Real>& next, const SurfacePacket<Real>& surface,
@@ -50,6 +52,7 @@ inline void spawn_mirrored(RayStream<F, Real>& next, const SurfacePacket<Real>& 
         return;
     append_ray(next, surface.point, mirrored(surface), path.weight * reflect, path.pixel, active);
     append_glass(next, inside, active);
+    append_path(next, path.id, 0, active);
     next.count += __builtin_popcount(active);
 }
 
@@ -62,6 +65,7 @@ inline void spawn_refracted(RayStream<F, Real>& next, const SurfacePacket<Real>&
         return;
     append_ray(next, surface.point, refracted.dir, path.weight * transmit, path.pixel, active);
     append_glass(next, refracted.inside, active);
+    append_path(next, path.id, 1, active);
     next.count += __builtin_popcount(active);
 }
 

@@ -29,7 +29,10 @@ void power_of_arrays(const Real* x, const Real* n, Real* y, int count)
 template <abi::Features F, class Real>
 constexpr abi::FeatureKernels<Real> feature_kernels()
 {
-    return {F, scratch_bytes<F, Real>, render_tile<F, Real>, closest_tile<F, Real>};
+    if constexpr (F.probe)
+        return {F, scratch_bytes<F, Real>, render_tile<F, Real>, nullptr};
+    else
+        return {F, scratch_bytes<F, Real>, render_tile<F, Real>, closest_tile<F, Real>};
 }
 
 template <class Real>
@@ -40,6 +43,7 @@ constexpr abi::PrecisionTable<Real> precision_table()
     table.kernels[0] = feature_kernels<abi::feature_sets[0], Real>();
     table.kernels[1] = feature_kernels<abi::feature_sets[1], Real>();
     table.kernels[2] = feature_kernels<abi::feature_sets[2], Real>();
+    table.kernels[3] = feature_kernels<abi::feature_sets[3], Real>();
     constexpr abi::Features any_surface{.quadrics = true};
     table.closest_hits = closest_hits<any_surface, Real>;
     table.occluded = occluded_rays<any_surface, Real>;

@@ -87,7 +87,9 @@ inline abi::RayCounts render_tile(const abi::TileJob<Real>& job)
     find_objects<F>(work.visible, camera_beam(job), scene);
     fill_pixels(memory.color, scene.background);
     memory.hits.count = 0;
-    if (!work.visible.empty() || scene.visible_lights)
+    if constexpr (F.probe)
+        memory.hits.probe = job.probe;
+    if (F.probe || !work.visible.empty() || scene.visible_lights)
         trace_camera(job, work.visible, memory);
 
     const TileRun<F, Real> run{scene, work, counts};

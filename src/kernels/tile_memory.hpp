@@ -28,9 +28,19 @@ struct GlassArrays<true, F, Real> {
     StreamArray<F, lane_int<Real>> inside[abi::glass_depth];
 };
 
+/// Where each ray's path came along, and whom to tell, only with a probe.
+template <bool Probe, abi::Features F, class Real>
+struct PathArrays {
+};
+template <abi::Features F, class Real>
+struct PathArrays<true, F, Real> {
+    StreamArray<F, lane_int<Real>> path;
+    const abi::Probe<Real>* probe;  ///< set in hits
+};
+
 /// Rays of one generation, in an order that does not depend on the packet width.
 template <abi::Features F, class Real>
-struct alignas(64) RayStream : GlassArrays<F.glass, F, Real> {
+struct alignas(64) RayStream : GlassArrays<F.glass, F, Real>, PathArrays<F.probe, F, Real> {
     StreamArray<F, Real> org[3];
     StreamArray<F, Real> dir[3];
     StreamArray<F, Real> weight[3];        ///< throughput of the path so far, per channel
@@ -40,7 +50,7 @@ struct alignas(64) RayStream : GlassArrays<F.glass, F, Real> {
 
 /// The rays of a chunk that hit something, where they did.
 template <abi::Features F, class Real>
-struct alignas(64) HitStream : GlassArrays<F.glass, F, Real> {
+struct alignas(64) HitStream : GlassArrays<F.glass, F, Real>, PathArrays<F.probe, F, Real> {
     StreamArray<F, Real> point[3];
     StreamArray<F, Real> dir[3];
     StreamArray<F, Real> weight[3];
@@ -83,6 +93,16 @@ inline GlassPacket<Real> load_glass(const Stream<F, Real>& stream, int first)
     return glass;
 }
 
+/// The paths of a packet of a stream; nothing is read where there is no probe.
+template <template <abi::Features, class> class Stream, abi::Features F, class Real>
+inline vint<Real> load_path(const Stream<F, Real>& stream, int first)
+{
+    if constexpr (F.probe)
+        return load(stream.path + first);
+    else
+        return vint<Real>(lane_int<Real>(0));
+}
+
 template <class Element>
 inline void copy(Element* to, const Element* from, int count)
 {
@@ -103,6 +123,8 @@ inline void append_stream(RayStream<F, Real>& to, const RayStream<F, Real>& from
     if constexpr (F.glass)
         for (int i = 0; i < abi::glass_depth; ++i)
             copy(to.inside[i] + to.count, from.inside[i], from.count);
+    if constexpr (F.probe)
+        copy(to.path + to.count, from.path, from.count);
     to.count += from.count;
 }
 

@@ -30,6 +30,8 @@ inline void append_hits(HitStream<F, Real>& hits, const TracedRays<Real>& from,
     if constexpr (F.glass)
         for (int i = 0; i < abi::glass_depth; ++i)
             compress_store(hits.inside[i] + hits.count, active, from.inside.body[i]);
+    if constexpr (F.probe)
+        compress_store(hits.path + hits.count, active, from.path.id);
     hits.count += __builtin_popcount(active);
 }
 
@@ -81,6 +83,15 @@ inline Vec3v<Real> escaped(const abi::SceneView<Real>& scene, const RayPacket<Re
     return select(from_bits<Real>(any_seen), seen, background);
 }
 
+template <abi::Features F, class Real>
+inline void report_rays(const HitStream<F, Real>& hits, const abi::SceneView<Real>& scene,
+                        const TracedRays<Real>& from, const HitPacket<Real>& hit,
+                        std::uint32_t active)
+{
+    if constexpr (F.probe)
+        packet_probe(hits, from.path, active).ray(scene, from.rays, hit, escaped(scene, from.rays));
+}
+
 /// The camera rays of a tile; the pixels hold the background already.
 template <abi::Features F, class Real>
 inline void trace_camera(const abi::TileJob<Real>& job, const SharedOriginObjects<Real>& visible,
@@ -97,8 +108,11 @@ inline void trace_camera(const abi::TileJob<Real>& job, const SharedOriginObject
         HitPacket<Real> hit = no_hit<Real>(static_cast<Real>(__builtin_inf()));
         closest_hit<F>(hit, visible, rays);
         const std::uint32_t hits = hit_lanes(hit) & pixels;
-        const TracedRays<Real> from{rays, {{one, one, one}, lane_numbers<Real>(first)}, inside};
+        const vint<Real> path(lane_int<Real>{abi::camera_path});
+        const TracedRays<Real> from{
+            rays, {{one, one, one}, lane_numbers<Real>(first), path}, inside};
         append_hits(memory.hits, from, hit, hits);
+        report_rays(memory.hits, *job.scene, from, hit, pixels);
         if (job.scene->visible_lights)
             write_colors<PixelWrite::set>(memory.color, from.path.pixel, escaped(*job.scene, rays),
                                           pixels & ~hits);
@@ -115,12 +129,13 @@ inline void trace_secondary(const abi::SceneView<Real>& scene, const RayStream<F
         const std::uint32_t active = first_lanes<Real>(end - first);
         const TracedRays<Real> from{
             make_rays<Real>(load3(stream.org, first), load3(stream.dir, first), scene.epsilon),
-            {load3(stream.weight, first), load(stream.pixel + first)},
+            {load3(stream.weight, first), load(stream.pixel + first), load_path(stream, first)},
             load_glass(stream, first)};
         HitPacket<Real> hit = no_hit<Real>(static_cast<Real>(__builtin_inf()));
         closest_hit<F>(hit, scene, from.rays);
         const std::uint32_t hits = hit_lanes(hit) & active;
         append_hits(memory.hits, from, hit, hits);
+        report_rays(memory.hits, scene, from, hit, active);
         write_colors<PixelWrite::add>(memory.color, from.path.pixel,
                                       from.path.weight * escaped(scene, from.rays), active & ~hits);
     }
