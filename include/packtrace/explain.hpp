@@ -60,7 +60,7 @@ template <class Real>
 struct TreeRow {
     std::string ray;    ///< "camera", "camera, mirrored", "camera, mirrored, refracted" …
     int depth = 0;      ///< generation of the ray
-    std::string field;  ///< "origin", "t", "light 2 share" …; "object" holds the object's index
+    std::string field;  ///< "origin", "t", "object" (its index), "light 2 share" (counted from 1) …
     /// One or three numbers; none where this tree does not know the quantity.
     std::vector<double> first, second;
     bool differs = false;

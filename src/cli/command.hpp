@@ -17,6 +17,7 @@ struct Failed {};
 // throwing: std::exception for bad input (exit 1), CLI::Error for wrong use (exit 2).
 void add_compare(CLI::App& app);
 void add_demo(CLI::App& app);
+void add_explain(CLI::App& app);
 void add_info(CLI::App& app);
 void add_intersect(CLI::App& app);
 void add_onedim(CLI::App& app);

@@ -24,6 +24,7 @@ int run(int argc, char** argv)
     app.require_subcommand(0, 1);
     add_render(app);
     add_compare(app);
+    add_explain(app);
     add_info(app);
     add_intersect(app);
     add_demo(app);

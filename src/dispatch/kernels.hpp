@@ -1,5 +1,6 @@
 #pragma once
 
+#include <stdexcept>
 #include <string>
 #include <vector>
 
@@ -30,7 +31,7 @@ template <class Real>
     for (const auto& kernels : table.kernels)
         if (abi::covers(kernels.features, needed))
             return kernels;
-    return table.kernels[abi::feature_set_count - 1];
+    throw std::logic_error("no kernels know all that the scene uses");
 }
 
 }  // namespace packtrace

@@ -1,0 +1,36 @@
+#pragma once
+
+#include <iosfwd>
+#include <string>
+#include <vector>
+
+#include <packtrace/explain.hpp>
+#include <packtrace/scene.hpp>
+
+#include <nlohmann/json.hpp>
+
+namespace packtrace::cli {
+
+/// A pixel's ray trees and what `explain` says above them.
+struct Explanation {
+    std::string file;
+    int x = 0;
+    int y = 0;
+    std::string precision;  ///< of the packets: "single" or "double"
+    std::string isa;
+    double tolerance = 0.0;
+    RayNode reference;
+    RayNode packets;
+    std::vector<TreeRow> rows;
+};
+
+/// The first row in which the trees differ, or null.
+[[nodiscard]] const TreeRow* first_difference(const Explanation& explanation);
+
+/// An indented tree, the reference's numbers beside the packets'.
+void print_explanation(std::ostream& to, const Scene& scene, const Explanation& explanation);
+
+[[nodiscard]] nlohmann::ordered_json explanation_json(const Scene& scene,
+                                                      const Explanation& explanation);
+
+}  // namespace packtrace::cli
