@@ -1,6 +1,4 @@
 // Every scene in scenes/ with packets and with the scalar reference.
-#include <packtrace/read_scene.hpp>
-
 #include <cstring>
 #include <filesystem>
 
@@ -9,33 +7,12 @@
 
 #include "catch.hpp"
 #include "render_scene.hpp"
-#include "scenes.hpp"
+#include "scene_files.hpp"
 
 namespace packtrace::test {
 namespace {
 
 namespace fs = std::filesystem;
-
-/// What there is, so that a new scene needs no line here.
-std::vector<fs::path> scene_files()
-{
-    std::vector<fs::path> files;
-    for (const auto& entry : fs::directory_iterator(fs::path(PACKTRACE_SOURCE_DIR) / "scenes"))
-        if (entry.path().extension() == ".scene")
-            files.push_back(entry.path());
-    std::sort(files.begin(), files.end());
-    REQUIRE(files.size() >= 11);
-    return files;
-}
-
-/// Small, of odd sides, and of about the scene's own shape.
-Scene small_scene(const fs::path& file)
-{
-    Scene scene = read_scene(file);
-    const int height = 51;
-    set_size(scene, (height * scene.width / scene.height) | 1, height);
-    return scene;
-}
 
 std::string worst_pixel(const Comparison& comparison)
 {

@@ -2,6 +2,7 @@
 
 #include "kernels/closest_tile.hpp"
 #include "kernels/onedim.hpp"
+#include "kernels/probe_kernels.hpp"
 #include "kernels/ray_streams.hpp"
 #include "kernels/self_test.hpp"
 #include "kernels/tile.hpp"
@@ -30,7 +31,7 @@ template <abi::Features F, class Real>
 constexpr abi::FeatureKernels<Real> feature_kernels()
 {
     if constexpr (F.probe)
-        return {F, scratch_bytes<F, Real>, render_tile<F, Real>, nullptr};
+        return {F, probe_scratch_bytes, probe_tile, nullptr};
     else
         return {F, scratch_bytes<F, Real>, render_tile<F, Real>, closest_tile<F, Real>};
 }

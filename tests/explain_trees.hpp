@@ -1,0 +1,44 @@
+#pragma once
+
+#include <functional>
+#include <string>
+#include <vector>
+
+#include <packtrace/explain.hpp>
+
+// Short calls for the tests of ray trees.
+namespace packtrace::test {
+
+[[nodiscard]] inline RayNode reference_tree(const Scene& scene, int x, int y)
+{
+    RenderOptions options;
+    options.kernel = Kernel::scalar;
+    return explain_pixel<double>(scene, x, y, options);
+}
+
+template <class Real>
+[[nodiscard]] RayNode packet_tree(const Scene& scene, int x, int y, const std::string& isa = "auto")
+{
+    RenderOptions options;
+    options.isa = isa;
+    return explain_pixel<Real>(scene, x, y, options);
+}
+
+inline void visit_tree(const RayNode& tree, const std::function<void(const RayNode&)>& visit)
+{
+    visit(tree);
+    for (const RayNode& child : tree.children)
+        visit_tree(child, visit);
+}
+
+/// "ray: field" of the first row in which the trees differ.
+[[nodiscard]] inline std::string first_difference(const RayNode& first, const RayNode& second,
+                                                  double tolerance = double_tree_tolerance)
+{
+    for (const TreeRow& row : side_by_side(first, second, tolerance))
+        if (row.differs)
+            return row.ray + ": " + row.field;
+    return "none";
+}
+
+}  // namespace packtrace::test

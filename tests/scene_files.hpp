@@ -1,0 +1,37 @@
+#pragma once
+
+#include <algorithm>
+#include <filesystem>
+#include <vector>
+
+#include <packtrace/read_scene.hpp>
+
+#include "catch.hpp"
+#include "scenes.hpp"
+
+// The scenes of the folder scenes/, small.
+namespace packtrace::test {
+
+/// What there is, so that a new scene needs no line here.
+[[nodiscard]] inline std::vector<std::filesystem::path> scene_files()
+{
+    namespace fs = std::filesystem;
+    std::vector<fs::path> files;
+    for (const auto& entry : fs::directory_iterator(fs::path(PACKTRACE_SOURCE_DIR) / "scenes"))
+        if (entry.path().extension() == ".scene")
+            files.push_back(entry.path());
+    std::sort(files.begin(), files.end());
+    REQUIRE(files.size() >= 11);
+    return files;
+}
+
+/// Small, of odd sides, and of about the scene's own shape.
+[[nodiscard]] inline Scene small_scene(const std::filesystem::path& file)
+{
+    Scene scene = read_scene(file);
+    const int height = 51;
+    set_size(scene, (height * scene.width / scene.height) | 1, height);
+    return scene;
+}
+
+}  // namespace packtrace::test

@@ -1,0 +1,120 @@
+// The program's `explain`.
+#include <packtrace/read_scene.hpp>
+
+#include <nlohmann/json.hpp>
+
+#include "catch.hpp"
+#include "explain_trees.hpp"
+#include "run_program.hpp"
+#include "scenes.hpp"
+
+namespace packtrace::test {
+namespace {
+
+const std::string four_spheres_file = PACKTRACE_SOURCE_DIR "/scenes/four_spheres.scene";
+
+ProgramResult explain(const std::vector<std::string>& more)
+{
+    std::vector<std::string> words{"explain", four_spheres_file, "--size", "40x30"};
+    words.insert(words.end(), more.begin(), more.end());
+    return run_packtrace(words);
+}
+
+bool has(const std::string& text, const std::string& part)
+{
+    return text.find(part) != std::string::npos;
+}
+
+/// The line that starts with `label`, after its indent.
+std::string line_of(const std::string& text, const std::string& label)
+{
+    const std::size_t at = text.find(label);
+    return at == std::string::npos ? "" : text.substr(at, text.find('\n', at) - at);
+}
+
+}  // namespace
+
+TEST_CASE("explain prints both trees beside each other", "[explain_cli]")
+{
+    const ProgramResult result = explain({"--pixel", "20,15"});
+    CHECK(result.exit_code == 0);
+    CHECK(result.err.empty());
+    CHECK(has(result.out, "pixel 20,15 of 40 x 30\n"));
+    CHECK(has(result.out, "\ncamera ray\n"));
+    CHECK(has(result.out, "\n  mirrored ray\n"));
+    const std::string object = line_of(result.out, "object ");
+    CHECK(object.find("red") != object.rfind("red"));
+    CHECK(has(result.out, "no difference beyond 0.0001\n"));
+    CHECK_FALSE(has(result.out, "<--"));
+}
+
+TEST_CASE("explain marks the first difference alone", "[explain_cli]")
+{
+    // The canvas point (-0.4, 0.1): its ray touches the blue sphere to the last digit.
+    const ProgramResult result = run_packtrace({"explain", four_spheres_file, "--size", "10x10",
+                                                "--pixel", "1,3", "--precision", "double"});
+    CHECK(result.exit_code == 0);
+    const std::size_t mark = result.out.find("<-- first difference");
+    REQUIRE(mark != std::string::npos);
+    CHECK(result.out.find("<--", mark + 1) == std::string::npos);
+    CHECK(has(result.out, "first difference beyond 1e-09: camera"));
+}
+
+TEST_CASE("explain gives both trees in JSON", "[explain_cli]")
+{
+    const ProgramResult result = explain({"--pixel", "20,15", "--json", "--precision", "double"});
+    CHECK(result.exit_code == 0);
+    const auto json = nlohmann::json::parse(result.out);
+    CHECK(json["pixel"] == nlohmann::json{{"x", 20}, {"y", 15}});
+    CHECK(json["width"] == 40);
+    CHECK(json["precision"] == "double");
+    CHECK(json["first_difference"].is_null());
+
+    Scene scene = read_scene(four_spheres_file);
+    set_size(scene, 40, 30);
+    const RayNode tree = reference_tree(scene, 20, 15);
+    for (const char* const side : {"reference", "packets"}) {
+        const auto& root = json[side]["tree"];
+        CHECK(root["kind"] == "camera");
+        CHECK(root["object"] == scene.objects[static_cast<std::size_t>(tree.object)].name);
+        CHECK(std::abs(root["t"].get<double>() - tree.t) <= 1e-9);
+        CHECK(root["lights"].size() == tree.lights.size());
+        REQUIRE(root["children"].size() == 1);
+        CHECK(root["children"][0]["kind"] == "mirrored");
+        CHECK(std::abs(json[side]["color"][0].get<double>() - sum_of(tree).x) <= 1e-9);
+    }
+}
+
+TEST_CASE("explain takes the depth, the instruction set and the width", "[explain_cli]")
+{
+    const ProgramResult flat = explain({"--pixel", "20,15", "--depth", "0"});
+    CHECK(flat.exit_code == 0);
+    CHECK_FALSE(has(flat.out, "mirrored ray"));
+    const IsaInfo narrow = list_isas().front();
+    CHECK(has(explain({"--pixel", "1,1", "--isa", narrow.name}).out, narrow.name + ", single"));
+    CHECK(explain({"--pixel", "1,1", "--width", "4"}).exit_code == 0);
+    CHECK(explain({"--pixel", "1,1", "--width", "5"}).exit_code == 2);
+}
+
+TEST_CASE("explain names the picture's size for a pixel outside it", "[explain_cli]")
+{
+    for (const char* const pixel : {"40,0", "0,30", "99999,99999"}) {
+        const ProgramResult result = explain({"--pixel", pixel});
+        CHECK(result.exit_code == 2);
+        CHECK(result.out.empty());
+        CHECK_THAT(result.err, ContainsSubstring("40 x 30"));
+    }
+    CHECK(explain({"--pixel", "39,29"}).exit_code == 0);
+}
+
+TEST_CASE("explain refuses what is no pixel, and a scene that is not there", "[explain_cli]")
+{
+    for (const char* const pixel :
+         {"", "3", "3,", ",3", "3x4", "-1,2", "1,-2", "1,2,3", "1, 2", "a,b", "99999999999,1"})
+        CHECK(explain({std::string("--pixel=") + pixel}).exit_code == 2);
+    CHECK(explain({}).exit_code == 2);
+    CHECK(explain({"--pixel", "1,1", "--precision", "extended"}).exit_code == 2);
+    CHECK(run_packtrace({"explain", "no such.scene", "--pixel", "1,1"}).exit_code == 1);
+}
+
+}  // namespace packtrace::test
