@@ -83,11 +83,9 @@ TEST_CASE("every command has a help text", "[cli]")
 
 TEST_CASE("a command's help names its options", "[cli]")
 {
-    const std::vector<std::pair<std::string, std::string>> options{{"render", "--precision"},
-                                                                   {"compare", "--max-error"},
-                                                                   {"info", "--json"},
-                                                                   {"intersect", "--any"},
-                                                                   {"demo", "--rounds"}};
+    const std::vector<std::pair<std::string, std::string>> options{
+        {"render", "--precision"}, {"compare", "--max-error"}, {"info", "--json"},
+        {"intersect", "--any"},    {"explain", "--pixel"},     {"demo", "--rounds"}};
     for (const auto& [command, option] : options)
         CHECK_THAT(run_packtrace({command, "--help"}).out, ContainsSubstring(option));
 }
