@@ -1,4 +1,5 @@
 // The program's `explain`.
+#include <packtrace/isa.hpp>
 #include <packtrace/read_scene.hpp>
 
 #include <nlohmann/json.hpp>
