@@ -4,7 +4,8 @@
 # Kernel objects are compiled for more than the machine may have. A symbol that other objects
 # could share (an inline function's weak copy, say) would let the linker put such code into the
 # whole program. So each symbol of the objects must be in packtrace::NAMESPACE, the weak and
-# local ones too; undefined ones must be functions of libc that compilers call on their own.
+# local ones too; undefined ones must be there as well, in another object of the same
+# instruction set, or be functions of libc that compilers call on their own.
 set -u
 nm=$1
 namespace=$2
@@ -23,7 +24,8 @@ for object in "$@"; do
     defined=$(printf '%s\n' "$names" | awk '!($2 ~ /^[Uwv]$/ && NF < 4) {print $1}')
 
     foreign=$(printf '%s\n' "$defined" | grep -Ev "$ours")
-    wanted=$(printf '%s\n' "$undefined" | grep -v '^$' | grep -Evx "$allowed_undefined")
+    wanted=$(printf '%s\n' "$undefined" | grep -v '^$' | grep -Evx "$allowed_undefined" |
+        grep -Ev "$ours")
     ours_count=$(printf '%s\n' "$defined" | grep -Ec "$ours")
     if [ -n "$foreign$wanted" ]; then
         echo "$object: symbols outside packtrace::$namespace:"

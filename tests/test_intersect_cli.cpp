@@ -10,6 +10,7 @@
 #include <vector>
 
 #include <packtrace/intersect.hpp>
+#include <packtrace/isa.hpp>
 #include <packtrace/read_scene.hpp>
 
 #include "catch.hpp"
@@ -118,7 +119,8 @@ template <class Real>
 void check_round_trip(const std::string& precision)
 {
     const RandomRays<Real> rays(5000);
-    const ProgramResult result = intersect(rays.text, {"--precision", precision});
+    const ProgramResult result =
+        intersect(rays.text, {"--precision", precision, "--isa", choose_isa().name});
     REQUIRE(result.exit_code == 0);
     const Scene scene = parse_scene(hand_scene, "hand.scene");
     std::vector<Real> t(5000);
