@@ -56,7 +56,7 @@ TEST_CASE("every command has a help text that names its options", "[cli]")
     const std::vector<std::pair<Words, std::string>> helps{
         {{"--help"}, "Subcommands:"},           {{"render", "--help"}, "--precision"},
         {{"compare", "--help"}, "--max-error"}, {{"info", "--help"}, "--json"},
-        {{"demo", "--help"}, "--rounds"},
+        {{"demo", "--help"}, "--rounds"},       {{"onedim", "--help"}, "--keep-going"},
     };
     for (const auto& [words, option] : helps) {
         const ProgramResult result = run_packtrace(words);
