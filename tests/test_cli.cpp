@@ -1,4 +1,4 @@
-#include <cstdlib>
+#include <sstream>
 #include <string>
 #include <utility>
 #include <vector>
@@ -36,6 +36,22 @@ ProgramResult render_small(const std::string& scene, const std::string& output, 
     return run_packtrace(words, environment);
 }
 
+// The words that `packtrace --help` lists under its heading for subcommands, which CLI11
+// spells with small letters before its version 2.5.
+Words listed_commands()
+{
+    std::istringstream help(run_packtrace({"--help"}).out);
+    Words commands;
+    bool listing = false;
+    for (std::string line; std::getline(help, line);) {
+        if (line.starts_with("Subcommands:") || line.starts_with("SUBCOMMANDS:"))
+            listing = true;
+        else if (listing && line.size() > 2 && line[2] != ' ')
+            commands.push_back(line.substr(2, line.find(' ', 2) - 2));
+    }
+    return commands;
+}
+
 bool is_one_line(const std::string& text)
 {
     return !text.empty() && text.find('\n') == text.size() - 1;
@@ -51,25 +67,29 @@ Scene small_scene()
 
 }  // namespace
 
-TEST_CASE("every command has a help text that names its options", "[cli]")
+TEST_CASE("every command has a help text", "[cli]")
 {
-    const std::vector<std::pair<Words, std::string>> helps{
-        {{"--help"}, "Subcommands:"},           {{"render", "--help"}, "--precision"},
-        {{"compare", "--help"}, "--max-error"}, {{"info", "--help"}, "--json"},
-        {{"demo", "--help"}, "--rounds"},       {{"onedim", "--help"}, "--keep-going"},
-    };
-    for (const auto& [words, option] : helps) {
-        const ProgramResult result = run_packtrace(words);
+    const Words commands = listed_commands();
+    REQUIRE(commands.size() >= 4);
+    for (const std::string& command : commands) {
+        const ProgramResult result = run_packtrace({command, "--help"});
+        INFO(command);
         CHECK(result.exit_code == 0);
         CHECK(result.err.empty());
-        CHECK_THAT(result.out, ContainsSubstring(option));
+        CHECK_THAT(result.out, ContainsSubstring("packtrace " + command));
         CHECK_THAT(result.out, ContainsSubstring("--help"));
     }
-    // Commands that are listed have their own help above.
-    const std::string listed = run_packtrace({"--help"}).out;
-    const std::string commands = listed.substr(listed.find("Subcommands:"));
-    CHECK(std::count(commands.begin(), commands.end(), '\n') <=
-          static_cast<std::ptrdiff_t>(helps.size() + 1));
+}
+
+TEST_CASE("a command's help names its options", "[cli]")
+{
+    const std::vector<std::pair<std::string, std::string>> options{{"render", "--precision"},
+                                                                   {"compare", "--max-error"},
+                                                                   {"info", "--json"},
+                                                                   {"demo", "--rounds"},
+                                                                   {"onedim", "--keep-going"}};
+    for (const auto& [command, option] : options)
+        CHECK_THAT(run_packtrace({command, "--help"}).out, ContainsSubstring(option));
 }
 
 TEST_CASE("the version is one line", "[cli]")
