@@ -1,5 +1,5 @@
-// A writer of its own, because stb_image_write's costs more than the rendering: it compresses
-// on one thread, copies the picture three times and filters a byte at a time. Here bands of
+// A writer of its own, because stb_image_write with libdeflate runs on one thread, and so costs
+// more than a rendering on two (10.5 ms to 8 at 1024 x 1024, results/png.json). Here bands of
 // rows are rounded, filtered and compressed in parallel, each an IDAT chunk of its own.
 #include <libdeflate.h>
 
