@@ -103,7 +103,7 @@ template <class Real>
 inline batch<Real> highlight_power(batch<Real> x, batch<Real> n)
 {
     const TwoPart<Real> log = log2_two_part<Real>(x);
-    const vreal<Real> smallest(Real(FloatFormat<Real>::smallest_exponent));
+    const vreal<Real> smallest(static_cast<Real>(FloatFormat<Real>::smallest_exponent));
     const vreal<Real> y_high = n * log.high;
     const vreal<Real> y_low = madd(n, log.low, exact_msub(n, log.high, y_high));
 
