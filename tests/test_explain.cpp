@@ -6,6 +6,7 @@
 #include <set>
 #include <string>
 
+#include "dispatch/kernels.hpp"
 #include "explain_trees.hpp"
 #include "render_scene.hpp"
 #include "scene_files.hpp"
@@ -170,9 +171,15 @@ TEST_CASE("a planted difference is found at its ray", "[explain]")
     CHECK(planted([](Scene& s) { s.lights[0].intensity *= 1.1; }) == "camera: local");
     CHECK(planted([](Scene& s) { s.background = {0.1, 0.2, 0.4}; }) == "none");
     CHECK(planted([](Scene& s) { s.camera.position.x += 1e-3; }) == "camera: origin");
-    CHECK(planted([](Scene& s) {
-              std::get<WhittedMaterial>(s.objects[0].material.model).specular = Rgb(0.4);
-          }) != "none");
+    const auto dull = [](Scene& s) {
+        std::get<WhittedMaterial>(s.objects[0].material.model).specular = Rgb(0.4);
+    };
+    CHECK(planted(dull) == "camera: light 2 color");
+    const auto dull_and_dark = [&](Scene& s) {
+        dull(s);
+        s.lights.clear();
+    };
+    CHECK(planted(dull_and_dark, 0.9) == "camera: light 2 share");
 }
 
 TEST_CASE("another object and a missing ray always differ", "[explain]")
@@ -233,6 +240,20 @@ TEST_CASE("a path of 28 bounces in floats keeps its number", "[explain]")
     int rays = 0;
     visit_tree(packet_tree<float>(scene, 10, 10), [&](const RayNode&) { ++rays; });
     CHECK(rays == 29);
+}
+
+TEST_CASE("no scene gets the kernels with the probe but for explain", "[explain]")
+{
+    for (const abi::KernelTable* table : all_kernels())
+        for (const bool quadrics : {false, true})
+            for (const bool glass : {false, true}) {
+                const abi::Features needed{.quadrics = quadrics, .glass = glass};
+                abi::Features probed = needed;
+                probed.probe = true;
+                CHECK_FALSE(kernels_for(table->single_precision, needed).features.probe);
+                CHECK_FALSE(kernels_for(table->double_precision, needed).features.probe);
+                CHECK(kernels_for(table->single_precision, probed).features.probe);
+            }
 }
 
 TEST_CASE("a pixel outside the picture is refused", "[explain]")

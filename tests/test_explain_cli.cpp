@@ -2,6 +2,12 @@
 #include <packtrace/isa.hpp>
 #include <packtrace/read_scene.hpp>
 
+#include <algorithm>
+#include <cmath>
+#include <cstdlib>
+#include <iterator>
+#include <sstream>
+
 #include <nlohmann/json.hpp>
 
 #include "catch.hpp"
@@ -33,7 +39,42 @@ std::string line_of(const std::string& text, const std::string& label)
     return at == std::string::npos ? "" : text.substr(at, text.find('\n', at) - at);
 }
 
+/// What stands between spaces and commas from the table's head on.
+std::vector<std::string> table_words(const std::string& text)
+{
+    const std::size_t head = text.find("reference   ");
+    const std::size_t end = text.find("no difference", head);
+    REQUIRE(end != std::string::npos);
+    std::string table = text.substr(head, end - head);
+    std::replace(table.begin(), table.end(), ',', ' ');
+    std::istringstream words(table);
+    return {std::istream_iterator<std::string>(words), {}};
+}
+
+/// The same word, or for numbers close to it: the last digit depends on the instruction set.
+bool is_alike(const std::string& a, const std::string& b)
+{
+    char* end = nullptr;
+    const double x = std::strtod(a.c_str(), &end);
+    if (a == b || end != a.c_str() + a.size())
+        return a == b;
+    const double y = std::strtod(b.c_str(), &end);
+    return end == b.c_str() + b.size() && std::abs(x - y) <= 2e-6 * std::max(1.0, std::abs(x));
+}
+
 }  // namespace
+
+TEST_CASE("the example of docs/explain.md is what explain prints", "[explain_cli]")
+{
+    const auto page = table_words(read_text(PACKTRACE_SOURCE_DIR "/docs/explain.md"));
+    const auto printed = table_words(explain({"--pixel", "30,20", "--depth", "1"}).out);
+    CHECK(printed.size() > 100);
+    REQUIRE(page.size() == printed.size());
+    for (std::size_t i = 0; i < page.size(); ++i) {
+        CAPTURE(page[i], printed[i]);
+        CHECK(is_alike(page[i], printed[i]));
+    }
+}
 
 TEST_CASE("explain prints both trees beside each other", "[explain_cli]")
 {
