@@ -5,6 +5,7 @@
 
 #include <packtrace/image.hpp>
 #include <packtrace/scene.hpp>
+#include <packtrace/traversal.hpp>
 
 namespace packtrace {
 
@@ -14,6 +15,7 @@ struct RenderOptions {
     Kernel kernel = Kernel::packet;
     std::string isa = "auto";  ///< packet kernel: see choose_isa
     int width = 0;             ///< packet kernel: float lanes 4, 8 or 16; 0 is any
+    Traversal traversal = Traversal::automatic;  ///< packet kernel
     int threads = 0;           ///< 0: all of the TBB arena the call runs in
     /// Called now and then with the share of the picture done, in [0, 1]; may be called from
     /// any thread, one at a time.

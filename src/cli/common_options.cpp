@@ -84,9 +84,35 @@ void add_kernel_options(CLI::App& command, KernelArguments& arguments)
                     "single (default), double, or extended (scalar only)")
         ->check(one_of({"single", "double", "extended"}))
         ->type_name("single|double|extended");
+    command
+        .add_option("--traversal", arguments.traversal,
+                    "How packets find objects: one by one, through a hierarchy of boxes, or "
+                    "(default) as their number suggests")
+        ->check(one_of({"auto", "list", "tree"}))
+        ->type_name("auto|list|tree");
     add_isa_options(command, arguments.isa);
     add_threads_option(command, arguments.threads);
 }
+
+namespace {
+
+Traversal traversal_named(const std::string& name)
+{
+    return name == "list"   ? Traversal::list
+           : name == "tree" ? Traversal::tree
+                            : Traversal::automatic;
+}
+
+/// The option given that only packets have, or nothing.
+std::string packet_option(const KernelArguments& arguments)
+{
+    return arguments.isa.isa     ? "--isa"
+           : arguments.isa.width ? "--width"
+           : arguments.traversal ? "--traversal"
+                                 : "";
+}
+
+}  // namespace
 
 IsaInfo chosen_isa(const IsaArguments& arguments)
 {
@@ -113,8 +139,8 @@ RenderOptions render_options(const KernelArguments& arguments)
     options.threads = arguments.threads;
     if (arguments.kernel == "scalar") {
         options.kernel = Kernel::scalar;
-        if (arguments.isa.isa || arguments.isa.width)
-            throw CLI::ValidationError(std::string(arguments.isa.isa ? "--isa" : "--width") +
+        if (const std::string option = packet_option(arguments); !option.empty())
+            throw CLI::ValidationError(option +
                                        ": only packets have one; leave it out or use "
                                        "--kernel packet");
         return options;
@@ -123,6 +149,7 @@ RenderOptions render_options(const KernelArguments& arguments)
         throw CLI::ValidationError(
             "--precision: packets are single or double; extended needs --kernel scalar");
     options.isa = chosen_isa(arguments.isa).name;
+    options.traversal = traversal_named(arguments.traversal.value_or("auto"));
     return options;
 }
 

@@ -23,9 +23,11 @@ struct PictureArguments {
     std::optional<int> depth;
 };
 
-/// How to render it: `--kernel`, `--precision`, `--threads` and those of IsaArguments.
+/// How to render it: `--kernel`, `--precision`, `--traversal`, `--threads` and those of
+/// IsaArguments.
 struct KernelArguments {
     std::string kernel = "packet";
+    std::optional<std::string> traversal;
     std::string precision = "single";
     IsaArguments isa;
     int threads = 0;

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "kernel_abi/bvh.hpp"
 #include "kernel_abi/lists.hpp"
 #include "kernel_abi/shading.hpp"
 
@@ -21,6 +22,7 @@ struct SceneView {
     RecordList<HugeSphere<Real>> huge_spheres;
     RecordList<PlaneRecord<Real>> planes;
     RecordList<QuadricRecord<Real>> quadrics;
+    BvhView<Real> tree;  ///< holds what the lists do not
 
     const SurfaceRecord<Real>* surfaces = nullptr;               ///< by surface; planes, spheres
     const CurvedSurfaceRecord<Real>* curved_surfaces = nullptr;  ///< by surface; every kind

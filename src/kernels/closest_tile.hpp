@@ -25,6 +25,14 @@ inline void closest_tile(const abi::TileJob<Real>& job, abi::TileHits<Real>& hit
     Arena arena(job.scratch);
     SharedOriginObjects<Real> visible = take_objects(arena, scene);
     find_objects<F>(visible, camera_beam(job), scene);
+    if (!scene.tree.empty()) {
+        auto& group = *arena.take<RayGroup<Real>>(1);
+        gather_camera(job, group);
+        closest_of_group<F>(scene, visible, group);
+        __builtin_memcpy(hits.t, group.t, sizeof hits.t);
+        __builtin_memcpy(hits.surface, group.surface, sizeof hits.surface);
+        return;
+    }
     if (visible.empty()) {
         store_misses(hits);
         return;

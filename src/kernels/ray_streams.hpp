@@ -1,9 +1,10 @@
 #pragma once
 
 #include "kernel_abi/ray_streams.hpp"
-#include "kernels/closest.hpp"
-#include "kernels/occluded.hpp"
+#include "kernels/group_closest.hpp"
 #include "kernels/surface.hpp"
+#include "kernels/tree_blockers.hpp"
+#include "kernels/tree_crossings.hpp"
 
 // Streams of rays from outside: closest hits, occlusion, all hits.
 namespace packtrace::PACKTRACE_ISA {
@@ -64,6 +65,18 @@ struct StreamPacket {
     }
 };
 
+/// Object numbers of the lanes of `active`, -1 elsewhere.
+template <class Real>
+inline vint<Real> objects_of(const abi::SceneView<Real>& scene, const vint<Real>& surface,
+                             std::uint32_t active)
+{
+    alignas(64) lane_int<Real> number[lanes<Real>];
+    store(number, surface);
+    for (int lane = 0; lane < lanes<Real>; ++lane)
+        number[lane] = active >> lane & 1u ? scene.material_index[number[lane]].object : -1;
+    return load(number);
+}
+
 /// Outward unit normals and object numbers of the lanes of `active`.
 template <abi::Features F, class Real>
 inline SurfacePacket<Real> outward_surface(const abi::SceneView<Real>& scene,
@@ -81,25 +94,68 @@ inline SurfacePacket<Real> outward_surface(const abi::SceneView<Real>& scene,
     return result;
 }
 
+/// Lanes in which nothing is NaN.
+template <class Real>
+inline std::uint32_t numbers(const StreamPacket<Real>& packet)
+{
+    const RayPacket<Real>& rays = packet.rays;
+    const auto is_number = [](const vreal<Real>& x) { return bits(x == x); };
+    return is_number(rays.org.x) & is_number(rays.org.y) & is_number(rays.org.z) &
+           is_number(rays.dir.x) & is_number(rays.dir.y) & is_number(rays.dir.z) &
+           is_number(rays.t_min) & is_number(packet.t_max);
+}
+
+/// Fills a group with the rays of a stream from `begin`, and returns their number.
+template <class Real>
+inline int gather_stream(const abi::RaysView<Real>& view, int begin, RayGroup<Real>& group)
+{
+    const int count = view.count - begin < group_rays ? view.count - begin : group_rays;
+    for (int first = 0; first < count; first += lanes<Real>) {
+        const StreamPacket<Real> packet(view, begin + first);
+        store_rays(group, first, packet.rays);
+        start_rays(group, first, packet.t_max,
+                   first_lanes<Real>(count - first) & numbers(packet));
+    }
+    end_group(group, count);
+    return count;
+}
+
+/// Hands out the hits of a group from `begin` in the stream.
+template <abi::Features F, class Real>
+inline void store_group_hits(const abi::SceneView<Real>& scene, const RayGroup<Real>& group,
+                             const abi::RaysView<Real>& view, int begin, int count,
+                             const abi::HitsView<Real>& hits)
+{
+    for (int first = 0; first < count; first += lanes<Real>) {
+        const HitPacket<Real> hit = load_hits(group, first);
+        const RayPacket<Real> rays = load_rays(group, first);
+        const auto missed = int_equal(hit.surface, vint<Real>(lane_int<Real>(-1)));
+        const int live = count - first;
+        const std::uint32_t found = ~bits(missed) & first_lanes<Real>(live);
+        const int at = begin + first;
+        store_some(hits.t + at, select(missed, load_some(view.t_max + at, live), hit.t), live);
+        if (hits.normal[0] == nullptr) {
+            store_some(hits.object + at, objects_of(scene, hit.surface, found), live);
+            continue;
+        }
+        const SurfacePacket<Real> surface =
+            outward_surface<F>(scene, rays, hit.t, hit.surface, found);
+        store_some(hits.object + at, select(missed, hit.surface, surface.object), live);
+        store_some(hits.normal[0] + at, surface.normal.x, live);
+        store_some(hits.normal[1] + at, surface.normal.y, live);
+        store_some(hits.normal[2] + at, surface.normal.z, live);
+    }
+}
+
 template <abi::Features F, class Real>
 inline void closest_hits(const abi::SceneView<Real>& scene, const abi::RaysView<Real>& view,
                          const abi::HitsView<Real>& hits)
 {
-    for (int first = 0; first < view.count; first += lanes<Real>) {
-        const StreamPacket<Real> packet(view, first);
-        HitPacket<Real> hit{packet.t_max, vint<Real>(lane_int<Real>(-1))};
-        closest_hit<F>(hit, scene, packet.rays);
-        const auto missed = int_equal(hit.surface, vint<Real>(lane_int<Real>(-1)));
-        const std::uint32_t found = ~bits(missed) & first_lanes<Real>(packet.count);
-        const SurfacePacket<Real> surface =
-            outward_surface<F>(scene, packet.rays, hit.t, hit.surface, found);
-        store_some(hits.t + first, hit.t, packet.count);
-        store_some(hits.object + first, select(missed, hit.surface, surface.object), packet.count);
-        if (hits.normal[0] == nullptr)
-            continue;
-        store_some(hits.normal[0] + first, surface.normal.x, packet.count);
-        store_some(hits.normal[1] + first, surface.normal.y, packet.count);
-        store_some(hits.normal[2] + first, surface.normal.z, packet.count);
+    RayGroup<Real> group;
+    for (int begin = 0; begin < view.count; begin += group_rays) {
+        const int count = gather_stream(view, begin, group);
+        closest_of_group<F>(scene, scene, group);
+        store_group_hits<F>(scene, group, view, begin, count, hits);
     }
 }
 
@@ -107,29 +163,35 @@ template <abi::Features F, class Real>
 inline void occluded_rays(const abi::SceneView<Real>& scene, const abi::RaysView<Real>& view,
                           std::uint8_t* mask)
 {
-    for (int first = 0; first < view.count; first += lanes<Real>) {
-        const StreamPacket<Real> packet(view, first);
-        const std::uint32_t wanted = first_lanes<Real>(packet.count);
-        const std::uint32_t blocked =
-            occluded<F>(StreamRange<Real>{packet.t_max}, scene, packet.rays, wanted);
-        const int live = packet.count < lanes<Real> ? packet.count : lanes<Real>;
-        for (int lane = 0; lane < live; ++lane)
-            mask[first + lane] = static_cast<std::uint8_t>((blocked >> lane) & 1u);
+    RayGroup<Real> group;
+    for (int begin = 0; begin < view.count; begin += group_rays) {
+        const int count = gather_stream(view, begin, group);
+        std::uint16_t wanted[group_cells];
+        for (int cell = 0; cell < group_cells; ++cell)
+            wanted[cell] = group.active[cell];
+        visit_blockers_of_group<F, StreamRange<Real>>(
+            scene, scene, group,
+            [](std::int32_t, int, std::uint32_t blocked) { return blocked; });
+        for (int ray = 0; ray < count; ++ray) {
+            const unsigned blocked = wanted[ray / cell_rays] & ~unsigned{group.active[ray / cell_rays]};
+            mask[begin + ray] = static_cast<std::uint8_t>(blocked >> ray % cell_rays & 1u);
+        }
     }
 }
 
 /// Hands the crossings of one surface to the sink.
 template <abi::Features F, class Real>
-inline void report_hits(const abi::SceneView<Real>& scene, const StreamPacket<Real>& packet,
-                        int first, const abi::HitSink<Real>& sink, vmask<Real> valid,
+inline void report_hits(const abi::SceneView<Real>& scene, const RayGroup<Real>& group,
+                        int begin, int first, const abi::HitSink<Real>& sink, vmask<Real> valid,
                         const vreal<Real>& t, std::int32_t surface)
 {
-    std::uint32_t active = bits(valid & (t > packet.rays.t_min) & (t < packet.t_max)) &
-                           first_lanes<Real>(packet.count);
+    const RayPacket<Real> rays = load_rays(group, first);
+    std::uint32_t active = bits(valid & (t > rays.t_min) & (t < load(group.t + first))) &
+                           active_lanes(group, first);
     if (active == 0)
         return;
     const SurfacePacket<Real> at = outward_surface<F>(
-        scene, packet.rays, t, vint<Real>(static_cast<lane_int<Real>>(surface)), active);
+        scene, rays, t, vint<Real>(static_cast<lane_int<Real>>(surface)), active);
     alignas(64) Real ts[lanes<Real>];
     alignas(64) Real normals[3][lanes<Real>];
     store(ts, t);
@@ -140,7 +202,7 @@ inline void report_hits(const abi::SceneView<Real>& scene, const StreamPacket<Re
     for (; active != 0; active &= active - 1) {
         const int lane = __builtin_ctz(active);
         const Real normal[3] = {normals[0][lane], normals[1][lane], normals[2][lane]};
-        sink.take(sink.context, first + lane, ts[lane], object, normal);
+        sink.take(sink.context, begin + first + lane, ts[lane], object, normal);
     }
 }
 
@@ -148,12 +210,22 @@ template <abi::Features F, class Real>
 inline void all_hits(const abi::SceneView<Real>& scene, const abi::RaysView<Real>& view,
                      const abi::HitSink<Real>& sink)
 {
-    for (int first = 0; first < view.count; first += lanes<Real>) {
-        const StreamPacket<Real> packet(view, first);
-        const auto report = [&](vmask<Real> valid, const vreal<Real>& t, std::int32_t surface) {
-            report_hits<F>(scene, packet, first, sink, valid, t, surface);
+    RayGroup<Real> group;
+    for (int begin = 0; begin < view.count; begin += group_rays) {
+        gather_stream(view, begin, group);
+        const auto report = [&](int first, vmask<Real> valid, const vreal<Real>& t,
+                                std::int32_t surface) {
+            report_hits<F>(scene, group, begin, first, sink, valid, t, surface);
         };
-        visit_all_crossings<F>(scene, packet.rays, report);
+        for (int first = 0; first < group_rays; first += lanes<Real>)
+            if (active_lanes(group, first) != 0)
+                visit_all_crossings<F>(scene, load_rays(group, first),
+                                       [&](vmask<Real> valid, const vreal<Real>& t,
+                                           std::int32_t surface) {
+                                           report(first, valid, t, surface);
+                                       });
+        if (!scene.tree.empty())
+            visit_crossings_in_tree<F>(scene.tree, group, report);
     }
 }
 

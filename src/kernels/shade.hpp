@@ -9,38 +9,41 @@ namespace packtrace::PACKTRACE_ISA {
 namespace {
 
 template <abi::Features F, class Real>
-inline Vec3v<Real> light_color(const ShadeContext<Real>& context, int number,
+inline Vec3v<Real> light_color(const ShadeContext<F, Real>& context, int number,
                                const SurfacePacket<Real>& surface,
                                const MaterialPacket<Real>& material,
-                               const PacketProbe<F.probe, Real>& probe, std::uint32_t active)
+                               const PacketProbe<F.probe, Real>& probe, std::uint32_t active,
+                               int first)
 {
     const abi::LightRecord<Real>& light = context.scene->lights.data[number];
     const LightPacket<Real> packet = light_at(light, surface, material, active);
     if constexpr (F.glass) {
         if (context.scene->transparent_shadows && packet.wanted != 0) {
             const Vec3v<Real> share =
-                transmitted<F>(context, number, packet, surface.point, packet.wanted);
+                transmitted<F>(context, number, packet, surface.point, packet.wanted, first);
             const Vec3v<Real> color =
                 share * lit_color(light, packet, material, packet.wanted & any_channel(share));
             probe.light(number, packet.wanted, share, color);
             return color;
         }
     }
-    const std::uint32_t lit = unshadowed<F>(context, number, packet, surface.point, packet.wanted);
+    const std::uint32_t lit =
+        unshadowed<F>(context, number, packet, surface.point, packet.wanted, first);
     const Vec3v<Real> color = lit_color(light, packet, material, lit);
     probe.light(number, packet.wanted, lit, color);
     return color;
 }
 
 template <abi::Features F, class Real>
-inline Vec3v<Real> local_color(const ShadeContext<Real>& context,
+inline Vec3v<Real> local_color(const ShadeContext<F, Real>& context,
                                const SurfacePacket<Real>& surface,
                                const MaterialPacket<Real>& material,
-                               const PacketProbe<F.probe, Real>& probe, std::uint32_t active)
+                               const PacketProbe<F.probe, Real>& probe, std::uint32_t active,
+                               int first)
 {
     Vec3v<Real> color = material.ambient;
     for (int i = 0; i < context.scene->lights.count; ++i)
-        color = color + light_color<F>(context, i, surface, material, probe, active);
+        color = color + light_color<F>(context, i, surface, material, probe, active, first);
     return color;
 }
 
@@ -53,7 +56,7 @@ struct Children {
 };
 
 template <abi::Features F, class Real>
-inline void spawn_children(const ShadeContext<Real>& context, const Children<F, Real>& children,
+inline void spawn_children(const ShadeContext<F, Real>& context, const Children<F, Real>& children,
                            const SurfacePacket<Real>& surface, const MaterialPacket<Real>& material,
                            const PathPacket<Real>& path, const GlassPacket<Real>& inside,
                            std::uint32_t active)
@@ -75,7 +78,7 @@ inline void spawn_children(const ShadeContext<Real>& context, const Children<F, 
 }
 
 template <PixelWrite Write, abi::Features F, class Real>
-inline void shade_packet(const ShadeContext<Real>& context, const HitStream<F, Real>& hits,
+inline void shade_packet(const ShadeContext<F, Real>& context, const HitStream<F, Real>& hits,
                          int first, TilePixelColors<Real>& pixels,
                          const Children<F, Real>& children)
 {
@@ -88,7 +91,7 @@ inline void shade_packet(const ShadeContext<Real>& context, const HitStream<F, R
                       load(hits.surface + first), active);
     const MaterialPacket<Real> material = fetch_materials(*context.scene, surface.material, active);
 
-    Vec3v<Real> color = local_color<F>(context, surface, material, probe, active);
+    Vec3v<Real> color = local_color<F>(context, surface, material, probe, active, first);
     if (context.spawns()) {
         color = color * material.local;
         probe.hit(surface, color);
@@ -104,7 +107,7 @@ inline void shade_packet(const ShadeContext<Real>& context, const HitStream<F, R
 
 /// Shades every hit of a stream.
 template <PixelWrite Write, abi::Features F, class Real>
-inline void shade_stream(const ShadeContext<Real>& context, const HitStream<F, Real>& hits,
+inline void shade_stream(const ShadeContext<F, Real>& context, const HitStream<F, Real>& hits,
                          TilePixelColors<Real>& pixels, const Children<F, Real>& children)
 {
     for (int first = 0; first < hits.count; first += lanes<Real>)

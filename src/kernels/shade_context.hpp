@@ -1,17 +1,20 @@
 #pragma once
 
 #include "kernel_abi/kernel_table.hpp"
+#include "kernels/light_shadows.hpp"
 #include "kernels/shared_origin.hpp"
 
 namespace packtrace::PACKTRACE_ISA {
 namespace {
 
 /// What shading a tile needs besides the hits themselves.
-template <class Real>
+template <abi::Features F, class Real>
 struct ShadeContext {
     const abi::SceneView<Real>* scene;
     /// For each point light, what may stand between it and the hits.
     const SharedOriginObjects<Real>* blockers;
+    /// For each light, what the hits see of it; null where packets find out by themselves.
+    const LightShadows<F, Real>* shadows;
     int depth;  ///< reflections and refractions before these hits
     abi::RayCounts* counts;
 

@@ -3,6 +3,7 @@
 #include "kernels/bounds.hpp"
 #include "kernels/camera_beam.hpp"
 #include "kernels/shade.hpp"
+#include "kernels/shadow_group.hpp"
 #include "kernels/trace_stream.hpp"
 #include "kernels/workspace.hpp"
 
@@ -38,11 +39,15 @@ struct TileRun {
 template <PixelWrite Write, abi::Features F, class Real>
 inline RayStream<F, Real>* shade_chunk(const TileRun<F, Real>& run, int depth)
 {
-    const ShadeContext<Real> context{&run.scene, run.work.blockers, depth, &run.counts};
+    const ShadeContext<F, Real> context{&run.scene, run.work.blockers, run.work.shadows, depth,
+                                        &run.counts};
     const HitStream<F, Real>& hits = run.work.memory->hits;
     if (hits.count == 0)
         return nullptr;
     find_blockers(run.scene, hits, run.work.blockers);
+    if (run.work.shadows != nullptr && run.scene.shadows)
+        for (int light = 0; light < run.scene.lights.count; ++light)
+            find_shadows(context, hits, light, *run.work.group, run.work.shadows[light]);
     RayStream<F, Real>* next = context.spawns() ? run.work.streams + depth : nullptr;
     if (next != nullptr)
         next->count = 0;
@@ -67,7 +72,10 @@ void trace_generation(const TileRun<F, Real>& run, const RayStream<F, Real>& ray
 {
     for (int begin = 0; begin < rays.count; begin += chunk_rays) {
         const int end = begin + chunk_rays < rays.count ? begin + chunk_rays : rays.count;
-        trace_secondary(run.scene, rays, begin, end, *run.work.memory);
+        if (run.scene.tree.empty())
+            trace_secondary(run.scene, rays, begin, end, *run.work.memory);
+        else
+            trace_secondary_group(run.scene, rays, begin, end, *run.work.group, *run.work.memory);
         if (const auto* next = shade_chunk<PixelWrite::add>(run, depth))
             trace_generation(run, *next, depth + 1);
     }
@@ -89,7 +97,9 @@ inline abi::RayCounts render_tile(const abi::TileJob<Real>& job)
     memory.hits.count = 0;
     if constexpr (F.probe)
         memory.hits.probe = job.probe;
-    if (F.probe || !work.visible.empty() || scene.visible_lights)
+    if (!scene.tree.empty())
+        trace_camera_group(job, work.visible, *work.group, memory);
+    else if (F.probe || !work.visible.empty() || scene.visible_lights)
         trace_camera(job, work.visible, memory);
 
     const TileRun<F, Real> run{scene, work, counts};

@@ -1,7 +1,7 @@
 #pragma once
 
 #include "kernels/camera.hpp"
-#include "kernels/closest.hpp"
+#include "kernels/group_closest.hpp"
 #include "kernels/shade.hpp"
 
 // From rays to hit points, one generation at a time.
@@ -92,14 +92,36 @@ inline void report_rays(const HitStream<F, Real>& hits, const abi::SceneView<Rea
         packet_probe(hits, from.path, active).ray(scene, from.rays, hit, escaped(scene, from.rays));
 }
 
-/// The camera rays of a tile; the pixels hold the background already.
+/// A packet of camera rays and what it hit; the pixels hold the background already.
+template <abi::Features F, class Real>
+inline void take_camera_hits(const abi::SceneView<Real>& scene, TileMemory<F, Real>& memory,
+                             const TracedRays<Real>& from, const HitPacket<Real>& hit,
+                             std::uint32_t pixels)
+{
+    const std::uint32_t hits = hit_lanes(hit) & pixels;
+    append_hits(memory.hits, from, hit, hits);
+    report_rays(memory.hits, scene, from, hit, pixels);
+    if (scene.visible_lights)
+        write_colors<PixelWrite::set>(memory.color, from.path.pixel, escaped(scene, from.rays),
+                                      pixels & ~hits);
+}
+
+template <class Real>
+inline PathPacket<Real> camera_path(int first)
+{
+    const vreal<Real> one(Real(1));
+    return {{one, one, one},
+            lane_numbers<Real>(first),
+            vint<Real>(lane_int<Real>{abi::camera_path})};
+}
+
+/// The camera rays of a tile.
 template <abi::Features F, class Real>
 inline void trace_camera(const abi::TileJob<Real>& job, const SharedOriginObjects<Real>& visible,
                          TileMemory<F, Real>& memory)
 {
     const TileCamera<Real> camera(job);
     const GlassPacket<Real> inside = glass_around_eye(camera.view);
-    const vreal<Real> one(Real(1));
     for (int first = 0; first < abi::tile_pixels; first += lanes<Real>) {
         const std::uint32_t pixels = lanes_inside(job, first);
         if (pixels == 0)
@@ -107,38 +129,94 @@ inline void trace_camera(const abi::TileJob<Real>& job, const SharedOriginObject
         const RayPacket<Real> rays = camera_rays(camera, first, job.scene->units);
         HitPacket<Real> hit = no_hit<Real>(static_cast<Real>(__builtin_inf()));
         closest_hit<F>(hit, visible, rays);
-        const std::uint32_t hits = hit_lanes(hit) & pixels;
-        const vint<Real> path(lane_int<Real>{abi::camera_path});
-        const TracedRays<Real> from{
-            rays, {{one, one, one}, lane_numbers<Real>(first), path}, inside};
-        append_hits(memory.hits, from, hit, hits);
-        report_rays(memory.hits, *job.scene, from, hit, pixels);
-        if (job.scene->visible_lights)
-            write_colors<PixelWrite::set>(memory.color, from.path.pixel, escaped(*job.scene, rays),
-                                          pixels & ~hits);
+        take_camera_hits(*job.scene, memory, {rays, camera_path<Real>(first), inside}, hit,
+                         pixels);
     }
 }
 
-/// A chunk of a stream of secondary rays; what those that miss bring goes into the pixels.
+/// Fills a group with the camera rays of a tile.
+template <class Real>
+inline void gather_camera(const abi::TileJob<Real>& job, RayGroup<Real>& group)
+{
+    const TileCamera<Real> camera(job);
+    const vreal<Real> no_end_yet(static_cast<Real>(__builtin_inf()));
+    for (int first = 0; first < group_rays; first += lanes<Real>) {
+        store_rays(group, first, camera_rays(camera, first, job.scene->units));
+        start_rays(group, first, no_end_yet, lanes_inside(job, first));
+    }
+}
+
+/// The same where the scene has a hierarchy.
+template <abi::Features F, class Real>
+inline void trace_camera_group(const abi::TileJob<Real>& job,
+                               const SharedOriginObjects<Real>& visible, RayGroup<Real>& group,
+                               TileMemory<F, Real>& memory)
+{
+    gather_camera(job, group);
+    closest_of_group<F>(*job.scene, visible, group);
+    const GlassPacket<Real> inside = glass_around_eye(*job.camera);
+    for (int first = 0; first < group_rays; first += lanes<Real>) {
+        const std::uint32_t pixels = active_lanes(group, first);
+        if (pixels != 0)
+            take_camera_hits(*job.scene, memory,
+                             {load_rays(group, first), camera_path<Real>(first), inside},
+                             load_hits(group, first), pixels);
+    }
+}
+
+template <abi::Features F, class Real>
+inline TracedRays<Real> load_stream(const abi::SceneView<Real>& scene,
+                                    const RayStream<F, Real>& stream, int first)
+{
+    return {make_rays<Real>(load3(stream.org, first), load3(stream.dir, first), scene.epsilon),
+            {load3(stream.weight, first), load(stream.pixel + first), load_path(stream, first)},
+            load_glass(stream, first)};
+}
+
+/// A packet of secondary rays and what it hit; what those that miss bring goes into the pixels.
+template <abi::Features F, class Real>
+inline void take_secondary_hits(const abi::SceneView<Real>& scene, TileMemory<F, Real>& memory,
+                                const TracedRays<Real>& from, const HitPacket<Real>& hit,
+                                std::uint32_t active)
+{
+    const std::uint32_t hits = hit_lanes(hit) & active;
+    append_hits(memory.hits, from, hit, hits);
+    report_rays(memory.hits, scene, from, hit, active);
+    write_colors<PixelWrite::add>(memory.color, from.path.pixel,
+                                  from.path.weight * escaped(scene, from.rays), active & ~hits);
+}
+
+/// A chunk of a stream of secondary rays.
 template <abi::Features F, class Real>
 inline void trace_secondary(const abi::SceneView<Real>& scene, const RayStream<F, Real>& stream,
                             int begin, int end, TileMemory<F, Real>& memory)
 {
     memory.hits.count = 0;
     for (int first = begin; first < end; first += lanes<Real>) {
-        const std::uint32_t active = first_lanes<Real>(end - first);
-        const TracedRays<Real> from{
-            make_rays<Real>(load3(stream.org, first), load3(stream.dir, first), scene.epsilon),
-            {load3(stream.weight, first), load(stream.pixel + first), load_path(stream, first)},
-            load_glass(stream, first)};
+        const TracedRays<Real> from = load_stream(scene, stream, first);
         HitPacket<Real> hit = no_hit<Real>(static_cast<Real>(__builtin_inf()));
         closest_hit<F>(hit, scene, from.rays);
-        const std::uint32_t hits = hit_lanes(hit) & active;
-        append_hits(memory.hits, from, hit, hits);
-        report_rays(memory.hits, scene, from, hit, active);
-        write_colors<PixelWrite::add>(memory.color, from.path.pixel,
-                                      from.path.weight * escaped(scene, from.rays), active & ~hits);
+        take_secondary_hits(scene, memory, from, hit, first_lanes<Real>(end - first));
     }
+}
+
+/// The same where the scene has a hierarchy.
+template <abi::Features F, class Real>
+inline void trace_secondary_group(const abi::SceneView<Real>& scene,
+                                  const RayStream<F, Real>& stream, int begin, int end,
+                                  RayGroup<Real>& group, TileMemory<F, Real>& memory)
+{
+    memory.hits.count = 0;
+    const vreal<Real> no_end_yet(static_cast<Real>(__builtin_inf()));
+    for (int first = begin; first < end; first += lanes<Real>) {
+        store_rays(group, first - begin, load_stream(scene, stream, first).rays);
+        start_rays(group, first - begin, no_end_yet, first_lanes<Real>(end - first));
+    }
+    end_group(group, end - begin);
+    closest_of_group<F>(scene, scene, group);
+    for (int first = begin; first < end; first += lanes<Real>)
+        take_secondary_hits(scene, memory, load_stream(scene, stream, first),
+                            load_hits(group, first - begin), first_lanes<Real>(end - first));
 }
 
 }  // namespace

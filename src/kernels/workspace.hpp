@@ -1,5 +1,6 @@
 #pragma once
 
+#include "kernels/light_shadows.hpp"
 #include "kernels/shared_origin.hpp"
 #include "kernels/tile_memory.hpp"
 
@@ -57,6 +58,8 @@ struct Workspace {
     TileMemory<F, Real>* memory = nullptr;
     RayStream<F, Real>* streams = nullptr;  ///< of generations 1 … max_depth
     RayStream<F, Real>* refracted = nullptr;
+    RayGroup<Real>* group = nullptr;  ///< where the scene has a hierarchy
+    LightShadows<F, Real>* shadows = nullptr;  ///< of each light, likewise
     SharedOriginObjects<Real> visible;              ///< from the camera
     SharedOriginObjects<Real>* blockers = nullptr;  ///< from each light
     std::size_t bytes = 0;
@@ -70,6 +73,10 @@ struct Workspace {
         streams = arena.take<RayStream<F, Real>>(static_cast<std::size_t>(scene.max_depth));
         if constexpr (F.glass)
             refracted = arena.take<RayStream<F, Real>>(1);
+        if (!scene.tree.empty()) {
+            group = arena.take<RayGroup<Real>>(1);
+            shadows = arena.take<LightShadows<F, Real>>(lights);
+        }
         visible = take_objects(arena, scene);
         blockers = arena.take<SharedOriginObjects<Real>>(lights);
         for (std::size_t light = 0; light < lights; ++light) {

@@ -12,9 +12,10 @@
 namespace packtrace {
 namespace {
 
-struct Ball {
+struct Bound {
     Vec3 center{0.0};
     double radius = std::numeric_limits<double>::infinity();
+    Vec3 half{0.0};  ///< of the sizes of a box
 };
 
 /// No less than the length of `m * u` for any unit u.
@@ -67,7 +68,36 @@ std::optional<Mat3> clipped_drum(const Quadric& quadric)
     return drum;
 }
 
-Ball bounding_ball(const Quadric& quadric, const CanonicalForm& form, const Mat4& transform)
+/// The box of `m * u` for all unit u.
+Vec3 ellipsoid_box(const Mat3& m)
+{
+    return glm::sqrt(m[0] * m[0] + m[1] * m[1] + m[2] * m[2]);
+}
+
+/// The same for u with x² + y² <= 1 and |z| <= 1.
+Vec3 drum_box(const Mat3& m)
+{
+    return glm::sqrt(m[0] * m[0] + m[1] * m[1]) + glm::abs(m[2]);
+}
+
+/// No less than the ratio of the longest to the shortest length that a unit vector of world
+/// space can have in canonical space, where squares have the weights of `square`.
+double condition_of(const Mat3& inverse, const Vec3& square)
+{
+    const Mat3 back = glm::inverse(inverse);
+    double condition = ellipsoid_radius(inverse) * ellipsoid_radius(back);
+    double least = std::numeric_limits<double>::infinity();
+    double most = 0.0;
+    for (int axis = 0; axis < 3; ++axis) {
+        if (square[axis] == 0.0)
+            continue;
+        least = std::min(least, std::abs(square[axis]));
+        most = std::max(most, std::abs(square[axis]));
+    }
+    return condition * std::sqrt(most / least);
+}
+
+Bound bound_of(const Quadric& quadric, const CanonicalForm& form, const Mat4& transform)
 {
     const Mat3 linear(transform);
     // Rounding of the bound itself; far more than it can be.
@@ -76,13 +106,13 @@ Ball bounding_ball(const Quadric& quadric, const CanonicalForm& form, const Mat4
         Mat3 ellipsoid = linear * form.axes;
         for (int axis = 0; axis < 3; ++axis)
             ellipsoid[axis] *= (*axes)[axis];
-        return {Vec3(transform * glm::dvec4(form.center, 1.0)),
-                ellipsoid_radius(ellipsoid) * slack};
+        return {Vec3(transform * glm::dvec4(form.center, 1.0)), ellipsoid_radius(ellipsoid) * slack,
+                ellipsoid_box(ellipsoid) * slack};
     }
     if (const auto drum = clipped_drum(quadric)) {
         const double middle = 0.5 * (quadric.z_range->low + quadric.z_range->high);
         return {Vec3(transform * glm::dvec4(0.0, 0.0, middle, 1.0)),
-                drum_radius(linear * *drum) * slack};
+                drum_radius(linear * *drum) * slack, drum_box(linear * *drum) * slack};
     }
     return {};
 }
@@ -110,9 +140,11 @@ LoweredQuadric lower_quadric(const Object& object, const Quadric& quadric, std::
         lowered.clip_high = quadric.z_range->high;
     }
     lowered.capped = quadric.capped;
-    const Ball ball = bounding_ball(quadric, form, object.transform);
-    lowered.bound = ball.center;
-    lowered.bound_radius = ball.radius;
+    const Bound bound = bound_of(quadric, form, object.transform);
+    lowered.bound = bound.center;
+    lowered.bound_radius = bound.radius;
+    lowered.box_half = bound.half;
+    lowered.condition = condition_of(lowered.inverse, lowered.square);
     lowered.surface = surface;
     return lowered;
 }

@@ -42,6 +42,9 @@ struct LoweredQuadric {
     bool capped = false;
     Vec3 bound{0.0};  ///< centre of a ball around what is left after clipping
     double bound_radius = std::numeric_limits<double>::infinity();
+    Vec3 box_half{0.0};  ///< half the sizes of a box around the same centre
+    /// How much canonical space is stretched: its longest against its shortest length.
+    double condition = 1.0;
     std::int32_t surface = 0;  ///< with caps, the next two numbers are theirs, low and high
 
     [[nodiscard]] bool clipped() const

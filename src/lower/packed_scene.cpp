@@ -5,11 +5,26 @@
 #include "lower/pack_record.hpp"
 
 namespace packtrace {
+namespace {
+
+/// Below this number a list is quicker than a hierarchy; results/list_or_tree.json.
+constexpr std::size_t tree_objects = 32;
+
+bool wants_tree(const LoweredScene& lowered, Traversal traversal)
+{
+    return traversal == Traversal::tree ||
+           (traversal == Traversal::automatic && count_tree_objects(lowered) >= tree_objects);
+}
+
+}  // namespace
 
 template <class Real>
-PackedScene<Real>::PackedScene(const LoweredScene& lowered)
+PackedScene<Real>::PackedScene(const LoweredScene& lowered, Traversal traversal)
     : surfaces_(lowered.material_index.size())
 {
+    if (wants_tree(lowered, traversal))
+        tree_ = PackedTree<Real>(lowered);
+    view_.tree = tree_.view();
     pack_spheres(lowered);
     pack_huge_spheres(lowered);
     pack_planes(lowered);
@@ -30,7 +45,7 @@ PackedScene<Real>::PackedScene(const LoweredScene& lowered)
 template <class Real>
 void PackedScene<Real>::pack_spheres(const LoweredScene& lowered)
 {
-    const std::size_t stride = lowered.spheres.size() + abi::padding;
+    const std::size_t stride = (tree_.view().empty() ? lowered.spheres.size() : 0) + abi::padding;
     sphere_reals_ = AlignedArray<Real>(5 * stride);
     sphere_surfaces_ = AlignedArray<abi::lane_int<Real>>(stride);
     Real* reals = sphere_reals_.data();
@@ -38,15 +53,17 @@ void PackedScene<Real>::pack_spheres(const LoweredScene& lowered)
     for (const LoweredSphere& sphere : lowered.spheres) {
         if (sphere.huge)
             continue;
+        auto& surface = surfaces_[static_cast<std::size_t>(sphere.surface)];
+        round_to(surface.anchor, sphere.center);
+        surface.curvature = static_cast<Real>(1.0 / sphere.radius);
+        if (in_tree(sphere))
+            continue;
         for (int axis = 0; axis < 3; ++axis)
             reals[static_cast<std::size_t>(axis) * stride + count] =
                 static_cast<Real>(sphere.center[axis]);
         reals[3 * stride + count] = static_cast<Real>(sphere.radius);
         reals[4 * stride + count] = static_cast<Real>(sphere.radius * sphere.radius);
         sphere_surfaces_[count] = sphere.surface;
-        auto& surface = surfaces_[static_cast<std::size_t>(sphere.surface)];
-        round_to(surface.anchor, sphere.center);
-        surface.curvature = static_cast<Real>(1.0 / sphere.radius);
         ++count;
     }
     view_.spheres = {reals,
@@ -95,9 +112,11 @@ template <class Real>
 void PackedScene<Real>::pack_quadrics(const LoweredScene& lowered)
 {
     quadrics_ = AlignedArray<abi::QuadricRecord<Real>>(lowered.quadrics.size());
-    for (std::size_t i = 0; i < lowered.quadrics.size(); ++i)
-        quadrics_[i] = pack_quadric<Real>(lowered.quadrics[i]);
-    view_.quadrics = {quadrics_.data(), static_cast<int>(lowered.quadrics.size())};
+    int count = 0;
+    for (const LoweredQuadric& quadric : lowered.quadrics)
+        if (!in_tree(quadric))
+            quadrics_[static_cast<std::size_t>(count++)] = pack_quadric<Real>(quadric);
+    view_.quadrics = {quadrics_.data(), count};
 }
 
 /// Round surfaces have their normals already; the kernels of every kind of surface take them in

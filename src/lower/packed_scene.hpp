@@ -1,8 +1,11 @@
 #pragma once
 
+#include <packtrace/traversal.hpp>
+
 #include "core/aligned_array.hpp"
 #include "kernel_abi/scene_view.hpp"
 #include "lower/lowered_scene.hpp"
+#include "lower/packed_tree.hpp"
 
 namespace packtrace {
 
@@ -11,7 +14,7 @@ namespace packtrace {
 template <class Real>
 class PackedScene {
 public:
-    explicit PackedScene(const LoweredScene& lowered);
+    explicit PackedScene(const LoweredScene& lowered, Traversal traversal = Traversal::automatic);
 
     /// Valid as long as this object.
     [[nodiscard]] const abi::SceneView<Real>& view() const
@@ -20,6 +23,12 @@ public:
     }
 
 private:
+    template <class Object>
+    [[nodiscard]] bool in_tree(const Object& object) const
+    {
+        return !tree_.view().empty() && fits_tree(object);
+    }
+
     void pack_spheres(const LoweredScene& lowered);
     void pack_huge_spheres(const LoweredScene& lowered);
     void pack_planes(const LoweredScene& lowered);
@@ -28,6 +37,7 @@ private:
     void pack_materials(const LoweredScene& lowered);
     void pack_lights(const LoweredScene& lowered);
 
+    PackedTree<Real> tree_;
     AlignedArray<Real> sphere_reals_;
     AlignedArray<abi::lane_int<Real>> sphere_surfaces_;
     AlignedArray<abi::HugeSphere<Real>> huge_spheres_;

@@ -60,7 +60,7 @@ class PacketBackend final : public RayBackend<Real> {
 public:
     PacketBackend(const Scene& scene, const RenderOptions& options)
         : lowered_(lower(scene)),
-          packed_(lowered_),
+          packed_(lowered_, options.traversal),
           kernels_(precision<Real>(kernels_of(choose_isa(options.isa, options.width).name)))
     {
     }

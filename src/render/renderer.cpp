@@ -16,9 +16,6 @@
 #include "render/progress.hpp"
 
 namespace packtrace {
-namespace {
-
-}  // namespace
 
 template <class Real>
 struct Renderer<Real>::State {
@@ -40,7 +37,7 @@ struct Renderer<Real>::State {
           isa(choose_isa(options.isa, options.width)),
           lowered(lower(scene)),
           kernels(&kernels_for(precision<Real>(kernels_of(isa.name)), lowered.features)),
-          packed(lowered),
+          packed(lowered, options.traversal),
           camera(camera_view<Real>(scene, lowered)),
           threads(options.threads),
           progress(options.progress),

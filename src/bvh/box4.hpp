@@ -1,0 +1,67 @@
+#pragma once
+
+#include <cstdint>
+#include <cstring>
+#include <limits>
+
+#include "bvh/bvh.hpp"
+
+// Boxes in registers of four floats, a vector extension of both compilers; the fourth is unused.
+namespace packtrace {
+
+using Float4 [[gnu::vector_size(16)]] = float;
+
+inline Float4 smaller(Float4 a, Float4 b)
+{
+    return a < b ? a : b;
+}
+inline Float4 larger(Float4 a, Float4 b)
+{
+    return a > b ? a : b;
+}
+
+struct Box4 {
+    static constexpr float inf = std::numeric_limits<float>::infinity();
+    Float4 low{inf, inf, inf, inf};
+    Float4 high{-inf, -inf, -inf, -inf};
+
+    void include(Float4 other_low, Float4 other_high)
+    {
+        low = smaller(low, other_low);
+        high = larger(high, other_high);
+    }
+    void include(const Box4& other)
+    {
+        include(other.low, other.high);
+    }
+};
+
+inline Float4 load4(const float* from)
+{
+    Float4 v;
+    std::memcpy(&v, from, sizeof v);
+    return v;
+}
+
+inline Float4 low_of(const BvhItem& item)
+{
+    return load4(item.low);
+}
+inline Float4 high_of(const BvhItem& item)
+{
+    return load4(item.high);
+}
+/// Twice the centre of an item's box.
+inline Float4 centroid(const BvhItem& item)
+{
+    return low_of(item) + high_of(item);
+}
+
+/// Half the surface of a box; 0 for an empty one.
+inline float half_area(const Box4& box)
+{
+    const Float4 d = box.high - box.low;
+    return d[0] >= 0 ? d[0] * d[1] + d[1] * d[2] + d[2] * d[0] : 0.0f;
+}
+
+}  // namespace packtrace

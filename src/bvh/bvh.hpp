@@ -1,0 +1,39 @@
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "kernel_abi/bvh.hpp"
+
+namespace packtrace {
+
+/// What a hierarchy is built of: the box of an object, rounded outwards.
+struct BvhItem {
+    float low[3];
+    std::uint32_t number;  ///< the caller's own
+    float high[3];
+    std::uint32_t kind;  ///< leaves hold objects of one kind only
+};
+
+struct BvhLeaf {
+    std::uint32_t first;  ///< in `order`
+    std::uint32_t count;  ///< 1 … 8
+    std::uint32_t kind;
+};
+
+/// A hierarchy over numbered objects. Children of `nodes` that are leaves are leaf_bit | index
+/// into `leaves`, until whoever packs the objects puts their place instead.
+struct Bvh {
+    std::vector<abi::BvhNode> nodes;
+    std::vector<BvhLeaf> leaves;
+    std::vector<std::uint32_t> order;  ///< numbers, leaf after leaf
+};
+
+/// Builds by the surface area heuristic over 16 bins an axis (Wald, "On fast Construction of
+/// SAH-based Bounding Volume Hierarchies", 2007), eight children a node at once, on the threads
+/// of the TBB arena the call runs in; the result does not depend on their number. The items
+/// are reordered.
+[[nodiscard]] Bvh build_bvh(std::span<BvhItem> items);
+
+}  // namespace packtrace

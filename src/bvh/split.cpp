@@ -1,0 +1,188 @@
+#include "bvh/split.hpp"
+
+#include <algorithm>
+#include <array>
+
+#include <tbb/blocked_range.h>
+#include <tbb/parallel_reduce.h>
+
+namespace packtrace {
+namespace {
+
+constexpr int bin_count = 16;
+
+/// Larger ranges are looked at by several threads.
+constexpr std::size_t parallel_items = std::size_t{1} << 15;
+
+/// Which bin of an axis an item falls into.
+struct Binning {
+    Float4 start, scale;
+
+    explicit Binning(const Box4& centroids) : start(centroids.low)
+    {
+        const Float4 size = centroids.high - centroids.low;
+        for (int axis = 0; axis < 4; ++axis)
+            scale[axis] = axis < 3 && size[axis] > 0.0f
+                              ? static_cast<float>(bin_count) * 0.999f / size[axis]
+                              : 0.0f;
+    }
+
+    [[nodiscard]] std::array<int, 3> operator()(const BvhItem& item) const
+    {
+        const Float4 place = (centroid(item) - start) * scale;
+        return {static_cast<int>(place[0]), static_cast<int>(place[1]), static_cast<int>(place[2])};
+    }
+};
+
+struct Bins {
+    Box4 box[3][bin_count];
+    std::uint32_t count[3][bin_count] = {};
+
+    void include(std::span<const BvhItem> items, const Binning& binning)
+    {
+        for (const BvhItem& item : items) {
+            const auto bin = binning(item);
+            for (int axis = 0; axis < 3; ++axis) {
+                box[axis][bin[static_cast<std::size_t>(axis)]].include(low_of(item), high_of(item));
+                ++count[axis][bin[static_cast<std::size_t>(axis)]];
+            }
+        }
+    }
+    void include(const Bins& other)
+    {
+        for (int axis = 0; axis < 3; ++axis)
+            for (int i = 0; i < bin_count; ++i) {
+                box[axis][i].include(other.box[axis][i]);
+                count[axis][i] += other.count[axis][i];
+            }
+    }
+};
+
+Bins fill_bins(std::span<const BvhItem> items, const Binning& binning)
+{
+    if (items.size() < parallel_items) {
+        Bins bins;
+        bins.include(items, binning);
+        return bins;
+    }
+    return tbb::parallel_reduce(
+        tbb::blocked_range<std::size_t>(0, items.size(), parallel_items), Bins{},
+        [&](const tbb::blocked_range<std::size_t>& part, Bins bins) {
+            bins.include(items.subspan(part.begin(), part.size()), binning);
+            return bins;
+        },
+        [](Bins a, const Bins& b) {
+            a.include(b);
+            return a;
+        });
+}
+
+struct Cut {
+    int axis = -1;
+    int bin = 0;  ///< the first of the upper side
+    float cost = std::numeric_limits<float>::infinity();
+};
+
+/// Area times count on both sides of every boundary of an axis.
+void look_for_cut(const Bins& bins, int axis, Cut& best)
+{
+    float lower_cost[bin_count] = {};
+    Box4 lower;
+    std::uint32_t below = 0;
+    for (int i = 0; i + 1 < bin_count; ++i) {
+        lower.include(bins.box[axis][i]);
+        below += bins.count[axis][i];
+        lower_cost[i + 1] = below == 0 ? std::numeric_limits<float>::infinity()
+                                       : half_area(lower) * static_cast<float>(below);
+    }
+    Box4 upper;
+    std::uint32_t above = 0;
+    for (int i = bin_count - 1; i > 0; --i) {
+        upper.include(bins.box[axis][i]);
+        above += bins.count[axis][i];
+        const float cost = lower_cost[i] + half_area(upper) * static_cast<float>(above);
+        if (above > 0 && cost < best.cost)
+            best = {axis, i, cost};
+    }
+}
+
+/// Both sides' boxes, with the centres' boxes found while sorting.
+std::pair<BvhRange, BvhRange> halves(std::span<const BvhItem> items, const BvhRange& range,
+                                     std::size_t middle)
+{
+    return {range_of(items, range.begin, middle), range_of(items, middle, range.end)};
+}
+
+}  // namespace
+
+BvhRange range_of(std::span<const BvhItem> items, std::size_t begin, std::size_t end)
+{
+    BvhRange empty;
+    const auto include = [&](std::size_t first, std::size_t last, BvhRange range) {
+        for (std::size_t i = first; i < last; ++i) {
+            range.box.include(low_of(items[i]), high_of(items[i]));
+            range.centroids.include(centroid(items[i]), centroid(items[i]));
+        }
+        return range;
+    };
+    BvhRange range;
+    if (end - begin < parallel_items)
+        range = include(begin, end, empty);
+    else
+        range = tbb::parallel_reduce(
+            tbb::blocked_range<std::size_t>(begin, end, parallel_items), empty,
+            [&](const tbb::blocked_range<std::size_t>& part, const BvhRange& sum) {
+                return include(part.begin(), part.end(), sum);
+            },
+            [](BvhRange a, const BvhRange& b) {
+                a.box.include(b.box);
+                a.centroids.include(b.centroids);
+                return a;
+            });
+    range.begin = begin;
+    range.end = end;
+    return range;
+}
+
+std::pair<BvhRange, BvhRange> split(std::span<BvhItem> items, const BvhRange& range)
+{
+    const Binning binning(range.centroids);
+    const auto members = items.subspan(range.begin, range.count());
+    const Bins bins = fill_bins(members, binning);
+    Cut cut;
+    for (int axis = 0; axis < 3; ++axis)
+        look_for_cut(bins, axis, cut);
+    if (cut.axis < 0)
+        return halves(items, range, range.begin + range.count() / 2);
+    const auto middle = std::partition(members.begin(), members.end(), [&](const BvhItem& item) {
+        return binning(item)[static_cast<std::size_t>(cut.axis)] < cut.bin;
+    });
+    return halves(items, range, range.begin + static_cast<std::size_t>(middle - members.begin()));
+}
+
+std::pair<BvhRange, BvhRange> split_number(std::span<BvhItem> items, const BvhRange& range)
+{
+    const auto members = items.subspan(range.begin, range.count());
+    const Float4 size = range.centroids.high - range.centroids.low;
+    const int axis = size[0] >= size[1] && size[0] >= size[2] ? 0 : size[1] >= size[2] ? 1 : 2;
+    const auto middle = members.begin() + static_cast<std::ptrdiff_t>(range.count() / 2);
+    // Numbers break ties, so that the outcome does not depend on the order found.
+    std::nth_element(members.begin(), middle, members.end(),
+                     [axis](const BvhItem& a, const BvhItem& b) {
+                         const float left = centroid(a)[axis];
+                         const float right = centroid(b)[axis];
+                         return left < right || (left == right && a.number < b.number);
+                     });
+    return halves(items, range, range.begin + range.count() / 2);
+}
+
+std::pair<BvhRange, BvhRange> split_kinds(std::span<BvhItem> items, const BvhRange& range)
+{
+    const auto members = items.subspan(range.begin, range.count());
+    const std::uint32_t kind = members.front().kind;
+    const auto middle = std::partition(members.begin(), members.end(),
+                                       [&](const BvhItem& item) { return item.kind == kind; });
+    return halves(items, range, range.begin + static_cast<std::size_t>(middle - members.begin()));
+}
+
+}  // namespace packtrace

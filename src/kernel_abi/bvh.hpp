@@ -1,0 +1,72 @@
+#pragma once
+
+#include <cstdint>
+
+#include "kernel_abi/lists.hpp"
+
+// A bounding volume hierarchy of eight children a node, as the kernels walk it.
+namespace packtrace::abi {
+
+inline constexpr int node_width = 8;
+
+/// No hierarchy has more levels of nodes than this.
+inline constexpr int bvh_levels = 48;
+
+/// Boxes of eight children side by side, single precision in every kernel. They hold what they
+/// bound with room for its rounding to either precision. An absent child's box is inside out.
+struct alignas(64) BvhNode {
+    float low[3][node_width];
+    float high[3][node_width];
+    std::uint32_t child[node_width];  ///< see below
+};
+
+// A child is a node by its index, a block of spheres, or a run of quadrics.
+inline constexpr std::uint32_t leaf_bit = 1u << 31;
+inline constexpr std::uint32_t quadric_bit = 1u << 30;
+inline constexpr int quadric_count_shift = 27;  ///< three bits: count - 1
+inline constexpr std::uint32_t block_mask = quadric_bit - 1;
+inline constexpr std::uint32_t quadric_mask = (1u << quadric_count_shift) - 1;
+
+constexpr bool is_leaf(std::uint32_t child)
+{
+    return (child & leaf_bit) != 0;
+}
+constexpr bool is_quadric_leaf(std::uint32_t child)
+{
+    return (child & quadric_bit) != 0;
+}
+constexpr int first_quadric(std::uint32_t child)
+{
+    return static_cast<int>(child & quadric_mask);
+}
+constexpr int quadric_count(std::uint32_t child)
+{
+    return static_cast<int>(child >> quadric_count_shift & 7) + 1;
+}
+
+/// The spheres of one leaf; unused places have a negative radius2, which nothing hits.
+template <class Real>
+struct alignas(32) SphereBlock {
+    Real center[3][node_width];
+    Real radius2[node_width];
+    lane_int<Real> surface[node_width];
+};
+
+template <class Real>
+struct BvhView {
+    const BvhNode* nodes = nullptr;  ///< the first is the root
+    const SphereBlock<Real>* blocks = nullptr;
+    const QuadricRecord<Real>* quadrics = nullptr;
+    int node_count = 0;  ///< 0: the scene has no hierarchy, its lists hold everything
+    /// Largest magnitude of a coordinate of the root's box.
+    float extent = 0;
+    /// How far rounding shifts hits at most, as a share of the distances there are.
+    float slack = 0;
+
+    bool empty() const
+    {
+        return node_count == 0;
+    }
+};
+
+}  // namespace packtrace::abi

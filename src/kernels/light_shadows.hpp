@@ -1,0 +1,52 @@
+#pragma once
+
+#include "kernels/material.hpp"
+#include "kernels/ray_group.hpp"
+
+namespace packtrace::PACKTRACE_ISA {
+namespace {
+
+/// The shares of a light that come through, where anything lets light through.
+template <bool Glass, class Real>
+struct LightShares {
+};
+template <class Real>
+struct LightShares<true, Real> {
+    Real share[3][group_rays];
+};
+
+/// What a chunk of hits sees of one light.
+template <abi::Features F, class Real>
+struct alignas(64) LightShadows : LightShares<F.glass, Real> {
+    std::uint16_t lit[group_cells];  ///< a bit a hit: not wholly in shadow
+
+    std::uint32_t lit_lanes(int first) const
+    {
+        return lit[first / cell_rays] >> first % cell_rays & all_lanes<Real>;
+    }
+
+    /// Takes a blocker's share off some lanes, and returns those left dark.
+    std::uint32_t dim(const abi::SceneView<Real>& scene, std::int32_t surface, int first,
+                      std::uint32_t blocked)
+    {
+        const auto& material = scene.materials[scene.material_index[surface].first];
+        std::uint32_t bright = 0;
+        for (int channel = 0; channel < 3; ++channel) {
+            Real* const at = this->share[channel] + first;
+            const vreal<Real> passed = load(at) * vreal<Real>(material.transmit[channel]);
+            const vreal<Real> left = select(from_bits<Real>(blocked), passed, load(at));
+            store(at, left);
+            bright |= bits(left > vreal<Real>(Real(0)));
+        }
+        return blocked & ~bright;
+    }
+
+    Vec3v<Real> shares(int first) const
+    {
+        return {load(this->share[0] + first), load(this->share[1] + first),
+                load(this->share[2] + first)};
+    }
+};
+
+}  // namespace
+}  // namespace packtrace::PACKTRACE_ISA

@@ -1,0 +1,110 @@
+#pragma once
+
+#include "kernel_abi/kernel_table.hpp"
+#include "kernels/packet.hpp"
+
+// Rays that go through the hierarchy together: a tile's, or as many of a stream.
+namespace packtrace::PACKTRACE_ISA {
+namespace {
+
+inline constexpr int group_rays = abi::tile_pixels;
+/// A group's rays are looked at in cells: along a tile's curve these are 4 x 4 pixels.
+inline constexpr int cell_rays = 16;
+inline constexpr int group_cells = group_rays / cell_rays;
+
+template <class Real>
+inline constexpr int cell_packets = cell_rays / lanes<Real>;
+
+/// Rays that are not active have a `t` of minus infinity, and are like their neighbours.
+template <class Real>
+struct alignas(64) RayGroup {
+    Real org[3][group_rays];
+    Real dir[3][group_rays];
+    Real t_min[group_rays];
+    Real t[group_rays];  ///< where the ray ends: at its closest hit so far, or the light
+    lane_int<Real> surface[group_rays];
+    std::uint16_t active[group_cells];  ///< a bit a ray
+};
+
+template <class Real>
+inline RayPacket<Real> load_rays(const RayGroup<Real>& group, int first)
+{
+    const auto load3 = [first](const Real(&from)[3][group_rays]) {
+        return Vec3v<Real>{load(from[0] + first), load(from[1] + first), load(from[2] + first)};
+    };
+    RayPacket<Real> rays;
+    rays.org = load3(group.org);
+    rays.dir = load3(group.dir);
+    rays.dir2 = dot(rays.dir, rays.dir);
+    rays.t_min = load(group.t_min + first);
+    return rays;
+}
+
+template <class Real>
+inline void store_rays(RayGroup<Real>& group, int first, const RayPacket<Real>& rays)
+{
+    const auto store3 = [first](Real(&to)[3][group_rays], const Vec3v<Real>& v) {
+        store(to[0] + first, v.x);
+        store(to[1] + first, v.y);
+        store(to[2] + first, v.z);
+    };
+    store3(group.org, rays.org);
+    store3(group.dir, rays.dir);
+    store(group.t_min + first, rays.t_min);
+}
+
+template <class Real>
+inline HitPacket<Real> load_hits(const RayGroup<Real>& group, int first)
+{
+    return {load(group.t + first), load(group.surface + first)};
+}
+
+template <class Real>
+inline void store_hits(RayGroup<Real>& group, int first, const HitPacket<Real>& hit)
+{
+    store(group.t + first, hit.t);
+    store(group.surface + first, hit.surface);
+}
+
+/// The lanes of the packet at `first` that are wanted.
+template <class Real>
+inline std::uint32_t active_lanes(const RayGroup<Real>& group, int first)
+{
+    return group.active[first / cell_rays] >> first % cell_rays & all_lanes<Real>;
+}
+
+/// Ends the rays of the packet at `first` at `t_max`, and those not in `active` before they
+/// start.
+template <class Real>
+inline void start_rays(RayGroup<Real>& group, int first, const vreal<Real>& t_max,
+                       std::uint32_t active)
+{
+    const vreal<Real> never(static_cast<Real>(-__builtin_inf()));
+    store(group.t + first, select(from_bits<Real>(active), t_max, never));
+    store(group.surface + first, vint<Real>(lane_int<Real>(-1)));
+    std::uint16_t& cell = group.active[first / cell_rays];
+    const std::uint32_t others = ~(all_lanes<Real> << first % cell_rays);
+    cell = static_cast<std::uint16_t>((cell & others) | active << first % cell_rays);
+}
+
+/// Makes the rays from `count` to the end of its cell like the one before it, and marks them and
+/// all later ones as not active. `count` > 0.
+template <class Real>
+inline void end_group(RayGroup<Real>& group, int count)
+{
+    for (int ray = count; ray % cell_rays != 0; ++ray) {
+        for (int axis = 0; axis < 3; ++axis) {
+            group.org[axis][ray] = group.org[axis][count - 1];
+            group.dir[axis][ray] = group.dir[axis][count - 1];
+        }
+        group.t_min[ray] = group.t_min[count - 1];
+        group.t[ray] = static_cast<Real>(-__builtin_inf());
+        group.surface[ray] = -1;
+        group.active[ray / cell_rays] &= static_cast<std::uint16_t>(~(1u << ray % cell_rays));
+    }
+    for (int cell = (count + cell_rays - 1) / cell_rays; cell < group_cells; ++cell)
+        group.active[cell] = 0;
+}
+
+}  // namespace
+}  // namespace packtrace::PACKTRACE_ISA

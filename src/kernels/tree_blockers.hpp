@@ -1,0 +1,185 @@
+#pragma once
+
+#include "kernels/closest_ray.hpp"
+#include "kernels/occluded.hpp"
+
+// What stands in the way of a group of rays among the objects of the hierarchy.
+//
+// A `Blocker` is called as blocker(surface, first, lanes) for an object and the lanes it blocks of
+// the packet at `first`, and returns those lanes that nothing further matters to; they are taken
+// out of the group's active rays. `End` is one of those of occluded.hpp.
+namespace packtrace::PACKTRACE_ISA {
+namespace {
+
+template <class Real>
+inline void set_end(SegmentEnd<Real>& end, const vreal<Real>& t)
+{
+    end.t_end = t;
+}
+template <class Real>
+inline void set_end(StreamRange<Real>& end, const vreal<Real>& t)
+{
+    end.t_max = t;
+}
+template <class Real>
+inline void set_end(NoEnd<Real>&, const vreal<Real>&)
+{
+}
+
+/// Takes lanes of a packet out of the active ones.
+template <class Real>
+inline void finish_lanes(RayGroup<Real>& group, int first, std::uint32_t done)
+{
+    group.active[first / cell_rays] &= static_cast<std::uint16_t>(~(done << first % cell_rays));
+}
+
+template <abi::Features F, class End, class Real, class Blocker>
+class BlockersInTree {
+public:
+    BlockersInTree(const abi::BvhView<Real>& tree, RayGroup<Real>& group, CellBounds& bounds,
+                   const Blocker& blocker)
+        : tree_(tree), group_(group), bounds_(bounds), blocker_(blocker)
+    {
+    }
+
+    void operator()(std::uint32_t child, std::uint32_t cells) const
+    {
+        if constexpr (F.quadrics)
+            if (abi::is_quadric_leaf(child))
+                return quadrics(child, cells);
+        spheres(tree_.blocks[child & abi::block_mask], cells);
+    }
+
+private:
+    void spheres(const abi::SphereBlock<Real>& block, std::uint32_t cells) const
+    {
+        visit_spheres(bounds_, block, cells, [&](int slot, int cell) {
+            object(cell, block.surface[slot], [&](const End& end, const RayPacket<Real>& rays) {
+                return bits(end.blocked_by(quadratic_of(block, slot, rays), rays));
+            });
+        });
+        join_t_max(bounds_);
+    }
+
+    void quadrics(std::uint32_t child, std::uint32_t cells) const
+    {
+        const abi::QuadricRecord<Real>* quadric = tree_.quadrics + abi::first_quadric(child);
+        for (int i = 0; i < abi::quadric_count(child); ++i)
+            for (std::uint32_t left = cells; left != 0; left &= left - 1)
+                object(__builtin_ctz(left), quadric[i].surface,
+                       [&](const End& end, const RayPacket<Real>& rays) {
+                           return quadric_blocks(end, quadric[i], rays);
+                       });
+        join_t_max(bounds_);
+    }
+
+    /// `blocks(end, rays)` tells the lanes of a packet that one object blocks.
+    template <class Blocks>
+    void object(int cell, lane_int<Real> surface, const Blocks& blocks) const
+    {
+        for (int first = cell * cell_rays; first < (cell + 1) * cell_rays; first += lanes<Real>) {
+            const std::uint32_t active = active_lanes(group_, first);
+            if (active == 0)
+                continue;
+            End end;
+            set_end(end, load(group_.t + first));
+            const std::uint32_t blocked = blocks(end, load_rays(group_, first)) & active;
+            if (blocked != 0)
+                finish_lanes(group_, first,
+                             blocker_(static_cast<std::int32_t>(surface), first, blocked));
+        }
+        if (group_.active[cell] == 0)
+            bounds_.t_max[cell] = -no_end;
+    }
+
+    const abi::BvhView<Real>& tree_;
+    RayGroup<Real>& group_;
+    CellBounds& bounds_;
+    const Blocker& blocker_;
+};
+
+/// The same for one ray.
+template <abi::Features F, class End, class Real, class Blocker>
+inline void blockers_of_ray(const abi::BvhView<Real>& tree, RayGroup<Real>& group, int ray,
+                            const Blocker& blocker)
+{
+    const RayPacket<Real> rays = broadcast_ray(group, ray);
+    End end;
+    set_end(end, vreal<Real>(group.t[ray]));
+    SlabRay slab = slab_ray(group, ray, tree.extent, tree.slack);
+    slab.t_max = float_above(group.t[ray]);
+    const int first = ray / lanes<Real> * lanes<Real>;
+    const std::uint32_t lane = 1u << (ray - first);
+    const auto blocked_by = [&](std::int32_t surface) {
+        finish_lanes(group, first, blocker(surface, first, lane));
+        return (active_lanes(group, first) & lane) != 0;
+    };
+    walk_ray(tree.nodes, slab, [&](std::uint32_t child) {
+        if (F.quadrics && abi::is_quadric_leaf(child)) {
+            const abi::QuadricRecord<Real>* quadric = tree.quadrics + abi::first_quadric(child);
+            for (int i = 0; i < abi::quadric_count(child); ++i)
+                if (quadric_blocks(end, quadric[i], rays) != 0 && !blocked_by(quadric[i].surface))
+                    return false;
+            return true;
+        }
+        const abi::SphereBlock<Real>& block = tree.blocks[child & abi::block_mask];
+        for (int from = 0; from < abi::node_width; from += lanes<Real>) {
+            std::uint32_t blocking =
+                bits(end.blocked_by(quadratics_of(block, from, rays), rays)) & block_lanes<Real>;
+            for (; blocking != 0; blocking &= blocking - 1)
+                if (!blocked_by(
+                        static_cast<std::int32_t>(block.surface[from + __builtin_ctz(blocking)])))
+                    return false;
+        }
+        return true;
+    });
+}
+
+/// Meets the active rays of a group with what blocks them in the hierarchy.
+template <abi::Features F, class End, class Real, class Blocker>
+inline void visit_blockers_in_tree(const abi::BvhView<Real>& tree, RayGroup<Real>& group,
+                                   const Blocker& blocker)
+{
+    CellBounds bounds;
+    bound_cells(bounds, group, tree.extent, tree.slack);
+    for (int cell = 0; cell < group_cells; ++cell) {
+        if (bounds.coherent >> cell & 1u)
+            continue;
+        for (std::uint32_t left = group.active[cell]; left != 0; left &= left - 1)
+            blockers_of_ray<F, End>(tree, group, cell * cell_rays + __builtin_ctz(left), blocker);
+    }
+    if (bounds.coherent == 0)
+        return;
+    for (int cell = 0; cell < group_cells; ++cell)
+        bounds.t_max[cell] = bounds.coherent >> cell & 1u ? furthest(group, cell) : -no_end;
+    join_t_max(bounds);
+    walk_cells(tree.nodes, bounds, bounds.coherent,
+               BlockersInTree<F, End, Real, Blocker>(tree, group, bounds, blocker));
+}
+
+/// The same among all objects of a scene, lists first.
+template <abi::Features F, class End, class Objects, class Real, class Blocker>
+inline void visit_blockers_of_group(const abi::SceneView<Real>& scene, const Objects& lists,
+                                    RayGroup<Real>& group, const Blocker& blocker)
+{
+    std::uint32_t left = 0;
+    for (int first = 0; first < group_rays; first += lanes<Real>) {
+        if (active_lanes(group, first) == 0)
+            continue;
+        End end;
+        set_end(end, load(group.t + first));
+        visit_blockers<F>(end, lists, load_rays(group, first),
+                          [&](std::int32_t surface, std::uint32_t lanes_of) {
+                              const std::uint32_t blocked = lanes_of & active_lanes(group, first);
+                              if (blocked != 0)
+                                  finish_lanes(group, first, blocker(surface, first, blocked));
+                              return active_lanes(group, first) != 0;
+                          });
+        left |= active_lanes(group, first);
+    }
+    if (left != 0 && !scene.tree.empty())
+        visit_blockers_in_tree<F, End>(scene.tree, group, blocker);
+}
+
+}  // namespace
+}  // namespace packtrace::PACKTRACE_ISA

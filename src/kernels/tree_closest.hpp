@@ -1,0 +1,142 @@
+#pragma once
+
+#include "kernels/closest.hpp"
+#include "kernels/walk_cells.hpp"
+
+// Closest hits of a group of rays among the objects of the hierarchy.
+namespace packtrace::PACKTRACE_ISA {
+namespace {
+
+/// The sphere in one place of a block.
+template <class Real>
+inline Quadratic<Real> quadratic_of(const abi::SphereBlock<Real>& block, int slot,
+                                    const RayPacket<Real>& rays)
+{
+    const Vec3v<Real> center{vreal<Real>(block.center[0][slot]), vreal<Real>(block.center[1][slot]),
+                             vreal<Real>(block.center[2][slot])};
+    const Vec3v<Real> o = rays.org - center;
+    const vreal<Real> radius2(block.radius2[slot]);
+    return sphere_quadratic<Real>(rays, o, radius2, sphere_constant<Real>(o, radius2));
+}
+
+/// Not below any of a cell's `t`, in single precision.
+template <class Real>
+inline float furthest(const RayGroup<Real>& group, int cell)
+{
+    const Real* t = group.t + cell * cell_rays;
+    const float most = largest_of8(max8(load8(t), load8(t + 8)));
+    return sizeof(Real) == sizeof(float) ? most : most * 1.000001f;
+}
+
+/// Calls `visit(slot, cell)` for the spheres of a block and the cells of `cells` that may meet
+/// them.
+template <class Real, class Visit>
+inline void visit_spheres(const CellBounds& bounds, const abi::SphereBlock<Real>& block,
+                          std::uint32_t cells, const Visit& visit)
+{
+    const EightBoxes boxes = boxes_of(block);
+    std::uint32_t met = meet_boxes(bounds, beam_of(cells), boxes).hits;
+    if ((cells & (cells - 1)) == 0) {
+        for (; met != 0; met &= met - 1)
+            visit(__builtin_ctz(met), __builtin_ctz(cells));
+        return;
+    }
+    alignas(32) float low[3][8];
+    alignas(32) float high[3][8];
+    for (int axis = 0; axis < 3; ++axis) {
+        store8(low[axis], boxes.low[axis]);
+        store8(high[axis], boxes.high[axis]);
+    }
+    for (; met != 0; met &= met - 1) {
+        const int slot = __builtin_ctz(met);
+        std::uint32_t by = meet_cells(bounds, {low[0][slot], low[1][slot], low[2][slot]},
+                                      {high[0][slot], high[1][slot], high[2][slot]}, cells);
+        for (; by != 0; by &= by - 1)
+            visit(slot, __builtin_ctz(by));
+    }
+}
+
+/// Tests one leaf after another against the cells that may meet it.
+template <abi::Features F, class Real>
+class ClosestInTree {
+public:
+    ClosestInTree(const abi::BvhView<Real>& tree, RayGroup<Real>& group, CellBounds& bounds)
+        : tree_(tree), group_(group), bounds_(bounds)
+    {
+    }
+
+    void operator()(std::uint32_t child, std::uint32_t cells) const
+    {
+        if constexpr (F.quadrics)
+            if (abi::is_quadric_leaf(child))
+                return quadrics(child, cells);
+        spheres(tree_.blocks[child & abi::block_mask], cells);
+    }
+
+private:
+    void spheres(const abi::SphereBlock<Real>& block, std::uint32_t cells) const
+    {
+        bool closer = false;
+        visit_spheres(bounds_, block, cells,
+                      [&](int slot, int cell) { closer |= sphere(block, slot, cell); });
+        if (closer)
+            join_t_max(bounds_);
+    }
+
+    bool sphere(const abi::SphereBlock<Real>& block, int slot, int cell) const
+    {
+        bool any_closer = false;
+        for (int first = cell * cell_rays; first < (cell + 1) * cell_rays; first += lanes<Real>) {
+            const RayPacket<Real> rays = load_rays(group_, first);
+            const Quadratic<Real> quadratic = quadratic_of(block, slot, rays);
+            const auto active = may_hit(quadratic);
+            if (none(active))
+                continue;
+            HitPacket<Real> hit = load_hits(group_, first);
+            keep_first_root<Real>(hit, quadratic, active, rays.t_min,
+                                  static_cast<std::int32_t>(block.surface[slot]));
+            store_hits(group_, first, hit);
+            any_closer = true;
+        }
+        if (any_closer)
+            bounds_.t_max[cell] = furthest(group_, cell);
+        return any_closer;
+    }
+
+    void quadrics(std::uint32_t child, std::uint32_t cells) const
+    {
+        const abi::QuadricRecord<Real>* quadric = tree_.quadrics + abi::first_quadric(child);
+        for (int i = 0; i < abi::quadric_count(child); ++i)
+            for (std::uint32_t left = cells; left != 0; left &= left - 1)
+                keep_quadric_of(quadric[i], __builtin_ctz(left));
+        join_t_max(bounds_);
+    }
+
+    void keep_quadric_of(const abi::QuadricRecord<Real>& quadric, int cell) const
+    {
+        for (int first = cell * cell_rays; first < (cell + 1) * cell_rays; first += lanes<Real>) {
+            HitPacket<Real> hit = load_hits(group_, first);
+            keep_quadric(hit, quadric, load_rays(group_, first));
+            store_hits(group_, first, hit);
+        }
+        bounds_.t_max[cell] = furthest(group_, cell);
+    }
+
+    const abi::BvhView<Real>& tree_;
+    RayGroup<Real>& group_;
+    CellBounds& bounds_;
+};
+
+/// The same for the coherent cells of a group.
+template <abi::Features F, class Real>
+inline void closest_of_cells(const abi::BvhView<Real>& tree, RayGroup<Real>& group,
+                             CellBounds& bounds)
+{
+    for (int cell = 0; cell < group_cells; ++cell)
+        bounds.t_max[cell] = bounds.coherent >> cell & 1u ? furthest(group, cell) : -no_end;
+    join_t_max(bounds);
+    walk_cells(tree.nodes, bounds, bounds.coherent, ClosestInTree<F, Real>(tree, group, bounds));
+}
+
+}  // namespace
+}  // namespace packtrace::PACKTRACE_ISA

@@ -1,0 +1,174 @@
+#include "lower/packed_tree.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "lower/pack_record.hpp"
+
+namespace packtrace {
+namespace {
+
+enum ItemKind : std::uint32_t { sphere_item, quadric_item };
+
+/// Quadrics that stretch space more than this lose so many digits in single precision that no
+/// box with a little room holds their hits.
+constexpr double worst_condition = 1e3;
+
+/// How far single precision shifts the hits of a sphere, as a share of the distances there are:
+/// docs/numerics.md derives 16 units in the last place.
+constexpr double sphere_slack = 2e-6;
+
+float round_down(double x)
+{
+    const auto rounded = static_cast<float>(x);
+    return std::nextafter(rounded, -std::numeric_limits<float>::infinity());
+}
+
+float round_up(double x)
+{
+    const auto rounded = static_cast<float>(x);
+    return std::nextafter(rounded, std::numeric_limits<float>::infinity());
+}
+
+/// The box around `center`, with room for what rounding does to a centre and a radius.
+BvhItem make_item(const Vec3& center, const Vec3& half, std::size_t number, ItemKind kind)
+{
+    BvhItem item{};
+    for (int axis = 0; axis < 3; ++axis) {
+        const double size = half[axis] * (1.0 + 1e-6) + std::abs(center[axis]) * 3e-7;
+        item.low[axis] = round_down(center[axis] - size);
+        item.high[axis] = round_up(center[axis] + size);
+    }
+    item.number = static_cast<std::uint32_t>(number);
+    item.kind = kind;
+    return item;
+}
+
+std::vector<BvhItem> tree_items(const LoweredScene& lowered)
+{
+    std::vector<BvhItem> items;
+    items.reserve(count_tree_objects(lowered));
+    for (std::size_t i = 0; i < lowered.spheres.size(); ++i)
+        if (fits_tree(lowered.spheres[i]))
+            items.push_back(make_item(lowered.spheres[i].center, Vec3(lowered.spheres[i].radius), i,
+                                      sphere_item));
+    for (std::size_t i = 0; i < lowered.quadrics.size(); ++i)
+        if (fits_tree(lowered.quadrics[i]))
+            items.push_back(make_item(lowered.quadrics[i].bound, lowered.quadrics[i].box_half, i,
+                                      quadric_item));
+    return items;
+}
+
+float extent_of(const abi::BvhNode& root)
+{
+    float extent = 0.0f;
+    for (int slot = 0; slot < abi::node_width; ++slot)
+        for (int axis = 0; axis < 3; ++axis)
+            if (root.low[axis][slot] <= root.high[axis][slot])
+                extent = std::max({extent, -root.low[axis][slot], root.high[axis][slot]});
+    return extent;
+}
+
+double worst_slack(const LoweredScene& lowered)
+{
+    double condition = 1.0;
+    for (const LoweredQuadric& quadric : lowered.quadrics)
+        if (fits_tree(quadric))
+            condition = std::max(condition, quadric.condition);
+    return sphere_slack * condition;
+}
+
+}  // namespace
+
+bool fits_tree(const LoweredSphere& sphere)
+{
+    return !sphere.huge;
+}
+
+bool fits_tree(const LoweredQuadric& quadric)
+{
+    return std::isfinite(quadric.bound_radius) && quadric.condition < worst_condition;
+}
+
+std::size_t count_tree_objects(const LoweredScene& lowered)
+{
+    const auto fits = [](const auto& object) { return fits_tree(object); };
+    return static_cast<std::size_t>(
+        std::count_if(lowered.spheres.begin(), lowered.spheres.end(), fits) +
+        std::count_if(lowered.quadrics.begin(), lowered.quadrics.end(), fits));
+}
+
+template <class Real>
+PackedTree<Real>::PackedTree(const LoweredScene& lowered)
+{
+    std::vector<BvhItem> items = tree_items(lowered);
+    if (items.empty())
+        return;
+    Bvh bvh = build_bvh(items);
+    items = {};
+    pack_leaves(lowered, bvh);
+    nodes_ = AlignedArray<abi::BvhNode>(bvh.nodes.size());
+    std::copy(bvh.nodes.begin(), bvh.nodes.end(), nodes_.data());
+    view_ = {nodes_.data(),        blocks_.data(),
+             quadrics_.data(),     static_cast<int>(bvh.nodes.size()),
+             extent_of(nodes_[0]), static_cast<float>(worst_slack(lowered))};
+}
+
+/// Also points the nodes' leaves to where they are packed.
+template <class Real>
+void PackedTree<Real>::pack_leaves(const LoweredScene& lowered, Bvh& bvh)
+{
+    std::size_t block_count = 0;
+    std::size_t quadric_count = 0;
+    std::vector<std::uint32_t> packed_at(bvh.leaves.size());
+    for (std::size_t i = 0; i < bvh.leaves.size(); ++i) {
+        const BvhLeaf& leaf = bvh.leaves[i];
+        if (leaf.kind == sphere_item) {
+            packed_at[i] = abi::leaf_bit | static_cast<std::uint32_t>(block_count++);
+        } else {
+            packed_at[i] = abi::leaf_bit | abi::quadric_bit |
+                           (leaf.count - 1) << abi::quadric_count_shift |
+                           static_cast<std::uint32_t>(quadric_count);
+            quadric_count += leaf.count;
+        }
+    }
+    // One more: kernels read a whole packet from the last.
+    blocks_ = AlignedArray<abi::SphereBlock<Real>>(block_count + 1);
+    quadrics_ = AlignedArray<abi::QuadricRecord<Real>>(quadric_count);
+    std::size_t block = 0;
+    std::size_t quadric = 0;
+    for (const BvhLeaf& leaf : bvh.leaves) {
+        if (leaf.kind == sphere_item)
+            pack_block(lowered, bvh, leaf, blocks_[block++]);
+        else
+            for (std::uint32_t i = 0; i < leaf.count; ++i)
+                quadrics_[quadric++] =
+                    pack_quadric<Real>(lowered.quadrics[bvh.order[leaf.first + i]]);
+    }
+    for (abi::BvhNode& node : bvh.nodes)
+        for (int slot = 0; slot < abi::node_width; ++slot)
+            if (abi::is_leaf(node.child[slot]) && node.low[0][slot] <= node.high[0][slot])
+                node.child[slot] = packed_at[node.child[slot] & ~abi::leaf_bit];
+}
+
+template <class Real>
+void PackedTree<Real>::pack_block(const LoweredScene& lowered, const Bvh& bvh, const BvhLeaf& leaf,
+                                  abi::SphereBlock<Real>& block)
+{
+    // Unused places: a sphere of negative size where nothing is.
+    constexpr Real nowhere = Real(1e15);
+    for (std::uint32_t i = 0; i < abi::node_width; ++i) {
+        const bool used = i < leaf.count;
+        const LoweredSphere unused;
+        const LoweredSphere& sphere = used ? lowered.spheres[bvh.order[leaf.first + i]] : unused;
+        for (int axis = 0; axis < 3; ++axis)
+            block.center[axis][i] = used ? static_cast<Real>(sphere.center[axis]) : nowhere;
+        block.radius2[i] = used ? static_cast<Real>(sphere.radius * sphere.radius) : Real(-1);
+        block.surface[i] = used ? sphere.surface : -1;
+    }
+}
+
+template class PackedTree<float>;
+template class PackedTree<double>;
+
+}  // namespace packtrace

@@ -1,0 +1,49 @@
+#pragma once
+
+#include "bvh/bvh.hpp"
+#include "core/aligned_array.hpp"
+#include "kernel_abi/bvh.hpp"
+#include "lower/lowered_scene.hpp"
+
+namespace packtrace {
+
+/// Whether an object can be in a hierarchy: it has bounds, and single precision can tell with
+/// little room where it is hit.
+[[nodiscard]] bool fits_tree(const LoweredSphere& sphere);
+[[nodiscard]] bool fits_tree(const LoweredQuadric& quadric);
+
+/// How many objects of a scene do.
+[[nodiscard]] std::size_t count_tree_objects(const LoweredScene& lowered);
+
+/// A hierarchy over those objects, in the arrays and the precision the kernels read.
+template <class Real>
+class PackedTree {
+public:
+    PackedTree() = default;
+    explicit PackedTree(const LoweredScene& lowered);
+
+    /// Valid as long as this object; empty for a default one.
+    [[nodiscard]] const abi::BvhView<Real>& view() const
+    {
+        return view_;
+    }
+
+    [[nodiscard]] std::size_t bytes() const
+    {
+        return nodes_.size() * sizeof(abi::BvhNode) +
+               blocks_.size() * sizeof(abi::SphereBlock<Real>) +
+               quadrics_.size() * sizeof(abi::QuadricRecord<Real>);
+    }
+
+private:
+    void pack_leaves(const LoweredScene& lowered, Bvh& bvh);
+    void pack_block(const LoweredScene& lowered, const Bvh& bvh, const BvhLeaf& leaf,
+                    abi::SphereBlock<Real>& block);
+
+    AlignedArray<abi::BvhNode> nodes_;
+    AlignedArray<abi::SphereBlock<Real>> blocks_;
+    AlignedArray<abi::QuadricRecord<Real>> quadrics_;
+    abi::BvhView<Real> view_;
+};
+
+}  // namespace packtrace
