@@ -6,15 +6,19 @@
 #include <new>
 #include <type_traits>
 
+#include <sys/mman.h>
+
 namespace packtrace {
 
-/// Memory for `size` elements of a plain type at a 64-byte boundary, all bytes zero.
+/// Memory for `size` elements of a plain type at a 64-byte boundary, all bytes zero; in huge
+/// pages, where the system has any, from the size of one on.
 template <class T>
 class AlignedArray {
     static_assert(std::is_trivially_copyable_v<T>);
 
 public:
     static constexpr std::size_t alignment = 64;
+    static constexpr std::size_t huge_page = std::size_t{1} << 21;
 
     AlignedArray() = default;
 
@@ -47,10 +51,17 @@ private:
 
     static T* allocate(std::size_t size)
     {
-        const std::size_t bytes = (size * sizeof(T) + alignment) / alignment * alignment;
-        void* memory = std::aligned_alloc(alignment, bytes);
+        const std::size_t wanted = size * sizeof(T);
+        const std::size_t boundary = wanted < huge_page ? alignment : huge_page;
+        const std::size_t bytes = (wanted + boundary) / boundary * boundary;
+        void* memory = std::aligned_alloc(boundary, bytes);
         if (memory == nullptr)
             throw std::bad_alloc();
+#if defined(MADV_HUGEPAGE)
+        // Rays walk large arrays in no order; a refusal costs time only.
+        if (boundary == huge_page)
+            (void)madvise(memory, bytes, MADV_HUGEPAGE);
+#endif
         return static_cast<T*>(memory);
     }
 

@@ -26,4 +26,10 @@ constexpr bool covers(Features set, Features needed)
            set.probe == needed.probe;
 }
 
+/// What of a set makes a difference to how rays find objects: kernels share that code.
+constexpr Features tree_features(Features set)
+{
+    return {.quadrics = set.quadrics};
+}
+
 }  // namespace packtrace::abi

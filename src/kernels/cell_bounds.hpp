@@ -40,7 +40,7 @@ inline constexpr float largest_coordinate = 1e15f;
 inline constexpr float smallest_component = 1e-18f;
 inline constexpr float smallest_length = 1e-12f;
 /// Largest difference of directions within a coherent cell, as a share of their length.
-inline constexpr float coherent_spread = 0.3f;
+inline constexpr float coherent_spread = 0.03f;
 
 /// The least and largest value of each cell's rays; NaN is left out, a cell without any rays is
 /// inside out.

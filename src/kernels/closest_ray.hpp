@@ -1,7 +1,7 @@
 #pragma once
 
-#include "kernels/tree_closest.hpp"
-#include "kernels/walk_ray.hpp"
+#include "kernels/cell_rays.hpp"
+#include "kernels/closest.hpp"
 
 // The closest hit of a single ray in the hierarchy. Spheres of a block are tested side by side,
 // by the operations that test one sphere against a packet of rays, so with the same bits.
@@ -39,8 +39,9 @@ inline Quadratic<Real> quadratics_of(const abi::SphereBlock<Real>& block, int fi
 
 /// Lanes that hold spheres of a block.
 template <class Real>
-inline constexpr std::uint32_t block_lanes =
-    lanes<Real> <= abi::node_width ? all_lanes<Real> : (1u << abi::node_width) - 1u;
+inline constexpr std::uint32_t block_lanes = lanes<Real> <= abi::node_width
+                                                 ? all_lanes<Real>
+                                                 : (1u << abi::node_width) - 1u;
 
 /// Of the chosen lanes' hits the closest, if it comes before that of the ray.
 template <class Real>
@@ -81,33 +82,40 @@ inline void closest_of_block(RayGroup<Real>& group, int ray, const RayPacket<Rea
     }
 }
 
-/// Not below `t`, in single precision.
 template <class Real>
-inline float float_above(Real t)
+inline void closest_of_quadrics(RayGroup<Real>& group, int ray, const RayPacket<Real>& rays,
+                                const abi::QuadricRecord<Real>* quadrics, int count)
 {
-    const float rounded = static_cast<float>(t);
-    return sizeof(Real) == sizeof(float) ? rounded : rounded * 1.000001f;
+    HitPacket<Real> hit{vreal<Real>(group.t[ray]), vint<Real>(group.surface[ray])};
+    for (int i = 0; i < count; ++i)
+        keep_quadric(hit, quadrics[i], rays);
+    alignas(64) lane_int<Real> surface[lanes<Real>];
+    store(surface, hit.surface);
+    group.t[ray] = first_lane<Real>(hit.t);
+    group.surface[ray] = surface[0];
 }
 
+/// The ray against one leaf.
 template <abi::Features F, class Real>
-inline void closest_of_ray(const abi::BvhView<Real>& tree, RayGroup<Real>& group, int ray)
+inline void closest_of_leaf(const abi::BvhView<Real>& tree, RayGroup<Real>& group, int ray,
+                            const RayPacket<Real>& rays, std::uint32_t child)
+{
+    if (F.quadrics && abi::is_quadric_leaf(child))
+        closest_of_quadrics(group, ray, rays, tree.quadrics + abi::first_quadric(child),
+                            abi::quadric_count(child));
+    else
+        closest_of_block(group, ray, rays, tree.blocks[child & abi::block_mask]);
+}
+
+/// The ray against all below `child`.
+template <abi::Features F, class Real>
+inline void closest_of_ray(const abi::BvhView<Real>& tree, const SlabRays& slabs,
+                           RayGroup<Real>& group, int ray, std::uint32_t child)
 {
     const RayPacket<Real> rays = broadcast_ray(group, ray);
-    SlabRay slab = slab_ray(group, ray, tree.extent, tree.slack);
-    slab.t_max = float_above(group.t[ray]);
-    walk_ray(tree.nodes, slab, [&](std::uint32_t child) {
-        if (F.quadrics && abi::is_quadric_leaf(child)) {
-            HitPacket<Real> hit{vreal<Real>(group.t[ray]), vint<Real>(group.surface[ray])};
-            const abi::QuadricRecord<Real>* quadric = tree.quadrics + abi::first_quadric(child);
-            for (int i = 0; i < abi::quadric_count(child); ++i)
-                keep_quadric(hit, quadric[i], rays);
-            group.t[ray] = first_lane<Real>(hit.t);
-            alignas(64) lane_int<Real> surface[lanes<Real>];
-            store(surface, hit.surface);
-            group.surface[ray] = surface[0];
-        } else {
-            closest_of_block(group, ray, rays, tree.blocks[child & abi::block_mask]);
-        }
+    SlabRay slab = slab_ray(slabs, group, ray);
+    walk_ray(tree, child, slab, [&](std::uint32_t leaf) {
+        closest_of_leaf<F>(tree, group, ray, rays, leaf);
         slab.t_max = float_above(group.t[ray]);
         return true;
     });

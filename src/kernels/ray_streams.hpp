@@ -113,8 +113,7 @@ inline int gather_stream(const abi::RaysView<Real>& view, int begin, RayGroup<Re
     for (int first = 0; first < count; first += lanes<Real>) {
         const StreamPacket<Real> packet(view, begin + first);
         store_rays(group, first, packet.rays);
-        start_rays(group, first, packet.t_max,
-                   first_lanes<Real>(count - first) & numbers(packet));
+        start_rays(group, first, packet.t_max, first_lanes<Real>(count - first) & numbers(packet));
     }
     end_group(group, count);
     return count;
@@ -169,11 +168,10 @@ inline void occluded_rays(const abi::SceneView<Real>& scene, const abi::RaysView
         std::uint16_t wanted[group_cells];
         for (int cell = 0; cell < group_cells; ++cell)
             wanted[cell] = group.active[cell];
-        visit_blockers_of_group<F, StreamRange<Real>>(
-            scene, scene, group,
-            [](std::int32_t, int, std::uint32_t blocked) { return blocked; });
+        visit_blockers_of_group<F, StreamRange<Real>>(scene, scene, group, EndsRays{});
         for (int ray = 0; ray < count; ++ray) {
-            const unsigned blocked = wanted[ray / cell_rays] & ~unsigned{group.active[ray / cell_rays]};
+            const unsigned blocked =
+                wanted[ray / cell_rays] & ~unsigned{group.active[ray / cell_rays]};
             mask[begin + ray] = static_cast<std::uint8_t>(blocked >> ray % cell_rays & 1u);
         }
     }
@@ -181,13 +179,13 @@ inline void occluded_rays(const abi::SceneView<Real>& scene, const abi::RaysView
 
 /// Hands the crossings of one surface to the sink.
 template <abi::Features F, class Real>
-inline void report_hits(const abi::SceneView<Real>& scene, const RayGroup<Real>& group,
-                        int begin, int first, const abi::HitSink<Real>& sink, vmask<Real> valid,
+inline void report_hits(const abi::SceneView<Real>& scene, const RayGroup<Real>& group, int begin,
+                        int first, const abi::HitSink<Real>& sink, vmask<Real> valid,
                         const vreal<Real>& t, std::int32_t surface)
 {
     const RayPacket<Real> rays = load_rays(group, first);
-    std::uint32_t active = bits(valid & (t > rays.t_min) & (t < load(group.t + first))) &
-                           active_lanes(group, first);
+    std::uint32_t active =
+        bits(valid & (t > rays.t_min) & (t < load(group.t + first))) & active_lanes(group, first);
     if (active == 0)
         return;
     const SurfacePacket<Real> at = outward_surface<F>(
@@ -219,11 +217,11 @@ inline void all_hits(const abi::SceneView<Real>& scene, const abi::RaysView<Real
         };
         for (int first = 0; first < group_rays; first += lanes<Real>)
             if (active_lanes(group, first) != 0)
-                visit_all_crossings<F>(scene, load_rays(group, first),
-                                       [&](vmask<Real> valid, const vreal<Real>& t,
-                                           std::int32_t surface) {
-                                           report(first, valid, t, surface);
-                                       });
+                visit_all_crossings<F>(
+                    scene, load_rays(group, first),
+                    [&](vmask<Real> valid, const vreal<Real>& t, std::int32_t surface) {
+                        report(first, valid, t, surface);
+                    });
         if (!scene.tree.empty())
             visit_crossings_in_tree<F>(scene.tree, group, report);
     }

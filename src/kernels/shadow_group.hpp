@@ -69,8 +69,7 @@ inline void find_shadows(const ShadeContext<F, Real>& context, const HitStream<F
             return;
         }
     }
-    visit_shadow_blockers<F>(context, light, group,
-                             [](std::int32_t, int, std::uint32_t blocked) { return blocked; });
+    visit_shadow_blockers<F>(context, light, group, EndsRays{});
     copy_active(group, shadows.lit);
 }
 

@@ -1,7 +1,7 @@
 #pragma once
 
-#include "kernels/closest_ray.hpp"
 #include "kernels/occluded.hpp"
+#include "kernels/tree_closest.hpp"
 
 // What stands in the way of a group of rays among the objects of the hierarchy.
 //
@@ -10,6 +10,14 @@
 // out of the group's active rays. `End` is one of those of occluded.hpp.
 namespace packtrace::PACKTRACE_ISA {
 namespace {
+
+/// The blocker of opaque shadows: each ends the rays it blocks.
+struct EndsRays {
+    std::uint32_t operator()(std::int32_t, int, std::uint32_t blocked) const
+    {
+        return blocked;
+    }
+};
 
 template <class Real>
 inline void set_end(SegmentEnd<Real>& end, const vreal<Real>& t)
@@ -33,12 +41,50 @@ inline void finish_lanes(RayGroup<Real>& group, int first, std::uint32_t done)
     group.active[first / cell_rays] &= static_cast<std::uint16_t>(~(done << first % cell_rays));
 }
 
+/// One ray against all below `child`.
+template <abi::Features F, class End, class Real, class Blocker>
+inline void blockers_of_ray(const abi::BvhView<Real>& tree, const SlabRays& slabs,
+                            RayGroup<Real>& group, int ray, std::uint32_t child,
+                            const Blocker& blocker)
+{
+    const RayPacket<Real> rays = broadcast_ray(group, ray);
+    End end;
+    set_end(end, vreal<Real>(group.t[ray]));
+    SlabRay slab = slab_ray(slabs, group, ray);
+    const int first = ray / lanes<Real> * lanes<Real>;
+    const std::uint32_t lane = 1u << (ray - first);
+    const auto blocked_by = [&](std::int32_t surface) {
+        finish_lanes(group, first, blocker(surface, first, lane));
+        return (active_lanes(group, first) & lane) != 0;
+    };
+    walk_ray(tree, child, slab, [&](std::uint32_t leaf) {
+        if (F.quadrics && abi::is_quadric_leaf(leaf)) {
+            const abi::QuadricRecord<Real>* quadric = tree.quadrics + abi::first_quadric(leaf);
+            for (int i = 0; i < abi::quadric_count(leaf); ++i)
+                if (quadric_blocks(end, quadric[i], rays) != 0 && !blocked_by(quadric[i].surface))
+                    return false;
+            return true;
+        }
+        const abi::SphereBlock<Real>& block = tree.blocks[leaf & abi::block_mask];
+        for (int from = 0; from < abi::node_width; from += lanes<Real>) {
+            std::uint32_t blocking =
+                bits(end.blocked_by(quadratics_of(block, from, rays), rays)) & block_lanes<Real>;
+            for (; blocking != 0; blocking &= blocking - 1)
+                if (!blocked_by(
+                        static_cast<std::int32_t>(block.surface[from + __builtin_ctz(blocking)])))
+                    return false;
+        }
+        return true;
+    });
+}
+
+/// The cells of a group.
 template <abi::Features F, class End, class Real, class Blocker>
 class BlockersInTree {
 public:
     BlockersInTree(const abi::BvhView<Real>& tree, RayGroup<Real>& group, CellBounds& bounds,
-                   const Blocker& blocker)
-        : tree_(tree), group_(group), bounds_(bounds), blocker_(blocker)
+                   SlabRays& slabs, const Blocker& blocker)
+        : tree_(tree), group_(group), bounds_(bounds), slabs_(slabs), blocker_(blocker)
     {
     }
 
@@ -48,6 +94,23 @@ public:
             if (abi::is_quadric_leaf(child))
                 return quadrics(child, cells);
         spheres(tree_.blocks[child & abi::block_mask], cells);
+    }
+
+    void few_rays(std::uint32_t child, int cell, std::uint32_t rays) const
+    {
+        for (; rays != 0; rays &= rays - 1)
+            blockers_of_ray<F, End>(tree_, slabs_, group_, cell * cell_rays + __builtin_ctz(rays),
+                                    child, blocker_);
+        if (group_.active[cell] == 0) {
+            bounds_.t_max[cell] = -no_end;
+            join_t_max(bounds_);
+        }
+    }
+
+    std::uint32_t rays_of(int cell, const float (&low)[3], const float (&high)[3]) const
+    {
+        fill_cell(slabs_, group_, cell, tree_.extent, tree_.slack);
+        return meet_rays(slabs_, group_, cell, low, high);
     }
 
 private:
@@ -95,66 +158,33 @@ private:
     const abi::BvhView<Real>& tree_;
     RayGroup<Real>& group_;
     CellBounds& bounds_;
+    SlabRays& slabs_;
     const Blocker& blocker_;
 };
 
-/// The same for one ray.
-template <abi::Features F, class End, class Real, class Blocker>
-inline void blockers_of_ray(const abi::BvhView<Real>& tree, RayGroup<Real>& group, int ray,
-                            const Blocker& blocker)
-{
-    const RayPacket<Real> rays = broadcast_ray(group, ray);
-    End end;
-    set_end(end, vreal<Real>(group.t[ray]));
-    SlabRay slab = slab_ray(group, ray, tree.extent, tree.slack);
-    slab.t_max = float_above(group.t[ray]);
-    const int first = ray / lanes<Real> * lanes<Real>;
-    const std::uint32_t lane = 1u << (ray - first);
-    const auto blocked_by = [&](std::int32_t surface) {
-        finish_lanes(group, first, blocker(surface, first, lane));
-        return (active_lanes(group, first) & lane) != 0;
-    };
-    walk_ray(tree.nodes, slab, [&](std::uint32_t child) {
-        if (F.quadrics && abi::is_quadric_leaf(child)) {
-            const abi::QuadricRecord<Real>* quadric = tree.quadrics + abi::first_quadric(child);
-            for (int i = 0; i < abi::quadric_count(child); ++i)
-                if (quadric_blocks(end, quadric[i], rays) != 0 && !blocked_by(quadric[i].surface))
-                    return false;
-            return true;
-        }
-        const abi::SphereBlock<Real>& block = tree.blocks[child & abi::block_mask];
-        for (int from = 0; from < abi::node_width; from += lanes<Real>) {
-            std::uint32_t blocking =
-                bits(end.blocked_by(quadratics_of(block, from, rays), rays)) & block_lanes<Real>;
-            for (; blocking != 0; blocking &= blocking - 1)
-                if (!blocked_by(
-                        static_cast<std::int32_t>(block.surface[from + __builtin_ctz(blocking)])))
-                    return false;
-        }
-        return true;
-    });
-}
-
 /// Meets the active rays of a group with what blocks them in the hierarchy.
 template <abi::Features F, class End, class Real, class Blocker>
-inline void visit_blockers_in_tree(const abi::BvhView<Real>& tree, RayGroup<Real>& group,
-                                   const Blocker& blocker)
+[[gnu::noinline]] void visit_blockers_in_tree(const abi::BvhView<Real>& tree, RayGroup<Real>& group,
+                                              const Blocker& blocker)
 {
     CellBounds bounds;
+    SlabRays slabs;
     bound_cells(bounds, group, tree.extent, tree.slack);
     for (int cell = 0; cell < group_cells; ++cell) {
         if (bounds.coherent >> cell & 1u)
             continue;
+        fill_cell(slabs, group, cell, tree.extent, tree.slack);
         for (std::uint32_t left = group.active[cell]; left != 0; left &= left - 1)
-            blockers_of_ray<F, End>(tree, group, cell * cell_rays + __builtin_ctz(left), blocker);
+            blockers_of_ray<F, End>(tree, slabs, group, cell * cell_rays + __builtin_ctz(left), 0,
+                                    blocker);
     }
     if (bounds.coherent == 0)
         return;
     for (int cell = 0; cell < group_cells; ++cell)
         bounds.t_max[cell] = bounds.coherent >> cell & 1u ? furthest(group, cell) : -no_end;
     join_t_max(bounds);
-    walk_cells(tree.nodes, bounds, bounds.coherent,
-               BlockersInTree<F, End, Real, Blocker>(tree, group, bounds, blocker));
+    walk_cells(tree, bounds, bounds.coherent,
+               BlockersInTree<F, End, Real, Blocker>(tree, group, bounds, slabs, blocker));
 }
 
 /// The same among all objects of a scene, lists first.
@@ -178,7 +208,7 @@ inline void visit_blockers_of_group(const abi::SceneView<Real>& scene, const Obj
         left |= active_lanes(group, first);
     }
     if (left != 0 && !scene.tree.empty())
-        visit_blockers_in_tree<F, End>(scene.tree, group, blocker);
+        visit_blockers_in_tree<abi::tree_features(F), End>(scene.tree, group, blocker);
 }
 
 }  // namespace

@@ -1,7 +1,6 @@
 #pragma once
 
-#include "kernels/closest.hpp"
-#include "kernels/walk_cells.hpp"
+#include "kernels/closest_ray.hpp"
 
 // Closest hits of a group of rays among the objects of the hierarchy.
 namespace packtrace::PACKTRACE_ISA {
@@ -60,17 +59,35 @@ inline void visit_spheres(const CellBounds& bounds, const abi::SphereBlock<Real>
 template <abi::Features F, class Real>
 class ClosestInTree {
 public:
-    ClosestInTree(const abi::BvhView<Real>& tree, RayGroup<Real>& group, CellBounds& bounds)
-        : tree_(tree), group_(group), bounds_(bounds)
+    ClosestInTree(const abi::BvhView<Real>& tree, RayGroup<Real>& group, CellBounds& bounds,
+                  SlabRays& slabs)
+        : tree_(tree), group_(group), bounds_(bounds), slabs_(slabs)
     {
     }
 
+    /// A leaf that several cells may meet.
     void operator()(std::uint32_t child, std::uint32_t cells) const
     {
         if constexpr (F.quadrics)
             if (abi::is_quadric_leaf(child))
                 return quadrics(child, cells);
         spheres(tree_.blocks[child & abi::block_mask], cells);
+    }
+
+    /// Whatever is below a child that few rays of one cell may meet.
+    void few_rays(std::uint32_t child, int cell, std::uint32_t rays) const
+    {
+        for (; rays != 0; rays &= rays - 1)
+            closest_of_ray<F>(tree_, slabs_, group_, cell * cell_rays + __builtin_ctz(rays), child);
+        bounds_.t_max[cell] = furthest(group_, cell);
+        join_t_max(bounds_);
+    }
+
+    /// The rays of a cell that may meet a box.
+    std::uint32_t rays_of(int cell, const float (&low)[3], const float (&high)[3]) const
+    {
+        fill_cell(slabs_, group_, cell, tree_.extent, tree_.slack);
+        return meet_rays(slabs_, group_, cell, low, high);
     }
 
 private:
@@ -125,17 +142,18 @@ private:
     const abi::BvhView<Real>& tree_;
     RayGroup<Real>& group_;
     CellBounds& bounds_;
+    SlabRays& slabs_;
 };
 
 /// The same for the coherent cells of a group.
 template <abi::Features F, class Real>
 inline void closest_of_cells(const abi::BvhView<Real>& tree, RayGroup<Real>& group,
-                             CellBounds& bounds)
+                             CellBounds& bounds, SlabRays& slabs)
 {
     for (int cell = 0; cell < group_cells; ++cell)
         bounds.t_max[cell] = bounds.coherent >> cell & 1u ? furthest(group, cell) : -no_end;
     join_t_max(bounds);
-    walk_cells(tree.nodes, bounds, bounds.coherent, ClosestInTree<F, Real>(tree, group, bounds));
+    walk_cells(tree, bounds, bounds.coherent, ClosestInTree<F, Real>(tree, group, bounds, slabs));
 }
 
 }  // namespace

@@ -5,6 +5,72 @@
 namespace packtrace::PACKTRACE_ISA {
 namespace {
 
+/// Takes every crossing of the leaves that cells may meet.
+template <abi::Features F, class Real, class Visit>
+class CrossingsInTree {
+public:
+    CrossingsInTree(const abi::BvhView<Real>& tree, const RayGroup<Real>& group,
+                    const CellBounds& bounds, const Visit& visit)
+        : tree_(tree), group_(group), bounds_(bounds), visit_(visit)
+    {
+    }
+
+    void operator()(std::uint32_t child, std::uint32_t cells) const
+    {
+        if (F.quadrics && abi::is_quadric_leaf(child)) {
+            for (int i = 0; i < abi::quadric_count(child); ++i)
+                for (std::uint32_t left = cells; left != 0; left &= left - 1)
+                    quadric(tree_.quadrics[abi::first_quadric(child) + i], __builtin_ctz(left));
+            return;
+        }
+        const abi::SphereBlock<Real>& block = tree_.blocks[child & abi::block_mask];
+        visit_spheres(bounds_, block, cells,
+                      [&](int slot, int cell) { sphere(block, slot, cell); });
+    }
+
+    // Rays stay together: what they meet does not end them.
+    void few_rays(std::uint32_t, int, std::uint32_t) const
+    {
+    }
+    std::uint32_t rays_of(int, const float (&)[3], const float (&)[3]) const
+    {
+        return ~0u;
+    }
+
+private:
+    template <class Cross>
+    void packets_of(int cell, const Cross& cross) const
+    {
+        for (int first = cell * cell_rays; first < (cell + 1) * cell_rays; first += lanes<Real>)
+            if (active_lanes(group_, first) != 0)
+                cross(first, load_rays(group_, first));
+    }
+
+    void sphere(const abi::SphereBlock<Real>& block, int slot, int cell) const
+    {
+        packets_of(cell, [&](int first, const RayPacket<Real>& rays) {
+            visit_roots(quadratic_of(block, slot, rays),
+                        [&](vmask<Real> valid, const vreal<Real>& t) {
+                            visit_(first, valid, t, static_cast<std::int32_t>(block.surface[slot]));
+                        });
+        });
+    }
+
+    void quadric(const abi::QuadricRecord<Real>& record, int cell) const
+    {
+        packets_of(cell, [&](int first, const RayPacket<Real>& rays) {
+            visit_crossings(record, rays, [&](vmask<Real> valid, const vreal<Real>& t, int piece) {
+                visit_(first, valid, t, record.surface + piece);
+            });
+        });
+    }
+
+    const abi::BvhView<Real>& tree_;
+    const RayGroup<Real>& group_;
+    const CellBounds& bounds_;
+    const Visit& visit_;
+};
+
 /// Calls `visit(first, valid, t, surface)` for every crossing of the objects of the hierarchy with
 /// the packets of a group; only those where `valid`, and with a t before the ray's, are one.
 template <abi::Features F, class Real, class Visit>
@@ -16,37 +82,8 @@ inline void visit_crossings_in_tree(const abi::BvhView<Real>& tree, const RayGro
     for (int cell = 0; cell < group_cells; ++cell)
         bounds.t_max[cell] = group.active[cell] != 0 ? furthest(group, cell) : -no_end;
     join_t_max(bounds);
-    const auto packets_of = [&](int cell, const auto& cross) {
-        for (int first = cell * cell_rays; first < (cell + 1) * cell_rays; first += lanes<Real>)
-            if (active_lanes(group, first) != 0)
-                cross(first, load_rays(group, first));
-    };
-    const auto meet_sphere = [&](const abi::SphereBlock<Real>& block, int slot, int cell) {
-        packets_of(cell, [&](int first, const RayPacket<Real>& rays) {
-            visit_roots(quadratic_of(block, slot, rays),
-                        [&](vmask<Real> valid, const vreal<Real>& t) {
-                            visit(first, valid, t, static_cast<std::int32_t>(block.surface[slot]));
-                        });
-        });
-    };
-    const auto meet_quadric = [&](const abi::QuadricRecord<Real>& quadric, int cell) {
-        packets_of(cell, [&](int first, const RayPacket<Real>& rays) {
-            visit_crossings(quadric, rays, [&](vmask<Real> valid, const vreal<Real>& t, int piece) {
-                visit(first, valid, t, quadric.surface + piece);
-            });
-        });
-    };
-    walk_cells(tree.nodes, bounds, bounds.coherent, [&](std::uint32_t child, std::uint32_t cells) {
-        if (F.quadrics && abi::is_quadric_leaf(child)) {
-            for (int i = 0; i < abi::quadric_count(child); ++i)
-                for (std::uint32_t left = cells; left != 0; left &= left - 1)
-                    meet_quadric(tree.quadrics[abi::first_quadric(child) + i], __builtin_ctz(left));
-            return;
-        }
-        const abi::SphereBlock<Real>& block = tree.blocks[child & abi::block_mask];
-        visit_spheres(bounds, block, cells,
-                      [&](int slot, int cell) { meet_sphere(block, slot, cell); });
-    });
+    walk_cells(tree, bounds, bounds.coherent,
+               CrossingsInTree<F, Real, Visit>(tree, group, bounds, visit));
 }
 
 }  // namespace

@@ -48,11 +48,23 @@ private:
     int size_ = 0;
 };
 
+/// Has the memory bring a child that will be looked at soon.
+template <class Real>
+inline void fetch_child(const abi::BvhView<Real>& tree, std::uint32_t child)
+{
+    const char* const from =
+        abi::is_leaf(child) ? reinterpret_cast<const char*>(tree.blocks + (child & abi::block_mask))
+                            : reinterpret_cast<const char*>(tree.nodes + child);
+    for (int line = 0; line < 4; ++line)
+        __builtin_prefetch(from + 64 * line);
+}
+
 /// Puts the children of a node that the cells may meet on the stack.
-inline void push_children(WalkStack& stack, const abi::BvhNode* nodes, std::uint32_t index,
+template <class Real>
+inline void push_children(WalkStack& stack, const abi::BvhView<Real>& tree, std::uint32_t index,
                           const CellBounds& bounds, std::uint32_t cells)
 {
-    const abi::BvhNode& node = nodes[index];
+    const abi::BvhNode& node = tree.nodes[index];
     const SlabHits slabs = meet_boxes(bounds, beam_of(cells), boxes_of(node));
     if (slabs.hits == 0)
         return;
@@ -61,45 +73,63 @@ inline void push_children(WalkStack& stack, const abi::BvhNode* nodes, std::uint
     const int bottom = stack.size();
     for (std::uint32_t left = slabs.hits; left != 0; left &= left - 1) {
         const auto slot = static_cast<std::uint16_t>(__builtin_ctz(left));
+        fetch_child(tree, node.child[slot]);
         stack.insert(bottom, {index, slot, static_cast<std::uint16_t>(cells), t_near[slot]});
     }
 }
 
-/// The entry's cells that nothing nearer hides it from by now.
-inline std::uint32_t still_open(const WalkEntry& entry, const abi::BvhNode* nodes,
-                                const CellBounds& bounds)
-{
-    const std::uint32_t cells = entry.cells;
-    if ((cells & (cells - 1)) == 0)
-        return entry.t_near <= bounds.t_max[__builtin_ctz(cells)] ? cells : 0;
-    const abi::BvhNode& node = nodes[entry.node];
-    const float low[3] = {node.low[0][entry.slot], node.low[1][entry.slot],
-                          node.low[2][entry.slot]};
-    const float high[3] = {node.high[0][entry.slot], node.high[1][entry.slot],
-                           node.high[2][entry.slot]};
-    return meet_cells(bounds, low, high, cells);
-}
+/// One child's box.
+struct ChildBox {
+    float low[3];
+    float high[3];
 
-/// Calls `leaf(child, cells)` for the leaves that cells may meet, nearest first as far as
-/// boxes tell. `leaf` lowers the t_max of `bounds` as it finds hits.
-template <class Leaf>
-inline void walk_cells(const abi::BvhNode* nodes, const CellBounds& bounds, std::uint32_t cells,
-                       const Leaf& leaf)
+    ChildBox(const abi::BvhNode& node, int slot)
+        : low{node.low[0][slot], node.low[1][slot], node.low[2][slot]},
+          high{node.high[0][slot], node.high[1][slot], node.high[2][slot]}
+    {
+    }
+};
+
+/// Rays of a cell that are better off alone than with the cell; results/few_rays.json.
+inline constexpr int few_rays = 4;
+
+/// Takes a group's coherent cells through the hierarchy. `visit(child, cells)` is called for the
+/// leaves that cells may meet, nearest first as far as boxes tell; where only few rays of one cell
+/// may meet a child, `visit.few_rays(child, cell, rays)` takes over, and `visit.rays_of(cell,
+/// low, high)` tells which. All lower the t_max of `bounds` as they find hits.
+template <class Real, class Visit>
+inline void walk_cells(const abi::BvhView<Real>& tree, const CellBounds& bounds,
+                       std::uint32_t cells, const Visit& visit)
 {
     if (cells == 0)
         return;
     WalkStack stack;
-    push_children(stack, nodes, 0, bounds, cells);
+    push_children(stack, tree, 0, bounds, cells);
     while (!stack.empty()) {
         const WalkEntry entry = stack.pop();
-        const std::uint32_t open = still_open(entry, nodes, bounds);
-        if (open == 0)
-            continue;
-        const std::uint32_t child = nodes[entry.node].child[entry.slot];
+        const abi::BvhNode& node = tree.nodes[entry.node];
+        const std::uint32_t child = node.child[entry.slot];
+        const ChildBox box(node, entry.slot);
+        std::uint32_t open = entry.cells;
+        if ((open & (open - 1)) == 0) {
+            const int cell = __builtin_ctz(open);
+            if (entry.t_near > bounds.t_max[cell])
+                continue;
+            const std::uint32_t rays = visit.rays_of(cell, box.low, box.high);
+            if (__builtin_popcount(rays) <= few_rays) {
+                if (rays != 0)
+                    visit.few_rays(child, cell, rays);
+                continue;
+            }
+        } else {
+            open = meet_cells(bounds, box.low, box.high, open);
+            if (open == 0)
+                continue;
+        }
         if (abi::is_leaf(child))
-            leaf(child, open);
+            visit(child, open);
         else
-            push_children(stack, nodes, child, bounds, open);
+            push_children(stack, tree, child, bounds, open);
     }
 }
 

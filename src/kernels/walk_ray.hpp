@@ -9,55 +9,27 @@ namespace {
 
 /// A ray as the boxes see it, in single precision with room for rounding.
 struct SlabRay {
-    float org_low[3];
-    float org_high[3];
+    float near_org[3];  ///< moved so that boxes seem nearer
+    float far_org[3];   ///< and further
     float inv[3];
     float t_max;
+    int near_row[3];  ///< of BvhNode's rows low x, y, z, high x, y, z: where the ray enters
 };
-
-/// `extent` and `slack` are the hierarchy's. A ray of a size that is not reckoned with meets
-/// every box.
-template <class Real>
-inline SlabRay slab_ray(const RayGroup<Real>& group, int ray, float extent, float slack)
-{
-    float org[3], dir[3];
-    float reach = 0.0f;
-    float length = 0.0f;
-    for (int axis = 0; axis < 3; ++axis) {
-        org[axis] = static_cast<float>(group.org[axis][ray]);
-        dir[axis] = static_cast<float>(group.dir[axis][ray]);
-        const float distance = __builtin_fabsf(org[axis]);
-        const float size = __builtin_fabsf(dir[axis]);
-        reach = reach > distance ? reach : distance;
-        length = length > size ? length : size;
-    }
-    const bool reckoned = reach + extent <= largest_coordinate && length <= largest_coordinate &&
-                          length >= smallest_length;
-    const float pad = slack * (reach + extent);
-    SlabRay slab;
-    for (int axis = 0; axis < 3; ++axis) {
-        const bool along = __builtin_fabsf(dir[axis]) <= smallest_component;
-        slab.org_low[axis] = reckoned ? org[axis] - pad : -open_axis;
-        slab.org_high[axis] = reckoned ? org[axis] + pad : open_axis;
-        slab.inv[axis] = reckoned ? 1.0f / (along ? smallest_component : dir[axis]) : 1.0f;
-    }
-    return slab;
-}
 
 /// The ray against eight boxes.
 inline SlabHits meet_boxes(const SlabRay& ray, const abi::BvhNode& node)
 {
+    const float* const planes = node.low[0];
     Eight t_near(0.0f);
     Eight t_far(ray.t_max);
     for (int axis = 0; axis < 3; ++axis) {
-        const bool against = ray.inv[axis] < 0.0f;
         const Eight inv(ray.inv[axis]);
-        const float* const near = against ? node.high[axis] : node.low[axis];
-        const float* const far = against ? node.low[axis] : node.high[axis];
-        const Eight near_org(against ? ray.org_low[axis] : ray.org_high[axis]);
-        const Eight far_org(against ? ray.org_high[axis] : ray.org_low[axis]);
-        t_near = max8((load8(near) - near_org) * inv, t_near);
-        t_far = min8((load8(far) - far_org) * inv, t_far);
+        const int near = ray.near_row[axis];
+        const int far = 2 * axis + 3 - near;
+        t_near = max8((load8(planes + near * abi::node_width) - Eight(ray.near_org[axis])) * inv,
+                      t_near);
+        t_far =
+            min8((load8(planes + far * abi::node_width) - Eight(ray.far_org[axis])) * inv, t_far);
     }
     return {t_near, less_equal8(t_near, t_far)};
 }
@@ -68,39 +40,101 @@ struct RayEntry {
     float t_near;
 };
 
-/// Calls `leaf(child)` for the leaves the ray may meet, nearest first as far as boxes tell,
-/// until it returns false. `leaf` lowers `ray.t_max` as it finds hits.
-template <class Leaf>
-inline void walk_ray(const abi::BvhNode* nodes, SlabRay& ray, const Leaf& leaf)
-{
-    RayEntry stack[walk_stack];
-    int size = 0;
-    std::uint32_t child = 0;
-    for (;;) {
-        if (abi::is_leaf(child)) {
-            if (!leaf(child))
-                return;
-        } else {
-            const abi::BvhNode& node = nodes[child];
-            const SlabHits slabs = meet_boxes(ray, node);
-            alignas(32) float t_near[abi::node_width];
-            store8(t_near, slabs.t_near);
-            const int bottom = size;
-            for (std::uint32_t left = slabs.hits; left != 0; left &= left - 1) {
-                const int slot = __builtin_ctz(left);
-                const float near = t_near[slot];
-                int at = size++;
-                for (; at > bottom && stack[at - 1].t_near < near; --at)
-                    stack[at] = stack[at - 1];
-                stack[at] = {node.child[slot], near};
+class RayStack {
+public:
+    int size() const
+    {
+        return size_;
+    }
+    /// Puts a child in above `bottom`, so that nearer ones come out earlier.
+    void insert(int bottom, std::uint32_t child, float t_near)
+    {
+        int at = size_++;
+        for (; at > bottom && entries_[at - 1].t_near < t_near; --at)
+            entries_[at] = entries_[at - 1];
+        entries_[at] = {child, t_near};
+    }
+    void push(std::uint32_t child, float t_near)
+    {
+        entries_[size_++] = {child, t_near};
+    }
+    /// The next child that begins before `t_max`; false when there is none.
+    bool pop(float t_max, std::uint32_t& child)
+    {
+        while (size_ > 0) {
+            const RayEntry& entry = entries_[--size_];
+            if (entry.t_near <= t_max) {
+                child = entry.child;
+                return true;
             }
         }
-        do {
-            if (size == 0)
-                return;
-            --size;
-        } while (stack[size].t_near > ray.t_max);
-        child = stack[size].child;
+        return false;
+    }
+
+private:
+    RayEntry entries_[walk_stack];
+    int size_ = 0;
+};
+
+/// Goes on to the nearest child of a node that the ray meets, the others onto the stack; false
+/// when it meets none.
+template <class Fetch>
+inline bool enter_node(const abi::BvhNode& node, const SlabRay& ray, const Fetch& fetch,
+                       RayStack& stack, std::uint32_t& child)
+{
+    const SlabHits slabs = meet_boxes(ray, node);
+    std::uint32_t left = slabs.hits;
+    if (left == 0)
+        return false;
+    const int first = __builtin_ctz(left);
+    left &= left - 1;
+    if (left == 0) {
+        child = node.child[first];
+        return true;
+    }
+    alignas(32) float t_near[abi::node_width];
+    store8(t_near, slabs.t_near);
+    const int second = __builtin_ctz(left);
+    left &= left - 1;
+    if (left == 0) {
+        const bool swapped = t_near[second] < t_near[first];
+        const int near = swapped ? second : first;
+        const int far = swapped ? first : second;
+        fetch(node.child[near]);
+        fetch(node.child[far]);
+        stack.push(node.child[far], t_near[far]);
+        child = node.child[near];
+        return true;
+    }
+    for (std::uint32_t met = slabs.hits; met != 0; met &= met - 1)
+        fetch(node.child[__builtin_ctz(met)]);
+    const int bottom = stack.size();
+    stack.insert(bottom, node.child[first], t_near[first]);
+    stack.insert(bottom, node.child[second], t_near[second]);
+    for (; left != 0; left &= left - 1) {
+        const int slot = __builtin_ctz(left);
+        stack.insert(bottom, node.child[slot], t_near[slot]);
+    }
+    return stack.pop(no_end, child);
+}
+
+/// Calls `leaf(child)` for the leaves below `child` that the ray may meet, nearest first as far as
+/// boxes tell, until it returns false. `leaf` lowers `ray.t_max` as it finds hits.
+template <class Real, class Leaf>
+inline void walk_ray(const abi::BvhView<Real>& tree, std::uint32_t child, SlabRay& ray,
+                     const Leaf& leaf)
+{
+    const auto fetch = [&](std::uint32_t next) { fetch_child(tree, next); };
+    RayStack stack;
+    for (;;) {
+        if (!abi::is_leaf(child)) {
+            if (enter_node(tree.nodes[child], ray, fetch, stack, child))
+                continue;
+        } else if (!leaf(child)) {
+            return;
+        }
+        if (!stack.pop(ray.t_max, child))
+            return;
     }
 }
 
