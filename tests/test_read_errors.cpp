@@ -1,8 +1,11 @@
 #include <packtrace/read_scene.hpp>
 
+#include <chrono>
 #include <filesystem>
 #include <fstream>
 #include <string>
+
+#include <sys/mman.h>
 
 #include <tao/pegtl/contrib/analyze.hpp>
 
@@ -349,14 +352,35 @@ TEST_CASE("a line too long is refused before it is parsed", "[read_errors]")
           "x.scene:2:1048577: the line has more than 1048576 bytes; break it into several");
 }
 
-TEST_CASE("a file of 100 MB is refused without being read whole", "[read_errors]")
+TEST_CASE("a line of 100 MB is refused without being read whole", "[read_errors]")
 {
     const auto file = std::filesystem::temp_directory_path() / "packtrace_read_errors.scene";
     std::ofstream(file).put('x');
     std::filesystem::resize_file(file, 100'000'000);
+    const auto start = std::chrono::steady_clock::now();
     const std::string message = file_error(file);
+    const std::chrono::duration<double> passed = std::chrono::steady_clock::now() - start;
     std::filesystem::remove(file);
-    CHECK(message == file.string() + ":1:1: the file has more than 64 MiB; give a smaller scene");
+    CHECK(message == file.string() +
+                         ":1:1048577: the line has more than 1048576 bytes; break it into several");
+    CHECK(passed.count() < 1.0);
+}
+
+TEST_CASE("a text of more than 1 GiB is no scene", "[read_errors]")
+{
+    // Memory that is reserved and never touched.
+    constexpr std::size_t size = (std::size_t{1} << 30u) + 1;
+    void* memory =
+        mmap(nullptr, size, PROT_READ, MAP_PRIVATE | MAP_ANONYMOUS | MAP_NORESERVE, -1, 0);
+    REQUIRE(memory != MAP_FAILED);
+    std::string message;
+    try {
+        (void)parse_scene({static_cast<const char*>(memory), size}, "x.scene");
+    } catch (const SceneError& error) {
+        message = error.what();
+    }
+    munmap(memory, size);
+    CHECK(message == "x.scene:1:1: the file has more than 1 GiB; give a smaller scene");
 }
 
 TEST_CASE("a file that can't be opened is named", "[read_errors]")

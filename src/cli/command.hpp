@@ -18,6 +18,7 @@ struct Failed {};
 void add_compare(CLI::App& app);
 void add_demo(CLI::App& app);
 void add_explain(CLI::App& app);
+void add_generate(CLI::App& app);
 void add_info(CLI::App& app);
 void add_intersect(CLI::App& app);
 void add_onedim(CLI::App& app);

@@ -53,13 +53,18 @@ void add_isa_options(CLI::App& command, IsaArguments& arguments)
         ->type_name("N");
 }
 
-void add_picture_options(CLI::App& command, PictureArguments& arguments)
+void add_size_option(CLI::App& command, PictureArguments& arguments)
 {
     command
         .add_option("--size", arguments.size,
                     "Size of the picture (default " + arguments.size.value_or("the scene's") + ")")
         ->check(CLI::Validator(check_size, ""))
         ->type_name("WxH");
+}
+
+void add_picture_options(CLI::App& command, PictureArguments& arguments)
+{
+    add_size_option(command, arguments);
     command
         .add_option("--depth", arguments.depth,
                     "Reflections after the camera ray (default the scene's)")

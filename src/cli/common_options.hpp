@@ -34,6 +34,8 @@ struct KernelArguments {
 };
 
 void add_isa_options(CLI::App& command, IsaArguments& arguments);
+/// `--size` alone.
+void add_size_option(CLI::App& command, PictureArguments& arguments);
 void add_picture_options(CLI::App& command, PictureArguments& arguments);
 void add_kernel_options(CLI::App& command, KernelArguments& arguments);
 void add_threads_option(CLI::App& command, int& threads);

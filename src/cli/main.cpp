@@ -25,6 +25,7 @@ int run(int argc, char** argv)
     add_render(app);
     add_compare(app);
     add_explain(app);
+    add_generate(app);
     add_info(app);
     add_intersect(app);
     add_demo(app);

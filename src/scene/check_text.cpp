@@ -34,8 +34,8 @@ void check_text(const Source& source)
 {
     if (source.text.size() > longest_file)
         fail(source, {},
-             "the file has more than " + std::to_string(longest_file >> 20u) +
-                 " MiB; give a smaller scene");
+             "the file has more than " + std::to_string(longest_file >> 30u) +
+                 " GiB; give a smaller scene");
     if (source.text.empty())
         fail(source, {},
              "the file is empty; a scene needs an object, e.g. "

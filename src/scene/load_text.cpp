@@ -9,6 +9,7 @@
 #include <cstring>
 #include <fstream>
 #include <string>
+#include <string_view>
 #include <system_error>
 
 namespace packtrace::reader {
@@ -19,15 +20,20 @@ namespace {
     throw SceneError(escape(file.string()) + ": " + reason);
 }
 
+/// Stops early in a line that is too long, which a file that is no text mostly is.
 std::string read_up_to(std::istream& in, std::size_t limit)
 {
     constexpr std::size_t step = std::size_t{1} << 16u;
     std::string text;
-    while (in && text.size() < limit) {
+    std::size_t line = 0;
+    while (in && text.size() < limit && text.size() - line <= longest_line) {
         const std::size_t size = text.size();
         text.resize(size + step);
         in.read(text.data() + size, step);
         text.resize(size + static_cast<std::size_t>(in.gcount()));
+        const std::size_t last = std::string_view(text).substr(size).rfind('\n');
+        if (last != std::string_view::npos)
+            line = size + last + 1;
     }
     return text;
 }
