@@ -1,0 +1,222 @@
+// packtrace_peers: the same rays through Embree, in all its modes, and through packtrace;
+// docs/peers.md says what is raced and what the columns mean.
+#include <algorithm>
+#include <exception>
+#include <fstream>
+#include <iostream>
+
+#include <CLI/CLI.hpp>
+#include <nlohmann/json.hpp>
+#include <packtrace/isa.hpp>
+
+#include "builds.hpp"
+#include "context.hpp"
+#include "core/atomic_file.hpp"
+#include "embree_modes.hpp"
+#include "packtrace_modes.hpp"
+#include "raced_scenes.hpp"
+#include "report.hpp"
+
+namespace packtrace::peers {
+namespace {
+
+struct Arguments {
+    std::vector<std::string> scenes = scene_names();
+    std::vector<std::string> kinds{"camera", "shadow", "bounce"};
+    std::vector<std::string> isas{"avx512", "avx2"};
+    std::string json;
+    int repetitions = 9;
+    int size = 1024;
+    std::size_t most_objects = 10'000;
+    bool quick = false;
+    bool builds = false;
+};
+
+bool is_supported(const std::string& name)
+{
+    for (const IsaInfo& isa : list_isas())
+        if (isa.name == name)
+            return isa.supported;
+    return false;
+}
+
+std::vector<Tracer> tracers_for(const Scene& scene, const Arguments& arguments,
+                                const std::vector<SphereRecord>& spheres)
+{
+    std::vector<Tracer> tracers;
+    if (scene.objects.size() <= arguments.most_objects) {
+        std::vector<std::string> isas;
+        std::copy_if(arguments.isas.begin(), arguments.isas.end(), std::back_inserter(isas),
+                     is_supported);
+        tracers = packtrace_tracers(scene, isas);
+    }
+    for (const Geometry geometry : {Geometry::user, Geometry::sphere}) {
+        if (arguments.quick && geometry == Geometry::sphere)
+            continue;
+        const auto built = std::make_shared<const EmbreeScene>(spheres, geometry);
+        const auto more = embree_tracers(built, geometry, arguments.quick);
+        tracers.insert(tracers.end(), more.begin(), more.end());
+    }
+    return tracers;
+}
+
+/// The points that secondary rays start from, the same for all.
+std::vector<SurfacePoint> first_points(const Scene& scene, const RaySet& camera,
+                                       const std::vector<Tracer>& tracers)
+{
+    Hits hits(camera.size());
+    for (const Tracer& tracer : tracers)
+        if (tracer.side == Side::embree_user) {
+            (void)tracer.trace(camera, Query::closest, hits);
+            return hit_points(scene, camera, hits);
+        }
+    return {};
+}
+
+Vec3 first_lamp(const Scene& scene)
+{
+    for (const Light& light : scene.lights)
+        if (light.type == LightType::point)
+            return light.vector;
+    throw std::runtime_error("the scene has no point light");
+}
+
+std::vector<Heat> heats_of(const std::string& kind, const Scene& scene, const RaySet& camera,
+                           const std::vector<SurfacePoint>& points)
+{
+    std::vector<Heat> heats;
+    if (kind == "camera")
+        heats.push_back({"", Query::closest, camera});
+    if (kind == "bounce")
+        heats.push_back({"", Query::closest, bounce_rays(points)});
+    if (kind == "shadow") {
+        const Vec3 lamp = first_lamp(scene);
+        heats.push_back(
+            {"from the light", Query::occluded, shadow_rays(points, lamp, ShadowEnd::light)});
+        heats.push_back(
+            {"from the surface", Query::occluded, shadow_rays(points, lamp, ShadowEnd::surface)});
+    }
+    return heats;
+}
+
+/// The best of each side against each other, from the same end.
+void compare_hits(const Scene& scene, const std::vector<Heat>& heats, Outcome& outcome)
+{
+    const Result* ours = best_of(outcome.results, Side::packtrace);
+    if (ours == nullptr)
+        return;
+    for (const Heat& heat : heats) {
+        std::vector<Result> same_end;
+        for (const Result& result : outcome.results)
+            if (result.end == heat.end)
+                same_end.push_back(result);
+        const Result& our = *best_of(same_end, Side::packtrace);
+        const Result& their = *best_of(same_end, Side::embree_user);
+        if (heat.query == Query::closest)
+            outcome.agreement = compare_closest(scene, heat.rays, our.hits, their.hits);
+        else if (heat.end == ours->end)
+            outcome.occlusion_differences = count_occlusion_differences(our.hits, their.hits);
+    }
+}
+
+nlohmann::ordered_json race_scene(const std::string& name, const Arguments& arguments)
+{
+    const Scene scene = raced_scene(name, arguments.size);
+    const std::vector<SphereRecord> spheres = sphere_records(scene);
+    const std::vector<Tracer> tracers = tracers_for(scene, arguments, spheres);
+    const RaySet camera = camera_rays(scene);
+    const auto points = first_points(scene, camera, tracers);
+    nlohmann::ordered_json json = nlohmann::ordered_json::array();
+    for (const std::string& kind : arguments.kinds) {
+        const auto heats = heats_of(kind, scene, camera, points);
+        Outcome outcome{name, scene.objects.size(), kind, {}, {}, {}};
+        outcome.results = race(heats, tracers, kind == "camera", arguments.repetitions);
+        compare_hits(scene, heats, outcome);
+        print(outcome);
+        json.push_back(to_json(outcome));
+    }
+    return json;
+}
+
+std::string command_line(int argc, char** argv)
+{
+    std::string line = "packtrace_peers";
+    for (int i = 1; i < argc; ++i)
+        line += std::string(" ") + argv[i];
+    return line;
+}
+
+nlohmann::ordered_json header(int argc, char** argv)
+{
+    nlohmann::ordered_json report;
+    for (const auto& [name, value] : bench::context())
+        report["context"][name] = value;
+    report["context"]["embree"] = RTC_VERSION_STRING;
+    report["context"]["command"] = command_line(argc, argv);
+    return report;
+}
+
+void run(const Arguments& arguments, nlohmann::ordered_json report)
+{
+    std::optional<AtomicFile> file;
+    if (!arguments.json.empty())
+        file.emplace(arguments.json);
+    report["races"] = nlohmann::ordered_json::array();
+    for (const std::string& name : arguments.scenes)
+        for (auto& outcome : race_scene(name, arguments))
+            report["races"].push_back(outcome);
+    if (arguments.builds) {
+        report["builds"] = measure_builds(raced_scene("random1m", 16), arguments.repetitions);
+        print_builds(report["builds"]);
+    }
+    if (!file)
+        return;
+    file->write(report.dump(2) + "\n");
+    file->commit();
+}
+
+void add_options(CLI::App& app, Arguments& arguments)
+{
+    app.add_option("--scenes", arguments.scenes, "Scenes to race on (default all)")
+        ->check(CLI::IsMember(scene_names()))
+        ->delimiter(',');
+    app.add_option("--kinds", arguments.kinds, "Kinds of rays: camera, shadow, bounce")
+        ->check(CLI::IsMember({"camera", "shadow", "bounce"}))
+        ->delimiter(',');
+    app.add_option("--isas", arguments.isas, "Instruction sets of packtrace (avx512,avx2)")
+        ->check(CLI::IsMember({"avx512", "avx2", "sse_fma", "sse42"}))
+        ->delimiter(',');
+    app.add_option("--repetitions", arguments.repetitions, "Passes that count (default 9)")
+        ->check(CLI::Range(1, 1000));
+    app.add_option("--size", arguments.size, "Pixels of each edge, a multiple of 16 (1024)")
+        ->check(CLI::Range(16, 8192))
+        ->check([](const std::string& text) {
+            return std::stoi(text) % tile_size == 0 ? std::string() : "not a multiple of 16";
+        });
+    app.add_option("--max-packtrace-objects", arguments.most_objects,
+                   "Leave packtrace out of scenes with more (default 10000)");
+    app.add_option("--json", arguments.json, "Write all figures into this file");
+    app.add_flag("--quick", arguments.quick, "Only three modes of Embree's, which mostly win");
+    app.add_flag("--builds", arguments.builds, "Measure building for a million spheres, too");
+}
+
+}  // namespace
+}  // namespace packtrace::peers
+
+int main(int argc, char** argv)
+{
+    using namespace packtrace::peers;
+    CLI::App app{"Races packtrace against Embree on the same rays, one thread"};
+    Arguments arguments;
+    add_options(app, arguments);
+    try {
+        app.parse(argc, argv);
+        run(arguments, header(argc, argv));
+    } catch (const CLI::ParseError& end) {
+        return app.exit(end) == 0 ? 0 : 2;
+    } catch (const std::exception& error) {
+        std::cerr << "packtrace_peers: " << error.what() << '\n';
+        return 1;
+    }
+    return 0;
+}

@@ -1,0 +1,28 @@
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include <nlohmann/json.hpp>
+
+#include "agreement.hpp"
+#include "race.hpp"
+
+namespace packtrace::peers {
+
+/// One scene and kind of rays.
+struct Outcome {
+    std::string scene;
+    std::size_t objects = 0;
+    std::string kind;
+    std::vector<Result> results;
+    std::optional<Agreement> agreement;                ///< of closest hits
+    std::optional<std::size_t> occlusion_differences;  ///< of shadow rays
+};
+
+[[nodiscard]] nlohmann::ordered_json to_json(const Outcome& outcome);
+void print(const Outcome& outcome);
+void print_builds(const nlohmann::ordered_json& builds);
+
+}  // namespace packtrace::peers
