@@ -174,8 +174,8 @@ def parse_options():
     parser.add_argument("--scenes", nargs="+", choices=SCENES, default=list(SCENES))
     parser.add_argument("--repetitions", type=int, default=5)
     parser.add_argument("--size", type=int, default=1024, help="pixels of each edge")
-    parser.add_argument("--max-packtrace-objects", type=int, default=10_000,
-                        help="leave packtrace out of larger scenes (default 10000)")
+    parser.add_argument("--max-packtrace-objects", type=int, default=10**7,
+                        help="leave packtrace out of larger scenes")
     parser.add_argument("--json", type=pathlib.Path, help="write all figures into this file")
     options = parser.parse_args()
     if options.repetitions < 1 or options.size < 1:

@@ -27,9 +27,10 @@ struct Arguments {
     std::string json;
     int repetitions = 9;
     int size = 1024;
-    std::size_t most_objects = 10'000;
+    std::size_t most_objects = 10'000'000;
     bool quick = false;
     bool builds = false;
+    bool check = false;
 };
 
 bool is_supported(const std::string& name)
@@ -119,6 +120,17 @@ void compare_hits(const Scene& scene, const std::vector<Heat>& heats, Outcome& o
     }
 }
 
+/// What docs/peers.md promises. Throws std::runtime_error.
+void check_agreement(const Outcome& outcome)
+{
+    if (!outcome.agreement)
+        return;
+    const Agreement& a = *outcome.agreement;
+    if (1000 * a.objects_differ > a.rays || a.ours_wrong > a.theirs_wrong)
+        throw std::runtime_error(outcome.scene + ", " + outcome.kind +
+                                 " rays: the hits disagree, see above");
+}
+
 nlohmann::ordered_json race_scene(const std::string& name, const Arguments& arguments)
 {
     const Scene scene = raced_scene(name, arguments.size);
@@ -133,6 +145,8 @@ nlohmann::ordered_json race_scene(const std::string& name, const Arguments& argu
         outcome.results = race(heats, tracers, kind == "camera", arguments.repetitions);
         compare_hits(scene, heats, outcome);
         print(outcome);
+        if (arguments.check)
+            check_agreement(outcome);
         json.push_back(to_json(outcome));
     }
     return json;
@@ -194,9 +208,10 @@ void add_options(CLI::App& app, Arguments& arguments)
             return std::stoi(text) % tile_size == 0 ? std::string() : "not a multiple of 16";
         });
     app.add_option("--max-packtrace-objects", arguments.most_objects,
-                   "Leave packtrace out of scenes with more (default 10000)");
+                   "Leave packtrace out of scenes with more (default none)");
     app.add_option("--json", arguments.json, "Write all figures into this file");
     app.add_flag("--quick", arguments.quick, "Only three modes of Embree's, which mostly win");
+    app.add_flag("--check", arguments.check, "Exit 1 where the hits disagree");
     app.add_flag("--builds", arguments.builds, "Measure building for a million spheres, too");
 }
 

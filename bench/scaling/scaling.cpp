@@ -1,0 +1,128 @@
+// packtrace_scaling: one point of a scaling study, as JSON: building and frames of random
+// spheres. A process a point, so that its peak of memory is its own.
+#include <malloc.h>
+#include <sys/resource.h>
+
+#include <chrono>
+#include <cmath>
+#include <exception>
+#include <iostream>
+
+#include <CLI/CLI.hpp>
+#include <nlohmann/json.hpp>
+#include <packtrace/generate.hpp>
+#include <packtrace/renderer.hpp>
+
+#include <tbb/global_control.h>
+
+#include "context.hpp"
+
+namespace packtrace {
+namespace {
+
+struct Arguments {
+    int objects = 1000;
+    int size = 1024;
+    int threads = 1;
+    int frames = 5;
+    double filled = 0.004;
+};
+
+double seconds_since(std::chrono::steady_clock::time_point start)
+{
+    return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+}
+
+double allocated_bytes()
+{
+    const auto info = mallinfo2();
+    return static_cast<double>(info.uordblks + info.hblkhd);
+}
+
+double peak_bytes()
+{
+    rusage usage{};
+    getrusage(RUSAGE_SELF, &usage);
+    return 1024.0 * static_cast<double>(usage.ru_maxrss);
+}
+
+/// Spheres that together have the volume `filled` in the unit cube, overlaps counted twice, so
+/// that scenes of all sizes are alike but for their grain.
+Scene scene_of(const Arguments& arguments)
+{
+    constexpr double unit_volume = 4.18879020478639;
+    const double radius = std::cbrt(arguments.filled / (unit_volume * arguments.objects));
+    Scene scene = generate_random_spheres({.count = arguments.objects, .radius = radius});
+    scene.width = scene.height = arguments.size;
+    return scene;
+}
+
+nlohmann::ordered_json measure(const Arguments& arguments)
+{
+    const Scene scene = scene_of(arguments);
+    RenderOptions options;
+    options.threads = arguments.threads;
+    nlohmann::ordered_json point{
+        {"objects", arguments.objects}, {"size", arguments.size}, {"threads", arguments.threads}};
+    const double before = allocated_bytes();
+    auto start = std::chrono::steady_clock::now();
+    const Renderer<float> renderer(scene, options);
+    point["build_seconds"] = seconds_since(start);
+    point["build_bytes_an_object"] = (allocated_bytes() - before) / arguments.objects;
+    Image<float> image;
+    for (int frame = 0; frame < arguments.frames; ++frame) {
+        start = std::chrono::steady_clock::now();
+        const FrameCounts counts = renderer.render(image);
+        point["frame_seconds"].push_back(seconds_since(start));
+        point["rays"] = {{"camera", counts.camera},
+                         {"shadow", counts.shadow},
+                         {"reflected", counts.reflected},
+                         {"total", counts.total()}};
+    }
+    point["peak_bytes"] = peak_bytes();
+    return point;
+}
+
+void print_point(const Arguments& arguments)
+{
+    // Building runs in what threads there are, frames in what the options say.
+    const tbb::global_control limit(tbb::global_control::max_allowed_parallelism,
+                                    static_cast<std::size_t>(arguments.threads));
+    nlohmann::ordered_json point = measure(arguments);
+    for (const auto& [name, value] : bench::context())
+        point["context"][name] = value;
+    std::cout << point.dump() << '\n';
+}
+
+void add_options(CLI::App& app, Arguments& arguments)
+{
+    app.add_option("--objects", arguments.objects, "Random spheres (default 1000)")
+        ->check(CLI::Range(1, 10'000'000));
+    app.add_option("--size", arguments.size, "Pixels of each edge (default 1024)")
+        ->check(CLI::Range(1, 65536));
+    app.add_option("--threads", arguments.threads, "Threads (default 1)")
+        ->check(CLI::Range(1, 1024));
+    app.add_option("--frames", arguments.frames, "Frames (default 5)")->check(CLI::Range(1, 1000));
+    app.add_option("--filled", arguments.filled, "Volume of all spheres (default 0.004)")
+        ->check(CLI::Range(1e-9, 1.0));
+}
+
+}  // namespace
+}  // namespace packtrace
+
+int main(int argc, char** argv)
+{
+    CLI::App app{"One point of a scaling study, as JSON"};
+    packtrace::Arguments arguments;
+    packtrace::add_options(app, arguments);
+    try {
+        app.parse(argc, argv);
+        packtrace::print_point(arguments);
+    } catch (const CLI::ParseError& end) {
+        return app.exit(end) == 0 ? 0 : 2;
+    } catch (const std::exception& error) {
+        std::cerr << "packtrace_scaling: " << error.what() << '\n';
+        return 1;
+    }
+    return 0;
+}
