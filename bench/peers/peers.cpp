@@ -100,7 +100,7 @@ std::vector<Heat> heats_of(const std::string& kind, const Scene& scene, const Ra
     return heats;
 }
 
-/// The best of each side against each other, from the same end.
+/// The best of each side against each other, on the very same rays.
 void compare_hits(const Scene& scene, const std::vector<Heat>& heats, Outcome& outcome)
 {
     const Result* ours = best_of(outcome.results, Side::packtrace);
@@ -109,7 +109,7 @@ void compare_hits(const Scene& scene, const std::vector<Heat>& heats, Outcome& o
     for (const Heat& heat : heats) {
         std::vector<Result> same_end;
         for (const Result& result : outcome.results)
-            if (result.end == heat.end)
+            if (result.end == heat.end && !result.own_rays)
                 same_end.push_back(result);
         const Result& our = *best_of(same_end, Side::packtrace);
         const Result& their = *best_of(same_end, Side::embree_user);

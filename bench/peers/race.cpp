@@ -44,12 +44,13 @@ std::vector<Result> race(const std::vector<Heat>& heats, const std::vector<Trace
             if (tracer.camera_only && !camera)
                 continue;
             entries.push_back({&tracer, &heat});
-            results.push_back({tracer.name,
-                               heat.end,
-                               tracer.side,
-                               {},
-                               static_cast<double>(heat.rays.size()),
-                               Hits(heat.rays.size())});
+            Result& result = results.emplace_back();
+            result.tracer = tracer.name;
+            result.end = heat.end;
+            result.side = tracer.side;
+            result.own_rays = tracer.camera_only;
+            result.rays = static_cast<double>(heat.rays.size());
+            result.hits = Hits(heat.rays.size());
         }
     for (int pass = -1; pass < passes; ++pass)
         for (std::size_t i = 0; i < entries.size(); ++i) {

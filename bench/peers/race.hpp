@@ -19,6 +19,8 @@ struct Result {
     std::string tracer;
     std::string end;
     Side side = Side::packtrace;
+    /// It made its rays itself, rounded in another way than those of the heat.
+    bool own_rays = false;
     std::vector<double> seconds;  ///< of each pass
     double rays = 0.0;
     Hits hits{0};

@@ -25,7 +25,7 @@ struct Arguments {
     int size = 1024;
     int threads = 1;
     int frames = 5;
-    double filled = 0.004;
+    double cover = 1.0;
 };
 
 double seconds_since(std::chrono::steady_clock::time_point start)
@@ -46,12 +46,11 @@ double peak_bytes()
     return 1024.0 * static_cast<double>(usage.ru_maxrss);
 }
 
-/// Spheres that together have the volume `filled` in the unit cube, overlaps counted twice, so
-/// that scenes of all sizes are alike but for their grain.
+/// Spheres in the unit cube whose cross-sections add up to the same area, however many they
+/// are, so that as many rays hit and scenes differ in their grain alone.
 Scene scene_of(const Arguments& arguments)
 {
-    constexpr double unit_volume = 4.18879020478639;
-    const double radius = std::cbrt(arguments.filled / (unit_volume * arguments.objects));
+    const double radius = std::sqrt(arguments.cover / arguments.objects);
     Scene scene = generate_random_spheres({.count = arguments.objects, .radius = radius});
     scene.width = scene.height = arguments.size;
     return scene;
@@ -103,8 +102,8 @@ void add_options(CLI::App& app, Arguments& arguments)
     app.add_option("--threads", arguments.threads, "Threads (default 1)")
         ->check(CLI::Range(1, 1024));
     app.add_option("--frames", arguments.frames, "Frames (default 5)")->check(CLI::Range(1, 1000));
-    app.add_option("--filled", arguments.filled, "Volume of all spheres (default 0.004)")
-        ->check(CLI::Range(1e-9, 1.0));
+    app.add_option("--cover", arguments.cover, "Squares of all radii together (default 1)")
+        ->check(CLI::Range(1e-9, 1e3));
 }
 
 }  // namespace
