@@ -123,10 +123,13 @@ void compare_hits(const Scene& scene, const std::vector<Heat>& heats, Outcome& o
 /// What docs/peers.md promises. Throws std::runtime_error.
 void check_agreement(const Outcome& outcome)
 {
-    if (!outcome.agreement)
-        return;
-    const Agreement& a = *outcome.agreement;
-    if (1000 * a.objects_differ > a.rays || a.ours_wrong > a.theirs_wrong)
+    const auto& a = outcome.agreement;
+    const bool hits_differ =
+        a && (1000 * a->objects_differ > a->rays || a->ours_wrong > a->theirs_wrong);
+    const double most = 1e-3 * outcome.results.front().rays;
+    const bool shadows_differ =
+        static_cast<double>(outcome.occlusion_differences.value_or(0)) > most;
+    if (hits_differ || shadows_differ)
         throw std::runtime_error(outcome.scene + ", " + outcome.kind +
                                  " rays: the hits disagree, see above");
 }
