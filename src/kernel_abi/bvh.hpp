@@ -62,6 +62,9 @@ struct BvhView {
     float extent = 0;
     /// How far rounding shifts hits at most, as a share of the distances there are.
     float slack = 0;
+    /// Rays of a cell whose directions differ by more than this share of their length lead to too
+    /// many different leaves to be taken as one.
+    float spread = 0;
 
     bool empty() const
     {

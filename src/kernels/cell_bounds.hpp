@@ -39,8 +39,6 @@ inline constexpr float largest_coordinate = 1e15f;
 /// Components of directions smaller than this are as good as 0 for rays at least that long.
 inline constexpr float smallest_component = 1e-18f;
 inline constexpr float smallest_length = 1e-12f;
-/// Largest difference of directions within a coherent cell, as a share of their length.
-inline constexpr float coherent_spread = 0.03f;
 
 /// The least and largest value of each cell's rays; NaN is left out, a cell without any rays is
 /// inside out.
@@ -162,7 +160,7 @@ inline std::uint32_t active_cells(const RayGroup<Real>& group)
 }
 
 /// Those whose directions differ little.
-inline std::uint32_t coherent_cells(const CellRange (&dir)[3])
+inline std::uint32_t coherent_cells(const CellRange (&dir)[3], float largest_spread)
 {
     std::uint32_t coherent = 0;
     for (int first = 0; first < group_cells; first += 8) {
@@ -176,7 +174,7 @@ inline std::uint32_t coherent_cells(const CellRange (&dir)[3])
         }
         // A cell without rays has infinite bounds, inside out.
         const std::uint32_t used = less_equal8(length, Eight(largest_coordinate));
-        coherent |= (used & less_equal8(spread, Eight(coherent_spread) * length)) << first;
+        coherent |= (used & less_equal8(spread, Eight(largest_spread) * length)) << first;
     }
     return coherent;
 }
@@ -191,18 +189,16 @@ inline void leave_out(CellRange& range, std::uint32_t cells)
     }
 }
 
-/// The bounds of a group's active rays, to meet boxes of a hierarchy that reaches as far as
-/// `extent` from the origin. `slack` is how far rounding can shift a hit, as a share of the
-/// distances there are.
+/// The bounds of a group's active rays, to meet the boxes of a hierarchy.
 template <class Real>
-inline void bound_cells(CellBounds& bounds, const RayGroup<Real>& group, float extent, float slack,
-                        Cells wanted = Cells::coherent)
+inline void bound_cells(CellBounds& bounds, const RayGroup<Real>& group,
+                        const abi::BvhView<Real>& tree, Cells wanted = Cells::coherent)
 {
     CellRange org[3];
     CellRange dir[3];
     for (int axis = 0; axis < 3; ++axis)
         find_cells(dir[axis], group.dir[axis], group);
-    bounds.coherent = wanted == Cells::all ? active_cells(group) : coherent_cells(dir);
+    bounds.coherent = wanted == Cells::all ? active_cells(group) : coherent_cells(dir, tree.spread);
     if (bounds.coherent == 0)
         return;
     const std::uint32_t others = ~bounds.coherent & ((1u << group_cells) - 1u);
@@ -214,9 +210,9 @@ inline void bound_cells(CellBounds& bounds, const RayGroup<Real>& group, float e
         join_cells(dir[axis]);
     }
     for (int first = 0; first < beam_count; first += 8) {
-        const BeamScale scale = beam_scale(org, dir, extent, first);
+        const BeamScale scale = beam_scale(org, dir, tree.extent, first);
         for (int axis = 0; axis < 3; ++axis)
-            set_axis(bounds, axis, org[axis], dir[axis], scale, slack, first);
+            set_axis(bounds, axis, org[axis], dir[axis], scale, tree.slack, first);
     }
 }
 

@@ -11,11 +11,11 @@ template <abi::Features F, class Real>
 [[gnu::noinline]] void closest_of_others(const abi::BvhView<Real>& tree, RayGroup<Real>& group,
                                          std::uint32_t cells)
 {
-    OctantGroup<Real> octants;
+    Regrouped<Real> octants;
     SlabRays slabs;
     sort_by_octant(group, cells, octants);
     CellBounds bounds;
-    bound_cells(bounds, octants.rays, tree.extent, tree.slack, Cells::all);
+    bound_cells(bounds, octants.rays, tree, Cells::all);
     for (int cell = 0; cell < octants.cells; ++cell)
         bounds.t_max[cell] = furthest(octants.rays, cell);
     const ClosestInTree<F, Real> closest(tree, octants.rays, bounds, slabs);
@@ -44,7 +44,7 @@ template <abi::Features F, class Real>
 [[gnu::noinline]] void closest_in_tree(const abi::BvhView<Real>& tree, RayGroup<Real>& group)
 {
     CellBounds bounds;
-    bound_cells(bounds, group, tree.extent, tree.slack);
+    bound_cells(bounds, group, tree);
     if (bounds.coherent != 0) {
         SlabRays slabs;
         closest_of_cells<F>(tree, group, bounds, slabs);

@@ -1,18 +1,11 @@
 #pragma once
 
-#include "kernels/cell_bounds.hpp"
+#include "kernels/regroup.hpp"
 
 // Rays that run every way, put into cells with others of the same octant of directions: such
 // cells have bounds on every axis, and their rays meet children in much the same order.
 namespace packtrace::PACKTRACE_ISA {
 namespace {
-
-template <class Real>
-struct OctantGroup {
-    RayGroup<Real> rays;
-    std::uint8_t from[group_rays];  ///< which ray of the group each one was
-    int cells = 0;                  ///< in use
-};
 
 /// A bit an axis: the direction is negative.
 template <class Real>
@@ -22,33 +15,10 @@ inline int octant_of(const RayGroup<Real>& group, int ray)
            (group.dir[2][ray] < 0 ? 4 : 0);
 }
 
+/// Moves the active rays of `cells` into `octants`. Rays that find no room stay where they are,
+/// active.
 template <class Real>
-inline void copy_ray(RayGroup<Real>& to, int at, const RayGroup<Real>& from, int ray)
-{
-    for (int axis = 0; axis < 3; ++axis) {
-        to.org[axis][at] = from.org[axis][ray];
-        to.dir[axis][at] = from.dir[axis][ray];
-    }
-    to.t_min[at] = from.t_min[ray];
-    to.t[at] = from.t[ray];
-    to.surface[at] = from.surface[ray];
-}
-
-/// Fills the rest of a cell with copies of its first ray that are not active.
-template <class Real>
-inline void pad_cell(RayGroup<Real>& group, int cell, int count)
-{
-    for (int ray = cell * cell_rays + count; ray < (cell + 1) * cell_rays; ++ray) {
-        copy_ray(group, ray, group, cell * cell_rays);
-        group.t[ray] = static_cast<Real>(-__builtin_inf());
-    }
-    group.active[cell] = static_cast<std::uint16_t>((1u << count) - 1u);
-}
-
-/// Moves the active rays of `cells` into `octants`; returns those cells of `octants` that few rays
-/// are in last. Rays that find no room stay where they are, active.
-template <class Real>
-inline void sort_by_octant(RayGroup<Real>& group, std::uint32_t cells, OctantGroup<Real>& octants)
+inline void sort_by_octant(RayGroup<Real>& group, std::uint32_t cells, Regrouped<Real>& octants)
 {
     int cell_of[8];
     int used[8];

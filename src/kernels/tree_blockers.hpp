@@ -1,6 +1,7 @@
 #pragma once
 
 #include "kernels/occluded.hpp"
+#include "kernels/places.hpp"
 #include "kernels/tree_closest.hpp"
 
 // What stands in the way of a group of rays among the objects of the hierarchy.
@@ -11,7 +12,7 @@
 namespace packtrace::PACKTRACE_ISA {
 namespace {
 
-/// The blocker of opaque shadows: each ends the rays it blocks.
+/// The blocker of opaque shadows and of occlusion: each ends the rays it blocks.
 struct EndsRays {
     std::uint32_t operator()(std::int32_t, int, std::uint32_t blocked) const
     {
@@ -162,29 +163,94 @@ private:
     const Blocker& blocker_;
 };
 
-/// Meets the active rays of a group with what blocks them in the hierarchy.
+/// Takes the coherent cells of a group as beams.
 template <abi::Features F, class End, class Real, class Blocker>
-[[gnu::noinline]] void visit_blockers_in_tree(const abi::BvhView<Real>& tree, RayGroup<Real>& group,
-                                              const Blocker& blocker)
+inline void blockers_of_cells(const abi::BvhView<Real>& tree, RayGroup<Real>& group,
+                              CellBounds& bounds, SlabRays& slabs, const Blocker& blocker)
 {
-    CellBounds bounds;
-    SlabRays slabs;
-    bound_cells(bounds, group, tree.extent, tree.slack);
-    for (int cell = 0; cell < group_cells; ++cell) {
-        if (bounds.coherent >> cell & 1u)
-            continue;
-        fill_cell(slabs, group, cell, tree.extent, tree.slack);
-        for (std::uint32_t left = group.active[cell]; left != 0; left &= left - 1)
-            blockers_of_ray<F, End>(tree, slabs, group, cell * cell_rays + __builtin_ctz(left), 0,
-                                    blocker);
-    }
-    if (bounds.coherent == 0)
-        return;
     for (int cell = 0; cell < group_cells; ++cell)
         bounds.t_max[cell] = bounds.coherent >> cell & 1u ? furthest(group, cell) : -no_end;
     join_t_max(bounds);
     walk_cells(tree, bounds, bounds.coherent,
                BlockersInTree<F, End, Real, Blocker>(tree, group, bounds, slabs, blocker));
+}
+
+/// Takes the active rays of `cells` one by one.
+template <abi::Features F, class End, class Real, class Blocker>
+inline void blockers_of_rays(const abi::BvhView<Real>& tree, RayGroup<Real>& group,
+                             std::uint32_t cells, SlabRays& slabs, const Blocker& blocker)
+{
+    for (; cells != 0; cells &= cells - 1) {
+        const int cell = __builtin_ctz(cells);
+        fill_cell(slabs, group, cell, tree.extent, tree.slack);
+        for (std::uint32_t left = group.active[cell]; left != 0; left &= left - 1)
+            blockers_of_ray<F, End>(tree, slabs, group, cell * cell_rays + __builtin_ctz(left), 0,
+                                    blocker);
+    }
+}
+
+/// Takes cells each on its own way.
+template <abi::Features F, class End, class Real, class Blocker>
+inline void blockers_of_lone_cells(const abi::BvhView<Real>& tree, Regrouped<Real>& sorted,
+                                   const Blocker& blocker)
+{
+    CellBounds bounds;
+    SlabRays slabs;
+    bound_cells(bounds, sorted.rays, tree, Cells::all);
+    const BlockersInTree<F, End, Real, Blocker> blockers(tree, sorted.rays, bounds, slabs,
+                                                         blocker);
+    for (int cell = 0; cell < sorted.cells; ++cell) {
+        bounds.t_max[cell] = furthest(sorted.rays, cell);
+        walk_cells(tree, bounds, 1u << cell, blockers);
+    }
+}
+
+/// Meets the active rays of a group, as they are, with what blocks them in the hierarchy.
+template <abi::Features F, class End, class Real, class Blocker>
+inline void visit_blockers_in_order(const abi::BvhView<Real>& tree, RayGroup<Real>& group,
+                                    const Blocker& blocker)
+{
+    CellBounds bounds;
+    SlabRays slabs;
+    bound_cells(bounds, group, tree);
+    blockers_of_rays<F, End>(tree, group, active_cells(group) & ~bounds.coherent, slabs, blocker);
+    if (bounds.coherent != 0)
+        blockers_of_cells<F, End>(tree, group, bounds, slabs, blocker);
+}
+
+/// Meets the active rays of a group with what blocks them in the hierarchy.
+template <abi::Features F, class End, class Real, class Blocker>
+[[gnu::noinline]] void visit_blockers_in_tree(const abi::BvhView<Real>& tree,
+                                              RayGroup<Real>& group, const Blocker& blocker)
+{
+    visit_blockers_in_order<F, End>(tree, group, blocker);
+}
+
+/// The same where a blocker ends the rays: those that do not run together are sorted first.
+template <abi::Features F, class End, class Real>
+[[gnu::noinline]] void visit_blockers_in_tree(const abi::BvhView<Real>& tree,
+                                              RayGroup<Real>& group, const EndsRays& blocker)
+{
+    CellBounds bounds;
+    SlabRays slabs;
+    bound_cells(bounds, group, tree);
+    const std::uint32_t others = active_cells(group) & ~bounds.coherent;
+    if (bounds.coherent != 0)
+        blockers_of_cells<F, End>(tree, group, bounds, slabs, blocker);
+    if (others == 0)
+        return;
+    Regrouped<Real> sorted;
+    sort_by_place(group, others, sorted);
+    std::uint16_t before[group_cells];
+    for (int cell = 0; cell < group_cells; ++cell)
+        before[cell] = sorted.rays.active[cell];
+    blockers_of_lone_cells<F, End>(tree, sorted, blocker);
+    for (int cell = 0; cell < sorted.cells; ++cell)
+        for (std::uint32_t ended = before[cell] & ~unsigned{sorted.rays.active[cell]}; ended != 0;
+             ended &= ended - 1) {
+            const int ray = sorted.from[cell * cell_rays + __builtin_ctz(ended)];
+            group.active[ray / cell_rays] &= static_cast<std::uint16_t>(~(1u << ray % cell_rays));
+        }
 }
 
 /// The same among all objects of a scene, lists first.

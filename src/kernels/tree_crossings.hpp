@@ -78,7 +78,7 @@ inline void visit_crossings_in_tree(const abi::BvhView<Real>& tree, const RayGro
                                     const Visit& visit)
 {
     CellBounds bounds;
-    bound_cells(bounds, group, tree.extent, tree.slack, Cells::all);
+    bound_cells(bounds, group, tree, Cells::all);
     for (int cell = 0; cell < group_cells; ++cell)
         bounds.t_max[cell] = group.active[cell] != 0 ? furthest(group, cell) : -no_end;
     join_t_max(bounds);

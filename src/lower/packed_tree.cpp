@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include <glm/geometric.hpp>
+
 #include "lower/pack_record.hpp"
 
 namespace packtrace {
@@ -69,6 +71,25 @@ float extent_of(const abi::BvhNode& root)
     return extent;
 }
 
+/// From the mean size of a leaf against the hierarchy's; chosen by the races of
+/// results/tree_designs.json.
+float coherent_spread(const std::vector<abi::BvhNode>& nodes, float extent)
+{
+    double sizes = 0.0;
+    double leaves = 0.0;
+    for (const abi::BvhNode& node : nodes)
+        for (int slot = 0; slot < abi::node_width; ++slot) {
+            if (!abi::is_leaf(node.child[slot]) || node.low[0][slot] > node.high[0][slot])
+                continue;
+            Vec3 size;
+            for (int axis = 0; axis < 3; ++axis)
+                size[axis] = double{node.high[axis][slot]} - double{node.low[axis][slot]};
+            sizes += glm::length(size);
+            leaves += 1.0;
+        }
+    return static_cast<float>(std::clamp(2.0 * sizes / (leaves * extent), 0.004, 0.1));
+}
+
 double worst_slack(const LoweredScene& lowered)
 {
     double condition = 1.0;
@@ -111,7 +132,7 @@ PackedTree<Real>::PackedTree(const LoweredScene& lowered)
     std::copy(bvh.nodes.begin(), bvh.nodes.end(), nodes_.data());
     view_ = {nodes_.data(),        blocks_.data(),
              quadrics_.data(),     static_cast<int>(bvh.nodes.size()),
-             extent_of(nodes_[0]), static_cast<float>(worst_slack(lowered))};
+             extent_of(nodes_[0]), static_cast<float>(worst_slack(lowered)), coherent_spread(bvh.nodes, extent_of(nodes_[0]))};
 }
 
 /// Also points the nodes' leaves to where they are packed.
