@@ -1,0 +1,206 @@
+#include "study/truth.hpp"
+
+#include <algorithm>
+#include <limits>
+
+namespace packtrace::study {
+namespace {
+
+using reference::dot;
+using boost::multiprecision::abs;
+using boost::multiprecision::sqrt;
+
+constexpr double never = std::numeric_limits<double>::infinity();
+
+/// One ray against one surface.
+class Line {
+public:
+    Line(const WideSurface& surface, const StressRay& ray)
+        : surface_(surface),
+          org_(wide(ray.org)),
+          dir_(wide(ray.dir)),
+          p_(surface.point_to_own(org_)),
+          v_(surface.direction_to_own(dir_)),
+          t_min_(ray.t_min),
+          t_max_(ray.t_max)
+    {
+        const WideVec second = surface.second_order(v_);
+        a_ = dot(second, v_);
+        b_ = dot(surface.gradient(p_), v_);
+        c_ = surface.value(p_);
+        infinity_margin_ = margin_of_infinity(second);
+    }
+
+    void find(std::vector<Meeting>& found) const
+    {
+        find_sides(found);
+        if (surface_.capped) {
+            find_cap(surface_.z_range->low, Wide(-1), found);
+            find_cap(surface_.z_range->high, Wide(1), found);
+        }
+    }
+
+private:
+    [[nodiscard]] WideVec own_at(const Wide& t) const
+    {
+        return p_ + t * v_;
+    }
+
+    /// What relative changes of the inputs by 1 move along the world covector n, at t.
+    [[nodiscard]] Wide reach(const WideVec& n, const Wide& t, const WideVec& own) const
+    {
+        WideVec terms = magnitudes(org_) + magnitudes(t * dir_) + surface_.place;
+        if (surface_.by_points) {
+            const WideVec p = magnitudes(own);
+            terms += {dot(magnitudes(surface_.world[0]), p), dot(magnitudes(surface_.world[1]), p),
+                      dot(magnitudes(surface_.world[2]), p)};
+        }
+        return dot(magnitudes(n), terms);
+    }
+
+    /// Half of what changes of a general quadric's own coefficients make of its value.
+    [[nodiscard]] Wide coefficient_terms(const WideVec& p) const
+    {
+        const Wide monomials[10] = {p.x * p.x, p.y * p.y, p.z * p.z, p.x * p.y, p.x * p.z,
+                                    p.y * p.z, p.x,       p.y,       p.z,       Wide(1)};
+        Wide sum = 0;
+        for (int i = 0; i < 10; ++i)
+            sum += abs(surface_.coefficients[i] * monomials[i]);
+        return sum / 2;
+    }
+
+    /// How much the half value can change at t.
+    [[nodiscard]] Wide sensitivity(const Wide& t) const
+    {
+        const WideVec own = own_at(t);
+        const WideVec n = surface_.covector_to_world(surface_.gradient(own));
+        return reach(n, t, own) + coefficient_terms(own);
+    }
+
+    /// How near the quadratic is to losing a root to infinity.
+    [[nodiscard]] double margin_of_infinity(const WideVec& second) const
+    {
+        const WideVec n = surface_.covector_to_world(second);
+        const WideVec v = magnitudes(v_);
+        WideVec terms = magnitudes(dir_);
+        if (surface_.by_points)
+            terms += {dot(magnitudes(surface_.world[0]), v), dot(magnitudes(surface_.world[1]), v),
+                      dot(magnitudes(surface_.world[2]), v)};
+        const Wide size = 2 * dot(magnitudes(n), terms);
+        return size == 0 ? never : static_cast<double>(abs(a_) / size);
+    }
+
+    [[nodiscard]] double touching_margin() const
+    {
+        if (a_ == 0)
+            return never;
+        const Wide t = -b_ / a_;
+        const Wide half_value = (c_ - b_ * b_ / a_) / 2;
+        return static_cast<double>(abs(half_value) / sensitivity(t));
+    }
+
+    /// Adds the meeting at t, whose own uncertainty is `spread`; `margin` holds so far.
+    void add(const Wide& t, const Wide& spread, const WideVec& world_normal, bool exists,
+             double margin, std::vector<Meeting>& found) const
+    {
+        Meeting meeting;
+        meeting.t = t;
+        meeting.object = surface_.object;
+        meeting.exists = exists && t > t_min_ && t < t_max_;
+        const Wide size = sqrt(dot(world_normal, world_normal));
+        if (size > 0)
+            meeting.normal = world_normal / size;
+        if (spread > 0) {
+            margin = std::min(margin, static_cast<double>(abs(t - t_min_) / spread));
+            if (t_max_ < never)
+                margin = std::min(margin, static_cast<double>(abs(t - Wide(t_max_)) / spread));
+        }
+        meeting.condition = static_cast<double>(spread / abs(t));
+        meeting.margin = margin;
+        found.push_back(meeting);
+    }
+
+    void add_side(const Wide& t, double margin, bool crosses, std::vector<Meeting>& found) const
+    {
+        const WideVec own = own_at(t);
+        const WideVec n = surface_.covector_to_world(surface_.gradient(own));
+        const Wide slope = abs(dot(n, dir_));
+        const Wide spread = slope > 0 ? (reach(n, t, own) + coefficient_terms(own)) / slope
+                                      : Wide(never);
+        bool exists = crosses;
+        if (surface_.z_range) {
+            const WideVec up = surface_.covector_to_world({0, 0, 1});
+            const Wide blur = reach(up, t, own) + abs(v_.z) * spread;
+            for (const double bound : {surface_.z_range->low, surface_.z_range->high})
+                margin = std::min(margin, static_cast<double>(abs(own.z - bound) / blur));
+            exists = exists && own.z >= surface_.z_range->low && own.z <= surface_.z_range->high;
+        }
+        add(t, spread, n, exists, margin, found);
+    }
+
+    void find_sides(std::vector<Meeting>& found) const
+    {
+        const Wide discriminant = b_ * b_ - a_ * c_;
+        const double touching = touching_margin();
+        if (discriminant < 0) {
+            add_side(-b_ / a_, touching, false, found);
+            return;
+        }
+        const Wide root = sqrt(discriminant);
+        const Wide q = b_ < 0 ? Wide(root - b_) : Wide(-root - b_);
+        if (q != 0)
+            add_side(c_ / q, touching, true, found);
+        if (a_ != 0)
+            add_side(q / a_, std::min(touching, infinity_margin_), true, found);
+    }
+
+    void find_cap(double height, const Wide& side, std::vector<Meeting>& found) const
+    {
+        if (v_.z == 0)
+            return;
+        const Wide t = (Wide(height) - p_.z) / v_.z;
+        const WideVec own = own_at(t);
+        const WideVec up = surface_.covector_to_world({0, 0, side});
+        const Wide spread = reach(up, t, own) / abs(v_.z);
+        const Wide value = surface_.value(own) / 2;
+        const Wide change = abs(dot(surface_.gradient(own), v_)) * spread;
+        const double margin = static_cast<double>(abs(value) / (sensitivity(t) + change));
+        add(t, spread, up, value <= 0, margin, found);
+    }
+
+    const WideSurface& surface_;
+    WideVec org_;
+    WideVec dir_;
+    WideVec p_;
+    WideVec v_;
+    double t_min_;
+    double t_max_;
+    Wide a_ = 0;
+    Wide b_ = 0;
+    Wide c_ = 0;
+    double infinity_margin_ = 0.0;
+};
+
+}  // namespace
+
+void find_meetings(const WideSurface& surface, const StressRay& ray, std::vector<Meeting>& found)
+{
+    Line(surface, ray).find(found);
+}
+
+double distance_to(const WideSurface& surface, const WideVec& P)
+{
+    const WideVec own = surface.point_to_own(P);
+    const WideVec n = surface.covector_to_world(surface.gradient(own));
+    const Wide size = sqrt(dot(n, n));
+    Wide distance = size > 0 ? Wide(abs(surface.value(own) / (2 * size))) : Wide(0);
+    if (surface.capped) {
+        const WideVec up = surface.covector_to_world({0, 0, 1});
+        const Wide height = sqrt(dot(up, up));
+        for (const double cap : {surface.z_range->low, surface.z_range->high})
+            distance = std::min(distance, Wide(abs(own.z - cap) / height));
+    }
+    return static_cast<double>(distance);
+}
+
+}  // namespace packtrace::study
