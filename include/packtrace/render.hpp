@@ -11,9 +11,18 @@ namespace packtrace {
 
 enum class Kernel { packet, scalar };
 
+/// How packets of floats come by their digits. Packets of doubles and the scalar kernel are the
+/// same in every mode.
+enum class Accuracy {
+    fast,       ///< float forms that lose no more than their inputs' rounding
+    automatic,  ///< in double what single precision can't hold well in this scene
+    robust      ///< in double all that decides a hit
+};
+
 struct RenderOptions {
     Kernel kernel = Kernel::packet;
     std::string isa = "auto";  ///< packet kernel: see choose_isa
+    Accuracy accuracy = Accuracy::automatic;
     int width = 0;             ///< packet kernel: float lanes 4, 8 or 16; 0 is any
     Traversal traversal = Traversal::automatic;  ///< packet kernel
     int threads = 0;           ///< 0: all of the TBB arena the call runs in

@@ -157,8 +157,8 @@ void add_stress(CLI::App& app)
         ->check(one_of({"packet", "scalar", "naive"}))
         ->type_name("packet|scalar|naive");
     command->add_option("--mode", options.modes, "Only this accuracy of packets (repeatable)")
-        ->check(one_of({"fast"}))
-        ->type_name("fast");
+        ->check(one_of({"fast", "auto", "robust"}))
+        ->type_name("fast|auto|robust");
     command->add_option("--precision", options.precisions, "Only this precision (repeatable)")
         ->check(one_of({"single", "double"}))
         ->type_name("single|double");

@@ -3,6 +3,7 @@
 #include "kernel_abi/bvh.hpp"
 #include "kernel_abi/lists.hpp"
 #include "kernel_abi/shading.hpp"
+#include "kernel_abi/stiff.hpp"
 
 namespace packtrace::abi {
 
@@ -23,6 +24,7 @@ struct SceneView {
     RecordList<PlaneRecord<Real>> planes;
     RecordList<QuadricRecord<Real>> quadrics;
     BvhView<Real> tree;  ///< holds what the lists do not
+    RecordList<StiffObject> stiff;  ///< not in the other lists; none in double precision
 
     const SurfaceRecord<Real>* surfaces = nullptr;               ///< by surface; planes, spheres
     const CurvedSurfaceRecord<Real>* curved_surfaces = nullptr;  ///< by surface; every kind

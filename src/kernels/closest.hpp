@@ -31,6 +31,14 @@ inline void keep_quadric(HitPacket<Real>& hit, const Quadric& quadric, const Ray
     });
 }
 
+template <class Stiff, class Real>
+inline void keep_stiff(HitPacket<Real>& hit, const Stiff& stiff, const RayPacket<Real>& rays)
+{
+    visit_stiff(stiff, rays, [&](vmask<Real> valid, const vreal<Real>& t, int piece) {
+        keep_closer<Real>(hit, valid & (t > rays.t_min), t, surface_of(stiff) + piece);
+    });
+}
+
 /// Rays against all objects of a scene, or from their shared origin against those of a beam.
 template <abi::Features F, class Objects, class Real>
 inline void closest_hit(HitPacket<Real>& hit, const Objects& objects, const RayPacket<Real>& rays)
@@ -47,6 +55,10 @@ inline void closest_hit(HitPacket<Real>& hit, const Objects& objects, const RayP
     if constexpr (F.quadrics)
         for (int i = 0; i < lists.quadric_count(); ++i)
             keep_quadric(hit, lists.quadric(i), rays);
+    for_each_stiff(lists.stiff(), [&](const auto& stiff) {
+        keep_stiff(hit, stiff, rays);
+        return true;
+    });
 }
 
 /// Calls `visit(valid, t, surface)` for every crossing of every surface of a scene; only those
@@ -74,6 +86,12 @@ inline void visit_all_crossings(const abi::SceneView<Real>& scene, const RayPack
                             [&](vmask<Real> valid, const vreal<Real>& t, int piece) {
                                 visit(valid, t, scene.quadrics.data[i].surface + piece);
                             });
+    for_each_stiff(scene, [&](const auto& stiff) {
+        visit_stiff(stiff, rays, [&](vmask<Real> valid, const vreal<Real>& t, int piece) {
+            visit(valid, t, surface_of(stiff) + piece);
+        });
+        return true;
+    });
 }
 
 }  // namespace

@@ -50,6 +50,9 @@ inline SharedOriginObjects<Real> take_objects(Arena& arena, const abi::SceneView
         arena.take<SharedOriginPlane<Real>>(static_cast<std::size_t>(scene.planes.count));
     objects.quadrics =
         arena.take<SharedOriginQuadric<Real>>(static_cast<std::size_t>(scene.quadrics.count));
+    if constexpr (sizeof(Real) == sizeof(float))
+        objects.stiff.list =
+            arena.take<SharedOriginStiff>(static_cast<std::size_t>(scene.stiff.count));
     return objects;
 }
 

@@ -59,7 +59,7 @@ template <class Real>
 class PacketBackend final : public RayBackend<Real> {
 public:
     PacketBackend(const Scene& scene, const RenderOptions& options)
-        : lowered_(lower(scene)),
+        : lowered_(lower(scene, accuracy_in<Real>(options))),
           packed_(lowered_, options.traversal),
           kernels_(precision<Real>(kernels_of(choose_isa(options.isa, options.width).name)))
     {

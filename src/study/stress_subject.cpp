@@ -81,7 +81,10 @@ bool wanted(const std::vector<std::string>& names, const std::string& name)
 
 void add_packets(const StressOptions& options, std::vector<StressSubject>& subjects)
 {
-    for (const std::string mode : {"fast"}) {
+    const std::pair<const char*, Accuracy> modes[] = {{"fast", Accuracy::fast},
+                                                      {"auto", Accuracy::automatic},
+                                                      {"robust", Accuracy::robust}};
+    for (const auto& [mode, accuracy] : modes) {
         if (!wanted(options.modes, mode))
             continue;
         for (const IsaInfo& isa : list_isas()) {
@@ -89,6 +92,7 @@ void add_packets(const StressOptions& options, std::vector<StressSubject>& subje
                 continue;
             RenderOptions render;
             render.isa = isa.name;
+            render.accuracy = accuracy;
             subjects.push_back({"packet", mode, isa.name, render});
         }
     }
