@@ -38,7 +38,24 @@ std::string check_size(const std::string& text)
            std::to_string(largest_side);
 }
 
+Accuracy accuracy_of(const std::string& name)
+{
+    return name == "fast"     ? Accuracy::fast
+           : name == "robust" ? Accuracy::robust
+                              : Accuracy::automatic;
+}
+
 }  // namespace
+
+void add_accuracy_option(CLI::App& command, std::optional<std::string>& accuracy)
+{
+    command
+        .add_option("--accuracy", accuracy,
+                    "What is tested in double for rays in single: nothing (fast), what single "
+                    "can't hold well (auto, default), everything (robust)")
+        ->check(one_of({"fast", "auto", "robust"}))
+        ->type_name("fast|auto|robust");
+}
 
 void add_isa_options(CLI::App& command, IsaArguments& arguments)
 {
@@ -95,6 +112,7 @@ void add_kernel_options(CLI::App& command, KernelArguments& arguments)
                     "(default) as their number suggests")
         ->check(one_of({"auto", "list", "tree"}))
         ->type_name("auto|list|tree");
+    add_accuracy_option(command, arguments.accuracy);
     add_isa_options(command, arguments.isa);
     add_threads_option(command, arguments.threads);
 }
@@ -142,6 +160,11 @@ RenderOptions render_options(const KernelArguments& arguments)
 {
     RenderOptions options;
     options.threads = arguments.threads;
+    if (arguments.accuracy && (arguments.kernel == "scalar" || arguments.precision != "single"))
+        throw CLI::ValidationError(
+            "--accuracy: only packets of floats have a choice; leave it out or use "
+            "--kernel packet --precision single");
+    options.accuracy = accuracy_of(arguments.accuracy.value_or("auto"));
     if (arguments.kernel == "scalar") {
         options.kernel = Kernel::scalar;
         if (const std::string option = packet_option(arguments); !option.empty())

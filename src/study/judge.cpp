@@ -8,17 +8,25 @@ namespace {
 
 /// The meeting of the answer's object whose t is nearest to the answer's, among those that
 /// exist or might.
-const Meeting* meant(std::span<const Meeting> meetings, const Answer& answer, double band)
+const Meeting* meant(std::span<const Meeting> meetings, const Answer& answer,
+                     const auto& unsure)
 {
     const Meeting* best = nullptr;
     const Wide t = answer.t;
     for (const Meeting& meeting : meetings) {
-        if (meeting.object != answer.object || !(meeting.exists || meeting.margin < band))
+        if (meeting.object != answer.object || !(meeting.exists || unsure(meeting)))
             continue;
         if (best == nullptr || abs(meeting.t - t) < abs(best->t - t))
             best = &meeting;
     }
     return best;
+}
+
+/// Whether a meeting's being one is inside the band. The ends of a range are always told apart in
+/// the precision of t.
+auto unsure_within(double band, double band_of_ends)
+{
+    return [=](const Meeting& m) { return m.margin < band || m.end_margin < band_of_ends; };
 }
 
 bool finite(const Answer& answer)
@@ -53,12 +61,13 @@ void Errors::add(const Errors& other)
 /// Whether the answer is the first meeting, for inputs that may be off by the band.
 bool Judge::right(std::span<const Meeting> meetings, const Answer& answer, double roundoff) const
 {
-    const double band = undecidable_band * roundoff;
+    const auto unsure =
+        unsure_within(undecidable_band * roundoff, undecidable_band * roundoff_);
     const double slack = condition_slack * roundoff;
-    if (answer.object >= 0 && meant(meetings, answer, band) == nullptr)
+    if (answer.object >= 0 && meant(meetings, answer, unsure) == nullptr)
         return false;
     return std::none_of(meetings.begin(), meetings.end(), [&](const Meeting& meeting) {
-        if (!meeting.exists || meeting.margin < band)
+        if (!meeting.exists || unsure(meeting))
             return false;
         if (answer.object < 0)
             return true;
@@ -71,12 +80,12 @@ void Judge::judge(const StressRay& ray, std::span<const Meeting> meetings, const
 {
     const double band = undecidable_band * roundoff_;
     ++errors_.rays;
-    const bool unsure = std::any_of(meetings.begin(), meetings.end(),
-                                    [&](const Meeting& m) { return m.margin < band; });
-    errors_.undecidable += unsure;
+    const auto unsure = unsure_within(band, band);
+    const bool undecidable = std::any_of(meetings.begin(), meetings.end(), unsure);
+    errors_.undecidable += undecidable;
     if (!right(meetings, answer, roundoff_))
         ++errors_.wrong;
-    else if (unsure && !right(meetings, answer, std::min(roundoff_, 0x1p-53)))
+    else if (undecidable && !right(meetings, answer, std::min(roundoff_, 0x1p-53)))
         ++errors_.wrong_in_band;
     if (answer.object < 0)
         return;
@@ -85,8 +94,8 @@ void Judge::judge(const StressRay& ray, std::span<const Meeting> meetings, const
         ++errors_.not_finite;
         return;
     }
-    const Meeting* meeting = meant(meetings, answer, band);
-    if (meeting != nullptr && meeting->exists && meeting->margin >= band)
+    const Meeting* meeting = meant(meetings, answer, unsure);
+    if (meeting != nullptr && meeting->exists && !unsure(*meeting))
         measure(ray, *meeting, answer);
 }
 

@@ -12,6 +12,14 @@ using boost::multiprecision::sqrt;
 
 constexpr double never = std::numeric_limits<double>::infinity();
 
+/// The sums of magnitudes that a matrix makes of a vector.
+WideVec sizes(const WideVec (&rows)[3], const WideVec& v)
+{
+    const WideVec size = magnitudes(v);
+    return {dot(magnitudes(rows[0]), size), dot(magnitudes(rows[1]), size),
+            dot(magnitudes(rows[2]), size)};
+}
+
 /// One ray against one surface.
 class Line {
 public:
@@ -46,16 +54,18 @@ private:
         return p_ + t * v_;
     }
 
-    /// What relative changes of the inputs by 1 move along the world covector n, at t.
-    [[nodiscard]] Wide reach(const WideVec& n, const Wide& t, const WideVec& own) const
+    /// What relative changes of the inputs by 1 move along the own covector g, at t. Inputs are
+    /// the ray, the surface's place, and its transform the way there and back.
+    [[nodiscard]] Wide reach(const WideVec& g, const Wide& t, const WideVec& own) const
     {
-        WideVec terms = magnitudes(org_) + magnitudes(t * dir_) + surface_.place;
-        if (surface_.by_points) {
-            const WideVec p = magnitudes(own);
-            terms += {dot(magnitudes(surface_.world[0]), p), dot(magnitudes(surface_.world[1]), p),
-                      dot(magnitudes(surface_.world[2]), p)};
-        }
-        return dot(magnitudes(n), terms);
+        const WideVec n = magnitudes(surface_.covector_to_world(g));
+        const Wide by_place =
+            dot(n, magnitudes(org_) + magnitudes(t * dir_) + surface_.place);
+        if (!surface_.by_points)
+            return by_place;
+        const WideVec w = org_ + t * dir_ - surface_.offset;
+        return by_place + dot(n, sizes(surface_.world, own)) +
+               dot(magnitudes(g), sizes(surface_.own, w));
     }
 
     /// Half of what changes of a general quadric's own coefficients make of its value.
@@ -73,20 +83,17 @@ private:
     [[nodiscard]] Wide sensitivity(const Wide& t) const
     {
         const WideVec own = own_at(t);
-        const WideVec n = surface_.covector_to_world(surface_.gradient(own));
-        return reach(n, t, own) + coefficient_terms(own);
+        return reach(surface_.gradient(own), t, own) + coefficient_terms(own);
     }
 
     /// How near the quadratic is to losing a root to infinity.
     [[nodiscard]] double margin_of_infinity(const WideVec& second) const
     {
-        const WideVec n = surface_.covector_to_world(second);
-        const WideVec v = magnitudes(v_);
-        WideVec terms = magnitudes(dir_);
+        const WideVec n = magnitudes(surface_.covector_to_world(second));
+        Wide size = 2 * dot(n, magnitudes(dir_));
         if (surface_.by_points)
-            terms += {dot(magnitudes(surface_.world[0]), v), dot(magnitudes(surface_.world[1]), v),
-                      dot(magnitudes(surface_.world[2]), v)};
-        const Wide size = 2 * dot(magnitudes(n), terms);
+            size += 2 * (dot(n, sizes(surface_.world, v_)) +
+                         dot(magnitudes(second), sizes(surface_.own, dir_)));
         return size == 0 ? never : static_cast<double>(abs(a_) / size);
     }
 
@@ -111,9 +118,11 @@ private:
         if (size > 0)
             meeting.normal = world_normal / size;
         if (spread > 0) {
-            margin = std::min(margin, static_cast<double>(abs(t - t_min_) / spread));
+            const double start = static_cast<double>(abs(t - t_min_) / spread);
+            (t_min_ == 0 ? margin : meeting.end_margin) = std::min(margin, start);
             if (t_max_ < never)
-                margin = std::min(margin, static_cast<double>(abs(t - Wide(t_max_)) / spread));
+                meeting.end_margin = std::min(
+                    meeting.end_margin, static_cast<double>(abs(t - Wide(t_max_)) / spread));
         }
         meeting.condition = static_cast<double>(spread / abs(t));
         meeting.margin = margin;
@@ -123,14 +132,13 @@ private:
     void add_side(const Wide& t, double margin, bool crosses, std::vector<Meeting>& found) const
     {
         const WideVec own = own_at(t);
-        const WideVec n = surface_.covector_to_world(surface_.gradient(own));
-        const Wide slope = abs(dot(n, dir_));
-        const Wide spread = slope > 0 ? (reach(n, t, own) + coefficient_terms(own)) / slope
-                                      : Wide(never);
+        const WideVec g = surface_.gradient(own);
+        const WideVec n = surface_.covector_to_world(g);
+        const Wide slope = abs(dot(g, v_));
+        const Wide spread = slope > 0 ? sensitivity(t) / slope : Wide(never);
         bool exists = crosses;
         if (surface_.z_range) {
-            const WideVec up = surface_.covector_to_world({0, 0, 1});
-            const Wide blur = reach(up, t, own) + abs(v_.z) * spread;
+            const Wide blur = reach({0, 0, 1}, t, own) + abs(v_.z) * spread;
             for (const double bound : {surface_.z_range->low, surface_.z_range->high})
                 margin = std::min(margin, static_cast<double>(abs(own.z - bound) / blur));
             exists = exists && own.z >= surface_.z_range->low && own.z <= surface_.z_range->high;
@@ -161,7 +169,7 @@ private:
         const Wide t = (Wide(height) - p_.z) / v_.z;
         const WideVec own = own_at(t);
         const WideVec up = surface_.covector_to_world({0, 0, side});
-        const Wide spread = reach(up, t, own) / abs(v_.z);
+        const Wide spread = reach({0, 0, side}, t, own) / abs(v_.z);
         const Wide value = surface_.value(own) / 2;
         const Wide change = abs(dot(surface_.gradient(own), v_)) * spread;
         const double margin = static_cast<double>(abs(value) / (sensitivity(t) + change));

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <limits>
 #include <vector>
 
 #include "study/wide_surface.hpp"
@@ -23,6 +24,8 @@ struct Meeting {
     WideVec normal;          ///< unit, outwards
     double condition = 0.0;  ///< relative change of t for relative changes 1 of every input
     double margin = 0.0;     ///< relative change of the inputs that makes `exists` another
+    /// The same for the ends of the range other than 0, which t is compared with as rounded.
+    double end_margin = std::numeric_limits<double>::infinity();
 };
 
 /// Appends the meetings of one ray with one surface.
