@@ -19,10 +19,17 @@ enum class Accuracy {
     robust      ///< in double all that decides a hit
 };
 
+/// How secondary and shadow rays keep from meeting the place they start at.
+enum class SelfHits {
+    note,  ///< they start 0.001 along their direction, as the notes have it
+    exact  ///< they start off the surface by what rounding can do there, and count from 0
+};
+
 struct RenderOptions {
     Kernel kernel = Kernel::packet;
     std::string isa = "auto";  ///< packet kernel: see choose_isa
     Accuracy accuracy = Accuracy::automatic;
+    SelfHits self_hits = SelfHits::note;  ///< packets
     int width = 0;             ///< packet kernel: float lanes 4, 8 or 16; 0 is any
     Traversal traversal = Traversal::automatic;  ///< packet kernel
     int threads = 0;           ///< 0: all of the TBB arena the call runs in

@@ -113,6 +113,12 @@ void add_kernel_options(CLI::App& command, KernelArguments& arguments)
         ->check(one_of({"auto", "list", "tree"}))
         ->type_name("auto|list|tree");
     add_accuracy_option(command, arguments.accuracy);
+    command
+        .add_option("--self-hits", arguments.self_hits,
+                    "How rays keep off the place they start at: 0.001 along their way, as the "
+                    "notes have it (note, default), or by what rounding can do there (exact)")
+        ->check(one_of({"note", "exact"}))
+        ->type_name("note|exact");
     add_isa_options(command, arguments.isa);
     add_threads_option(command, arguments.threads);
 }
@@ -132,6 +138,7 @@ std::string packet_option(const KernelArguments& arguments)
     return arguments.isa.isa     ? "--isa"
            : arguments.isa.width ? "--width"
            : arguments.traversal ? "--traversal"
+           : arguments.self_hits ? "--self-hits"
                                  : "";
 }
 
@@ -176,6 +183,8 @@ RenderOptions render_options(const KernelArguments& arguments)
     if (arguments.precision == "extended")
         throw CLI::ValidationError(
             "--precision: packets are single or double; extended needs --kernel scalar");
+    if (arguments.self_hits == "exact")
+        options.self_hits = SelfHits::exact;
     options.isa = chosen_isa(arguments.isa).name;
     options.traversal = traversal_named(arguments.traversal.value_or("auto"));
     return options;

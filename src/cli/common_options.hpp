@@ -23,13 +23,14 @@ struct PictureArguments {
     std::optional<int> depth;
 };
 
-/// How to render it: `--kernel`, `--precision`, `--traversal`, `--accuracy`, `--threads` and
-/// those of IsaArguments.
+/// How to render it: `--kernel`, `--precision`, `--traversal`, `--accuracy`, `--self-hits`,
+/// `--threads` and those of IsaArguments.
 struct KernelArguments {
     std::string kernel = "packet";
     std::optional<std::string> traversal;
     std::string precision = "single";
     std::optional<std::string> accuracy;
+    std::optional<std::string> self_hits;
     IsaArguments isa;
     int threads = 0;
 };

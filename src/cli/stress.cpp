@@ -42,8 +42,13 @@ TextTable make_table()
 {
     return {5,
             {"family", "precision", "kernel", "mode", "instruction sets", "hits", "wrong",
-             "in band", "nan", "ulp 50%", "99%", "max", "rho", "off surface", "normal", "ns",
-             "best"}};
+             "in band", "nan", "ulp 50%", "99%", "max", "rho", "off surface", "normal",
+             "note self/lost", "exact", "ns", "best"}};
+}
+
+std::string pair_of(std::uint64_t taken, std::uint64_t lost)
+{
+    return std::to_string(taken) + "/" + std::to_string(lost);
 }
 
 void add_row(TextTable& table, const StressRow& row)
@@ -52,7 +57,8 @@ void add_row(TextTable& table, const StressRow& row)
                std::to_string(row.hits), std::to_string(row.wrong),
                std::to_string(row.wrong_in_band), std::to_string(row.not_finite),
                brief(row.ulp_median), brief(row.ulp_p99), brief(row.ulp_max), brief(row.rho),
-               brief(row.distance), brief(row.normal), fixed(row.ns, 1), row.pareto ? "*" : ""});
+               brief(row.distance), brief(row.normal), pair_of(row.note_taken, row.note_lost),
+               pair_of(row.exact_taken, row.exact_lost), fixed(row.ns, 1), row.pareto ? "*" : ""});
 }
 
 nlohmann::ordered_json row_json(const StressRow& row)
@@ -75,6 +81,11 @@ nlohmann::ordered_json row_json(const StressRow& row)
             {"distance_roundoffs", row.distance},
             {"normal_error", row.normal},
             {"relative_error_well_conditioned", row.relative},
+            {"secondary_rays", row.secondary},
+            {"note_self_hits", row.note_taken},
+            {"note_lost_hits", row.note_lost},
+            {"exact_self_hits", row.exact_taken},
+            {"exact_lost_hits", row.exact_lost},
             {"ns_per_ray", row.ns},
             {"pareto", row.pareto},
             {"broken_bounds", row.broken}};

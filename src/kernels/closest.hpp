@@ -31,11 +31,16 @@ inline void keep_quadric(HitPacket<Real>& hit, const Quadric& quadric, const Ray
     });
 }
 
+/// Apart from the rest, which it would only make larger: most scenes have none.
 template <class Stiff, class Real>
-inline void keep_stiff(HitPacket<Real>& hit, const Stiff& stiff, const RayPacket<Real>& rays)
+[[gnu::noinline]] void keep_stiff(HitPacket<Real>& hit, const Stiff& list,
+                                  const RayPacket<Real>& rays)
 {
-    visit_stiff(stiff, rays, [&](vmask<Real> valid, const vreal<Real>& t, int piece) {
-        keep_closer<Real>(hit, valid & (t > rays.t_min), t, surface_of(stiff) + piece);
+    for_each_stiff(list, [&](const auto& stiff) {
+        visit_stiff(stiff, rays, [&](vmask<Real> valid, const vreal<Real>& t, int piece) {
+            keep_closer<Real>(hit, valid & (t > rays.t_min), t, surface_of(stiff) + piece);
+        });
+        return true;
     });
 }
 
@@ -55,10 +60,8 @@ inline void closest_hit(HitPacket<Real>& hit, const Objects& objects, const RayP
     if constexpr (F.quadrics)
         for (int i = 0; i < lists.quadric_count(); ++i)
             keep_quadric(hit, lists.quadric(i), rays);
-    for_each_stiff(lists.stiff(), [&](const auto& stiff) {
-        keep_stiff(hit, stiff, rays);
-        return true;
-    });
+    if (any_stiff(lists.stiff()))
+        keep_stiff(hit, lists.stiff(), rays);
 }
 
 /// Calls `visit(valid, t, surface)` for every crossing of every surface of a scene; only those

@@ -182,6 +182,20 @@ inline void find_stiff(StiffCandidates<double>&, const Beam<double>&, const abi:
 {
 }
 
+inline bool any_stiff(const abi::SceneView<float>& scene)
+{
+    return scene.stiff.count != 0;
+}
+inline bool any_stiff(const StiffCandidates<float>& candidates)
+{
+    return candidates.count != 0;
+}
+template <class List>
+constexpr bool any_stiff(const List&)
+{
+    return false;
+}
+
 /// Calls `each(object)` for every stiff object of a scene, or of a beam, while it returns true.
 template <class Each>
 inline void for_each_stiff(const abi::SceneView<float>& scene, const Each& each)

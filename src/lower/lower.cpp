@@ -33,13 +33,15 @@ void lower_objects(const Scene& scene, LoweredScene& lowered)
 
 }  // namespace
 
-LoweredScene lower(const Scene& scene, Accuracy accuracy)
+LoweredScene lower(const Scene& scene, Accuracy accuracy, SelfHits self_hits)
 {
     LoweredScene lowered;
     lower_model_rules(scene, lowered);
     lower_objects(scene, lowered);
     mark_huge_spheres(scene.camera.position, lowered);
     mark_stiff(accuracy, lowered);
+    mark_finished(accuracy, self_hits, lowered);
+    lowered.self_hits = self_hits;
 
     lowered.features.quadrics = !lowered.quadrics.empty();
     lowered.features.glass = any_glass(lowered);

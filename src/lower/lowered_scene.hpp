@@ -95,14 +95,18 @@ struct LoweredScene {
     bool transparent_shadows = false;
     bool visible_lights = false;
     abi::RayUnits units = abi::RayUnits::as_given;
-    double epsilon = 0.0;                  ///< start of secondary and shadow rays
+    double epsilon = 0.0;  ///< start of secondary and shadow rays with SelfHits::note
+    SelfHits self_hits = SelfHits::note;
+    /// By surface: hits of rays in single precision are solved again in double.
+    std::vector<bool> finished;
     double camera_t_min = 0.0;             ///< start of camera rays
     std::vector<std::int32_t> eye_inside;  ///< glass objects around the eye, innermost first
     abi::Features features;
 };
 
 /// Lowers a scene. Throws SceneError for what it can't hold: a quadric without a surface.
-[[nodiscard]] LoweredScene lower(const Scene& scene, Accuracy accuracy = Accuracy::automatic);
+[[nodiscard]] LoweredScene lower(const Scene& scene, Accuracy accuracy = Accuracy::automatic,
+                                 SelfHits self_hits = SelfHits::note);
 
 /// The accuracy that counts for kernels of `Real`: doubles need nothing wider.
 template <class Real>

@@ -1,6 +1,7 @@
 #include "lower/packed_scene.hpp"
 
 #include <algorithm>
+#include <limits>
 
 #include "lower/pack_record.hpp"
 #include "lower/pack_stiff.hpp"
@@ -17,6 +18,11 @@ bool wants_tree(const LoweredScene& lowered, Traversal traversal)
            (traversal == Traversal::automatic && count_tree_objects(lowered) >= tree_objects);
 }
 
+/// Hits in single precision are solved again in double and rounded once; those in double are
+/// as the search found them. Measured in docs/numerics.md.
+template <class Real>
+constexpr Real start_roundoffs = sizeof(Real) == sizeof(float) ? Real(8) : Real(32);
+
 }  // namespace
 
 template <class Real>
@@ -31,6 +37,7 @@ PackedScene<Real>::PackedScene(const LoweredScene& lowered, Traversal traversal)
     pack_planes(lowered);
     pack_quadrics(lowered);
     pack_stiff(lowered);
+    pack_finish(lowered);
     pack_normals(lowered);
     pack_materials(lowered);
     pack_lights(lowered);
@@ -42,6 +49,10 @@ PackedScene<Real>::PackedScene(const LoweredScene& lowered, Traversal traversal)
     view_.visible_lights = lowered.visible_lights;
     view_.units = lowered.units;
     view_.epsilon = static_cast<Real>(lowered.epsilon);
+    if (lowered.self_hits == SelfHits::note)
+        view_.secondary_t_min = view_.epsilon;
+    else
+        view_.start_error = start_roundoffs<Real> * std::numeric_limits<Real>::epsilon() / 2;
 }
 
 template <class Real>
@@ -137,6 +148,33 @@ void PackedScene<Real>::pack_stiff(const LoweredScene& lowered)
     pack(lowered.planes);
     pack(lowered.quadrics);
     view_.stiff = {stiff_.data(), static_cast<int>(count)};
+}
+
+template <class Real>
+void PackedScene<Real>::pack_finish(const LoweredScene& lowered)
+{
+    const auto& wanted = lowered.finished;
+    if (sizeof(Real) != sizeof(float) || std::find(wanted.begin(), wanted.end(), true) == wanted.end())
+        return;
+    finish_ = AlignedArray<abi::StiffObject>(lowered.spheres.size() + lowered.planes.size() +
+                                             lowered.quadrics.size());
+    finish_index_ = AlignedArray<std::int32_t>(wanted.size());
+    std::fill_n(finish_index_.data(), wanted.size(), -1);
+    std::int32_t count = 0;
+    const auto pack = [&](const auto& surfaces, const auto& pieces) {
+        for (const auto& surface : surfaces) {
+            const auto first = static_cast<std::size_t>(surface.surface);
+            if (!wanted[first])
+                continue;
+            finish_[static_cast<std::size_t>(count)] = pack_stiff_object(surface);
+            std::fill_n(finish_index_.data() + first, pieces(surface), count++);
+        }
+    };
+    pack(lowered.spheres, [](const LoweredSphere&) { return 1; });
+    pack(lowered.planes, [](const LoweredPlane&) { return 1; });
+    pack(lowered.quadrics, [](const LoweredQuadric& quadric) { return quadric.capped ? 3 : 1; });
+    view_.finish = finish_.data();
+    view_.finish_index = finish_index_.data();
 }
 
 /// Round surfaces have their normals already; the kernels of every kind of surface take them in

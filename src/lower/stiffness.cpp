@@ -88,4 +88,19 @@ void mark_stiff(Accuracy accuracy, LoweredScene& lowered)
     mark(accuracy, lowered.quadrics);
 }
 
+void mark_finished(Accuracy accuracy, SelfHits self_hits, LoweredScene& lowered)
+{
+    const bool all = accuracy == Accuracy::robust || self_hits == SelfHits::exact;
+    lowered.finished.assign(lowered.material_index.size(), all);
+    if (all || accuracy == Accuracy::fast)
+        return;
+    for (const LoweredSphere& sphere : lowered.spheres)
+        if (!sphere.huge && is_stiff(sphere))
+            lowered.finished[static_cast<std::size_t>(sphere.surface)] = true;
+    for (const LoweredQuadric& quadric : lowered.quadrics)
+        for (int piece = 0; piece < (quadric.capped ? 3 : 1); ++piece)
+            if (is_stiff(quadric))
+                lowered.finished[static_cast<std::size_t>(quadric.surface + piece)] = true;
+}
+
 }  // namespace packtrace

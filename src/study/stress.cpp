@@ -7,6 +7,7 @@
 
 #include <tbb/parallel_for.h>
 
+#include "study/self_hits.hpp"
 #include "study/stress_bounds.hpp"
 #include "study/stress_subject.hpp"
 
@@ -121,6 +122,33 @@ StressRow row_of(const StressSubject& subject, const std::vector<StressGroup>& g
     return row;
 }
 
+template <class Real>
+SelfHitCounts self_hits_of(const StressSubject& subject, const std::vector<StressGroup>& groups,
+                           SelfHits rule)
+{
+    std::vector<SelfHitCounts> by_group(groups.size());
+    tbb::parallel_for(std::size_t{0}, groups.size(), [&](std::size_t g) {
+        by_group[g] = count_self_hits<Real>(subject, groups[g], rule);
+    });
+    SelfHitCounts sum;
+    for (const SelfHitCounts& counts : by_group)
+        sum.add(counts);
+    return sum;
+}
+
+template <class Real>
+void add_self_hits(StressRow& row, const StressSubject& subject,
+                   const std::vector<StressGroup>& groups)
+{
+    const SelfHitCounts note = self_hits_of<Real>(subject, groups, SelfHits::note);
+    const SelfHitCounts exact = self_hits_of<Real>(subject, groups, SelfHits::exact);
+    row.secondary = note.rays;
+    row.note_taken = note.taken;
+    row.note_lost = note.lost;
+    row.exact_taken = exact.taken;
+    row.exact_lost = exact.lost;
+}
+
 /// Whether `runs` are, bit for bit, those of the last row of the same kernel and mode.
 struct Judged {
     std::size_t row;
@@ -152,6 +180,7 @@ void add_rows(const StressFamily& family, const StressOptions& options,
             continue;
         }
         rows.push_back(row_of<Real>(subject, groups, runs));
+        add_self_hits<Real>(rows.back(), subject, groups);
         rows.back().family = family.name;
         if (packet_of_doubles)
             rows.back().mode = "any";

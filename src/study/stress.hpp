@@ -39,6 +39,13 @@ struct StressRow {
     double distance = 0.0;
     double normal = 0.0;
     double relative = 0.0;
+    // Secondary rays from the hits: own starts taken for hits, and second meetings lost, with
+    // SelfHits::note and SelfHits::exact.
+    std::uint64_t secondary = 0;
+    std::uint64_t note_taken = 0;
+    std::uint64_t note_lost = 0;
+    std::uint64_t exact_taken = 0;
+    std::uint64_t exact_lost = 0;
     double ns = 0.0;      ///< a ray, of the first of the instruction sets
     bool pareto = false;  ///< no other of the family is both quicker and more exact
     std::vector<std::string> broken;  ///< stated bounds that do not hold

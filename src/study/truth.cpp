@@ -55,7 +55,7 @@ private:
     }
 
     /// What relative changes of the inputs by 1 move along the own covector g, at t. Inputs are
-    /// the ray, the surface's place, and its transform the way there and back.
+    /// the ray, the surface's place, its transform, and the ray's start and way in own space.
     [[nodiscard]] Wide reach(const WideVec& g, const Wide& t, const WideVec& own) const
     {
         const WideVec n = magnitudes(surface_.covector_to_world(g));
@@ -63,27 +63,37 @@ private:
             dot(n, magnitudes(org_) + magnitudes(t * dir_) + surface_.place);
         if (!surface_.by_points)
             return by_place;
-        const WideVec w = org_ + t * dir_ - surface_.offset;
+        const WideVec way = magnitudes(org_ - surface_.offset) + magnitudes(t * dir_);
         return by_place + dot(n, sizes(surface_.world, own)) +
-               dot(magnitudes(g), sizes(surface_.own, w));
+               dot(magnitudes(g), sizes(surface_.own, way));
     }
 
-    /// Half of what changes of a general quadric's own coefficients make of its value.
-    [[nodiscard]] Wide coefficient_terms(const WideVec& p) const
+    /// What a general quadric's canonical form adds to `reach`, and to the change of its half
+    /// value: its centre, axes and coefficients, and the ray's start and way in its space.
+    [[nodiscard]] Wide canonical_terms(const WideVec& g, const Wide& t) const
     {
-        const Wide monomials[10] = {p.x * p.x, p.y * p.y, p.z * p.z, p.x * p.y, p.x * p.z,
-                                    p.y * p.z, p.x,       p.y,       p.z,       Wide(1)};
-        Wide sum = 0;
-        for (int i = 0; i < 10; ++i)
-            sum += abs(surface_.coefficients[i] * monomials[i]);
-        return sum / 2;
+        const CanonicalForm& form = *surface_.canonical;
+        const WideVec center = wide(form.center);
+        const WideVec way = magnitudes(p_) + magnitudes(center) + magnitudes(t * v_);
+        const WideVec off = own_at(t) - center;
+        Wide sum = abs(Wide(form.constant)) / 2;
+        for (int axis = 0; axis < 3; ++axis) {
+            const WideVec row = wide(form.axes[axis]);
+            const Wide x = dot(row, off);
+            sum += abs(dot(row, g)) * dot(magnitudes(row), way) +
+                   abs(Wide(form.square[axis])) * x * x / 2 +
+                   (axis == 2 ? abs(Wide(form.linear) * x) : Wide(0));
+        }
+        // The way into canonical space is sums of three products, each rounded up to three times.
+        return 3 * sum;
     }
 
     /// How much the half value can change at t.
     [[nodiscard]] Wide sensitivity(const Wide& t) const
     {
         const WideVec own = own_at(t);
-        return reach(surface_.gradient(own), t, own) + coefficient_terms(own);
+        const WideVec g = surface_.gradient(own);
+        return reach(g, t, own) + (surface_.canonical ? canonical_terms(g, t) : Wide(0));
     }
 
     /// How near the quadratic is to losing a root to infinity.

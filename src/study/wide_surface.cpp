@@ -5,8 +5,6 @@
 
 #include <glm/matrix.hpp>
 
-#include "lower/canonical_form.hpp"
-
 namespace packtrace::study {
 namespace {
 
@@ -44,12 +42,8 @@ void define(WideSurface& surface, const Plane& plane)
 void define(WideSurface& surface, const Quadric& quadric)
 {
     set_coefficients(surface, quadric.coefficients);
-    if (quadric.kind == QuadricKind::general) {
-        for (std::size_t i = 0; i < 10; ++i)
-            surface.coefficients[i] = quadric.coefficients[i];
-        // Kernels hold it by its centre and axes, so its centre is an input, wherever that is.
-        surface.place = Wide(2) * magnitudes(wide(canonical_form(quadric.coefficients).center));
-    }
+    if (quadric.kind == QuadricKind::general)
+        surface.canonical = canonical_form(quadric.coefficients);
     surface.z_range = quadric.z_range;
     surface.capped = quadric.capped;
 }

@@ -5,6 +5,7 @@
 
 #include <packtrace/scene.hpp>
 
+#include "lower/canonical_form.hpp"
 #include "study/wide.hpp"
 
 namespace packtrace::study {
@@ -22,7 +23,8 @@ struct WideSurface {
     /// Magnitudes of what places the surface besides its own points: a centre, a point, an offset.
     WideVec place;
     bool by_points = true;  ///< own points count as inputs: not for spheres and planes
-    Wide coefficients[10] = {};  ///< of a general quadric, which count as inputs; else 0
+    /// Of a general quadric: what kernels hold it by, whose entries count as inputs.
+    std::optional<CanonicalForm> canonical;
     std::optional<ZRange> z_range;
     bool capped = false;
     std::int32_t object = 0;
