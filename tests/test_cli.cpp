@@ -86,7 +86,8 @@ TEST_CASE("a command's help names its options", "[cli]")
     const std::vector<std::pair<std::string, std::string>> options{
         {"render", "--precision"}, {"compare", "--max-error"}, {"info", "--json"},
         {"intersect", "--any"},    {"explain", "--pixel"},     {"demo", "--rounds"},
-        {"onedim", "--keep-going"}};
+        {"onedim", "--keep-going"}, {"stress", "--family"},    {"render", "--accuracy"},
+        {"render", "--self-hits"}};
     for (const auto& [command, option] : options)
         CHECK_THAT(run_packtrace({command, "--help"}).out, ContainsSubstring(option));
 }

@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include <nlohmann/json.hpp>
+
 #include "catch.hpp"
 #include "run_program.hpp"
 #include "study/judge.hpp"
@@ -141,6 +143,53 @@ TEST_CASE("all instruction sets with fused multiply-add answer alike in every mo
         const bool fused = row.isa.find("avx2") != std::string::npos;
         CHECK((plain || row.isa.find("sse_fma") != std::string::npos) == (plain || fused));
     }
+}
+
+TEST_CASE("the stress command prints rows, JSON and its families", "[stress]")
+{
+    const std::vector<std::string> few = {"stress", "--family", "sphere", "--rays", "64"};
+    const auto with = [&](std::vector<std::string> more) {
+        more.insert(more.begin(), few.begin(), few.end());
+        return run_packtrace(more);
+    };
+    const ProgramResult table = with({"--kernel", "packet", "--mode", "robust"});
+    CHECK(table.exit_code == 0);
+    CHECK(table.out.find("sphere") != std::string::npos);
+    CHECK(table.out.find("robust") != std::string::npos);
+    CHECK(table.out.find("fast") == std::string::npos);
+
+    const auto json = nlohmann::json::parse(with({"--json", "--precision", "single"}).out);
+    CHECK(json.at("rays_per_family") == 64);
+    CHECK(json.at("rows").size() >= 3);
+    for (const auto& row : json.at("rows")) {
+        CHECK(row.at("family") == "sphere");
+        CHECK(row.at("precision") == "single");
+        CHECK(row.at("rays") == 64);
+    }
+
+    const ProgramResult list = run_packtrace({"stress", "--list"});
+    CHECK(list.exit_code == 0);
+    for (const auto& family : study::list_stress_families())
+        CHECK(list.out.find(family.name) != std::string::npos);
+    CHECK(run_packtrace({"stress", "--family", "nonsense"}).exit_code == 2);
+    CHECK(run_packtrace({"stress", "--rays", "0"}).exit_code == 2);
+}
+
+TEST_CASE("accuracy and self-hits are refused where they mean nothing", "[stress]")
+{
+    const std::string scene = PACKTRACE_SOURCE_DIR "/scenes/four_spheres.scene";
+    const auto render_with = [&](std::vector<std::string> more) {
+        more.insert(more.begin(), {"render", scene, "-o", "/nowhere/x.png"});
+        return run_packtrace(more);
+    };
+    const ProgramResult scalar = render_with({"--kernel", "scalar", "--accuracy", "robust"});
+    CHECK(scalar.exit_code == 2);
+    CHECK(scalar.err.find("--accuracy") != std::string::npos);
+    const ProgramResult doubles = render_with({"--precision", "double", "--accuracy", "fast"});
+    CHECK(doubles.exit_code == 2);
+    const ProgramResult note = render_with({"--kernel", "scalar", "--self-hits", "exact"});
+    CHECK(note.exit_code == 2);
+    CHECK(note.err.find("--self-hits") != std::string::npos);
 }
 
 }  // namespace packtrace::test

@@ -145,7 +145,8 @@ private:
         const WideVec g = surface_.gradient(own);
         const WideVec n = surface_.covector_to_world(g);
         const Wide slope = abs(dot(g, v_));
-        const Wide spread = slope > 0 ? sensitivity(t) / slope : Wide(never);
+        // Where the ray only touches, or nearly, t has no first-order uncertainty.
+        const Wide spread = crosses && slope > 0 ? Wide(sensitivity(t) / slope) : Wide(0);
         bool exists = crosses;
         if (surface_.z_range) {
             const Wide blur = reach({0, 0, 1}, t, own) + abs(v_.z) * spread;
