@@ -77,10 +77,10 @@ Scene every_kind(bool many)
             surface.capped = capped;
             Object object;
             object.surface = surface;
-            object.transform = glm::scale(
-                glm::rotate(glm::translate(Mat4(1.0), {kind - 3.0, 0.5, 1.0}), 0.7 * kind,
-                            Vec3(1, 2, 3)),
-                Vec3(1.0, 0.5, kind == 2 ? 1e-3 : 1.0));
+            object.transform =
+                glm::scale(glm::rotate(glm::translate(Mat4(1.0), {kind - 3.0, 0.5, 1.0}),
+                                       0.7 * kind, Vec3(1, 2, 3)),
+                           Vec3(1.0, 0.5, kind == 2 ? 1e-3 : 1.0));
             scene.objects.push_back(object);
         }
     for (int i = 0; many && i < 60; ++i)
@@ -94,8 +94,9 @@ void answers_are_in_range(const Scene& scene, const RenderOptions& options)
     const int n = 3001;
     const Columns<Real> rays = any_rays<Real>(n);
     const auto& c = rays;
-    const RaysView<Real> view{c[0].data(), c[1].data(), c[2].data(), c[3].data(), c[4].data(),
-                              c[5].data(), c[6].data(), c[7].data(), n};
+    const RaysView<Real> view{c[0].data(), c[1].data(), c[2].data(),
+                              c[3].data(), c[4].data(), c[5].data(),
+                              c[6].data(), c[7].data(), n};
     const RayScene<Real> ray_scene(scene, options);
     std::vector<Real> t(n), x(n), y(n), z(n);
     std::vector<std::int32_t> object(n, 12345);

@@ -7,8 +7,8 @@
 
 #include "catch.hpp"
 #include "closest_hits.hpp"
-#include "render_scene.hpp"
 #include "lower/pack_stiff.hpp"
+#include "render_scene.hpp"
 #include "study/stress_family.hpp"
 
 namespace packtrace::test {
@@ -52,8 +52,8 @@ double true_distance2(const LoweredSphere& sphere, const glm::vec3& org, const g
 float nudged(StressRandom& random, float x)
 {
     for (int steps = random.below(4); steps >= 0; --steps)
-        x = std::nextafter(x, static_cast<float>(random.sign()) *
-                                  std::numeric_limits<float>::infinity());
+        x = std::nextafter(
+            x, static_cast<float>(random.sign()) * std::numeric_limits<float>::infinity());
     return x;
 }
 

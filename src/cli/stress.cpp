@@ -53,12 +53,12 @@ std::string pair_of(std::uint64_t taken, std::uint64_t lost)
 
 void add_row(TextTable& table, const StressRow& row)
 {
-    table.add({row.family, row.precision, row.kernel, row.mode, row.isa,
-               std::to_string(row.hits), std::to_string(row.wrong),
-               std::to_string(row.wrong_in_band), std::to_string(row.not_finite),
-               brief(row.ulp_median), brief(row.ulp_p99), brief(row.ulp_max), brief(row.rho),
-               brief(row.distance), brief(row.normal), pair_of(row.note_taken, row.note_lost),
-               pair_of(row.exact_taken, row.exact_lost), fixed(row.ns, 1), row.pareto ? "*" : ""});
+    table.add({row.family, row.precision, row.kernel, row.mode, row.isa, std::to_string(row.hits),
+               std::to_string(row.wrong), std::to_string(row.wrong_in_band),
+               std::to_string(row.not_finite), brief(row.ulp_median), brief(row.ulp_p99),
+               brief(row.ulp_max), brief(row.rho), brief(row.distance), brief(row.normal),
+               pair_of(row.note_taken, row.note_lost), pair_of(row.exact_taken, row.exact_lost),
+               fixed(row.ns, 1), row.pareto ? "*" : ""});
 }
 
 nlohmann::ordered_json row_json(const StressRow& row)

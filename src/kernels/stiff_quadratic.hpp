@@ -23,27 +23,26 @@ inline Quadratic<double> quadratic_of(const abi::StiffSphere& sphere, const RayP
 /// A quadratic rounded from double, and what double says of it.
 struct RoundedQuadratic {
     Quadratic<float> rounded;
-    std::uint32_t crosses;  ///< lanes with roots
+    std::uint32_t ahead;  ///< lanes with roots t > 0
 };
 
 inline RoundedQuadratic rounded(const Quadratic<double>& low, const Quadratic<double>& high)
 {
-    const vreal<double> zero(0.0);
     return {{joined(low.a, high.a), joined(low.b, high.b), joined(low.c, high.c),
              joined(low.discriminant, high.discriminant)},
-            joined_bits(bits(low.discriminant >= zero), bits(high.discriminant >= zero))};
+            joined_bits(bits(may_hit(low)), bits(may_hit(high)))};
 }
 
-/// Calls `visit(valid, t, 0)` for either root.
+/// Calls `visit(valid, t, 0)` for either root, unless none is ahead.
 template <class Surface, class Visit>
 inline void visit_stiff_roots(const Surface& surface, const RayPacket<float>& rays,
                               const Visit& visit)
 {
-    const auto [quadratic, crosses] =
+    const auto [quadratic, ahead] =
         rounded(quadratic_of(surface, low_half(rays)), quadratic_of(surface, high_half(rays)));
-    if (crosses == 0)
+    if (ahead == 0)
         return;
-    const vmask<float> valid = from_bits<float>(crosses);
+    const vmask<float> valid = from_bits<float>(ahead);
     const vreal<float> root = sqrt(quadratic.discriminant);
     const vreal<float> minus_q = quadratic.b + with_sign_of(root, quadratic.b);
     visit(valid, negated(quadratic.c) / minus_q, 0);

@@ -25,7 +25,8 @@ Mat3 exact_inverse(const Mat3& m)
     Mat3 inverse;
     for (int column = 0; column < 3; ++column)
         for (int row = 0; row < 3; ++row)
-            inverse[column][row] = static_cast<double>(Wide(minor_of(m, row, column) / determinant));
+            inverse[column][row] =
+                static_cast<double>(Wide(minor_of(m, row, column) / determinant));
     return inverse;
 }
 

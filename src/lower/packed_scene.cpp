@@ -154,7 +154,8 @@ template <class Real>
 void PackedScene<Real>::pack_finish(const LoweredScene& lowered)
 {
     const auto& wanted = lowered.finished;
-    if (sizeof(Real) != sizeof(float) || std::find(wanted.begin(), wanted.end(), true) == wanted.end())
+    if (sizeof(Real) != sizeof(float) ||
+        std::find(wanted.begin(), wanted.end(), true) == wanted.end())
         return;
     finish_ = AlignedArray<abi::StiffObject>(lowered.spheres.size() + lowered.planes.size() +
                                              lowered.quadrics.size());

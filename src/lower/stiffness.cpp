@@ -44,8 +44,7 @@ bool is_stiff(const LoweredQuadric& quadric)
     double narrowest = 0.0;
     for (int row = 0; row < 3; ++row)
         narrowest = std::max(narrowest, glm::length(glm::row(quadric.inverse, row)));
-    return quadric.condition > stretch_ratio ||
-           glm::length(quadric.center) * narrowest > far_ratio;
+    return quadric.condition > stretch_ratio || glm::length(quadric.center) * narrowest > far_ratio;
 }
 
 /// Whether a hierarchy could hold the surface, were it not stiff.
@@ -70,8 +69,8 @@ template <class Surfaces>
 void mark(Accuracy accuracy, Surfaces& surfaces)
 {
     for (auto& surface : surfaces)
-        surface.stiff = accuracy == Accuracy::robust ||
-                        (accuracy == Accuracy::automatic && is_stiff(surface));
+        surface.stiff =
+            accuracy == Accuracy::robust || (accuracy == Accuracy::automatic && is_stiff(surface));
     const auto listed = [](const auto& surface) { return surface.stiff && bounded(surface); };
     if (std::count_if(surfaces.begin(), surfaces.end(), listed) <= longest_list)
         return;

@@ -59,8 +59,8 @@ StressCase placed(const Quadric& quadric, const Mat4& transform,
 /// Rays from a world distance of a few units at the surface and past it.
 StressCase shot_at(StressRandom& random, const Kinds& kinds, const Mat4& transform)
 {
-    const QuadricKind kind = kinds[static_cast<std::size_t>(random.below(
-        static_cast<int>(kinds.size())))];
+    const QuadricKind kind =
+        kinds[static_cast<std::size_t>(random.below(static_cast<int>(kinds.size())))];
     StressCase result = placed(quadric_of(kind), transform, {});
     result.ray = [=](StressRandom& r) {
         const Vec3 aim = own_surface_point(r, kind) * r.between(0.7, 1.3);
@@ -81,8 +81,8 @@ Vec3 any_stretch(StressRandom& random, double least)
 }
 
 /// Rays of own space with a direction near `way`, off by `least` to `most`, through `around`.
-StressCase along(StressRandom& random, QuadricKind kind,
-                 std::function<Vec3(StressRandom&)> way, double least, double most)
+StressCase along(StressRandom& random, QuadricKind kind, std::function<Vec3(StressRandom&)> way,
+                 double least, double most)
 {
     const Mat4 transform = any_placement(random, any_stretch(random, 0.5), random.box(3.0));
     return placed(quadric_of(kind), transform, [=, way = std::move(way)](StressRandom& r) {
@@ -167,9 +167,8 @@ StressFamily shot_family(const char* name, const char* what, const Kinds& kinds,
 StressFamily along_family(const char* name, const char* what, QuadricKind kind,
                           Vec3 (*way)(StressRandom&), double least)
 {
-    return {name, what, [=](StressRandom& random) {
-                return along(random, kind, way, least, 1e-2);
-            }};
+    return {name, what,
+            [=](StressRandom& random) { return along(random, kind, way, least, 1e-2); }};
 }
 
 }  // namespace
@@ -180,16 +179,14 @@ std::vector<StressFamily> quadric_families()
     return {
         shot_family("quadrics", "every kind, mildly stretched", every_kind, {1.0, 0.7, 0.5}, 0.0),
         {"clipped", "clipped quadrics", [](StressRandom& r) { return clipped(r, false); }},
-        {"capped", "clipped and capped quadrics",
-         [](StressRandom& r) { return clipped(r, true); }},
+        {"capped", "clipped and capped quadrics", [](StressRandom& r) { return clipped(r, true); }},
         {"general", "general quadrics", general},
-        shot_family("needle", "ellipsoids of 1 by 1/1000 by 1/1000", ellipsoid,
-                    {1e-3, 1e-3, 1.0}, 0.0),
-        shot_family("pancake", "ellipsoids of 1 by 1 by 1/1000", ellipsoid, {1.0, 1.0, 1e-3},
+        shot_family("needle", "ellipsoids of 1 by 1/1000 by 1/1000", ellipsoid, {1e-3, 1e-3, 1.0},
                     0.0),
+        shot_family("pancake", "ellipsoids of 1 by 1 by 1/1000", ellipsoid, {1.0, 1.0, 1e-3}, 0.0),
         {"cone-apex", "past a cone's apex by 1e-2 to 1e-7", at_apex},
-        along_family("asymptote", "along the asymptotes of hyperboloids",
-                     QuadricKind::hyperboloid, asymptote, 1e-7),
+        along_family("asymptote", "along the asymptotes of hyperboloids", QuadricKind::hyperboloid,
+                     asymptote, 1e-7),
         along_family("cone-side", "along the sides of cones", QuadricKind::cone, asymptote, 1e-7),
         along_family("paraboloid-axis", "along the axis of paraboloids", QuadricKind::paraboloid,
                      axis, 1e-8),

@@ -83,14 +83,14 @@ StressCase far_sphere(StressRandom& random)
 StressCase ground(StressRandom& random, double radius)
 {
     const double top = random.between(-2.0, 0.0);
-    StressCase result = one_sphere({0.0, top - radius, 0.0}, radius,
-                                   [](StressRandom& r, const Vec3& center, double size) {
-        const Vec3 over(r.between(-5.0, 5.0), 0.0, r.between(-5.0, 5.0));
-        const Vec3 org = over + Vec3(0.0, center.y + size + r.power(0.01, 30.0), 0.0);
-        const double turn = r.between(0.0, 6.2831853);
-        const double fall = r.sign() < 0 ? r.power(1e-4, 1.0) : r.between(-0.01, 0.3);
-        return ray_towards(org, org + Vec3(std::cos(turn), -fall, std::sin(turn)));
-    });
+    StressCase result = one_sphere(
+        {0.0, top - radius, 0.0}, radius, [](StressRandom& r, const Vec3& center, double size) {
+            const Vec3 over(r.between(-5.0, 5.0), 0.0, r.between(-5.0, 5.0));
+            const Vec3 org = over + Vec3(0.0, center.y + size + r.power(0.01, 30.0), 0.0);
+            const double turn = r.between(0.0, 6.2831853);
+            const double fall = r.sign() < 0 ? r.power(1e-4, 1.0) : r.between(-0.01, 0.3);
+            return ray_towards(org, org + Vec3(std::cos(turn), -fall, std::sin(turn)));
+        });
     result.scene.camera.position = {0.0, top + 1.0, 0.0};
     return result;
 }
@@ -105,8 +105,8 @@ StressRay unit_from_outside(StressRandom& random, const Vec3& center, double rad
 /// Everything so large or so small that squares come near the ends of single precision.
 StressCase scaled_sphere(StressRandom& random, double scale)
 {
-    StressCase result = one_sphere(scale * random.box(10.0), scale * random.between(0.2, 2.0),
-                                   unit_from_outside);
+    StressCase result =
+        one_sphere(scale * random.box(10.0), scale * random.between(0.2, 2.0), unit_from_outside);
     result.scene.camera.position = Vec3(scale);
     return result;
 }

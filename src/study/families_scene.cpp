@@ -17,8 +17,7 @@ StressCase four_spheres(StressRandom&)
     result.ray = [](StressRandom& random) {
         const double x = random.between(-0.5, 0.5);
         const double y = random.between(-0.5, 0.5);
-        return StressRay{Vec3(0.0), Vec3(x, y, 1.0), 1.0,
-                         std::numeric_limits<double>::infinity()};
+        return StressRay{Vec3(0.0), Vec3(x, y, 1.0), 1.0, std::numeric_limits<double>::infinity()};
     };
     return result;
 }
@@ -52,7 +51,8 @@ StressCase all_scales(StressRandom& random)
     result.scene.camera.position = {0.0, 1.0, -1.0};
     const auto objects = result.scene.objects;
     result.ray = [objects](StressRandom& r) {
-        const auto& at = std::get<Sphere>(objects[static_cast<std::size_t>(1 + r.below(7))].surface);
+        const auto& at =
+            std::get<Sphere>(objects[static_cast<std::size_t>(1 + r.below(7))].surface);
         const Vec3 org = at.center + at.radius * r.between(1.1, 5.0) *
                                          glm::normalize(r.unit() + Vec3(0.0, 1.2, 0.0));
         return ray_towards(org, at.center + at.radius * r.between(0.0, 1.5) * r.unit());

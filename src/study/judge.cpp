@@ -8,8 +8,7 @@ namespace {
 
 /// The meeting of the answer's object whose t is nearest to the answer's, among those that
 /// exist or might.
-const Meeting* meant(std::span<const Meeting> meetings, const Answer& answer,
-                     const auto& unsure)
+const Meeting* meant(std::span<const Meeting> meetings, const Answer& answer, const auto& unsure)
 {
     const Meeting* best = nullptr;
     const Wide t = answer.t;
@@ -61,8 +60,7 @@ void Errors::add(const Errors& other)
 /// Whether the answer is the first meeting, for inputs that may be off by the band.
 bool Judge::right(std::span<const Meeting> meetings, const Answer& answer, double roundoff) const
 {
-    const auto unsure =
-        unsure_within(undecidable_band * roundoff, undecidable_band * roundoff_);
+    const auto unsure = unsure_within(undecidable_band * roundoff, undecidable_band * roundoff_);
     const double slack = condition_slack * roundoff;
     if (answer.object >= 0 && meant(meetings, answer, unsure) == nullptr)
         return false;
@@ -112,11 +110,11 @@ void Judge::measure(const StressRay& ray, const Meeting& meeting, const Answer& 
         errors_.beyond = std::max(errors_.beyond, ulp);
 
     const WideVec P = wide(ray.org) + Wide(answer.t) * wide(ray.dir);
-    const auto& surface = *std::find_if(
-        surfaces_.begin(), surfaces_.end(),
-        [&](const WideSurface& one) { return one.object == answer.object; });
-    errors_.distance = std::max(errors_.distance,
-                                distance_to(surface, P) / (roundoff_ * largest(P)));
+    const auto& surface =
+        *std::find_if(surfaces_.begin(), surfaces_.end(),
+                      [&](const WideSurface& one) { return one.object == answer.object; });
+    errors_.distance =
+        std::max(errors_.distance, distance_to(surface, P) / (roundoff_ * largest(P)));
     const WideVec off = wide(answer.normal) - meeting.normal;
     errors_.normal = std::max(errors_.normal, largest(off));
 }

@@ -23,7 +23,7 @@ struct Errors {
     std::uint64_t wrong = 0;          ///< another hit or miss than the truth, outside the band
     std::uint64_t wrong_in_band = 0;  ///< the same inside it, where double decides
     std::uint64_t not_finite = 0;     ///< hits with a t or a normal that is no number
-    double rho = 0.0;        ///< worst error of t over what the inputs' rounding makes
+    double rho = 0.0;                 ///< worst error of t over what the inputs' rounding makes
     double distance = 0.0;   ///< worst distance of hit points from the surface, in roundoffs
     double normal = 0.0;     ///< worst error of a unit normal
     double relative = 0.0;   ///< worst relative error of t where the condition is below 1000

@@ -132,10 +132,10 @@ Vec3 normal_at(const NaiveBody<Real>& body, const Vec<Real>& p, int which)
     const auto& m = body.own;
     const Vec<Real> n = which < 2 ? gradient(body.coefficient, p)
                                   : Vec<Real>(0, 0, which == 2 ? Real(-1) : Real(1));
-    const Vec<Real> N = reference::normalize(Vec<Real>{
-        m[0][0] * n.x + m[1][0] * n.y + m[2][0] * n.z,
-        m[0][1] * n.x + m[1][1] * n.y + m[2][1] * n.z,
-        m[0][2] * n.x + m[1][2] * n.y + m[2][2] * n.z});
+    const Vec<Real> N =
+        reference::normalize(Vec<Real>{m[0][0] * n.x + m[1][0] * n.y + m[2][0] * n.z,
+                                       m[0][1] * n.x + m[1][1] * n.y + m[2][1] * n.z,
+                                       m[0][2] * n.x + m[1][2] * n.y + m[2][2] * n.z});
     return {static_cast<double>(N.x), static_cast<double>(N.y), static_cast<double>(N.z)};
 }
 

@@ -42,7 +42,10 @@ struct Stream {
         auto& s = starts;
         scene.closest_hits({r[0].data(), r[1].data(), r[2].data(), r[3].data(), r[4].data(),
                             r[5].data(), r[6].data(), r[7].data(), n},
-                           {hits[0].data(), object.data(), hits[1].data(), hits[2].data(),
+                           {hits[0].data(),
+                            object.data(),
+                            hits[1].data(),
+                            hits[2].data(),
                             hits[3].data(),
                             {s[0].data(), s[1].data(), s[2].data()},
                             {s[3].data(), s[4].data(), s[5].data()}});
@@ -62,7 +65,8 @@ const Meeting* meant(const std::vector<Meeting>& meetings, double t)
     for (const Meeting& meeting : meetings) {
         if (std::min(meeting.margin, meeting.end_margin) < 0x1p-20)
             return nullptr;
-        if (meeting.exists && (best == nullptr || abs(meeting.t - Wide(t)) < abs(best->t - Wide(t))))
+        if (meeting.exists &&
+            (best == nullptr || abs(meeting.t - Wide(t)) < abs(best->t - Wide(t))))
             best = &meeting;
     }
     return best;
@@ -85,7 +89,6 @@ double second_meeting(const WideSurface& surface, const WideVec& P, const WideVe
     return a == 0 ? 0.0 : std::max(0.0, static_cast<double>(-2 * b / a));
 }
 
-
 /// t of a second meeting, 0 for none, and whether the way there is less deep below the surface
 /// than four times what the start was moved by: then nothing is expected.
 struct Expected {
@@ -107,54 +110,73 @@ void SelfHitCounts::add(const SelfHitCounts& other)
     lost += other.lost;
 }
 
+namespace {
+
 template <class Real>
-SelfHitCounts count_self_hits(const StressSubject& subject, const StressGroup& group,
-                              SelfHits rule)
+Stream<Real> primary_stream(const StressGroup& group)
+{
+    Stream<Real> primary;
+    for (const StressRay& ray : group.rays)
+        primary.add(ray.org, ray.dir, ray.t_min, ray.t_max);
+    return primary;
+}
+
+/// Adds a ray from where primary ray i hit, if that is beyond doubt.
+template <class Real>
+void add_secondary(const StressGroup& group, const Stream<Real>& primary, std::size_t i,
+                   StressRandom& random, double t_min, Stream<Real>& secondary,
+                   std::vector<Expected>& expected)
+{
+    const Meeting* meeting = meant(group.meetings[i], primary.hits[0][i]);
+    if (meeting == nullptr || primary.object[i] < 0)
+        return;
+    const Vec3 normal = narrow(meeting->normal);
+    Vec3 dir = any_direction(random, normal);
+    for (int axis = 0; axis < 3; ++axis)
+        dir[axis] = static_cast<double>(static_cast<Real>(dir[axis]));
+    const WideVec P = wide(group.rays[i].org) + meeting->t * wide(group.rays[i].dir);
+    const Vec3 start = primary.start(i, dot(wide(dir), meeting->normal) > 0);
+    secondary.add(start, dir, t_min, std::numeric_limits<double>::infinity());
+    const double second = second_meeting(group.surfaces[0], P, wide(dir));
+    const double moved = glm::length(narrow(wide(start) - P));
+    expected.push_back({second, second * std::abs(glm::dot(dir, normal)) / 4.0 < 4.0 * moved});
+}
+
+/// Holds the hit of one secondary ray against what is expected of it.
+void count(SelfHitCounts& counts, const Expected& expected, bool hit, double t)
+{
+    ++counts.rays;
+    if (expected.t == 0.0)
+        counts.taken += hit;
+    else if (!expected.shallow && (!hit || std::abs(t - expected.t) > 0.1 * expected.t))
+        ++(hit && t < 0.5 * expected.t ? counts.taken : counts.lost);
+}
+
+}  // namespace
+
+template <class Real>
+SelfHitCounts count_self_hits(const StressSubject& subject, const StressGroup& group, SelfHits rule)
 {
     if (subject.kernel != "packet" || group.surfaces.size() != 1 || group.surfaces[0].z_range)
         return {};
     RenderOptions options = subject.options;
     options.self_hits = rule;
     const RayScene<Real> scene(group.scene, options);
-    Stream<Real> primary;
-    for (const StressRay& ray : group.rays)
-        primary.add(ray.org, ray.dir, ray.t_min, ray.t_max);
+    Stream<Real> primary = primary_stream<Real>(group);
     primary.trace(scene);
 
     StressRandom random(group.rays.size());
     Stream<Real> secondary;
     std::vector<Expected> expected;
     const double t_min = rule == SelfHits::note ? 0.001 : 0.0;
-    for (std::size_t i = 0; i < group.rays.size(); ++i) {
-        const Meeting* meeting = meant(group.meetings[i], primary.hits[0][i]);
-        if (meeting == nullptr || primary.object[i] < 0)
-            continue;
-        const Vec3 normal = narrow(meeting->normal);
-        Vec3 dir = any_direction(random, normal);
-        for (int axis = 0; axis < 3; ++axis)
-            dir[axis] = static_cast<double>(static_cast<Real>(dir[axis]));
-        const StressRay& ray = group.rays[i];
-        const WideVec P = wide(ray.org) + meeting->t * wide(ray.dir);
-        const bool outside = dot(wide(dir), meeting->normal) > 0;
-        secondary.add(primary.start(i, outside), dir, t_min,
-                      std::numeric_limits<double>::infinity());
-        const double second = second_meeting(group.surfaces[0], P, wide(dir));
-        const double moved = glm::length(narrow(wide(primary.start(i, outside)) - P));
-        expected.push_back({second, second * std::abs(glm::dot(dir, normal)) / 4.0 < 4.0 * moved});
-    }
+    for (std::size_t i = 0; i < group.rays.size(); ++i)
+        add_secondary(group, primary, i, random, t_min, secondary, expected);
     secondary.trace(scene);
 
     SelfHitCounts counts;
-    counts.rays = expected.size();
-    for (std::size_t i = 0; i < expected.size(); ++i) {
-        const bool hit = secondary.object[i] >= 0;
-        const double t = secondary.hits[0][i];
-        const auto [second, shallow] = expected[i];
-        if (second == 0.0)
-            counts.taken += hit;
-        else if (!shallow && (!hit || std::abs(t - second) > 0.1 * second))
-            ++(hit && t < 0.5 * second ? counts.taken : counts.lost);
-    }
+    for (std::size_t i = 0; i < expected.size(); ++i)
+        count(counts, expected[i], secondary.object[i] >= 0,
+              static_cast<double>(secondary.hits[0][i]));
     return counts;
 }
 

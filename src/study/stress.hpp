@@ -10,12 +10,12 @@
 namespace packtrace::study {
 
 struct StressOptions {
-    std::vector<std::string> families;  ///< by name; empty: all
-    std::vector<std::string> kernels;   ///< packet, scalar, naive; empty: all
-    std::vector<std::string> modes;     ///< fast, auto, robust; empty: all; packets only
+    std::vector<std::string> families;    ///< by name; empty: all
+    std::vector<std::string> kernels;     ///< packet, scalar, naive; empty: all
+    std::vector<std::string> modes;       ///< fast, auto, robust; empty: all; packets only
     std::vector<std::string> precisions;  ///< single, double; empty: both
-    std::string isa;                    ///< empty: all that run here
-    int rays = 2000;                    ///< of each family and precision
+    std::string isa;                      ///< empty: all that run here
+    int rays = 2000;                      ///< of each family and precision
     std::uint64_t seed = 1;
 };
 
@@ -46,8 +46,8 @@ struct StressRow {
     std::uint64_t note_lost = 0;
     std::uint64_t exact_taken = 0;
     std::uint64_t exact_lost = 0;
-    double ns = 0.0;      ///< a ray, of the first of the instruction sets
-    bool pareto = false;  ///< no other of the family is both quicker and more exact
+    double ns = 0.0;                  ///< a ray, of the first of the instruction sets
+    bool pareto = false;              ///< no other of the family is both quicker and more exact
     std::vector<std::string> broken;  ///< stated bounds that do not hold
 };
 

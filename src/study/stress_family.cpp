@@ -45,7 +45,8 @@ const std::vector<StressFamily>& stress_families()
 {
     static const std::vector<StressFamily> families = [] {
         std::vector<StressFamily> all;
-        for (auto some : {sphere_families(), plane_families(), quadric_families(), scene_families()})
+        for (auto some :
+             {sphere_families(), plane_families(), quadric_families(), scene_families()})
             all.insert(all.end(), std::move_iterator(some.begin()), std::move_iterator(some.end()));
         return all;
     }();

@@ -51,8 +51,9 @@ StressRun run_ray_scene(const RenderOptions& options, const StressGroup& group)
     const std::size_t n = group.rays.size();
     std::vector<Real> t(n), x(n), y(n), z(n);
     std::vector<std::int32_t> object(n);
-    const RaysView<Real> rays{c[0].data(), c[1].data(), c[2].data(), c[3].data(), c[4].data(),
-                              c[5].data(), c[6].data(), c[7].data(), n};
+    const RaysView<Real> rays{c[0].data(), c[1].data(), c[2].data(),
+                              c[3].data(), c[4].data(), c[5].data(),
+                              c[6].data(), c[7].data(), n};
     const HitsView<Real> hits{t.data(), object.data(), x.data(), y.data(), z.data()};
     StressRun run;
     run.seconds = quickest([&] { scene.closest_hits(rays, hits); });
@@ -81,9 +82,8 @@ bool wanted(const std::vector<std::string>& names, const std::string& name)
 
 void add_packets(const StressOptions& options, std::vector<StressSubject>& subjects)
 {
-    const std::pair<const char*, Accuracy> modes[] = {{"fast", Accuracy::fast},
-                                                      {"auto", Accuracy::automatic},
-                                                      {"robust", Accuracy::robust}};
+    const std::pair<const char*, Accuracy> modes[] = {
+        {"fast", Accuracy::fast}, {"auto", Accuracy::automatic}, {"robust", Accuracy::robust}};
     for (const auto& [mode, accuracy] : modes) {
         if (!wanted(options.modes, mode))
             continue;

@@ -6,11 +6,14 @@
 namespace packtrace::study {
 namespace {
 
-using reference::dot;
 using boost::multiprecision::abs;
 using boost::multiprecision::sqrt;
+using reference::dot;
 
 constexpr double never = std::numeric_limits<double>::infinity();
+
+/// A coordinate in own space is a sum of three products, which is rounded more than once.
+const Wide own_roundings = 2;
 
 /// The sums of magnitudes that a matrix makes of a vector.
 WideVec sizes(const WideVec (&rows)[3], const WideVec& v)
@@ -59,13 +62,12 @@ private:
     [[nodiscard]] Wide reach(const WideVec& g, const Wide& t, const WideVec& own) const
     {
         const WideVec n = magnitudes(surface_.covector_to_world(g));
-        const Wide by_place =
-            dot(n, magnitudes(org_) + magnitudes(t * dir_) + surface_.place);
+        const Wide by_place = dot(n, magnitudes(org_) + magnitudes(t * dir_) + surface_.place);
         if (!surface_.by_points)
             return by_place;
         const WideVec way = magnitudes(org_ - surface_.offset) + magnitudes(t * dir_);
         return by_place + dot(n, sizes(surface_.world, own)) +
-               dot(magnitudes(g), sizes(surface_.own, way));
+               own_roundings * dot(magnitudes(g), sizes(surface_.own, way));
     }
 
     /// What a general quadric's canonical form adds to `reach`, and to the change of its half
@@ -84,8 +86,8 @@ private:
                    abs(Wide(form.square[axis])) * x * x / 2 +
                    (axis == 2 ? abs(Wide(form.linear) * x) : Wide(0));
         }
-        // The way into canonical space is sums of three products, each rounded up to three times.
-        return 3 * sum;
+        // The form itself comes from an eigenvalue problem and completed squares.
+        return 2 * own_roundings * sum;
     }
 
     /// How much the half value can change at t.
@@ -103,7 +105,7 @@ private:
         Wide size = 2 * dot(n, magnitudes(dir_));
         if (surface_.by_points)
             size += 2 * (dot(n, sizes(surface_.world, v_)) +
-                         dot(magnitudes(second), sizes(surface_.own, dir_)));
+                         own_roundings * dot(magnitudes(second), sizes(surface_.own, dir_)));
         return size == 0 ? never : static_cast<double>(abs(a_) / size);
     }
 
@@ -131,8 +133,8 @@ private:
             const double start = static_cast<double>(abs(t - t_min_) / spread);
             (t_min_ == 0 ? margin : meeting.end_margin) = std::min(margin, start);
             if (t_max_ < never)
-                meeting.end_margin = std::min(
-                    meeting.end_margin, static_cast<double>(abs(t - Wide(t_max_)) / spread));
+                meeting.end_margin = std::min(meeting.end_margin,
+                                              static_cast<double>(abs(t - Wide(t_max_)) / spread));
         }
         meeting.condition = static_cast<double>(spread / abs(t));
         meeting.margin = margin;
