@@ -12,8 +12,8 @@ using reference::dot;
 
 constexpr double never = std::numeric_limits<double>::infinity();
 
-/// A coordinate in own space is a sum of three products, which is rounded more than once.
-const Wide own_roundings = 2;
+/// A coordinate in own space is a sum of three products, each rounded up to three times.
+const Wide own_roundings = 3;
 
 /// The sums of magnitudes that a matrix makes of a vector.
 WideVec sizes(const WideVec (&rows)[3], const WideVec& v)
