@@ -30,9 +30,9 @@ struct RenderOptions {
     std::string isa = "auto";  ///< packet kernel: see choose_isa
     Accuracy accuracy = Accuracy::automatic;
     SelfHits self_hits = SelfHits::note;  ///< packets
-    int width = 0;             ///< packet kernel: float lanes 4, 8 or 16; 0 is any
+    int width = 0;                        ///< packet kernel: float lanes 4, 8 or 16; 0 is any
     Traversal traversal = Traversal::automatic;  ///< packet kernel
-    int threads = 0;           ///< 0: all of the TBB arena the call runs in
+    int threads = 0;                             ///< 0: all of the TBB arena the call runs in
     /// Called now and then with the share of the picture done, in [0, 1]; may be called from
     /// any thread, one at a time.
     std::function<void(double)> progress;

@@ -23,7 +23,7 @@ struct SceneView {
     RecordList<HugeSphere<Real>> huge_spheres;
     RecordList<PlaneRecord<Real>> planes;
     RecordList<QuadricRecord<Real>> quadrics;
-    BvhView<Real> tree;  ///< holds what the lists do not
+    BvhView<Real> tree;             ///< holds what the lists do not
     RecordList<StiffObject> stiff;  ///< not in the other lists; none in double precision
 
     /// What hits of rays in single precision are solved again with, in double: by surface a place

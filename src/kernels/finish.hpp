@@ -63,8 +63,8 @@ inline Vec3v<double> apply_transposed(const abi::QuadricRecord<double>& quadric,
                                      scale<double>(g.z, broadcast(quadric.inverse[2]))));
 }
 
-inline HalfHit finish_side(const abi::QuadricRecord<double>& quadric,
-                           const RayPacket<double>& rays, const vreal<double>& t)
+inline HalfHit finish_side(const abi::QuadricRecord<double>& quadric, const RayPacket<double>& rays,
+                           const vreal<double>& t)
 {
     const Vec3v<double> p = quadric_origin<double>(quadric, rays.org).p;
     const Vec3v<double> v = apply_inverse(quadric, rays.dir);
@@ -76,8 +76,8 @@ inline HalfHit finish_side(const abi::QuadricRecord<double>& quadric,
 }
 
 /// `side` is -1 for the low cap and 1 for the high one.
-inline HalfHit finish_cap(const abi::QuadricRecord<double>& quadric,
-                          const RayPacket<double>& rays, double side)
+inline HalfHit finish_cap(const abi::QuadricRecord<double>& quadric, const RayPacket<double>& rays,
+                          double side)
 {
     const vreal<double> height = quadric_origin<double>(quadric, rays.org).height;
     const vreal<double> bound(side < 0 ? quadric.clip_low : quadric.clip_high);
@@ -122,14 +122,15 @@ inline void finish_surface(FinishedHits<float>& hits, const abi::StiffObject& ob
     const auto use = same & (abs(t - hits.t) <= abs(hits.t) * vreal<float>(0.01f));
     hits.t = select(use, t, hits.t);
     hits.point = select(use, joined(at(low, a.t), at(high, b.t)), hits.point);
-    hits.gradient = select(same, joined(unit<double>(a.gradient), unit<double>(b.gradient)), hits.gradient);
+    hits.gradient =
+        select(same, joined(unit<double>(a.gradient), unit<double>(b.gradient)), hits.gradient);
 }
 
 /// Solves all hits of `active` again whose surface has a record for it.
 [[gnu::noinline]] inline void finish_hits(FinishedHits<float>& hits,
                                           const abi::SceneView<float>& scene,
-                                          const RayPacket<float>& rays,
-                                          const vint<float>& surface, std::uint32_t active)
+                                          const RayPacket<float>& rays, const vint<float>& surface,
+                                          std::uint32_t active)
 {
     const RayPacket<double> low = low_half(rays);
     const RayPacket<double> high = high_half(rays);
@@ -153,8 +154,7 @@ inline FinishedHits<Real> finished(const abi::SceneView<Real>& scene, const RayP
     hits.point = madd<Real>(t, rays.dir, rays.org);
     if constexpr (sizeof(Real) == sizeof(float)) {
         if (scene.finish != nullptr) {
-            hits.gradient =
-                unit<Real>(gradient_at<F>(scene, hits.point, surface, active).gradient);
+            hits.gradient = unit<Real>(gradient_at<F>(scene, hits.point, surface, active).gradient);
             finish_hits(hits, scene, rays, surface, active);
         }
     }

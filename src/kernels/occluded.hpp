@@ -65,7 +65,8 @@ inline std::uint32_t quadric_blocks(const End& end, const Quadric& quadric,
 }
 
 template <class End, class Stiff, class Real>
-[[gnu::noinline]] std::uint32_t stiff_blocks(const End& end, const Stiff& stiff, const RayPacket<Real>& rays)
+[[gnu::noinline]] std::uint32_t stiff_blocks(const End& end, const Stiff& stiff,
+                                             const RayPacket<Real>& rays)
 {
     std::uint32_t blocked = 0;
     visit_stiff(stiff, rays, [&](vmask<Real> valid, const vreal<Real>& t, int) {

@@ -93,8 +93,8 @@ inline void visit_crossings(const abi::QuadricRecord<Real>& quadric,
     for (int cap = 1; cap <= 2; ++cap) {
         const vreal<Real> t = ((cap == 1 ? low : high) - origin.height) / climb;
         const vreal<Real> from_start = t - start;
-        const vreal<Real> value = madd(madd(quadratic.a, from_start, quadratic.b + quadratic.b),
-                                       from_start, quadratic.c);
+        const vreal<Real> value =
+            madd(madd(quadratic.a, from_start, quadratic.b + quadratic.b), from_start, quadratic.c);
         visit(value <= vreal<Real>(Real(0)), t, cap);
     }
 }

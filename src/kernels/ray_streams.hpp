@@ -97,9 +97,8 @@ inline SurfacePacket<Real> outward_surface(const abi::SceneView<Real>& scene,
                                            const vint<Real>& surface, std::uint32_t active)
 {
     const FinishedHits<Real> exact = finished<F>(scene, rays, t, surface, active);
-    SurfacePacket<Real> result =
-        surface_at<F>(scene, exact.point, rays.dir, surface, active,
-                      scene.finish != nullptr ? &exact.gradient : nullptr);
+    SurfacePacket<Real> result = surface_at<F>(scene, exact.point, rays.dir, surface, active,
+                                               scene.finish != nullptr ? &exact.gradient : nullptr);
     t = exact.t;
     // Undo the turn towards the viewer: outward normals of leaving rays go along with them.
     const vreal<Real> zero(Real(0));

@@ -27,8 +27,7 @@ inline Vec3v<Real> light_color(const ShadeContext<F, Real>& context, int number,
             return color;
         }
     }
-    const std::uint32_t lit =
-        unshadowed<F>(context, number, packet, surface, packet.wanted, first);
+    const std::uint32_t lit = unshadowed<F>(context, number, packet, surface, packet.wanted, first);
     const Vec3v<Real> color = lit_color(light, packet, material, lit);
     probe.light(number, packet.wanted, lit, color);
     return color;

@@ -12,8 +12,7 @@ namespace {
 /// How far the segment from the light goes: up to epsilon before the point, which counts in
 /// lengths of the segment or, for unit directions, of space.
 template <class Real>
-inline vreal<Real> segment_end(const abi::SceneView<Real>& scene,
-                                    const LightPacket<Real>& packet)
+inline vreal<Real> segment_end(const abi::SceneView<Real>& scene, const LightPacket<Real>& packet)
 {
     const vreal<Real> one(Real(1));
     const vreal<Real> epsilon(scene.secondary_t_min);
@@ -44,8 +43,8 @@ inline Vec3v<Real> lit_point(const abi::SceneView<Real>& scene, const SurfacePac
 /// have no end.
 template <abi::Features F, class Real, class Trace>
 inline auto with_shadow_ray(const ShadeContext<F, Real>& context, int light,
-                            const LightPacket<Real>& packet,
-                            const SurfacePacket<Real>& surface, const Trace& trace)
+                            const LightPacket<Real>& packet, const SurfacePacket<Real>& surface,
+                            const Trace& trace)
 {
     const abi::SceneView<Real>& scene = *context.scene;
     const abi::LightRecord<Real>& record = scene.lights.data[light];
@@ -53,8 +52,8 @@ inline auto with_shadow_ray(const ShadeContext<F, Real>& context, int light,
         return trace(vreal<Real>(static_cast<Real>(__builtin_inf())),
                      make_rays<Real>(lit_point(scene, surface, packet.to_light, false),
                                      packet.to_light, scene.secondary_t_min));
-    const Vec3v<Real> away = lit_point(scene, surface, packet.to_light, true) -
-                             broadcast(record.vector);
+    const Vec3v<Real> away =
+        lit_point(scene, surface, packet.to_light, true) - broadcast(record.vector);
     return trace(segment_end(scene, packet),
                  make_rays<Real>(broadcast(record.vector), away, Real(0)));
 }
@@ -62,27 +61,26 @@ inline auto with_shadow_ray(const ShadeContext<F, Real>& context, int light,
 /// Calls `trace(end, objects, rays)` for the shadow rays of one light.
 template <abi::Features F, class Real, class Trace>
 inline auto with_shadow_rays(const ShadeContext<F, Real>& context, int light,
-                             const LightPacket<Real>& packet,
-                             const SurfacePacket<Real>& surface, const Trace& trace)
+                             const LightPacket<Real>& packet, const SurfacePacket<Real>& surface,
+                             const Trace& trace)
 {
     const abi::SceneView<Real>& scene = *context.scene;
-    return with_shadow_ray(
-        context, light, packet, surface,
-        [&](const vreal<Real>& t_end, const RayPacket<Real>& rays) {
-            if (scene.lights.data[light].kind == abi::LightKind::directional)
-                return trace(NoEnd<Real>{}, scene, rays);
-            if (scene.start_error > 0)
-                return trace(StreamRange<Real>{t_end}, context.blockers[light], rays);
-            return trace(SegmentEnd<Real>{t_end}, context.blockers[light], rays);
-        });
+    return with_shadow_ray(context, light, packet, surface,
+                           [&](const vreal<Real>& t_end, const RayPacket<Real>& rays) {
+                               if (scene.lights.data[light].kind == abi::LightKind::directional)
+                                   return trace(NoEnd<Real>{}, scene, rays);
+                               if (scene.start_error > 0)
+                                   return trace(StreamRange<Real>{t_end}, context.blockers[light],
+                                                rays);
+                               return trace(SegmentEnd<Real>{t_end}, context.blockers[light], rays);
+                           });
 }
 
 /// Lanes of `wanted` that no opaque or any other object keeps from the light.
 template <abi::Features F, class Real>
 inline std::uint32_t unshadowed(const ShadeContext<F, Real>& context, int light,
-                                const LightPacket<Real>& packet,
-                                const SurfacePacket<Real>& surface, std::uint32_t wanted,
-                                int first)
+                                const LightPacket<Real>& packet, const SurfacePacket<Real>& surface,
+                                std::uint32_t wanted, int first)
 {
     if (!context.scene->shadows || wanted == 0)
         return wanted;
@@ -107,9 +105,8 @@ inline std::uint32_t any_channel(const Vec3v<Real>& v)
 /// transmits, once however often the segment crosses it.
 template <abi::Features F, class Real>
 inline Vec3v<Real> transmitted(const ShadeContext<F, Real>& context, int light,
-                               const LightPacket<Real>& packet,
-                               const SurfacePacket<Real>& surface, std::uint32_t wanted,
-                               int first)
+                               const LightPacket<Real>& packet, const SurfacePacket<Real>& surface,
+                               std::uint32_t wanted, int first)
 {
     const abi::SceneView<Real>& scene = *context.scene;
     const vreal<Real> one(Real(1));

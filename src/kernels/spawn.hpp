@@ -72,8 +72,8 @@ inline void spawn_refracted(RayStream<F, Real>& next, const SurfacePacket<Real>&
 {
     if (active == 0)
         return;
-    append_ray(next, start_point(surface, surface.leaving), refracted.dir,
-               path.weight * transmit, path.pixel, active);
+    append_ray(next, start_point(surface, surface.leaving), refracted.dir, path.weight * transmit,
+               path.pixel, active);
     append_glass(next, refracted.inside, active);
     append_path(next, path.id, 1, active);
     next.count += __builtin_popcount(active);

@@ -25,7 +25,8 @@ template <class Real>
 struct GradientPacket {
     Vec3v<Real> gradient;
     vreal<Real> faces_viewer;
-    Vec3v<Real> from_anchor;  ///< the point relative to the surface's centre, or what it has for one
+    Vec3v<Real>
+        from_anchor;  ///< the point relative to the surface's centre, or what it has for one
 };
 
 /// Planes and spheres (abi::SurfaceRecord).
@@ -132,9 +133,8 @@ inline void set_material(SurfacePacket<Real>& surface, const abi::SceneView<Real
 
 /// The surface's own gradient at `point`.
 template <abi::Features F, class Real>
-inline GradientPacket<Real> gradient_at(const abi::SceneView<Real>& scene,
-                                        const Vec3v<Real>& point, const vint<Real>& number,
-                                        std::uint32_t active)
+inline GradientPacket<Real> gradient_at(const abi::SceneView<Real>& scene, const Vec3v<Real>& point,
+                                        const vint<Real>& number, std::uint32_t active)
 {
     if constexpr (F.quadrics)
         return curved_gradient(scene, point, number, active);

@@ -1,8 +1,8 @@
 #pragma once
 
 #include "kernels/camera.hpp"
-#include "kernels/group_closest.hpp"
 #include "kernels/finish.hpp"
+#include "kernels/group_closest.hpp"
 #include "kernels/shade.hpp"
 
 // From rays to hit points, one generation at a time.
@@ -116,9 +116,8 @@ template <class Real>
 inline PathPacket<Real> camera_path(int first)
 {
     const vreal<Real> one(Real(1));
-    return {{one, one, one},
-            lane_numbers<Real>(first),
-            vint<Real>(lane_int<Real>{abi::camera_path})};
+    return {
+        {one, one, one}, lane_numbers<Real>(first), vint<Real>(lane_int<Real>{abi::camera_path})};
 }
 
 /// The camera rays of a tile.
@@ -135,8 +134,7 @@ inline void trace_camera(const abi::TileJob<Real>& job, const SharedOriginObject
         const RayPacket<Real> rays = camera_rays(camera, first, job.scene->units);
         HitPacket<Real> hit = no_hit<Real>(static_cast<Real>(__builtin_inf()));
         closest_hit<F>(hit, visible, rays);
-        take_camera_hits(*job.scene, memory, {rays, camera_path<Real>(first), inside}, hit,
-                         pixels);
+        take_camera_hits(*job.scene, memory, {rays, camera_path<Real>(first), inside}, hit, pixels);
     }
 }
 
@@ -174,10 +172,10 @@ template <abi::Features F, class Real>
 inline TracedRays<Real> load_stream(const abi::SceneView<Real>& scene,
                                     const RayStream<F, Real>& stream, int first)
 {
-    return {make_rays<Real>(load3(stream.org, first), load3(stream.dir, first),
-                            scene.secondary_t_min),
-            {load3(stream.weight, first), load(stream.pixel + first), load_path(stream, first)},
-            load_glass(stream, first)};
+    return {
+        make_rays<Real>(load3(stream.org, first), load3(stream.dir, first), scene.secondary_t_min),
+        {load3(stream.weight, first), load(stream.pixel + first), load_path(stream, first)},
+        load_glass(stream, first)};
 }
 
 /// A packet of secondary rays and what it hit; what those that miss bring goes into the pixels.

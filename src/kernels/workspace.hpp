@@ -61,8 +61,8 @@ struct Workspace {
     TileMemory<F, Real>* memory = nullptr;
     RayStream<F, Real>* streams = nullptr;  ///< of generations 1 … max_depth
     RayStream<F, Real>* refracted = nullptr;
-    RayGroup<Real>* group = nullptr;  ///< where the scene has a hierarchy
-    LightShadows<F, Real>* shadows = nullptr;  ///< of each light, likewise
+    RayGroup<Real>* group = nullptr;                ///< where the scene has a hierarchy
+    LightShadows<F, Real>* shadows = nullptr;       ///< of each light, likewise
     SharedOriginObjects<Real> visible;              ///< from the camera
     SharedOriginObjects<Real>* blockers = nullptr;  ///< from each light
     std::size_t bytes = 0;
