@@ -84,9 +84,10 @@ TEST_CASE("every command has a help text", "[cli]")
 TEST_CASE("a command's help names its options", "[cli]")
 {
     const std::vector<std::pair<std::string, std::string>> options{
-        {"render", "--precision"}, {"compare", "--max-error"}, {"info", "--json"},
-        {"intersect", "--any"},    {"explain", "--pixel"},     {"demo", "--rounds"},
-        {"onedim", "--keep-going"}};
+        {"render", "--precision"},  {"compare", "--max-error"}, {"info", "--json"},
+        {"intersect", "--any"},     {"explain", "--pixel"},     {"demo", "--rounds"},
+        {"onedim", "--keep-going"}, {"stress", "--family"},     {"render", "--accuracy"},
+        {"render", "--self-hits"}};
     for (const auto& [command, option] : options)
         CHECK_THAT(run_packtrace({command, "--help"}).out, ContainsSubstring(option));
 }

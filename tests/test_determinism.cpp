@@ -47,6 +47,30 @@ TEMPLATE_TEST_CASE("the picture is the same for every width with fused multiply-
     }
 }
 
+TEST_CASE("the picture is the same for every width and number of threads in every mode",
+          "[determinism]")
+{
+    const Parallelism seven(7);
+    for (const Accuracy accuracy : {Accuracy::fast, Accuracy::automatic, Accuracy::robust})
+        for (const SelfHits self_hits : {SelfHits::note, SelfHits::exact})
+            for (const NamedScene& named : packet_scenes()) {
+                Image<float> first;
+                for (const std::string& isa : fused_isas())
+                    for (const int threads : {1, 7}) {
+                        CAPTURE(named.name, isa, threads, static_cast<int>(accuracy));
+                        RenderOptions options;
+                        options.isa = isa;
+                        options.threads = threads;
+                        options.accuracy = accuracy;
+                        options.self_hits = self_hits;
+                        const Image<float> picture = render<float>(named.scene, options);
+                        if (first.rgb.empty())
+                            first = picture;
+                        CHECK(same_bits(picture, first));
+                    }
+            }
+}
+
 TEST_CASE("the picture of note 001 in full size is the same for every width", "[determinism][slow]")
 {
     const Scene scene = four_spheres(1024, 1024);

@@ -36,6 +36,11 @@ struct HitsView {
     Real* normal_x = nullptr;
     Real* normal_y = nullptr;
     Real* normal_z = nullptr;
+    /// Where rays may start that leave the hit on the outer or the inner side of the surface with
+    /// SelfHits::exact: their own start is no hit at any t > 0. With SelfHits::note the hit point.
+    /// Wanted only together with normals; the scalar kernel does not fill them.
+    Real* outer_start[3] = {};
+    Real* inner_start[3] = {};
 };
 
 /// One meeting of a ray with a surface.

@@ -11,12 +11,28 @@ namespace packtrace {
 
 enum class Kernel { packet, scalar };
 
+/// How packets of floats come by their digits. Packets of doubles and the scalar kernel are the
+/// same in every mode.
+enum class Accuracy {
+    fast,       ///< float forms that lose no more than their inputs' rounding
+    automatic,  ///< in double what single precision can't hold well in this scene
+    robust      ///< in double all that decides a hit
+};
+
+/// How secondary and shadow rays keep from meeting the place they start at.
+enum class SelfHits {
+    note,  ///< they start 0.001 along their direction, as the notes have it
+    exact  ///< they start off the surface by what rounding can do there, and count from 0
+};
+
 struct RenderOptions {
     Kernel kernel = Kernel::packet;
     std::string isa = "auto";  ///< packet kernel: see choose_isa
-    int width = 0;             ///< packet kernel: float lanes 4, 8 or 16; 0 is any
+    Accuracy accuracy = Accuracy::automatic;
+    SelfHits self_hits = SelfHits::note;  ///< packets
+    int width = 0;                        ///< packet kernel: float lanes 4, 8 or 16; 0 is any
     Traversal traversal = Traversal::automatic;  ///< packet kernel
-    int threads = 0;           ///< 0: all of the TBB arena the call runs in
+    int threads = 0;                             ///< 0: all of the TBB arena the call runs in
     /// Called now and then with the share of the picture done, in [0, 1]; may be called from
     /// any thread, one at a time.
     std::function<void(double)> progress;

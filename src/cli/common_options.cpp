@@ -38,7 +38,24 @@ std::string check_size(const std::string& text)
            std::to_string(largest_side);
 }
 
+Accuracy accuracy_of(const std::string& name)
+{
+    return name == "fast"     ? Accuracy::fast
+           : name == "robust" ? Accuracy::robust
+                              : Accuracy::automatic;
+}
+
 }  // namespace
+
+void add_accuracy_option(CLI::App& command, std::optional<std::string>& accuracy)
+{
+    command
+        .add_option("--accuracy", accuracy,
+                    "What is tested in double for rays in single: nothing (fast), what single "
+                    "can't hold well (auto, default), everything (robust)")
+        ->check(one_of({"fast", "auto", "robust"}))
+        ->type_name("fast|auto|robust");
+}
 
 void add_isa_options(CLI::App& command, IsaArguments& arguments)
 {
@@ -95,6 +112,13 @@ void add_kernel_options(CLI::App& command, KernelArguments& arguments)
                     "(default) as their number suggests")
         ->check(one_of({"auto", "list", "tree"}))
         ->type_name("auto|list|tree");
+    add_accuracy_option(command, arguments.accuracy);
+    command
+        .add_option("--self-hits", arguments.self_hits,
+                    "How rays keep off the place they start at: 0.001 along their way, as the "
+                    "notes have it (note, default), or by what rounding can do there (exact)")
+        ->check(one_of({"note", "exact"}))
+        ->type_name("note|exact");
     add_isa_options(command, arguments.isa);
     add_threads_option(command, arguments.threads);
 }
@@ -114,6 +138,7 @@ std::string packet_option(const KernelArguments& arguments)
     return arguments.isa.isa     ? "--isa"
            : arguments.isa.width ? "--width"
            : arguments.traversal ? "--traversal"
+           : arguments.self_hits ? "--self-hits"
                                  : "";
 }
 
@@ -142,6 +167,11 @@ RenderOptions render_options(const KernelArguments& arguments)
 {
     RenderOptions options;
     options.threads = arguments.threads;
+    if (arguments.accuracy && (arguments.kernel == "scalar" || arguments.precision != "single"))
+        throw CLI::ValidationError(
+            "--accuracy: only packets of floats have a choice; leave it out or use "
+            "--kernel packet --precision single");
+    options.accuracy = accuracy_of(arguments.accuracy.value_or("auto"));
     if (arguments.kernel == "scalar") {
         options.kernel = Kernel::scalar;
         if (const std::string option = packet_option(arguments); !option.empty())
@@ -153,6 +183,8 @@ RenderOptions render_options(const KernelArguments& arguments)
     if (arguments.precision == "extended")
         throw CLI::ValidationError(
             "--precision: packets are single or double; extended needs --kernel scalar");
+    if (arguments.self_hits == "exact")
+        options.self_hits = SelfHits::exact;
     options.isa = chosen_isa(arguments.isa).name;
     options.traversal = traversal_named(arguments.traversal.value_or("auto"));
     return options;

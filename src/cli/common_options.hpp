@@ -23,16 +23,19 @@ struct PictureArguments {
     std::optional<int> depth;
 };
 
-/// How to render it: `--kernel`, `--precision`, `--traversal`, `--threads` and those of
-/// IsaArguments.
+/// How to render it: `--kernel`, `--precision`, `--traversal`, `--accuracy`, `--self-hits`,
+/// `--threads` and those of IsaArguments.
 struct KernelArguments {
     std::string kernel = "packet";
     std::optional<std::string> traversal;
     std::string precision = "single";
+    std::optional<std::string> accuracy;
+    std::optional<std::string> self_hits;
     IsaArguments isa;
     int threads = 0;
 };
 
+void add_accuracy_option(CLI::App& command, std::optional<std::string>& accuracy);
 void add_isa_options(CLI::App& command, IsaArguments& arguments);
 /// `--size` alone.
 void add_size_option(CLI::App& command, PictureArguments& arguments);

@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <iostream>
 #include <memory>
 #include <optional>
@@ -12,6 +13,7 @@
 #include "cli/common_options.hpp"
 #include "cli/scene_summary.hpp"
 #include "cli/text_table.hpp"
+#include "lower/lowered_scene.hpp"
 
 namespace packtrace::cli {
 namespace {
@@ -42,13 +44,26 @@ std::string listed(const Census& census)
     return std::to_string(total) + text + (text.empty() ? "" : ")");
 }
 
+/// Objects that --accuracy auto tests in double.
+std::size_t count_stiff(const Scene& scene)
+{
+    const LoweredScene lowered = lower(scene, Accuracy::automatic);
+    const auto stiff = [](const auto& surfaces) {
+        return static_cast<std::size_t>(
+            std::count_if(surfaces.begin(), surfaces.end(), [](const auto& s) { return s.stiff; }));
+    };
+    return stiff(lowered.spheres) + stiff(lowered.planes) + stiff(lowered.quadrics);
+}
+
 void print_scene(const std::string& file, const Scene& scene)
 {
     std::cout << "\nscene    " << file << "\nsize     " << scene.width << " x " << scene.height
               << "\nobjects  " << listed(count_objects(scene)) << "\nlights   "
               << listed(count_lights(scene)) << "\nmodel    " << name_of(scene.illumination)
               << "\ndepth    " << scene.max_depth << "\nshadows  " << name_of(scene.shadows)
-              << '\n';
+              << "\nstiff    " << count_stiff(scene)
+              << (count_stiff(scene) == 1 ? " object" : " objects")
+              << ", tested in double with --accuracy auto\n";
 }
 
 nlohmann::ordered_json counted(const Census& census)
@@ -68,7 +83,8 @@ nlohmann::ordered_json scene_json(const std::string& file, const Scene& scene)
             {"lights", counted(count_lights(scene))},
             {"model", name_of(scene.illumination)},
             {"depth", scene.max_depth},
-            {"shadows", name_of(scene.shadows)}};
+            {"shadows", name_of(scene.shadows)},
+            {"stiff_objects", count_stiff(scene)}};
 }
 
 void print_json(const IsaInfo& chosen, const std::string& file, const std::optional<Scene>& scene)

@@ -50,6 +50,7 @@ void add_options(CLI::App& command, KernelArguments& arguments)
     command.add_option("--precision", arguments.precision, "double (default) or single")
         ->check(one_of({"single", "double"}))
         ->type_name("single|double");
+    add_accuracy_option(command, arguments.accuracy);
     add_isa_options(command, arguments.isa);
     add_threads_option(command, arguments.threads);
 }

@@ -30,6 +30,7 @@ int run(int argc, char** argv)
     add_intersect(app);
     add_demo(app);
     add_onedim(app);
+    add_stress(app);
     try {
         app.parse(argc, argv);
         if (app.get_subcommands().empty())

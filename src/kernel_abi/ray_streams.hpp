@@ -20,6 +20,9 @@ struct HitsView {
     Real* t = nullptr;
     std::int32_t* object = nullptr;
     Real* normal[3] = {};  ///< outward and unit; null where not wanted
+    // Where rays may start from the hit on either side of the surface; null where not wanted.
+    Real* outer_start[3] = {};
+    Real* inner_start[3] = {};
 };
 
 /// Takes the hits of all rays one by one, those of a ray in no order.

@@ -3,6 +3,7 @@
 #include "kernel_abi/bvh.hpp"
 #include "kernel_abi/lists.hpp"
 #include "kernel_abi/shading.hpp"
+#include "kernel_abi/stiff.hpp"
 
 namespace packtrace::abi {
 
@@ -22,7 +23,13 @@ struct SceneView {
     RecordList<HugeSphere<Real>> huge_spheres;
     RecordList<PlaneRecord<Real>> planes;
     RecordList<QuadricRecord<Real>> quadrics;
-    BvhView<Real> tree;  ///< holds what the lists do not
+    BvhView<Real> tree;             ///< holds what the lists do not
+    RecordList<StiffObject> stiff;  ///< not in the other lists; none in double precision
+
+    /// What hits of rays in single precision are solved again with, in double: by surface a place
+    /// in `finish`, or -1. Null where no hit is.
+    const std::int32_t* finish_index = nullptr;
+    const StiffObject* finish = nullptr;
 
     const SurfaceRecord<Real>* surfaces = nullptr;               ///< by surface; planes, spheres
     const CurvedSurfaceRecord<Real>* curved_surfaces = nullptr;  ///< by surface; every kind
@@ -40,8 +47,13 @@ struct SceneView {
     bool transparent_shadows = false;  ///< blockers pass on their transmitted share
     bool visible_lights = false;       ///< a ray that escapes towards a light sees it (note 000)
     RayUnits units = RayUnits::as_given;
-    /// Secondary and shadow rays start this far along their direction.
+    /// How near to parallel a ray runs to a light that it sees, and what the notes start
+    /// secondary and shadow rays at.
     Real epsilon = 0;
+    /// Secondary and shadow rays start this far along their direction.
+    Real secondary_t_min = 0;
+    /// Roundoffs by which they start off the surface, of the coordinates there; 0 for none.
+    Real start_error = 0;
 };
 
 /// The camera over the canvas: the direction of the pixel in column i, row j is

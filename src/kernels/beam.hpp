@@ -24,9 +24,9 @@ inline Real square_root(Real x)
     return static_cast<Real>(__builtin_sqrt(static_cast<double>(x)));
 }
 
-/// Share of a length by which a bound may be wrong through rounding; forty times what the
-/// handful of operations below can lose, so that a sphere is left out only when the exact and
-/// the rounded test of every ray say miss.
+/// Share of a length by which a bound may be wrong through rounding; more than three times what
+/// the operations below and a ray's own test can lose (docs/numerics.md has the proof), so that a
+/// sphere is left out only when the exact and the rounded test of every ray say miss.
 template <class Real>
 inline constexpr Real beam_slack = sizeof(Real) == 4 ? Real(1e-5) : Real(1e-13);
 

@@ -31,6 +31,19 @@ inline void keep_quadric(HitPacket<Real>& hit, const Quadric& quadric, const Ray
     });
 }
 
+/// Apart from the rest, which it would only make larger: most scenes have none.
+template <class Stiff, class Real>
+[[gnu::noinline]] void keep_stiff(HitPacket<Real>& hit, const Stiff& list,
+                                  const RayPacket<Real>& rays)
+{
+    for_each_stiff(list, [&](const auto& stiff) {
+        visit_stiff(stiff, rays, [&](vmask<Real> valid, const vreal<Real>& t, int piece) {
+            keep_closer<Real>(hit, valid & (t > rays.t_min), t, surface_of(stiff) + piece);
+        });
+        return true;
+    });
+}
+
 /// Rays against all objects of a scene, or from their shared origin against those of a beam.
 template <abi::Features F, class Objects, class Real>
 inline void closest_hit(HitPacket<Real>& hit, const Objects& objects, const RayPacket<Real>& rays)
@@ -47,6 +60,8 @@ inline void closest_hit(HitPacket<Real>& hit, const Objects& objects, const RayP
     if constexpr (F.quadrics)
         for (int i = 0; i < lists.quadric_count(); ++i)
             keep_quadric(hit, lists.quadric(i), rays);
+    if (any_stiff(lists.stiff()))
+        keep_stiff(hit, lists.stiff(), rays);
 }
 
 /// Calls `visit(valid, t, surface)` for every crossing of every surface of a scene; only those
@@ -74,6 +89,12 @@ inline void visit_all_crossings(const abi::SceneView<Real>& scene, const RayPack
                             [&](vmask<Real> valid, const vreal<Real>& t, int piece) {
                                 visit(valid, t, scene.quadrics.data[i].surface + piece);
                             });
+    for_each_stiff(scene, [&](const auto& stiff) {
+        visit_stiff(stiff, rays, [&](vmask<Real> valid, const vreal<Real>& t, int piece) {
+            visit(valid, t, surface_of(stiff) + piece);
+        });
+        return true;
+    });
 }
 
 }  // namespace

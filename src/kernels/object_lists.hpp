@@ -33,6 +33,10 @@ struct ObjectLists<Real, abi::SceneView<Real>> {
     {
         return scene.planes.data[i];
     }
+    const abi::SceneView<Real>& stiff() const
+    {
+        return scene;
+    }
     int quadric_count() const
     {
         return scene.quadrics.count;
@@ -66,6 +70,10 @@ struct ObjectLists<Real, SharedOriginObjects<Real>> {
     const SharedOriginPlane<Real>& plane(int i) const
     {
         return objects.planes[i];
+    }
+    const StiffCandidates<Real>& stiff() const
+    {
+        return objects.stiff;
     }
     int quadric_count() const
     {

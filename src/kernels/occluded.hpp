@@ -64,6 +64,17 @@ inline std::uint32_t quadric_blocks(const End& end, const Quadric& quadric,
     return blocked;
 }
 
+template <class End, class Stiff, class Real>
+[[gnu::noinline]] std::uint32_t stiff_blocks(const End& end, const Stiff& stiff,
+                                             const RayPacket<Real>& rays)
+{
+    std::uint32_t blocked = 0;
+    visit_stiff(stiff, rays, [&](vmask<Real> valid, const vreal<Real>& t, int) {
+        blocked |= bits(valid & end.blocked_at(t, rays));
+    });
+    return blocked;
+}
+
 /// Calls `blocker(surface, lanes)` for each object with the lanes it blocks, until that returns
 /// false.
 template <abi::Features F, class End, class Objects, class Real, class Blocker>
@@ -89,6 +100,9 @@ inline void visit_blockers(const End& end, const Objects& objects, const RayPack
             if (!blocker(record_of<Real>(lists.quadric(i)).surface,
                          quadric_blocks(end, lists.quadric(i), rays)))
                 return;
+    for_each_stiff(lists.stiff(), [&](const auto& stiff) {
+        return blocker(surface_of(stiff), stiff_blocks(end, stiff, rays));
+    });
 }
 
 /// The lanes of `wanted` that are blocked by anything.

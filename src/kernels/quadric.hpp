@@ -11,7 +11,6 @@ namespace {
 template <class Real>
 struct QuadricOrigin {
     Vec3v<Real> p;
-    vreal<Real> value;   ///< the left side of the equation there
     vreal<Real> height;  ///< in the space that clipping goes by
 };
 
@@ -29,43 +28,43 @@ inline QuadricOrigin<Real> quadric_origin(const abi::QuadricRecord<Real>& quadri
 {
     const Vec3v<Real> w = (org - broadcast(quadric.center)) - broadcast(quadric.center_low);
     const Vec3v<Real> p = apply_inverse(quadric, w);
-    const Vec3v<Real> squares = broadcast(quadric.square) * p;
-    const vreal<Real> linear(quadric.linear);
     QuadricOrigin<Real> origin;
     origin.p = p;
-    origin.value = madd(linear + linear, p.z, dot(squares, p)) + vreal<Real>(quadric.constant);
     origin.height = dot(broadcast(quadric.clip), w) + vreal<Real>(quadric.clip_offset);
     return origin;
 }
 
-/// D = b² - a c without its cancelling terms: with the moment m = p × v of the ray in canonical
-/// space it is a sum over m's squares, as Lagrange's identity makes of a sphere's.
+/// The left side of the equation at p.
 template <class Real>
-inline vreal<Real> quadric_discriminant(const abi::QuadricRecord<Real>& quadric,
-                                        const Vec3v<Real>& p, const Vec3v<Real>& v,
-                                        const vreal<Real>& a)
+inline vreal<Real> quadric_value(const abi::QuadricRecord<Real>& quadric, const Vec3v<Real>& p)
 {
-    const Vec3v<Real> s = broadcast(quadric.square);
-    const Vec3v<Real> m = cross(p, v);
-    const vreal<Real> squares =
-        madd(s.x * s.y, m.z * m.z, madd(s.y * s.z, m.x * m.x, (s.z * s.x) * (m.y * m.y)));
+    const Vec3v<Real> squares = broadcast(quadric.square) * p;
     const vreal<Real> linear(quadric.linear);
-    const vreal<Real> tilt = msub(s.y * v.y, m.x, (s.x * v.x) * m.y);
-    const vreal<Real> with_linear = linear * madd(linear, v.z * v.z, tilt + tilt);
-    return nmadd(a, vreal<Real>(quadric.constant), with_linear - squares);
+    return madd(linear + linear, p.z, dot(squares, p)) + vreal<Real>(quadric.constant);
 }
 
+/// A ray's quadratic from its point nearest to the centre, `start` along it. There no term of
+/// b² - a c and of c is larger than it must be; from a far origin those of an indefinite form
+/// cancel, by some twenty times what the origin's own rounding makes (packtrace stress).
 template <class Real>
-inline Quadratic<Real> quadric_quadratic(const abi::QuadricRecord<Real>& quadric,
-                                         const QuadricOrigin<Real>& origin, const Vec3v<Real>& v)
+struct NearQuadratic {
+    Quadratic<Real> from_start;
+    vreal<Real> start;
+};
+
+template <class Real>
+inline NearQuadratic<Real> near_quadratic(const abi::QuadricRecord<Real>& quadric,
+                                          const Vec3v<Real>& p, const Vec3v<Real>& v)
 {
+    const vreal<Real> start = negated(dot(p, v)) / dot(v, v);
+    const Vec3v<Real> near = madd<Real>(start, v, p);
     const Vec3v<Real> scaled = broadcast(quadric.square) * v;
     Quadratic<Real> q;
     q.a = dot(scaled, v);
-    q.b = madd(vreal<Real>(quadric.linear), v.z, dot(scaled, origin.p));
-    q.c = origin.value;
-    q.discriminant = quadric_discriminant<Real>(quadric, origin.p, v, q.a);
-    return q;
+    q.b = madd(vreal<Real>(quadric.linear), v.z, dot(scaled, near));
+    q.c = quadric_value<Real>(quadric, near);
+    q.discriminant = msub(q.b, q.b, q.a * q.c);
+    return {q, start};
 }
 
 /// Calls `visit(valid, t, piece)` for the places where the rays of `active` cross the clipped and
@@ -76,11 +75,12 @@ inline void visit_crossings(const abi::QuadricRecord<Real>& quadric,
                             const Visit& visit)
 {
     const Vec3v<Real> v = apply_inverse(quadric, rays.dir);
-    const Quadratic<Real> quadratic = quadric_quadratic(quadric, origin, v);
+    const auto [quadratic, start] = near_quadratic<Real>(quadric, origin.p, v);
     const vreal<Real> climb = dot(broadcast(quadric.clip), rays.dir);
     const vreal<Real> low(quadric.clip_low);
     const vreal<Real> high(quadric.clip_high);
-    visit_roots(quadratic, [&](vmask<Real> crosses, const vreal<Real>& t) {
+    visit_roots(quadratic, [&, start = start](vmask<Real> crosses, const vreal<Real>& root) {
+        const vreal<Real> t = start + root;
         auto valid = crosses;
         if (quadric.clipped) {
             const vreal<Real> height = madd(t, climb, origin.height);
@@ -92,8 +92,9 @@ inline void visit_crossings(const abi::QuadricRecord<Real>& quadric,
         return;
     for (int cap = 1; cap <= 2; ++cap) {
         const vreal<Real> t = ((cap == 1 ? low : high) - origin.height) / climb;
+        const vreal<Real> from_start = t - start;
         const vreal<Real> value =
-            madd(madd(quadratic.a, t, quadratic.b + quadratic.b), t, quadratic.c);
+            madd(madd(quadratic.a, from_start, quadratic.b + quadratic.b), from_start, quadratic.c);
         visit(value <= vreal<Real>(Real(0)), t, cap);
     }
 }
@@ -103,7 +104,6 @@ template <class Real>
 struct SharedOriginQuadric {
     const abi::QuadricRecord<Real>* record;
     Real p[3];
-    Real value;
     Real height;
 };
 
@@ -114,7 +114,6 @@ inline SharedOriginQuadric<Real> share_origin(const abi::QuadricRecord<Real>& qu
     const QuadricOrigin<Real> at = quadric_origin<Real>(quadric, org);
     return {&quadric,
             {first_lane<Real>(at.p.x), first_lane<Real>(at.p.y), first_lane<Real>(at.p.z)},
-            first_lane<Real>(at.value),
             first_lane<Real>(at.height)};
 }
 
@@ -129,8 +128,7 @@ template <class Real, class Visit>
 inline void visit_crossings(const SharedOriginQuadric<Real>& quadric, const RayPacket<Real>& rays,
                             const Visit& visit)
 {
-    const QuadricOrigin<Real> origin{broadcast(quadric.p), vreal<Real>(quadric.value),
-                                     vreal<Real>(quadric.height)};
+    const QuadricOrigin<Real> origin{broadcast(quadric.p), vreal<Real>(quadric.height)};
     visit_crossings(*quadric.record, origin, rays, visit);
 }
 

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "kernel_abi/ray_streams.hpp"
+#include "kernels/finish.hpp"
 #include "kernels/group_closest.hpp"
 #include "kernels/surface.hpp"
 #include "kernels/tree_blockers.hpp"
@@ -42,6 +43,17 @@ inline void store_some(Element* to, vint<double> x, int count)
         to[lane] = static_cast<Element>(values[lane]);
 }
 
+/// Nothing where the arrays are not wanted.
+template <class Real>
+inline void store_some3(Real* const (&to)[3], int at, const Vec3v<Real>& v, int count)
+{
+    if (to[0] == nullptr)
+        return;
+    store_some(to[0] + at, v.x, count);
+    store_some(to[1] + at, v.y, count);
+    store_some(to[2] + at, v.z, count);
+}
+
 template <class Real>
 inline Vec3v<Real> load_some3(const Real* const (&from)[3], int first, int count)
 {
@@ -77,14 +89,17 @@ inline vint<Real> objects_of(const abi::SceneView<Real>& scene, const vint<Real>
     return load(number);
 }
 
-/// Outward unit normals and object numbers of the lanes of `active`.
+/// Outward unit normals and object numbers of the lanes of `active`, whose `t` may become more
+/// exact.
 template <abi::Features F, class Real>
 inline SurfacePacket<Real> outward_surface(const abi::SceneView<Real>& scene,
-                                           const RayPacket<Real>& rays, const vreal<Real>& t,
+                                           const RayPacket<Real>& rays, vreal<Real>& t,
                                            const vint<Real>& surface, std::uint32_t active)
 {
-    SurfacePacket<Real> result =
-        surface_at<F>(scene, madd<Real>(t, rays.dir, rays.org), rays.dir, surface, active);
+    const FinishedHits<Real> exact = finished<F>(scene, rays, t, surface, active);
+    SurfacePacket<Real> result = surface_at<F>(scene, exact.point, rays.dir, surface, active,
+                                               scene.finish != nullptr ? &exact.gradient : nullptr);
+    t = exact.t;
     // Undo the turn towards the viewer: outward normals of leaving rays go along with them.
     const vreal<Real> zero(Real(0));
     const std::uint32_t against = bits(dot(result.normal, rays.dir) < zero);
@@ -132,17 +147,19 @@ inline void store_group_hits(const abi::SceneView<Real>& scene, const RayGroup<R
         const int live = count - first;
         const std::uint32_t found = ~bits(missed) & first_lanes<Real>(live);
         const int at = begin + first;
-        store_some(hits.t + at, select(missed, load_some(view.t_max + at, live), hit.t), live);
-        if (hits.normal[0] == nullptr) {
+        const vreal<Real> t_max = load_some(view.t_max + at, live);
+        if (hits.normal[0] == nullptr && scene.finish == nullptr) {
+            store_some(hits.t + at, select(missed, t_max, hit.t), live);
             store_some(hits.object + at, objects_of(scene, hit.surface, found), live);
             continue;
         }
-        const SurfacePacket<Real> surface =
-            outward_surface<F>(scene, rays, hit.t, hit.surface, found);
+        vreal<Real> t = hit.t;
+        const SurfacePacket<Real> surface = outward_surface<F>(scene, rays, t, hit.surface, found);
+        store_some(hits.t + at, select(missed, t_max, t), live);
         store_some(hits.object + at, select(missed, hit.surface, surface.object), live);
-        store_some(hits.normal[0] + at, surface.normal.x, live);
-        store_some(hits.normal[1] + at, surface.normal.y, live);
-        store_some(hits.normal[2] + at, surface.normal.z, live);
+        store_some3(hits.normal, at, surface.normal, live);
+        store_some3(hits.outer_start, at, surface.point + surface.lift, live);
+        store_some3(hits.inner_start, at, surface.point - surface.lift, live);
     }
 }
 
@@ -188,11 +205,12 @@ inline void report_hits(const abi::SceneView<Real>& scene, const RayGroup<Real>&
         bits(valid & (t > rays.t_min) & (t < load(group.t + first))) & active_lanes(group, first);
     if (active == 0)
         return;
+    vreal<Real> exact_t = t;
     const SurfacePacket<Real> at = outward_surface<F>(
-        scene, rays, t, vint<Real>(static_cast<lane_int<Real>>(surface)), active);
+        scene, rays, exact_t, vint<Real>(static_cast<lane_int<Real>>(surface)), active);
     alignas(64) Real ts[lanes<Real>];
     alignas(64) Real normals[3][lanes<Real>];
-    store(ts, t);
+    store(ts, exact_t);
     store(normals[0], at.normal.x);
     store(normals[1], at.normal.y);
     store(normals[2], at.normal.z);

@@ -20,15 +20,14 @@ inline Vec3v<Real> light_color(const ShadeContext<F, Real>& context, int number,
     if constexpr (F.glass) {
         if (context.scene->transparent_shadows && packet.wanted != 0) {
             const Vec3v<Real> share =
-                transmitted<F>(context, number, packet, surface.point, packet.wanted, first);
+                transmitted<F>(context, number, packet, surface, packet.wanted, first);
             const Vec3v<Real> color =
                 share * lit_color(light, packet, material, packet.wanted & any_channel(share));
             probe.light(number, packet.wanted, share, color);
             return color;
         }
     }
-    const std::uint32_t lit =
-        unshadowed<F>(context, number, packet, surface.point, packet.wanted, first);
+    const std::uint32_t lit = unshadowed<F>(context, number, packet, surface, packet.wanted, first);
     const Vec3v<Real> color = lit_color(light, packet, material, lit);
     probe.light(number, packet.wanted, lit, color);
     return color;
@@ -86,9 +85,7 @@ inline void shade_packet(const ShadeContext<F, Real>& context, const HitStream<F
     const PathPacket<Real> path{load3(hits.weight, first), load(hits.pixel + first),
                                 load_path(hits, first)};
     const PacketProbe<F.probe, Real> probe = packet_probe(hits, path, active);
-    const SurfacePacket<Real> surface =
-        surface_at<F>(*context.scene, load3(hits.point, first), load3(hits.dir, first),
-                      load(hits.surface + first), active);
+    const SurfacePacket<Real> surface = surface_of<F>(*context.scene, hits, first, active);
     const MaterialPacket<Real> material = fetch_materials(*context.scene, surface.material, active);
 
     Vec3v<Real> color = local_color<F>(context, surface, material, probe, active, first);

@@ -12,29 +12,48 @@ namespace {
 /// How far the segment from the light goes: up to epsilon before the point, which counts in
 /// lengths of the segment or, for unit directions, of space.
 template <class Real>
-inline vreal<Real> segment_end(const abi::SceneView<Real>& scene,
-                                    const LightPacket<Real>& packet)
+inline vreal<Real> segment_end(const abi::SceneView<Real>& scene, const LightPacket<Real>& packet)
 {
     const vreal<Real> one(Real(1));
-    const vreal<Real> epsilon(scene.epsilon);
+    const vreal<Real> epsilon(scene.secondary_t_min);
     return scene.units == abi::RayUnits::unit ? nmadd(epsilon, packet.inverse_length, one)
                                               : one - epsilon;
+}
+
+/// Where the way between a hit and a light ends at the hit: on the light's side of the surface,
+/// lifted off it also by what rounding a segment as long as that can do.
+template <class Real>
+inline Vec3v<Real> lit_point(const abi::SceneView<Real>& scene, const SurfacePacket<Real>& surface,
+                             const Vec3v<Real>& to_light, bool segment)
+{
+    if (!(scene.start_error > 0))
+        return surface.point;
+    const auto inside = dot(surface.lift, to_light) < vreal<Real>(Real(0));
+    Vec3v<Real> lift = surface.lift;
+    if (segment) {
+        const vreal<Real> more =
+            vreal<Real>(scene.start_error) * magnitude_dot(surface.normal, to_light);
+        const auto turned = dot(surface.lift, surface.normal) < vreal<Real>(Real(0));
+        lift = madd<Real>(select(turned, negated(more), more), surface.normal, lift);
+    }
+    return select(inside, surface.point - lift, surface.point + lift);
 }
 
 /// Calls `trace(t_end, rays)` for the shadow rays of one light; those along a directional one
 /// have no end.
 template <abi::Features F, class Real, class Trace>
 inline auto with_shadow_ray(const ShadeContext<F, Real>& context, int light,
-                            const LightPacket<Real>& packet, const Vec3v<Real>& point,
+                            const LightPacket<Real>& packet, const SurfacePacket<Real>& surface,
                             const Trace& trace)
 {
     const abi::SceneView<Real>& scene = *context.scene;
     const abi::LightRecord<Real>& record = scene.lights.data[light];
     if (record.kind == abi::LightKind::directional)
         return trace(vreal<Real>(static_cast<Real>(__builtin_inf())),
-                     make_rays<Real>(point, packet.to_light, scene.epsilon));
-    const Vec3v<Real> away{negated(packet.to_light.x), negated(packet.to_light.y),
-                           negated(packet.to_light.z)};
+                     make_rays<Real>(lit_point(scene, surface, packet.to_light, false),
+                                     packet.to_light, scene.secondary_t_min));
+    const Vec3v<Real> away =
+        lit_point(scene, surface, packet.to_light, true) - broadcast(record.vector);
     return trace(segment_end(scene, packet),
                  make_rays<Real>(broadcast(record.vector), away, Real(0)));
 }
@@ -42,23 +61,25 @@ inline auto with_shadow_ray(const ShadeContext<F, Real>& context, int light,
 /// Calls `trace(end, objects, rays)` for the shadow rays of one light.
 template <abi::Features F, class Real, class Trace>
 inline auto with_shadow_rays(const ShadeContext<F, Real>& context, int light,
-                             const LightPacket<Real>& packet, const Vec3v<Real>& point,
+                             const LightPacket<Real>& packet, const SurfacePacket<Real>& surface,
                              const Trace& trace)
 {
     const abi::SceneView<Real>& scene = *context.scene;
-    return with_shadow_ray(
-        context, light, packet, point,
-        [&](const vreal<Real>& t_end, const RayPacket<Real>& rays) {
-            if (scene.lights.data[light].kind == abi::LightKind::directional)
-                return trace(NoEnd<Real>{}, scene, rays);
-            return trace(SegmentEnd<Real>{t_end}, context.blockers[light], rays);
-        });
+    return with_shadow_ray(context, light, packet, surface,
+                           [&](const vreal<Real>& t_end, const RayPacket<Real>& rays) {
+                               if (scene.lights.data[light].kind == abi::LightKind::directional)
+                                   return trace(NoEnd<Real>{}, scene, rays);
+                               if (scene.start_error > 0)
+                                   return trace(StreamRange<Real>{t_end}, context.blockers[light],
+                                                rays);
+                               return trace(SegmentEnd<Real>{t_end}, context.blockers[light], rays);
+                           });
 }
 
 /// Lanes of `wanted` that no opaque or any other object keeps from the light.
 template <abi::Features F, class Real>
 inline std::uint32_t unshadowed(const ShadeContext<F, Real>& context, int light,
-                                const LightPacket<Real>& packet, const Vec3v<Real>& point,
+                                const LightPacket<Real>& packet, const SurfacePacket<Real>& surface,
                                 std::uint32_t wanted, int first)
 {
     if (!context.scene->shadows || wanted == 0)
@@ -66,7 +87,7 @@ inline std::uint32_t unshadowed(const ShadeContext<F, Real>& context, int light,
     context.counts->shadow += static_cast<unsigned>(__builtin_popcount(wanted));
     if (context.shadows != nullptr)
         return wanted & context.shadows[light].lit_lanes(first);
-    return wanted & ~with_shadow_rays(context, light, packet, point,
+    return wanted & ~with_shadow_rays(context, light, packet, surface,
                                       [&](const auto& end, const auto& objects, const auto& rays) {
                                           return occluded<F>(end, objects, rays, wanted);
                                       });
@@ -84,7 +105,7 @@ inline std::uint32_t any_channel(const Vec3v<Real>& v)
 /// transmits, once however often the segment crosses it.
 template <abi::Features F, class Real>
 inline Vec3v<Real> transmitted(const ShadeContext<F, Real>& context, int light,
-                               const LightPacket<Real>& packet, const Vec3v<Real>& point,
+                               const LightPacket<Real>& packet, const SurfacePacket<Real>& surface,
                                std::uint32_t wanted, int first)
 {
     const abi::SceneView<Real>& scene = *context.scene;
@@ -93,14 +114,14 @@ inline Vec3v<Real> transmitted(const ShadeContext<F, Real>& context, int light,
     context.counts->shadow += static_cast<unsigned>(__builtin_popcount(wanted));
     if (context.shadows != nullptr)
         return context.shadows[light].shares(first);
-    const auto pass_on = [&](std::int32_t surface, std::uint32_t blocked) {
+    const auto pass_on = [&](std::int32_t blocker, std::uint32_t blocked) {
         if ((blocked & wanted) == 0)
             return true;
-        const auto& material = scene.materials[scene.material_index[surface].first];
+        const auto& material = scene.materials[scene.material_index[blocker].first];
         share = select(from_bits<Real>(blocked), share * broadcast(material.transmit), share);
         return (any_channel(share) & wanted) != 0;
     };
-    with_shadow_rays(context, light, packet, point,
+    with_shadow_rays(context, light, packet, surface,
                      [&](const auto& end, const auto& objects, const auto& rays) {
                          visit_blockers<F>(end, objects, rays, pass_on);
                          return 0;

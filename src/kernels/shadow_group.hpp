@@ -17,12 +17,10 @@ inline void gather_shadow_rays(const ShadeContext<F, Real>& context, const HitSt
     const abi::LightRecord<Real>& record = scene.lights.data[light];
     for (int first = 0; first < hits.count; first += lanes<Real>) {
         const std::uint32_t active = first_lanes<Real>(hits.count - first);
-        const SurfacePacket<Real> surface =
-            surface_at<F>(scene, load3(hits.point, first), load3(hits.dir, first),
-                          load(hits.surface + first), active);
+        const SurfacePacket<Real> surface = surface_of<F>(scene, hits, first, active);
         const MaterialPacket<Real> material = fetch_materials(scene, surface.material, active);
         const LightPacket<Real> packet = light_at(record, surface, material, active);
-        with_shadow_ray(context, light, packet, surface.point,
+        with_shadow_ray(context, light, packet, surface,
                         [&](const vreal<Real>& t_end, const RayPacket<Real>& rays) {
                             store_rays(group, first, rays);
                             start_rays(group, first, t_end, packet.wanted);
@@ -38,6 +36,9 @@ inline void visit_shadow_blockers(const ShadeContext<F, Real>& context, int ligh
     const abi::SceneView<Real>& scene = *context.scene;
     if (scene.lights.data[light].kind == abi::LightKind::directional)
         visit_blockers_of_group<F, NoEnd<Real>>(scene, scene, group, blocker);
+    else if (scene.start_error > 0)
+        visit_blockers_of_group<F, StreamRange<Real>>(scene, context.blockers[light], group,
+                                                      blocker);
     else
         visit_blockers_of_group<F, SegmentEnd<Real>>(scene, context.blockers[light], group,
                                                      blocker);

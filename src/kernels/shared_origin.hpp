@@ -6,6 +6,7 @@
 #include "kernels/huge_sphere.hpp"
 #include "kernels/plane.hpp"
 #include "kernels/quadric.hpp"
+#include "kernels/stiff.hpp"
 
 // All objects as rays see them that start from one point: what depends on the origin alone is
 // computed once a tile, by the operations a single packet would use, so with the same bits.
@@ -18,13 +19,14 @@ struct SharedOriginObjects {
     SharedOriginHuge<Real>* huge_spheres = nullptr;
     SharedOriginPlane<Real>* planes = nullptr;
     SharedOriginQuadric<Real>* quadrics = nullptr;
+    StiffCandidates<Real> stiff;
     int huge_count = 0;
     int plane_count = 0;
     int quadric_count = 0;
 
     bool empty() const
     {
-        return spheres.count + huge_count + plane_count + quadric_count == 0;
+        return spheres.count + huge_count + plane_count + quadric_count + stiff.count == 0;
     }
 };
 
@@ -81,6 +83,7 @@ inline void find_objects(SharedOriginObjects<Real>& objects, const Beam<Real>& b
         if (!leaves_behind(beam, plane))
             objects.planes[objects.plane_count++] = plane;
     }
+    find_stiff(objects.stiff, beam, scene);
     if constexpr (F.quadrics)
         find_quadrics(objects, beam, scene);
 }

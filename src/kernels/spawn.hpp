@@ -36,6 +36,14 @@ inline void append_path(RayStream<F, Real>& next, const vint<Real>& parent, int 
                        parent + parent + vint<Real>(static_cast<lane_int<Real>>(branch)));
 }
 
+/// Where rays start that go on outside in the lanes of `outside`, inside in the others.
+template <class Real>
+inline Vec3v<Real> start_point(const SurfacePacket<Real>& surface, std::uint32_t outside)
+{
+    return select(from_bits<Real>(outside & all_lanes<Real>), surface.point + surface.lift,
+                  surface.point - surface.lift);
+}
+
 template <class Real>
 inline Vec3v<Real> mirrored(const SurfacePacket<Real>& surface)
 {
@@ -50,7 +58,8 @@ inline void spawn_mirrored(RayStream<F, Real>& next, const SurfacePacket<Real>& 
 {
     if (active == 0)
         return;
-    append_ray(next, surface.point, mirrored(surface), path.weight * reflect, path.pixel, active);
+    append_ray(next, start_point(surface, ~surface.leaving), mirrored(surface),
+               path.weight * reflect, path.pixel, active);
     append_glass(next, inside, active);
     append_path(next, path.id, 0, active);
     next.count += __builtin_popcount(active);
@@ -63,7 +72,8 @@ inline void spawn_refracted(RayStream<F, Real>& next, const SurfacePacket<Real>&
 {
     if (active == 0)
         return;
-    append_ray(next, surface.point, refracted.dir, path.weight * transmit, path.pixel, active);
+    append_ray(next, start_point(surface, surface.leaving), refracted.dir, path.weight * transmit,
+               path.pixel, active);
     append_glass(next, refracted.inside, active);
     append_path(next, path.id, 1, active);
     next.count += __builtin_popcount(active);

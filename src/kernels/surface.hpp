@@ -16,6 +16,7 @@ struct SurfacePacket {
     vreal<Real> inverse_length;  ///< 1 / |dir|
     vint<Real> material;
     vint<Real> object;
+    Vec3v<Real> lift;       ///< outwards, to where rounding has no part in which side a point is on
     std::uint32_t leaving;  ///< lanes that come from the inside
 };
 
@@ -24,6 +25,8 @@ template <class Real>
 struct GradientPacket {
     Vec3v<Real> gradient;
     vreal<Real> faces_viewer;
+    Vec3v<Real>
+        from_anchor;  ///< the point relative to the surface's centre, or what it has for one
 };
 
 /// Planes and spheres (abi::SurfaceRecord).
@@ -34,8 +37,8 @@ inline GradientPacket<Real> round_gradient(const abi::SceneView<Real>& scene,
 {
     static_assert(sizeof(abi::SurfaceRecord<Real>) == 8 * sizeof(Real));
     const auto record = fetch_records<8, Real>(&scene.surfaces->anchor[0], surface, active);
-    return {madd<Real>(record.field[6], point - record.vector(0), record.vector(3)),
-            record.field[7]};
+    const Vec3v<Real> p = point - record.vector(0);
+    return {madd<Real>(record.field[6], p, record.vector(3)), record.field[7], p};
 }
 
 /// Surfaces of every kind (abi::CurvedSurfaceRecord).
@@ -52,20 +55,49 @@ inline GradientPacket<Real> curved_gradient(const abi::SceneView<Real>& scene,
     const Vec3v<Real> x_row{g[6], g[9], g[10]};
     const Vec3v<Real> y_row{g[9], g[7], g[11]};
     const Vec3v<Real> z_row{g[10], g[11], g[8]};
-    return {n + Vec3v<Real>{dot(x_row, p), dot(y_row, p), dot(z_row, p)}, g[12]};
+    return {n + Vec3v<Real>{dot(x_row, p), dot(y_row, p), dot(z_row, p)}, g[12], p};
 }
 
-/// Fills `normal` and `leaving`. The apex of a cone has no normal; there it is 0.
+/// The sum of |a_i| |b_i|.
 template <class Real>
-inline void set_normal(SurfacePacket<Real>& surface, const GradientPacket<Real>& from)
+inline vreal<Real> magnitude_dot(const Vec3v<Real>& a, const Vec3v<Real>& b)
+{
+    return madd(abs(a.x), abs(b.x), madd(abs(a.y), abs(b.y), abs(a.z) * abs(b.z)));
+}
+
+/// Fills `lift`: along the outward normal by what rounding can do to a point there and to the
+/// surface's equation, after Pharr, Jakob and Humphreys, Physically Based Rendering, section 6.8.
+template <class Real>
+inline void set_lift(SurfacePacket<Real>& surface, const abi::SceneView<Real>& scene,
+                     const Vec3v<Real>& outward, const Vec3v<Real>& from_anchor)
+{
+    const vreal<Real> size =
+        magnitude_dot(outward, surface.point) + magnitude_dot(outward, from_anchor);
+    surface.lift = scale<Real>(vreal<Real>(scene.start_error) * size, outward);
+}
+
+/// 0 stays 0.
+template <class Real>
+inline Vec3v<Real> unit(const Vec3v<Real>& v)
 {
     const vreal<Real> zero(Real(0));
-    const vreal<Real> length2 = dot(from.gradient, from.gradient);
-    const vreal<Real> inverse = select(length2 > zero, vreal<Real>(Real(1)) / sqrt(length2), zero);
-    const Vec3v<Real> outward = scale<Real>(inverse, from.gradient);
+    const vreal<Real> length2 = dot(v, v);
+    return scale<Real>(select(length2 > zero, vreal<Real>(Real(1)) / sqrt(length2), zero), v);
+}
+
+/// Fills `normal`, `lift` and `leaving`. The apex of a cone has no normal; there it is 0.
+template <class Real>
+inline void set_normal(SurfacePacket<Real>& surface, const abi::SceneView<Real>& scene,
+                       const GradientPacket<Real>& from, bool is_unit)
+{
+    const vreal<Real> zero(Real(0));
+    const Vec3v<Real> outward = is_unit ? from.gradient : unit<Real>(from.gradient);
     const auto leaving = dot(outward, surface.dir) > zero;
     const auto turn = (from.faces_viewer > zero) & leaving;
     surface.leaving = bits(leaving);
+    surface.lift = {zero, zero, zero};
+    if (scene.start_error > 0)
+        set_lift(surface, scene, outward, from.from_anchor);
     surface.normal = select(turn, scale<Real>(vreal<Real>(Real(-1)), outward), outward);
 }
 
@@ -99,18 +131,30 @@ inline void set_material(SurfacePacket<Real>& surface, const abi::SceneView<Real
     });
 }
 
+/// The surface's own gradient at `point`.
+template <abi::Features F, class Real>
+inline GradientPacket<Real> gradient_at(const abi::SceneView<Real>& scene, const Vec3v<Real>& point,
+                                        const vint<Real>& number, std::uint32_t active)
+{
+    if constexpr (F.quadrics)
+        return curved_gradient(scene, point, number, active);
+    else
+        return round_gradient(scene, point, number, active);
+}
+
+/// `finished` is the unit gradient that double found, where the scene's hits are solved again.
 template <abi::Features F, class Real>
 inline SurfacePacket<Real> surface_at(const abi::SceneView<Real>& scene, const Vec3v<Real>& point,
                                       const Vec3v<Real>& dir, const vint<Real>& number,
-                                      std::uint32_t active)
+                                      std::uint32_t active, const Vec3v<Real>* finished = nullptr)
 {
     SurfacePacket<Real> surface;
     surface.point = point;
     surface.dir = dir;
-    if constexpr (F.quadrics)
-        set_normal(surface, curved_gradient(scene, point, number, active));
-    else
-        set_normal(surface, round_gradient(scene, point, number, active));
+    GradientPacket<Real> gradient = gradient_at<F>(scene, point, number, active);
+    if (finished != nullptr)
+        gradient.gradient = *finished;
+    set_normal(surface, scene, gradient, finished != nullptr);
     surface.inverse_length = vreal<Real>(Real(1)) / sqrt(dot(dir, dir));
     set_material(surface, scene, number, active);
     return surface;

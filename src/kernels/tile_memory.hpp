@@ -38,6 +38,15 @@ struct PathArrays<true, F, Real> {
     const abi::Probe<Real>* probe;  ///< set in hits
 };
 
+/// The gradients that double found at the hits, only for rays in single precision.
+template <abi::Features F, class Real>
+struct GradientArrays {
+};
+template <abi::Features F>
+struct GradientArrays<F, float> {
+    StreamArray<F, float> gradient[3];
+};
+
 /// Rays of one generation, in an order that does not depend on the packet width.
 template <abi::Features F, class Real>
 struct alignas(64) RayStream : GlassArrays<F.glass, F, Real>, PathArrays<F.probe, F, Real> {
@@ -50,7 +59,9 @@ struct alignas(64) RayStream : GlassArrays<F.glass, F, Real>, PathArrays<F.probe
 
 /// The rays of a chunk that hit something, where they did.
 template <abi::Features F, class Real>
-struct alignas(64) HitStream : GlassArrays<F.glass, F, Real>, PathArrays<F.probe, F, Real> {
+struct alignas(64) HitStream : GlassArrays<F.glass, F, Real>,
+                               PathArrays<F.probe, F, Real>,
+                               GradientArrays<F, Real> {
     StreamArray<F, Real> point[3];
     StreamArray<F, Real> dir[3];
     StreamArray<F, Real> weight[3];
@@ -101,6 +112,24 @@ inline vint<Real> load_path(const Stream<F, Real>& stream, int first)
         return load(stream.path + first);
     else
         return vint<Real>(lane_int<Real>(0));
+}
+
+/// The surfaces of a packet of a stream of hits.
+template <abi::Features F, class Real>
+inline SurfacePacket<Real> surface_of(const abi::SceneView<Real>& scene,
+                                      const HitStream<F, Real>& hits, int first,
+                                      std::uint32_t active)
+{
+    const Vec3v<Real> point = load3(hits.point, first);
+    const Vec3v<Real> dir = load3(hits.dir, first);
+    const vint<Real> number = load(hits.surface + first);
+    if constexpr (sizeof(Real) == sizeof(float)) {
+        if (scene.finish != nullptr) {
+            const Vec3v<Real> gradient = load3(hits.gradient, first);
+            return surface_at<F>(scene, point, dir, number, active, &gradient);
+        }
+    }
+    return surface_at<F>(scene, point, dir, number, active);
 }
 
 template <class Element>

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "kernels/camera.hpp"
+#include "kernels/finish.hpp"
 #include "kernels/group_closest.hpp"
 #include "kernels/shade.hpp"
 
@@ -17,12 +18,17 @@ struct TracedRays {
 };
 
 template <abi::Features F, class Real>
-inline void append_hits(HitStream<F, Real>& hits, const TracedRays<Real>& from,
-                        const HitPacket<Real>& hit, std::uint32_t active)
+inline void append_hits(const abi::SceneView<Real>& scene, HitStream<F, Real>& hits,
+                        const TracedRays<Real>& from, const HitPacket<Real>& hit,
+                        std::uint32_t active)
 {
     if (active == 0)
         return;
-    append3(hits.point, hits.count, active, madd<Real>(hit.t, from.rays.dir, from.rays.org));
+    const FinishedHits<Real> exact = finished<F>(scene, from.rays, hit.t, hit.surface, active);
+    append3(hits.point, hits.count, active, exact.point);
+    if constexpr (sizeof(Real) == sizeof(float))
+        if (scene.finish != nullptr)
+            append3(hits.gradient, hits.count, active, exact.gradient);
     append3(hits.dir, hits.count, active, from.rays.dir);
     append3(hits.weight, hits.count, active, from.path.weight);
     compress_store(hits.pixel + hits.count, active, from.path.pixel);
@@ -99,7 +105,7 @@ inline void take_camera_hits(const abi::SceneView<Real>& scene, TileMemory<F, Re
                              std::uint32_t pixels)
 {
     const std::uint32_t hits = hit_lanes(hit) & pixels;
-    append_hits(memory.hits, from, hit, hits);
+    append_hits(scene, memory.hits, from, hit, hits);
     report_rays(memory.hits, scene, from, hit, pixels);
     if (scene.visible_lights)
         write_colors<PixelWrite::set>(memory.color, from.path.pixel, escaped(scene, from.rays),
@@ -110,9 +116,8 @@ template <class Real>
 inline PathPacket<Real> camera_path(int first)
 {
     const vreal<Real> one(Real(1));
-    return {{one, one, one},
-            lane_numbers<Real>(first),
-            vint<Real>(lane_int<Real>{abi::camera_path})};
+    return {
+        {one, one, one}, lane_numbers<Real>(first), vint<Real>(lane_int<Real>{abi::camera_path})};
 }
 
 /// The camera rays of a tile.
@@ -129,8 +134,7 @@ inline void trace_camera(const abi::TileJob<Real>& job, const SharedOriginObject
         const RayPacket<Real> rays = camera_rays(camera, first, job.scene->units);
         HitPacket<Real> hit = no_hit<Real>(static_cast<Real>(__builtin_inf()));
         closest_hit<F>(hit, visible, rays);
-        take_camera_hits(*job.scene, memory, {rays, camera_path<Real>(first), inside}, hit,
-                         pixels);
+        take_camera_hits(*job.scene, memory, {rays, camera_path<Real>(first), inside}, hit, pixels);
     }
 }
 
@@ -168,9 +172,10 @@ template <abi::Features F, class Real>
 inline TracedRays<Real> load_stream(const abi::SceneView<Real>& scene,
                                     const RayStream<F, Real>& stream, int first)
 {
-    return {make_rays<Real>(load3(stream.org, first), load3(stream.dir, first), scene.epsilon),
-            {load3(stream.weight, first), load(stream.pixel + first), load_path(stream, first)},
-            load_glass(stream, first)};
+    return {
+        make_rays<Real>(load3(stream.org, first), load3(stream.dir, first), scene.secondary_t_min),
+        {load3(stream.weight, first), load(stream.pixel + first), load_path(stream, first)},
+        load_glass(stream, first)};
 }
 
 /// A packet of secondary rays and what it hit; what those that miss bring goes into the pixels.
@@ -180,7 +185,7 @@ inline void take_secondary_hits(const abi::SceneView<Real>& scene, TileMemory<F,
                                 std::uint32_t active)
 {
     const std::uint32_t hits = hit_lanes(hit) & active;
-    append_hits(memory.hits, from, hit, hits);
+    append_hits(scene, memory.hits, from, hit, hits);
     report_rays(memory.hits, scene, from, hit, active);
     write_colors<PixelWrite::add>(memory.color, from.path.pixel,
                                   from.path.weight * escaped(scene, from.rays), active & ~hits);

@@ -50,6 +50,9 @@ inline SharedOriginObjects<Real> take_objects(Arena& arena, const abi::SceneView
         arena.take<SharedOriginPlane<Real>>(static_cast<std::size_t>(scene.planes.count));
     objects.quadrics =
         arena.take<SharedOriginQuadric<Real>>(static_cast<std::size_t>(scene.quadrics.count));
+    if constexpr (sizeof(Real) == sizeof(float))
+        objects.stiff.list =
+            arena.take<SharedOriginStiff>(static_cast<std::size_t>(scene.stiff.count));
     return objects;
 }
 
@@ -58,8 +61,8 @@ struct Workspace {
     TileMemory<F, Real>* memory = nullptr;
     RayStream<F, Real>* streams = nullptr;  ///< of generations 1 … max_depth
     RayStream<F, Real>* refracted = nullptr;
-    RayGroup<Real>* group = nullptr;  ///< where the scene has a hierarchy
-    LightShadows<F, Real>* shadows = nullptr;  ///< of each light, likewise
+    RayGroup<Real>* group = nullptr;                ///< where the scene has a hierarchy
+    LightShadows<F, Real>* shadows = nullptr;       ///< of each light, likewise
     SharedOriginObjects<Real> visible;              ///< from the camera
     SharedOriginObjects<Real>* blockers = nullptr;  ///< from each light
     std::size_t bytes = 0;

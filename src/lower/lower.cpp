@@ -3,6 +3,7 @@
 #include "lower/lower_model.hpp"
 #include "lower/lower_surface.hpp"
 #include "lower/lowered_scene.hpp"
+#include "lower/stiffness.hpp"
 
 namespace packtrace {
 namespace {
@@ -32,12 +33,15 @@ void lower_objects(const Scene& scene, LoweredScene& lowered)
 
 }  // namespace
 
-LoweredScene lower(const Scene& scene)
+LoweredScene lower(const Scene& scene, Accuracy accuracy, SelfHits self_hits)
 {
     LoweredScene lowered;
     lower_model_rules(scene, lowered);
     lower_objects(scene, lowered);
     mark_huge_spheres(scene.camera.position, lowered);
+    mark_stiff(accuracy, lowered);
+    mark_finished(accuracy, self_hits, lowered);
+    lowered.self_hits = self_hits;
 
     lowered.features.quadrics = !lowered.quadrics.empty();
     lowered.features.glass = any_glass(lowered);

@@ -8,6 +8,7 @@
 #include <packtrace/read_scene.hpp>
 
 #include "lower/canonical_form.hpp"
+#include "lower/exact_inverse.hpp"
 
 namespace packtrace {
 namespace {
@@ -125,7 +126,7 @@ LoweredQuadric lower_quadric(const Object& object, const Quadric& quadric, std::
     if (const auto reason = why_no_surface(form))
         throw SceneError("object '" + object.name + "': the quadric has no surface: " + *reason +
                          "; change its coefficients");
-    const Mat3 own_from_world = glm::inverse(Mat3(object.transform));
+    const Mat3 own_from_world = exact_inverse(Mat3(object.transform));
 
     LoweredQuadric lowered;
     lowered.center = Vec3(object.transform * glm::dvec4(form.center, 1.0));

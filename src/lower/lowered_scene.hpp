@@ -4,6 +4,7 @@
 #include <limits>
 #include <vector>
 
+#include <packtrace/render.hpp>
 #include <packtrace/scene.hpp>
 
 #include "kernel_abi/features.hpp"
@@ -19,12 +20,14 @@ struct LoweredSphere {
     /// surface nearest the scene, in place of its centre.
     bool huge = false;
     Vec3 anchor{0.0};
+    bool stiff = false;  ///< tested in double for rays in single
 };
 
 struct LoweredPlane {
     Vec3 point{0.0};
     Vec3 normal{0.0, 1.0, 0.0};  ///< unit
     std::int32_t surface = 0;
+    bool stiff = false;
 };
 
 /// s0 x² + s1 y² + s2 z² + 2 linear z + constant = 0 at p = inverse (P - center), negative inside.
@@ -46,6 +49,7 @@ struct LoweredQuadric {
     /// How much canonical space is stretched: its longest against its shortest length.
     double condition = 1.0;
     std::int32_t surface = 0;  ///< with caps, the next two numbers are theirs, low and high
+    bool stiff = false;
 
     [[nodiscard]] bool clipped() const
     {
@@ -91,13 +95,24 @@ struct LoweredScene {
     bool transparent_shadows = false;
     bool visible_lights = false;
     abi::RayUnits units = abi::RayUnits::as_given;
-    double epsilon = 0.0;                  ///< start of secondary and shadow rays
+    double epsilon = 0.0;  ///< start of secondary and shadow rays with SelfHits::note
+    SelfHits self_hits = SelfHits::note;
+    /// By surface: hits of rays in single precision are solved again in double.
+    std::vector<bool> finished;
     double camera_t_min = 0.0;             ///< start of camera rays
     std::vector<std::int32_t> eye_inside;  ///< glass objects around the eye, innermost first
     abi::Features features;
 };
 
 /// Lowers a scene. Throws SceneError for what it can't hold: a quadric without a surface.
-[[nodiscard]] LoweredScene lower(const Scene& scene);
+[[nodiscard]] LoweredScene lower(const Scene& scene, Accuracy accuracy = Accuracy::automatic,
+                                 SelfHits self_hits = SelfHits::note);
+
+/// The accuracy that counts for kernels of `Real`: doubles need nothing wider.
+template <class Real>
+[[nodiscard]] Accuracy accuracy_in(const RenderOptions& options)
+{
+    return sizeof(Real) == sizeof(float) ? options.accuracy : Accuracy::fast;
+}
 
 }  // namespace packtrace

@@ -47,6 +47,16 @@ abi::HugeSphere<Real> pack_huge(const LoweredSphere& sphere)
 }
 
 template <class Real>
+abi::PlaneRecord<Real> pack_plane(const LoweredPlane& plane)
+{
+    abi::PlaneRecord<Real> packed;
+    round_to(packed.point, plane.point);
+    round_to(packed.normal, plane.normal);
+    packed.surface = plane.surface;
+    return packed;
+}
+
+template <class Real>
 abi::MaterialRecord<Real> pack_material(const LoweredMaterial& material)
 {
     abi::MaterialRecord<Real> packed;
@@ -117,6 +127,8 @@ abi::CurvedSurfaceRecord<Real> cap_normal(const LoweredQuadric& quadric, int cap
 
 template abi::HugeSphere<float> pack_huge(const LoweredSphere&);
 template abi::HugeSphere<double> pack_huge(const LoweredSphere&);
+template abi::PlaneRecord<float> pack_plane(const LoweredPlane&);
+template abi::PlaneRecord<double> pack_plane(const LoweredPlane&);
 template abi::QuadricRecord<float> pack_quadric(const LoweredQuadric&);
 template abi::QuadricRecord<double> pack_quadric(const LoweredQuadric&);
 template abi::MaterialRecord<float> pack_material(const LoweredMaterial&);

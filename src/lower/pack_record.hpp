@@ -17,6 +17,9 @@ template <class Real>
 [[nodiscard]] abi::HugeSphere<Real> pack_huge(const LoweredSphere& sphere);
 
 template <class Real>
+[[nodiscard]] abi::PlaneRecord<Real> pack_plane(const LoweredPlane& plane);
+
+template <class Real>
 [[nodiscard]] abi::QuadricRecord<Real> pack_quadric(const LoweredQuadric& quadric);
 
 template <class Real>

@@ -1,8 +1,10 @@
 #include "lower/packed_scene.hpp"
 
 #include <algorithm>
+#include <limits>
 
 #include "lower/pack_record.hpp"
+#include "lower/pack_stiff.hpp"
 
 namespace packtrace {
 namespace {
@@ -15,6 +17,11 @@ bool wants_tree(const LoweredScene& lowered, Traversal traversal)
     return traversal == Traversal::tree ||
            (traversal == Traversal::automatic && count_tree_objects(lowered) >= tree_objects);
 }
+
+/// Hits in single precision are solved again in double and rounded once; those in double are
+/// as the search found them. Measured in docs/numerics.md.
+template <class Real>
+constexpr Real start_roundoffs = sizeof(Real) == sizeof(float) ? Real(8) : Real(32);
 
 }  // namespace
 
@@ -29,6 +36,8 @@ PackedScene<Real>::PackedScene(const LoweredScene& lowered, Traversal traversal)
     pack_huge_spheres(lowered);
     pack_planes(lowered);
     pack_quadrics(lowered);
+    pack_stiff(lowered);
+    pack_finish(lowered);
     pack_normals(lowered);
     pack_materials(lowered);
     pack_lights(lowered);
@@ -40,6 +49,10 @@ PackedScene<Real>::PackedScene(const LoweredScene& lowered, Traversal traversal)
     view_.visible_lights = lowered.visible_lights;
     view_.units = lowered.units;
     view_.epsilon = static_cast<Real>(lowered.epsilon);
+    if (lowered.self_hits == SelfHits::note)
+        view_.secondary_t_min = view_.epsilon;
+    else
+        view_.start_error = start_roundoffs<Real> * std::numeric_limits<Real>::epsilon() / 2;
 }
 
 template <class Real>
@@ -56,7 +69,7 @@ void PackedScene<Real>::pack_spheres(const LoweredScene& lowered)
         auto& surface = surfaces_[static_cast<std::size_t>(sphere.surface)];
         round_to(surface.anchor, sphere.center);
         surface.curvature = static_cast<Real>(1.0 / sphere.radius);
-        if (in_tree(sphere))
+        if (in_tree(sphere) || goes_to_stiff<Real>(sphere))
             continue;
         for (int axis = 0; axis < 3; ++axis)
             reals[static_cast<std::size_t>(axis) * stride + count] =
@@ -84,7 +97,8 @@ void PackedScene<Real>::pack_huge_spheres(const LoweredScene& lowered)
         if (!sphere.huge)
             continue;
         const auto packed = pack_huge<Real>(sphere);
-        huge_spheres_[static_cast<std::size_t>(count++)] = packed;
+        if (!goes_to_stiff<Real>(sphere))
+            huge_spheres_[static_cast<std::size_t>(count++)] = packed;
         auto& surface = surfaces_[static_cast<std::size_t>(sphere.surface)];
         std::copy(packed.anchor, packed.anchor + 3, surface.anchor);
         std::copy(packed.normal, packed.normal + 3, surface.normal);
@@ -97,26 +111,71 @@ template <class Real>
 void PackedScene<Real>::pack_planes(const LoweredScene& lowered)
 {
     planes_ = AlignedArray<abi::PlaneRecord<Real>>(lowered.planes.size());
-    for (std::size_t i = 0; i < lowered.planes.size(); ++i) {
-        const LoweredPlane& plane = lowered.planes[i];
-        round_to(planes_[i].point, plane.point);
-        round_to(planes_[i].normal, plane.normal);
-        planes_[i].surface = plane.surface;
+    std::size_t count = 0;
+    for (const LoweredPlane& plane : lowered.planes) {
         auto& surface = surfaces_[static_cast<std::size_t>(plane.surface)];
         round_to(surface.normal, plane.normal);
+        if (!goes_to_stiff<Real>(plane))
+            planes_[count++] = pack_plane<Real>(plane);
     }
-    view_.planes = {planes_.data(), static_cast<int>(lowered.planes.size())};
+    view_.planes = {planes_.data(), static_cast<int>(count)};
 }
 
 template <class Real>
 void PackedScene<Real>::pack_quadrics(const LoweredScene& lowered)
 {
     quadrics_ = AlignedArray<abi::QuadricRecord<Real>>(lowered.quadrics.size());
-    int count = 0;
+    std::size_t count = 0;
     for (const LoweredQuadric& quadric : lowered.quadrics)
-        if (!in_tree(quadric))
-            quadrics_[static_cast<std::size_t>(count++)] = pack_quadric<Real>(quadric);
-    view_.quadrics = {quadrics_.data(), count};
+        if (!in_tree(quadric) && !goes_to_stiff<Real>(quadric))
+            quadrics_[count++] = pack_quadric<Real>(quadric);
+    view_.quadrics = {quadrics_.data(), static_cast<int>(count)};
+}
+
+/// All that is stiff, in double whatever Real is; nothing where Real is double itself.
+template <class Real>
+void PackedScene<Real>::pack_stiff(const LoweredScene& lowered)
+{
+    stiff_ = AlignedArray<abi::StiffObject>(lowered.spheres.size() + lowered.planes.size() +
+                                            lowered.quadrics.size());
+    std::size_t count = 0;
+    const auto pack = [&](const auto& surfaces) {
+        for (const auto& surface : surfaces)
+            if (goes_to_stiff<Real>(surface))
+                stiff_[count++] = pack_stiff_object(surface);
+    };
+    pack(lowered.spheres);
+    pack(lowered.planes);
+    pack(lowered.quadrics);
+    view_.stiff = {stiff_.data(), static_cast<int>(count)};
+}
+
+template <class Real>
+void PackedScene<Real>::pack_finish(const LoweredScene& lowered)
+{
+    const auto& wanted = lowered.finished;
+    if (sizeof(Real) != sizeof(float) ||
+        std::find(wanted.begin(), wanted.end(), true) == wanted.end())
+        return;
+    finish_ = AlignedArray<abi::StiffObject>(lowered.spheres.size() + lowered.planes.size() +
+                                             lowered.quadrics.size());
+    finish_index_ = AlignedArray<std::int32_t>(wanted.size());
+    std::fill_n(finish_index_.data(), wanted.size(), -1);
+    std::int32_t count = 0;
+    const auto pack = [&](const auto& surfaces, const auto& pieces) {
+        for (const auto& surface : surfaces) {
+            const auto first = static_cast<std::size_t>(surface.surface);
+            if (!wanted[first])
+                continue;
+            finish_[static_cast<std::size_t>(count)] = pack_stiff_object(surface);
+            std::fill_n(finish_index_.data() + first, pieces(surface), count++);
+        }
+    };
+    pack(lowered.spheres, [](const LoweredSphere&) { return 1; });
+    pack(lowered.planes, [](const LoweredPlane&) { return 1; });
+    pack(lowered.quadrics, [](const LoweredQuadric& quadric) { return quadric.capped ? 3 : 1; });
+    view_.finish = finish_.data();
+    view_.finish_index = finish_index_.data();
 }
 
 /// Round surfaces have their normals already; the kernels of every kind of surface take them in

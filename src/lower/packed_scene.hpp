@@ -33,6 +33,8 @@ private:
     void pack_huge_spheres(const LoweredScene& lowered);
     void pack_planes(const LoweredScene& lowered);
     void pack_quadrics(const LoweredScene& lowered);
+    void pack_stiff(const LoweredScene& lowered);
+    void pack_finish(const LoweredScene& lowered);
     void pack_normals(const LoweredScene& lowered);
     void pack_materials(const LoweredScene& lowered);
     void pack_lights(const LoweredScene& lowered);
@@ -43,6 +45,9 @@ private:
     AlignedArray<abi::HugeSphere<Real>> huge_spheres_;
     AlignedArray<abi::PlaneRecord<Real>> planes_;
     AlignedArray<abi::QuadricRecord<Real>> quadrics_;
+    AlignedArray<abi::StiffObject> stiff_;
+    AlignedArray<abi::StiffObject> finish_;
+    AlignedArray<std::int32_t> finish_index_;
     AlignedArray<abi::SurfaceRecord<Real>> surfaces_;
     AlignedArray<abi::CurvedSurfaceRecord<Real>> curved_surfaces_;
     AlignedArray<abi::MaterialIndex> material_index_;

@@ -103,12 +103,13 @@ double worst_slack(const LoweredScene& lowered)
 
 bool fits_tree(const LoweredSphere& sphere)
 {
-    return !sphere.huge;
+    return !sphere.huge && !sphere.stiff;
 }
 
 bool fits_tree(const LoweredQuadric& quadric)
 {
-    return std::isfinite(quadric.bound_radius) && quadric.condition < worst_condition;
+    return !quadric.stiff && std::isfinite(quadric.bound_radius) &&
+           quadric.condition < worst_condition;
 }
 
 std::size_t count_tree_objects(const LoweredScene& lowered)

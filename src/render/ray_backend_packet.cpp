@@ -36,7 +36,11 @@ abi::RaysView<Real> piece_of(const RaysView<Real>& rays, std::size_t first, std:
 template <class Real>
 abi::HitsView<Real> piece_of(const HitsView<Real>& hits, std::size_t first)
 {
-    abi::HitsView<Real> piece{hits.t + first, hits.object + first, {}};
+    abi::HitsView<Real> piece{hits.t + first, hits.object + first, {}, {}, {}};
+    for (int axis = 0; axis < 3 && hits.outer_start[0] != nullptr; ++axis) {
+        piece.outer_start[axis] = hits.outer_start[axis] + first;
+        piece.inner_start[axis] = hits.inner_start[axis] + first;
+    }
     if (hits.normal_x != nullptr) {
         piece.normal[0] = hits.normal_x + first;
         piece.normal[1] = hits.normal_y + first;
@@ -59,7 +63,7 @@ template <class Real>
 class PacketBackend final : public RayBackend<Real> {
 public:
     PacketBackend(const Scene& scene, const RenderOptions& options)
-        : lowered_(lower(scene)),
+        : lowered_(lower(scene, accuracy_in<Real>(options), options.self_hits)),
           packed_(lowered_, options.traversal),
           kernels_(precision<Real>(kernels_of(choose_isa(options.isa, options.width).name)))
     {

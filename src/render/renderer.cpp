@@ -35,7 +35,7 @@ struct Renderer<Real>::State {
         : width(scene.width),
           height(scene.height),
           isa(choose_isa(options.isa, options.width)),
-          lowered(lower(scene)),
+          lowered(lower(scene, accuracy_in<Real>(options), options.self_hits)),
           kernels(&kernels_for(precision<Real>(kernels_of(isa.name)), lowered.features)),
           packed(lowered, options.traversal),
           camera(camera_view<Real>(scene, lowered)),

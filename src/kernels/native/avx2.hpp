@@ -117,6 +117,19 @@ inline void store_pixels(float (*to)[4], vreal<float> r, vreal<float> g, vreal<f
     _mm256_storeu_ps(to[6], _mm256_castpd_ps(_mm256_unpackhi_pd(rg_high, b_high)));
 }
 
+inline vreal<double> low_half(vreal<float> x)
+{
+    return _mm256_cvtps_pd(_mm256_castps256_ps128(x));
+}
+inline vreal<double> high_half(vreal<float> x)
+{
+    return _mm256_cvtps_pd(_mm256_extractf128_ps(x, 1));
+}
+inline vreal<float> joined(vreal<double> low, vreal<double> high)
+{
+    return _mm256_set_m128(_mm256_cvtpd_ps(high), _mm256_cvtpd_ps(low));
+}
+
 constexpr CompressTable<8, 1> compress_singles;
 constexpr CompressTable<4, 2> compress_doubles;
 

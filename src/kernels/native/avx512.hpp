@@ -105,6 +105,20 @@ inline void store_pixels(float (*to)[4], vreal<float> r, vreal<float> g, vreal<f
     _mm512_storeu_ps(to[12], _mm512_castpd_ps(_mm512_unpackhi_pd(rg_high, b_high)));
 }
 
+inline vreal<double> low_half(vreal<float> x)
+{
+    return _mm512_cvtps_pd(_mm512_castps512_ps256(x));
+}
+inline vreal<double> high_half(vreal<float> x)
+{
+    return _mm512_cvtps_pd(_mm512_extractf32x8_ps(x, 1));
+}
+inline vreal<float> joined(vreal<double> low, vreal<double> high)
+{
+    return _mm512_insertf32x8(_mm512_castps256_ps512(_mm512_cvtpd_ps(low)), _mm512_cvtpd_ps(high),
+                              1);
+}
+
 // The memory form of vcompressps is microcoded on Zen 4: compress in the register instead.
 inline vreal<float> compress(std::uint32_t pattern, vreal<float> x)
 {

@@ -138,6 +138,19 @@ inline void store_pixels(float (*to)[4], vreal<float> r, vreal<float> g, vreal<f
     _mm_storeu_ps(to[3], _mm_movehl_ps(b_high, rg_high));
 }
 
+inline vreal<double> low_half(vreal<float> x)
+{
+    return _mm_cvtps_pd(x);
+}
+inline vreal<double> high_half(vreal<float> x)
+{
+    return _mm_cvtps_pd(_mm_movehl_ps(x, x));
+}
+inline vreal<float> joined(vreal<double> low, vreal<double> high)
+{
+    return _mm_movelh_ps(_mm_cvtpd_ps(low), _mm_cvtpd_ps(high));
+}
+
 constexpr CompressTable<4, 4> compress_singles;
 
 inline vreal<float> compress(std::uint32_t pattern, vreal<float> x)

@@ -1,0 +1,14 @@
+#pragma once
+
+#include "lower/lowered_scene.hpp"
+
+namespace packtrace {
+
+/// Marks the surfaces that rays in single precision shall be tested against in double.
+void mark_stiff(Accuracy accuracy, LoweredScene& lowered);
+
+/// Marks the surfaces whose hits shall be solved again in double: all of them in robust mode and
+/// where rays start from the exact place, else those whose normals need it.
+void mark_finished(Accuracy accuracy, SelfHits self_hits, LoweredScene& lowered);
+
+}  // namespace packtrace

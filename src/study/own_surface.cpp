@@ -1,0 +1,64 @@
+#include "study/own_surface.hpp"
+
+#include <stdexcept>
+
+namespace packtrace::study {
+
+Quadric quadric_of(QuadricKind kind)
+{
+    Quadric quadric;
+    quadric.kind = kind;
+    switch (kind) {
+        case QuadricKind::ellipsoid:
+            quadric.coefficients = {1, 1, 1, 0, 0, 0, 0, 0, 0, -1};
+            break;
+        case QuadricKind::cylinder:
+            quadric.coefficients = {1, 1, 0, 0, 0, 0, 0, 0, 0, -1};
+            break;
+        case QuadricKind::cone:
+            quadric.coefficients = {1, 1, -1, 0, 0, 0, 0, 0, 0, 0};
+            break;
+        case QuadricKind::paraboloid:
+            quadric.coefficients = {1, 1, 0, 0, 0, 0, 0, 0, -1, 0};
+            break;
+        case QuadricKind::hyperboloid:
+            quadric.coefficients = {1, 1, -1, 0, 0, 0, 0, 0, 0, -1};
+            break;
+        case QuadricKind::hyperboloid2:
+            quadric.coefficients = {1, 1, -1, 0, 0, 0, 0, 0, 0, 1};
+            break;
+        case QuadricKind::saddle:
+            quadric.coefficients = {1, -1, 0, 0, 0, 0, 0, 0, -1, 0};
+            break;
+        case QuadricKind::general:
+            throw std::invalid_argument("a general quadric has coefficients of its own");
+    }
+    return quadric;
+}
+
+Vec3 own_surface_point(StressRandom& random, QuadricKind kind)
+{
+    if (kind == QuadricKind::ellipsoid)
+        return random.unit();
+    const double turn = random.between(0.0, 6.2831853071795862);
+    const double z = random.between(-2.0, 2.0);
+    if (kind == QuadricKind::saddle) {
+        const double x = random.between(-1.5, 1.5);
+        return {x, 0.5 * z, x * x - 0.25 * z * z};
+    }
+    double height = z;
+    double radius = 1.0;
+    if (kind == QuadricKind::cone)
+        radius = std::abs(z);
+    if (kind == QuadricKind::paraboloid)
+        radius = std::sqrt(height = std::abs(z));
+    if (kind == QuadricKind::hyperboloid)
+        radius = std::sqrt(1.0 + z * z);
+    if (kind == QuadricKind::hyperboloid2) {
+        radius = std::abs(z);
+        height = std::copysign(std::sqrt(1.0 + z * z), z);
+    }
+    return {radius * std::cos(turn), radius * std::sin(turn), height};
+}
+
+}  // namespace packtrace::study

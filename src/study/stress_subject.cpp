@@ -1,0 +1,128 @@
+#include "study/stress_subject.hpp"
+
+#include <algorithm>
+#include <array>
+#include <chrono>
+#include <limits>
+#include <stdexcept>
+
+#include <packtrace/intersect.hpp>
+#include <packtrace/isa.hpp>
+
+#include "study/naive.hpp"
+
+namespace packtrace::study {
+namespace {
+
+/// Of so many runs the quickest counts.
+constexpr int timed_runs = 3;
+
+template <class Work>
+double quickest(const Work& work)
+{
+    using Clock = std::chrono::steady_clock;
+    double best = std::numeric_limits<double>::infinity();
+    for (int run = 0; run < timed_runs; ++run) {
+        const auto start = Clock::now();
+        work();
+        best = std::min(best, std::chrono::duration<double>(Clock::now() - start).count());
+    }
+    return best;
+}
+
+template <class Real>
+std::array<std::vector<Real>, 8> columns_of(const std::vector<StressRay>& rays)
+{
+    std::array<std::vector<Real>, 8> columns;
+    for (const StressRay& ray : rays) {
+        const double values[8] = {ray.org.x, ray.org.y, ray.org.z, ray.dir.x,
+                                  ray.dir.y, ray.dir.z, ray.t_min, ray.t_max};
+        for (std::size_t i = 0; i < 8; ++i)
+            columns[i].push_back(static_cast<Real>(values[i]));
+    }
+    return columns;
+}
+
+template <class Real>
+StressRun run_ray_scene(const RenderOptions& options, const StressGroup& group)
+{
+    const RayScene<Real> scene(group.scene, options);
+    const auto c = columns_of<Real>(group.rays);
+    const std::size_t n = group.rays.size();
+    std::vector<Real> t(n), x(n), y(n), z(n);
+    std::vector<std::int32_t> object(n);
+    const RaysView<Real> rays{c[0].data(), c[1].data(), c[2].data(),
+                              c[3].data(), c[4].data(), c[5].data(),
+                              c[6].data(), c[7].data(), n};
+    const HitsView<Real> hits{t.data(), object.data(), x.data(), y.data(), z.data()};
+    StressRun run;
+    run.seconds = quickest([&] { scene.closest_hits(rays, hits); });
+    for (std::size_t i = 0; i < n; ++i)
+        run.answers.push_back({object[i], t[i], Vec3(x[i], y[i], z[i])});
+    return run;
+}
+
+template <class Real>
+StressRun run_naive(const StressGroup& group)
+{
+    const NaiveScene<Real> scene(group.scene);
+    StressRun run;
+    run.answers.resize(group.rays.size());
+    run.seconds = quickest([&] {
+        for (std::size_t i = 0; i < group.rays.size(); ++i)
+            run.answers[i] = scene.closest_hit(group.rays[i]);
+    });
+    return run;
+}
+
+bool wanted(const std::vector<std::string>& names, const std::string& name)
+{
+    return names.empty() || std::find(names.begin(), names.end(), name) != names.end();
+}
+
+void add_packets(const StressOptions& options, std::vector<StressSubject>& subjects)
+{
+    const std::pair<const char*, Accuracy> modes[] = {
+        {"fast", Accuracy::fast}, {"auto", Accuracy::automatic}, {"robust", Accuracy::robust}};
+    for (const auto& [mode, accuracy] : modes) {
+        if (!wanted(options.modes, mode))
+            continue;
+        for (const IsaInfo& isa : list_isas()) {
+            if (!isa.supported || !(options.isa.empty() || options.isa == isa.name))
+                continue;
+            RenderOptions render;
+            render.isa = isa.name;
+            render.accuracy = accuracy;
+            subjects.push_back({"packet", mode, isa.name, render});
+        }
+    }
+}
+
+}  // namespace
+
+std::vector<StressSubject> stress_subjects(const StressOptions& options)
+{
+    std::vector<StressSubject> subjects;
+    if (wanted(options.kernels, "naive"))
+        subjects.push_back({"naive", "", "", {}});
+    if (wanted(options.kernels, "scalar")) {
+        RenderOptions render;
+        render.kernel = Kernel::scalar;
+        subjects.push_back({"scalar", "", "", render});
+    }
+    if (wanted(options.kernels, "packet"))
+        add_packets(options, subjects);
+    return subjects;
+}
+
+template <class Real>
+StressRun run_subject(const StressSubject& subject, const StressGroup& group)
+{
+    return subject.kernel == "naive" ? run_naive<Real>(group)
+                                     : run_ray_scene<Real>(subject.options, group);
+}
+
+template StressRun run_subject<float>(const StressSubject&, const StressGroup&);
+template StressRun run_subject<double>(const StressSubject&, const StressGroup&);
+
+}  // namespace packtrace::study
