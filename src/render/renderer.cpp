@@ -1,94 +1,62 @@
 #include <packtrace/renderer.hpp>
 
-#include <algorithm>
 #include <functional>
 
-#include <tbb/blocked_range.h>
-#include <tbb/enumerable_thread_specific.h>
-#include <tbb/parallel_for.h>
-#include <tbb/partitioner.h>
 #include <tbb/task_arena.h>
 
-#include "core/aligned_array.hpp"
-#include "dispatch/kernels.hpp"
-#include "lower/packed_scene.hpp"
-#include "render/camera_view.hpp"
-#include "render/progress.hpp"
+#include "render/check_sampling.hpp"
+#include "render/tile_loop.hpp"
+#include "render/tile_renderer.hpp"
 
 namespace packtrace {
+namespace {
+
+FrameCounts operator+(const FrameCounts& a, const FrameCounts& b)
+{
+    return {a.camera + b.camera, a.shadow + b.shadow, a.reflected + b.reflected,
+            a.refracted + b.refracted};
+}
+
+}  // namespace
 
 template <class Real>
 struct Renderer<Real>::State {
     int width;
     int height;
-    IsaInfo isa;
-    LoweredScene lowered;
-    const abi::FeatureKernels<Real>* kernels;
-    PackedScene<Real> packed;
-    abi::CameraView<Real> camera;
-    int threads;
-    std::function<void(double)> progress;
-    std::size_t scratch_bytes;
-    mutable tbb::enumerable_thread_specific<AlignedArray<std::byte>> scratch;
+    RenderOptions options;
+    TileRenderer<Real> tiles;
 
-    State(const Scene& scene, const RenderOptions& options)
+    State(const Scene& scene, const RenderOptions& options_)
         : width(scene.width),
           height(scene.height),
-          isa(choose_isa(options.isa, options.width)),
-          lowered(lower(scene)),
-          kernels(&kernels_for(precision<Real>(kernels_of(isa.name)), lowered.features)),
-          packed(lowered, options.traversal),
-          camera(camera_view<Real>(scene, lowered)),
-          threads(options.threads),
-          progress(options.progress),
-          scratch_bytes(kernels->scratch_bytes(packed.view())),
-          scratch([this] { return AlignedArray<std::byte>(scratch_bytes); })
+          options(options_),
+          tiles(scene, checked_sampling(options_))
     {
-    }
-
-    [[nodiscard]] abi::RayCounts render_tile(Image<Real>& image, int x, int y) const
-    {
-        abi::TileJob<Real> job;
-        job.scene = &packed.view();
-        job.camera = &camera;
-        job.x = x;
-        job.y = y;
-        job.width = std::min(abi::tile_size, width - x);
-        job.height = std::min(abi::tile_size, height - y);
-        job.rgb = image.pixel(x, y);
-        job.row_stride = std::ptrdiff_t{3} * width;
-        job.scratch = scratch.local().data();
-        return kernels->render_tile(job);
     }
 
     [[nodiscard]] FrameCounts render_tiles(Image<Real>& image) const
     {
-        const int columns = (width + abi::tile_size - 1) / abi::tile_size;
-        const int rows = (height + abi::tile_size - 1) / abi::tile_size;
-        tbb::enumerable_thread_specific<FrameCounts> counts;
-        Progress done(columns * rows, progress);
-        tbb::parallel_for(
-            tbb::blocked_range<int>(0, columns * rows, 1),
-            [&](const tbb::blocked_range<int>& tiles) {
-                FrameCounts& sum = counts.local();
-                for (int tile = tiles.begin(); tile != tiles.end(); ++tile) {
-                    const abi::RayCounts rays = render_tile(image, tile % columns * abi::tile_size,
-                                                            tile / columns * abi::tile_size);
-                    sum.camera += rays.camera;
-                    sum.shadow += rays.shadow;
-                    sum.reflected += rays.reflected;
-                    sum.refracted += rays.refracted;
-                    done.finish_piece();
-                }
-            },
-            tbb::simple_partitioner());
-        return counts.combine([](FrameCounts a, const FrameCounts& b) {
-            a.camera += b.camera;
-            a.shadow += b.shadow;
-            a.reflected += b.reflected;
-            a.refracted += b.refracted;
-            return a;
+        const TileGrid grid(width, height);
+        if (options.adaptive)
+            return render_adaptive(grid, image);
+        Progress done(grid.count, options.progress);
+        return for_each_tile(grid, done, [&](int x, int y) {
+            return options.samples > 1 ? tiles.render_mean(image, x, y)
+                                       : tiles.render_once(image, x, y);
         });
+    }
+
+    // All tiles once, then the pixels with contrast in full.
+    [[nodiscard]] FrameCounts render_adaptive(const TileGrid& grid, Image<Real>& image) const
+    {
+        Progress done(2 * grid.count, options.progress);
+        const FrameCounts first =
+            for_each_tile(grid, done, [&](int x, int y) { return tiles.render_once(image, x, y); });
+        ContrastMap<Real> contrast(image, *options.adaptive);
+        tbb::parallel_for(0, height, [&](int y) { contrast.mark_row(y); });
+        return first + for_each_tile(grid, done, [&](int x, int y) {
+                   return tiles.refine(image, contrast, x, y);
+               });
     }
 };
 
@@ -110,16 +78,16 @@ FrameCounts Renderer<Real>::render(Image<Real>& image) const
 {
     if (image.width != state_->width || image.height != state_->height)
         image = Image<Real>(state_->width, state_->height);
-    if (state_->threads == 0)
+    if (state_->options.threads == 0)
         return state_->render_tiles(image);
-    tbb::task_arena arena(state_->threads);
+    tbb::task_arena arena(state_->options.threads);
     return arena.execute([&] { return state_->render_tiles(image); });
 }
 
 template <class Real>
 const IsaInfo& Renderer<Real>::isa() const
 {
-    return state_->isa;
+    return state_->tiles.isa();
 }
 
 template class Renderer<float>;
