@@ -68,6 +68,7 @@ Color<Real> Reference<Real, Recorder>::trace_samples(int i, int j,
 template class Reference<float>;
 template class Reference<double>;
 template class Reference<long double>;
+template class Reference<float, TreeRecorder>;
 template class Reference<double, TreeRecorder>;
 
 }  // namespace packtrace::reference

@@ -1,62 +1,19 @@
 #include <packtrace/renderer.hpp>
 
-#include <functional>
-
-#include <tbb/task_arena.h>
-
-#include "render/check_sampling.hpp"
-#include "render/tile_loop.hpp"
-#include "render/tile_renderer.hpp"
+#include "dispatch/kernels.hpp"
+#include "render/frame_renderer.hpp"
 
 namespace packtrace {
-namespace {
-
-FrameCounts operator+(const FrameCounts& a, const FrameCounts& b)
-{
-    return {a.camera + b.camera, a.shadow + b.shadow, a.reflected + b.reflected,
-            a.refracted + b.refracted};
-}
-
-}  // namespace
 
 template <class Real>
 struct Renderer<Real>::State {
-    int width;
-    int height;
-    RenderOptions options;
-    TileRenderer<Real> tiles;
+    IsaInfo isa;
+    FrameRenderer<Real> frames;
 
-    State(const Scene& scene, const RenderOptions& options_)
-        : width(scene.width),
-          height(scene.height),
-          options(options_),
-          tiles(scene, checked_sampling(options_))
+    State(const Scene& scene, const RenderOptions& options)
+        : isa(choose_isa(options.isa, options.width)),
+          frames(scene, lower(scene), kernels_of(isa.name), options)
     {
-    }
-
-    [[nodiscard]] FrameCounts render_tiles(Image<Real>& image) const
-    {
-        const TileGrid grid(width, height);
-        if (options.adaptive)
-            return render_adaptive(grid, image);
-        Progress done(grid.count, options.progress);
-        return for_each_tile(grid, done, [&](int x, int y) {
-            return options.samples > 1 ? tiles.render_mean(image, x, y)
-                                       : tiles.render_once(image, x, y);
-        });
-    }
-
-    // All tiles once, then the pixels with contrast in full.
-    [[nodiscard]] FrameCounts render_adaptive(const TileGrid& grid, Image<Real>& image) const
-    {
-        Progress done(2 * grid.count, options.progress);
-        const FrameCounts first =
-            for_each_tile(grid, done, [&](int x, int y) { return tiles.render_once(image, x, y); });
-        ContrastMap<Real> contrast(image, *options.adaptive);
-        tbb::parallel_for(0, height, [&](int y) { contrast.mark_row(y); });
-        return first + for_each_tile(grid, done, [&](int x, int y) {
-                   return tiles.refine(image, contrast, x, y);
-               });
     }
 };
 
@@ -76,18 +33,13 @@ Renderer<Real>& Renderer<Real>::operator=(Renderer&&) noexcept = default;
 template <class Real>
 FrameCounts Renderer<Real>::render(Image<Real>& image) const
 {
-    if (image.width != state_->width || image.height != state_->height)
-        image = Image<Real>(state_->width, state_->height);
-    if (state_->options.threads == 0)
-        return state_->render_tiles(image);
-    tbb::task_arena arena(state_->options.threads);
-    return arena.execute([&] { return state_->render_tiles(image); });
+    return state_->frames.render(image);
 }
 
 template <class Real>
 const IsaInfo& Renderer<Real>::isa() const
 {
-    return state_->tiles.isa();
+    return state_->isa;
 }
 
 template class Renderer<float>;

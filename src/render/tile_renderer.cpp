@@ -19,17 +19,16 @@ Vec2 only_sample(const Scene& scene, const RenderOptions& options)
 }  // namespace
 
 template <class Real>
-TileRenderer<Real>::TileRenderer(const Scene& scene, const RenderOptions& options)
+TileRenderer<Real>::TileRenderer(const Scene& scene, const LoweredScene& lowered,
+                                 const abi::KernelTable& table, const RenderOptions& options)
     : width_(scene.width),
       height_(scene.height),
-      isa_(choose_isa(options.isa, options.width)),
-      lowered_(lower(scene)),
-      kernels_(&kernels_for(precision<Real>(kernels_of(isa_.name)), lowered_.features)),
-      packed_(lowered_, options.traversal),
+      kernels_(kernels_for(precision<Real>(table), lowered.features)),
+      packed_(lowered, options.traversal),
       pattern_(sample_pattern(options.samples)),
-      once_(camera_view<Real>(scene, lowered_, only_sample(scene, options))),
-      corner_(camera_view<Real>(scene, lowered_, Vec2(0.0))),
-      scratch_bytes_(kernels_->scratch_bytes(packed_.view())),
+      once_(camera_view<Real>(scene, lowered, only_sample(scene, options))),
+      corner_(camera_view<Real>(scene, lowered, Vec2(0.0))),
+      scratch_bytes_(kernels_.scratch_bytes(packed_.view())),
       scratch_([this] { return AlignedArray<std::byte>(scratch_bytes_); })
 {
 }
@@ -55,7 +54,7 @@ abi::RayCounts TileRenderer<Real>::render_once(Image<Real>& image, int x, int y)
     abi::TileJob<Real> job = job_at(once_, x, y);
     job.rgb = image.pixel(x, y);
     job.row_stride = std::ptrdiff_t{3} * width_;
-    return kernels_->render_tile(job);
+    return kernels_.render_tile(job);
 }
 
 // One sample of all pixels after the other, so that packets are as compact as with one sample.
@@ -73,7 +72,7 @@ abi::RayCounts TileRenderer<Real>::render_mean(Image<Real>& image, int x, int y)
     for (const Vec2& place : pattern_) {
         camera.first_x = corner_.first_x + static_cast<Real>(place.x);
         camera.first_y = corner_.first_y - static_cast<Real>(place.y);
-        counts += kernels_->render_tile(job);
+        counts += kernels_.render_tile(job);
         for (int i = 0; i < row_length * abi::tile_size; ++i)
             sums[i] += sample[i];
     }
@@ -93,7 +92,7 @@ abi::RayCounts TileRenderer<Real>::refine(Image<Real>& image, const ContrastMap<
     SampleBatch<Real> batch(pattern_, [&](const abi::TileSamples<Real>& samples, Real* rgb) {
         job.samples = &samples;
         job.rgb = rgb;
-        counts += kernels_->render_tile(job);
+        counts += kernels_.render_tile(job);
     });
     for (int number = 0; number < abi::tile_pixels; ++number) {
         const auto [column, row] = z_order_place(number);

@@ -1,12 +1,13 @@
 #pragma once
 
-#include <packtrace/renderer.hpp>
+#include <packtrace/render.hpp>
 
 #include <tbb/enumerable_thread_specific.h>
 
 #include "core/aligned_array.hpp"
 #include "image/contrast.hpp"
 #include "kernel_abi/kernel_table.hpp"
+#include "lower/lowered_scene.hpp"
 #include "lower/packed_scene.hpp"
 
 namespace packtrace {
@@ -15,8 +16,9 @@ namespace packtrace {
 template <class Real>
 class TileRenderer {
 public:
-    /// Throws as Renderer does.
-    TileRenderer(const Scene& scene, const RenderOptions& options);
+    /// Of the options the sampling counts. `lowered` is not kept.
+    TileRenderer(const Scene& scene, const LoweredScene& lowered, const abi::KernelTable& table,
+                 const RenderOptions& options);
 
     /// Fills the tile whose first pixel is (x, y) with one sample a pixel: the scene's own, or of
     /// several the centre.
@@ -29,20 +31,13 @@ public:
     abi::RayCounts refine(Image<Real>& image, const ContrastMap<Real>& contrast, int x,
                           int y) const;
 
-    [[nodiscard]] const IsaInfo& isa() const
-    {
-        return isa_;
-    }
-
 private:
     [[nodiscard]] abi::TileJob<Real> job_at(const abi::CameraView<Real>& camera, int x,
                                             int y) const;
 
     int width_;
     int height_;
-    IsaInfo isa_;
-    LoweredScene lowered_;
-    const abi::FeatureKernels<Real>* kernels_;
+    const abi::FeatureKernels<Real>& kernels_;
     PackedScene<Real> packed_;
     std::vector<Vec2> pattern_;
     abi::CameraView<Real> once_;    // one sample a pixel
