@@ -23,5 +23,6 @@ void add_info(CLI::App& app);
 void add_intersect(CLI::App& app);
 void add_onedim(CLI::App& app);
 void add_render(CLI::App& app);
+void add_report(CLI::App& app);
 
 }  // namespace packtrace::cli

@@ -24,6 +24,7 @@ int run(int argc, char** argv)
     app.require_subcommand(0, 1);
     add_render(app);
     add_compare(app);
+    add_report(app);
     add_explain(app);
     add_generate(app);
     add_info(app);

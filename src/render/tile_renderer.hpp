@@ -19,6 +19,8 @@ public:
     /// Of the options the sampling counts. `lowered` is not kept.
     TileRenderer(const Scene& scene, const LoweredScene& lowered, const abi::KernelTable& table,
                  const RenderOptions& options);
+    TileRenderer(const TileRenderer&) = delete;
+    TileRenderer& operator=(const TileRenderer&) = delete;
 
     /// Fills the tile whose first pixel is (x, y) with one sample a pixel: the scene's own, or of
     /// several the centre.

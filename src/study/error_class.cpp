@@ -27,7 +27,6 @@ constexpr std::array<ClassText, error_class_count> texts{{
     {"shading", "the same rays, but another colour that is no highlight"},
     {"near start", "a ray met or missed what lies by its start: epsilon"},
     {"lost hit", "a ray missed what lies squarely in its way, or met what does not"},
-    {"sampling", "the pixel's samples are too few for what they show"},
 }};
 
 // How far from its start, in epsilons, a hit still has to do with epsilon.
@@ -80,23 +79,19 @@ struct ErrorClassifier::State {
     double camera_t_min;
 
     State(const Scene& scene_, const LoweredScene& lowered)
-        : scene(scene_),
-          rays(scene_),
-          epsilon(lowered.epsilon),
-          camera_t_min(lowered.camera_t_min)
+        : scene(scene_), rays(scene_), epsilon(lowered.epsilon), camera_t_min(lowered.camera_t_min)
     {
     }
 
     // The difference that moves the colour most, so far.
     struct Finding {
-        double effect = 0.0;
-        std::optional<ErrorClass> kind;
+        std::optional<ClassifiedError> worst;
 
         template <class Judge>
-        void offer(double other_effect, const Judge& judge)
+        void offer(double effect, const Judge& judge)
         {
-            if (other_effect > effect)
-                *this = {other_effect, judge()};
+            if (effect > (worst ? worst->effect : 0.0))
+                worst = {judge(), effect};
         }
     };
 
@@ -115,7 +110,8 @@ struct ErrorClassifier::State {
             if (a != nullptr && b != nullptr)
                 compare(*a, *b, depth + 1, worst);
             else if (a != nullptr || b != nullptr)
-                worst.offer(largest(sum_of(a != nullptr ? *a : *b)),
+                // A child can change its parent's own light, too.
+                worst.offer(largest(sum_of(truth) - sum_of(tested)),
                             [] { return ErrorClass::deep; });
         }
     }
@@ -186,13 +182,11 @@ struct ErrorClassifier::State {
         // With nothing else in the way, the light is kept off by the surface it falls on.
         if (!blocked)
             return ErrorClass::near_start;
-        return blocker.t <= near_epsilons * epsilon ? ErrorClass::near_start
-                                                    : ErrorClass::lost_hit;
+        return blocker.t <= near_epsilons * epsilon ? ErrorClass::near_start : ErrorClass::lost_hit;
     }
 
     // The same object in the same light, of another colour.
-    [[nodiscard]] ErrorClass of_color(const RayNode& truth, const RayNode& tested,
-                                      int light) const
+    [[nodiscard]] ErrorClass of_color(const RayNode& truth, const RayNode& tested, int light) const
     {
         const Light& source = scene.lights[static_cast<std::size_t>(light)];
         const Vec3 way = glm::normalize(
@@ -221,12 +215,12 @@ ErrorClassifier::~ErrorClassifier() = default;
 ErrorClassifier::ErrorClassifier(ErrorClassifier&&) noexcept = default;
 ErrorClassifier& ErrorClassifier::operator=(ErrorClassifier&&) noexcept = default;
 
-std::optional<ErrorClass> ErrorClassifier::classify(const RayNode& truth,
-                                                    const RayNode& tested) const
+std::optional<ClassifiedError> ErrorClassifier::classify(const RayNode& truth,
+                                                         const RayNode& tested) const
 {
     State::Finding worst;
     state_->compare(truth, tested, 0, worst);
-    return worst.kind;
+    return worst.worst;
 }
 
 }  // namespace packtrace

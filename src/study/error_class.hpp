@@ -20,10 +20,14 @@ enum class ErrorClass {
     position,     ///< same rays, but the hit point or its normal is off
     shading,      ///< same rays, but another colour that is no highlight
     near_start,   ///< a ray met something, or missed it, that lies by its start: epsilon
-    lost_hit,     ///< a ray missed what lies squarely in its way, or met what does not
-    sampling      ///< no difference: the pixel's samples are too few
+    lost_hit      ///< a ray missed what lies squarely in its way, or met what does not
 };
-inline constexpr int error_class_count = 9;
+inline constexpr int error_class_count = 8;
+
+struct ClassifiedError {
+    ErrorClass kind = ErrorClass::shading;
+    double effect = 0.0;  ///< on the pixel, the largest of its channels
+};
 
 /// "silhouette", "shadow edge" …
 [[nodiscard]] std::string name_of(ErrorClass kind);
@@ -41,8 +45,8 @@ public:
     ErrorClassifier& operator=(ErrorClassifier&&) noexcept;
 
     /// None for trees that bring the same colour. `tested` is the tree that is in doubt.
-    [[nodiscard]] std::optional<ErrorClass> classify(const RayNode& truth,
-                                                     const RayNode& tested) const;
+    [[nodiscard]] std::optional<ClassifiedError> classify(const RayNode& truth,
+                                                          const RayNode& tested) const;
 
 private:
     struct State;

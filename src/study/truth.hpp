@@ -1,0 +1,32 @@
+#pragma once
+
+#include <filesystem>
+#include <functional>
+#include <string>
+
+#include <packtrace/image.hpp>
+#include <packtrace/scene.hpp>
+
+namespace packtrace {
+
+struct Truth {
+    Image<double> image;
+    std::string what;
+    double seconds = 0.0;  ///< that it took when it was made
+    bool cached = false;   ///< taken from a file
+};
+
+struct TruthRequest {
+    std::string text;             ///< tells the scene from others
+    int samples = 1;              ///< a pixel; one is the scene's own
+    std::filesystem::path cache;  ///< folder; nothing is kept where empty
+    std::function<void(double)> progress;
+};
+
+/// The scalar reference's picture: in long double at one sample a pixel, in double at more. A file
+/// of the cache is used only if its name agrees with the scene, its bytes with their checksum, and
+/// some of its pixels with what the reference gives now; else it is made anew. Throws FileError
+/// when it can't be kept.
+[[nodiscard]] Truth find_truth(const Scene& scene, const TruthRequest& request);
+
+}  // namespace packtrace
