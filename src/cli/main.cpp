@@ -25,6 +25,8 @@ int run(int argc, char** argv)
     add_render(app);
     add_compare(app);
     add_report(app);
+    add_profile(app);
+    add_bench(app);
     add_explain(app);
     add_generate(app);
     add_info(app);

@@ -55,6 +55,12 @@ const LightShare* light_of(const RayNode& ray, int light)
     return nullptr;
 }
 
+// Too far from each other for rounding.
+bool is_other_crossing(double t, double other)
+{
+    return std::abs(t - other) > 1e-2 * std::max(t, other);
+}
+
 bool apart(const Vec3& a, const Vec3& b)
 {
     return glm::distance(a, b) > position_tolerance * std::max(1.0, glm::length(a));
@@ -100,6 +106,10 @@ struct ErrorClassifier::State {
         if (truth.object != tested.object) {
             worst.offer(largest(sum_of(truth) - sum_of(tested)),
                         [&] { return of_ray(tested, depth); });
+            return;
+        }
+        if (const auto crossing = of_crossing(truth, tested, depth)) {
+            worst.offer(largest(sum_of(truth) - sum_of(tested)), [&] { return *crossing; });
             return;
         }
         compare_lights(truth, tested, depth, worst);
@@ -160,7 +170,25 @@ struct ErrorClassifier::State {
                                     std::numeric_limits<double>::infinity());
         if (!hit.stable || hit.object == tested.object)
             return depth == 0 ? ErrorClass::silhouette : ErrorClass::deep;
-        const bool near = std::min(hit.t, tested.t) <= near_epsilons * epsilon;
+        return near_or_lost(hit.t, tested.t, depth);
+    }
+
+    // The same object, but where the ray meets it another time; none where it does not.
+    [[nodiscard]] std::optional<ErrorClass> of_crossing(const RayNode& truth, const RayNode& tested,
+                                                        int depth) const
+    {
+        if (truth.object < 0 || !is_other_crossing(truth.t, tested.t))
+            return std::nullopt;
+        const auto hit = rays.trace(tested.org, tested.dir, depth == 0 ? camera_t_min : epsilon,
+                                    std::numeric_limits<double>::infinity());
+        if (!hit.stable || !is_other_crossing(hit.t, tested.t))
+            return std::nullopt;
+        return near_or_lost(hit.t, tested.t, depth);
+    }
+
+    [[nodiscard]] ErrorClass near_or_lost(double t, double tested_t, int depth) const
+    {
+        const bool near = std::min(t, tested_t) <= near_epsilons * epsilon;
         return depth > 0 && near ? ErrorClass::near_start : ErrorClass::lost_hit;
     }
 

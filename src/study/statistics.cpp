@@ -14,4 +14,12 @@ double quantile(std::vector<double> values, double share)
     return values[below] + (place - static_cast<double>(below)) * (values[above] - values[below]);
 }
 
+double median_difference(const std::vector<double>& a, const std::vector<double>& b)
+{
+    std::vector<double> differences;
+    for (std::size_t i = 0; i < a.size(); ++i)
+        differences.push_back(a[i] - b[i]);
+    return median_of(differences);
+}
+
 }  // namespace packtrace

@@ -13,6 +13,9 @@ namespace packtrace {
     return quantile(values, 0.5);
 }
 
+/// The median of a[i] - b[i]: of things measured in turns, what one takes more than the other.
+[[nodiscard]] double median_difference(const std::vector<double>& a, const std::vector<double>& b);
+
 /// The width of the middle half of the values, over their median.
 [[nodiscard]] inline double relative_spread(const std::vector<double>& values)
 {
