@@ -78,17 +78,25 @@ TEST_CASE("a profile's stages sum to the whole within three per cent", "[profile
     CHECK(best <= 0.03);
 }
 
-TEST_CASE("a frame without shadows, reflections or samples is faster", "[profile]")
+TEST_CASE("what-if rows are frames without the rays of what they lack", "[profile]")
 {
     ProfileOptions options;
     options.samples = 4;
     const Profile result = small_profile(options);
-    CHECK(result.frame > 0.0);
-    CHECK(row_of(result, "without anti-aliasing").saves > 0.5 * result.frame);
-    CHECK(row_of(result, "without reflections and refractions").saves > 0.0);
-    CHECK(row_of(result, "without lights but ambient ones").saves > 0.0);
-    CHECK(row_of(result, "without shadows").seconds > 0.0);
-    CHECK(row_of(result, "without highlights").seconds > 0.0);
+    CHECK(result.rays.shadow > 0);
+    CHECK(result.rays.reflected > 0);
+    CHECK(row_of(result, "without shadows").rays.shadow == 0);
+    CHECK(row_of(result, "without shadows").rays.reflected == result.rays.reflected);
+    CHECK(row_of(result, "without reflections and refractions").rays.reflected == 0);
+    CHECK(row_of(result, "without lights but ambient ones").rays.shadow == 0);
+    // Highlights make a light wanted where it shines from behind.
+    CHECK(row_of(result, "without highlights").rays.shadow <= result.rays.shadow);
+    CHECK(row_of(result, "without highlights").rays.reflected == result.rays.reflected);
+    const ProfileWhatIf& once = row_of(result, "without anti-aliasing");
+    CHECK(4 * once.rays.camera == result.rays.camera);
+    CHECK(once.saves > 0.3 * result.frame);
+    for (const ProfileWhatIf& row : result.what_if)
+        CHECK(row.seconds > 0.0);
 }
 
 TEST_CASE("the median difference is of pairs", "[profile]")

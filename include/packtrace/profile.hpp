@@ -39,6 +39,7 @@ struct ProfileWhatIf {
     std::string name;      ///< "without shadows"
     double seconds = 0.0;  ///< of the frame without it
     double saves = 0.0;    ///< seconds, the median of the differences between frames in turn
+    FrameCounts rays;      ///< of the frame without it
 };
 
 struct Profile {

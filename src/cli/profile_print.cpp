@@ -116,7 +116,8 @@ nlohmann::ordered_json profile_json(const std::string& scene, const Profile& pro
                                        {"seconds", generation.seconds}});
     for (const ProfileWhatIf& row : profile.what_if)
         json["what_if"].push_back(
-            {{"name", row.name}, {"seconds", row.seconds}, {"saves", row.saves}});
+            {{"name", row.name}, {"seconds", row.seconds}, {"saves", row.saves},
+                                   {"rays", rays_json(row.rays)}});
     return json;
 }
 

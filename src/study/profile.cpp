@@ -126,7 +126,8 @@ Profile profile(const std::string& text, const Scene& scene, const ProfileOption
     add_generations(runs, scene.max_depth, result);
     for (std::size_t i = static_cast<std::size_t>(scene.max_depth) + 1; i < runs.size(); ++i)
         result.what_if.push_back({runs[i].name, median_of(runs[i].seconds),
-                                  median_difference(runs.front().seconds, runs[i].seconds)});
+                                  median_difference(runs.front().seconds, runs[i].seconds),
+                                  runs[i].rays});
     measure_stages<Real>(text, scene, options, result);
     return result;
 }
