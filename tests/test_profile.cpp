@@ -2,6 +2,7 @@
 #include <packtrace/profile.hpp>
 
 #include <packtrace/isa.hpp>
+#include <packtrace/read_scene.hpp>
 
 #include <algorithm>
 #include <set>
@@ -97,6 +98,42 @@ TEST_CASE("what-if rows are frames without the rays of what they lack", "[profil
     CHECK(once.saves > 0.3 * result.frame);
     for (const ProfileWhatIf& row : result.what_if)
         CHECK(row.seconds > 0.0);
+}
+
+TEST_CASE("lanes are filled by all rays of whole tiles, and by fewer after each mirror",
+          "[profile]")
+{
+    const auto filled = [](const Scene& scene, const std::string& isa) {
+        std::vector<double> shares;
+        ProfileOptions options;
+        options.isa = isa;
+        options.repetitions = 1;
+        for (const auto& generation :
+             profile<float>(read_text(four_spheres_file), scene, options).generations)
+            shares.push_back(generation.lanes_filled.value());
+        return shares;
+    };
+    const Scene whole = four_spheres(64, 64);
+    for (const IsaInfo& isa : list_isas()) {
+        if (!isa.supported)
+            continue;
+        const std::vector<double> shares = filled(whole, isa.name);
+        CAPTURE(isa.name);
+        CHECK(shares[0] == 1.0);
+        CHECK(shares[1] > shares[3]);
+        for (const double share : shares) {
+            CHECK(share > 0.0);
+            CHECK(share <= 1.0);
+        }
+        // A single pixel is one lane of a packet.
+        CHECK(filled(four_spheres(1, 1), isa.name)[0] == 1.0 / isa.lanes_single);
+    }
+    Scene glass = read_scene(PACKTRACE_SOURCE_DIR "/scenes/nested_glass.scene");
+    set_size(glass, 16, 16);
+    ProfileOptions once;
+    once.repetitions = 1;
+    const std::string text = read_text(PACKTRACE_SOURCE_DIR "/scenes/nested_glass.scene");
+    CHECK_FALSE(profile<float>(text, glass, once).generations[0].lanes_filled.has_value());
 }
 
 TEST_CASE("the median difference is of pairs", "[profile]")

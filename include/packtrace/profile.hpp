@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -32,6 +33,9 @@ struct ProfileGeneration {
     int depth = 0;  ///< reflections and refractions before
     FrameCounts rays;
     double seconds = 0.0;
+    /// Share of lanes with a ray in the packets that its rays are traced in, at one sample a pixel;
+    /// none for scenes with glass.
+    std::optional<double> lanes_filled = {};
 };
 
 /// The frame without one thing, and so what that costs.

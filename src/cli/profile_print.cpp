@@ -52,7 +52,8 @@ void print_generations(std::ostream& to, const Profile& profile)
                    std::to_string(rays.shadow), std::to_string(rays.reflected),
                    std::to_string(rays.refracted), milliseconds(generation.seconds),
                    percent(generation.seconds, profile.frame),
-                   nanoseconds_per_ray(generation.seconds, rays.total())});
+                   nanoseconds_per_ray(generation.seconds, rays.total()),
+                   generation.lanes_filled ? percent(*generation.lanes_filled, 1.0) : "-"});
     }
     table.print(to);
 }
@@ -111,12 +112,17 @@ nlohmann::ordered_json profile_json(const std::string& scene, const Profile& pro
     for (const ProfileStage& stage : profile.stages)
         json["stages"].push_back({{"name", stage.name}, {"seconds", stage.seconds}});
     for (const ProfileGeneration& generation : profile.generations)
-        json["generations"].push_back({{"depth", generation.depth},
-                                       {"rays", rays_json(generation.rays)},
-                                       {"seconds", generation.seconds}});
+        json["generations"].push_back(
+            {{"depth", generation.depth},
+             {"rays", rays_json(generation.rays)},
+             {"seconds", generation.seconds},
+             {"lanes_filled", generation.lanes_filled
+                                  ? nlohmann::ordered_json(*generation.lanes_filled)
+                                  : nlohmann::ordered_json()}});
     for (const ProfileWhatIf& row : profile.what_if)
-        json["what_if"].push_back(
-            {{"name", row.name}, {"seconds", row.seconds}, {"saves", row.saves},
+        json["what_if"].push_back({{"name", row.name},
+                                   {"seconds", row.seconds},
+                                   {"saves", row.saves},
                                    {"rays", rays_json(row.rays)}});
     return json;
 }

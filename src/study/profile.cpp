@@ -7,6 +7,7 @@
 #include "dispatch/kernels.hpp"
 #include "image/png.hpp"
 #include "lower/packed_scene.hpp"
+#include "study/filled_lanes.hpp"
 #include "study/profile_subjects.hpp"
 #include "study/statistics.hpp"
 
@@ -96,12 +97,12 @@ void add_generations(const std::vector<ProfileRun>& runs, int max_depth, Profile
     const auto run_to = [&](int depth) -> const ProfileRun& {
         return depth < max_depth ? runs[static_cast<std::size_t>(depth) + 1] : runs.front();
     };
-    result.generations.push_back({0, run_to(0).rays, median_of(run_to(0).seconds)});
+    result.generations.push_back({0, run_to(0).rays, median_of(run_to(0).seconds), {}});
     for (int depth = 1; depth <= max_depth; ++depth) {
         const ProfileRun& run = run_to(depth);
         const ProfileRun& before = run_to(depth - 1);
         result.generations.push_back(
-            {depth, run.rays - before.rays, median_difference(run.seconds, before.seconds)});
+            {depth, run.rays - before.rays, median_difference(run.seconds, before.seconds), {}});
     }
 }
 
@@ -124,6 +125,9 @@ Profile profile(const std::string& text, const Scene& scene, const ProfileOption
     result.frame = median_of(runs.front().seconds);
     result.frame_spread = relative_spread(runs.front().seconds);
     add_generations(runs, scene.max_depth, result);
+    if (const auto filled = filled_lanes<Real>(scene, lower(scene), kernels_of(isa.name)))
+        for (ProfileGeneration& generation : result.generations)
+            generation.lanes_filled = (*filled)[static_cast<std::size_t>(generation.depth)];
     for (std::size_t i = static_cast<std::size_t>(scene.max_depth) + 1; i < runs.size(); ++i)
         result.what_if.push_back({runs[i].name, median_of(runs[i].seconds),
                                   median_difference(runs.front().seconds, runs[i].seconds),
