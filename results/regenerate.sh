@@ -10,10 +10,17 @@ for name in four_spheres quadrics transparent_shadows whitted shader sketch; do
 done
 
 echo "+ packtrace report"
-rm -rf results/report
-"$program" report "${scenes[@]}" --size 256x256 --truth-spp 64 --repetitions 5 -o results/report
 # The page holds all pictures, and is too large to keep here with them.
-find results/report \( -name report.html -o -name '*.png' ! -name arithmetic_truth.png \) -delete
+report() {
+    local folder=$1
+    shift
+    rm -rf "$folder"
+    "$program" report "$@" --repetitions 5 -o "$folder"
+    find "$folder" \( -name report.html -o -name '*.png' ! -name arithmetic_truth.png \) -delete
+}
+report results/report "${scenes[@]}" --size 256x256
+# Adaptive sampling saves most where few pixels lie on edges.
+report results/report_large scenes/four_spheres.scene --size 1024x1024
 
 echo "+ packtrace profile"
 mkdir -p results/profile

@@ -124,6 +124,14 @@ TEST_CASE("the truth of sampling is the mean of many samples in each pixel", "[r
     CHECK(sampling.runs[1].error.rmse < sampling.runs[0].error.rmse);
 }
 
+TEST_CASE("a truth with no more samples than its runs is refused", "[report]")
+{
+    ReportOptions options = short_options();
+    options.truth_samples = 4;
+    CHECK_THROWS_WITH(report(small_scene(), options),
+                      "report: a truth of 4 samples a pixel cannot judge runs of 4; give it more");
+}
+
 TEST_CASE("each run is timed as often as asked, and its median is of these times", "[report]")
 {
     for (const StudyReport& study : report(small_scene(), short_options()).studies)

@@ -14,7 +14,7 @@ ProgramResult run_report(const TempFolder& folder, std::vector<std::string> more
 {
     std::vector<std::string> words{"report",      "--cache", (folder / "cache").string(),
                                    "--size",      "40x32",   "--quick",
-                                   "--truth-spp", "4"};
+                                   "--truth-spp", "20"};
     words.insert(words.end(), more.begin(), more.end());
     return run_packtrace(words, environment);
 }

@@ -121,6 +121,8 @@ TEST_CASE("errors of sampling sit where trees of a pixel's samples part", "[repo
     ReportScene scene{"four spheres", "", four_spheres(96, 96)};
     ReportOptions options;
     options.repetitions = 1;
+    options.samples = {1};
+    options.adaptive = {};
     options.truth_samples = 64;
     options.isas = {choose_isa().name};
     const SceneReport whole = report(scene, options);

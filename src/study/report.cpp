@@ -1,5 +1,8 @@
 #include <packtrace/report.hpp>
 
+#include <algorithm>
+#include <stdexcept>
+
 #include "study/report_study.hpp"
 
 namespace packtrace {
@@ -16,10 +19,25 @@ Truth truth_of(const ReportScene& scene, Study study, const ReportOptions& optio
     return find_truth(scene.scene, request);
 }
 
+// A run with the samples of the truth would seem to have no error.
+void check_truth(const ReportOptions& options)
+{
+    int most = 0;
+    for (const int samples : options.samples)
+        most = std::max(most, samples);
+    for (const auto& [samples, contrast] : options.adaptive)
+        most = std::max(most, samples);
+    if (options.truth_samples <= most)
+        throw std::invalid_argument("report: a truth of " + std::to_string(options.truth_samples) +
+                                    " samples a pixel cannot judge runs of " +
+                                    std::to_string(most) + "; give it more");
+}
+
 }  // namespace
 
 SceneReport report(const ReportScene& scene, const ReportOptions& options)
 {
+    check_truth(options);
     SceneReport result;
     result.name = scene.name;
     result.width = scene.scene.width;
