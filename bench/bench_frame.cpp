@@ -34,7 +34,7 @@ void scalar_frame(benchmark::State& state, int threads)
     Image<Real> image;
     const auto rays = static_cast<std::int64_t>(Renderer<Real>(scene).render(image).total());
     for (auto _ : state)
-        benchmark::DoNotOptimize(render_reference<Real>(scene, threads, {}));
+        benchmark::DoNotOptimize(render_reference<Real>(scene, {.threads = threads}));
     state.SetItemsProcessed(state.iterations() * rays);
 }
 

@@ -33,5 +33,5 @@ if("sse42" IN_LIST PACKTRACE_KERNELS)
     packtrace_script_test(without_avx fast ${without_avx} "[without_avx],[isa]")
     # Tests of the command line start it outside the emulation.
     packtrace_script_test(without_avx.slow slow ${without_avx}
-                          "~[slow]~[unchecked_avx]~[cli]~[compare]~[explain_cli]~[frames]~[intersect_cli]~[intersect_errors]~[onedim_cli]")
+                          "~[slow]~[unchecked_avx]~[cli]~[compare]~[explain_cli]~[frames]~[intersect_cli]~[intersect_errors]~[onedim_cli]~[sampling_cli]~[report_cli]~[bench_cli]~[report_page]~[profile_cli]")
 endif()

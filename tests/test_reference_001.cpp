@@ -238,12 +238,13 @@ TEST_CASE("the picture does not depend on threads, and progress ends at one", "[
 {
     const Scene scene = four_spheres();
     double last = 0;
-    const Image<double> one = render_reference<double>(scene, 1, [&](double share) {
+    const auto watch = [&](double share) {
         CHECK(share > last);
         last = share;
-    });
+    };
+    const auto one = render_reference<double>(scene, {.threads = 1, .progress = watch});
     CHECK(last == 1.0);
-    CHECK(render_reference<double>(scene, 3).rgb == one.rgb);
+    CHECK(render_reference<double>(scene, {.threads = 3}).rgb == one.rgb);
     const auto color = reference::Reference<double>(scene).trace_pixel(7, 30);
     CHECK(one.pixel(7, 30)[0] == color.x);
     CHECK(one.pixel(7, 30)[2] == color.z);

@@ -15,6 +15,7 @@ struct Failed {};
 
 // Each adds its subcommand to `app`; one file a subcommand. A callback reports errors by
 // throwing: std::exception for bad input (exit 1), CLI::Error for wrong use (exit 2).
+void add_bench(CLI::App& app);
 void add_compare(CLI::App& app);
 void add_demo(CLI::App& app);
 void add_explain(CLI::App& app);
@@ -22,7 +23,9 @@ void add_generate(CLI::App& app);
 void add_info(CLI::App& app);
 void add_intersect(CLI::App& app);
 void add_onedim(CLI::App& app);
+void add_profile(CLI::App& app);
 void add_render(CLI::App& app);
+void add_report(CLI::App& app);
 void add_stress(CLI::App& app);
 
 }  // namespace packtrace::cli

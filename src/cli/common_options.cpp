@@ -13,6 +13,9 @@ namespace {
 constexpr int largest_side = 65536;
 constexpr int deepest = 64;
 constexpr int most_threads = 1024;
+// As RenderOptions::samples has them.
+constexpr int most_samples = 1024;
+constexpr int adaptive_samples = 16;
 
 // The two numbers of "640x480"; zeros when it is something else.
 std::pair<int, int> parse_size(const std::string& text)
@@ -89,6 +92,20 @@ void add_picture_options(CLI::App& command, PictureArguments& arguments)
         ->type_name("N");
 }
 
+void add_sampling_options(CLI::App& command, SamplingArguments& arguments)
+{
+    command
+        .add_option("--spp", arguments.samples,
+                    "Samples a pixel (default 1, where the scene says; 16 with --adaptive)")
+        ->check(whole_number(1, most_samples))
+        ->type_name("N");
+    command
+        .add_option("--adaptive", arguments.adaptive,
+                    "Take N samples only in pixels that differ by more than T from a neighbour")
+        ->check(non_negative_number())
+        ->type_name("T");
+}
+
 void add_threads_option(CLI::App& command, int& threads)
 {
     command.add_option("--threads", threads, "Threads (default one a processor)")
@@ -161,6 +178,16 @@ void apply(const PictureArguments& arguments, Scene& scene)
         std::tie(scene.width, scene.height) = parse_size(*arguments.size);
     if (arguments.depth)
         scene.max_depth = *arguments.depth;
+}
+
+void apply(const SamplingArguments& arguments, RenderOptions& options)
+{
+    options.adaptive = arguments.adaptive;
+    options.samples = arguments.samples.value_or(arguments.adaptive ? adaptive_samples : 1);
+    if (options.adaptive && options.samples == 1)
+        throw CLI::ValidationError(
+            "--adaptive: needs more than one sample a pixel; leave out "
+            "--spp or give it more");
 }
 
 RenderOptions render_options(const KernelArguments& arguments)

@@ -35,7 +35,14 @@ struct KernelArguments {
     int threads = 0;
 };
 
+/// How many samples a pixel gets: `--spp` and `--adaptive`.
+struct SamplingArguments {
+    std::optional<int> samples;
+    std::optional<double> adaptive;
+};
+
 void add_accuracy_option(CLI::App& command, std::optional<std::string>& accuracy);
+void add_sampling_options(CLI::App& command, SamplingArguments& arguments);
 void add_isa_options(CLI::App& command, IsaArguments& arguments);
 /// `--size` alone.
 void add_size_option(CLI::App& command, PictureArguments& arguments);
@@ -48,6 +55,10 @@ void add_threads_option(CLI::App& command, int& threads);
 
 /// Puts the size and depth asked for into the scene.
 void apply(const PictureArguments& arguments, Scene& scene);
+
+/// Puts the sampling asked for into the options. Throws CLI::ValidationError for `--adaptive` with
+/// one sample.
+void apply(const SamplingArguments& arguments, RenderOptions& options);
 
 /// Throws CLI::ValidationError for options that contradict each other.
 [[nodiscard]] RenderOptions render_options(const KernelArguments& arguments);

@@ -24,6 +24,9 @@ int run(int argc, char** argv)
     app.require_subcommand(0, 1);
     add_render(app);
     add_compare(app);
+    add_report(app);
+    add_profile(app);
+    add_bench(app);
     add_explain(app);
     add_generate(app);
     add_info(app);

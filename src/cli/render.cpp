@@ -57,7 +57,8 @@ void render_one(const RenderArguments& arguments, const Scene& scene, RenderOpti
 
 void run_render(const RenderArguments& arguments)
 {
-    const RenderOptions options = render_options(arguments.kernel);
+    RenderOptions options = render_options(arguments.kernel);
+    apply(arguments.sampling, options);
     check_animation_options(arguments);
     check_gamma(arguments);
     // Before the work, so that a wrong name doesn't cost it.
@@ -85,6 +86,7 @@ void add_render(CLI::App& app)
         ->type_name("IMAGE");
     add_kernel_options(*command, arguments->kernel);
     add_picture_options(*command, arguments->picture);
+    add_sampling_options(*command, arguments->sampling);
     add_animation_options(*command, arguments->animation);
     command
         ->add_option("--gamma", arguments->write.gamma,

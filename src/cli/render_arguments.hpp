@@ -29,6 +29,7 @@ struct RenderArguments {
     std::string output;
     KernelArguments kernel;
     PictureArguments picture;
+    SamplingArguments sampling;
     AnimationArguments animation;
     ImageWriteOptions write;
     bool quiet = false;

@@ -1,31 +1,15 @@
 #include <algorithm>
-#include <array>
 #include <cmath>
 
 #include <packtrace/compare.hpp>
 
+#include "image/color_ramp.hpp"
 #include "image/pixel_error.hpp"
 
 namespace packtrace {
 namespace {
 
-using Color = std::array<float, 3>;
-
 constexpr double decades = 6.0;
-constexpr std::array<Color, 6> stops{Color{0, 0, 0}, Color{0, 0, 1}, Color{0, 1, 0},
-                                     Color{1, 1, 0}, Color{1, 0, 0}, Color{1, 1, 1}};
-
-// The colour at `place` in [0, 1] along the stops.
-Color ramp(double place)
-{
-    const double scaled = place * (stops.size() - 1);
-    const std::size_t below = std::min(static_cast<std::size_t>(scaled), stops.size() - 2);
-    const auto share = static_cast<float>(scaled - static_cast<double>(below));
-    Color color{};
-    for (std::size_t c = 0; c < 3; ++c)
-        color[c] = stops[below][c] + share * (stops[below + 1][c] - stops[below][c]);
-    return color;
-}
 
 // Where an error lies between `largest` (1) and six decades below it (0).
 double place_of(double error, double largest)
@@ -53,7 +37,7 @@ Image<float> heatmap(const Image<Real>& a, const Image<Real>& b)
     }
     Image<float> map(a.width, a.height);
     for (std::size_t i = 0; i < errors.size(); ++i) {
-        const Color color = ramp(place_of(errors[i], largest));
+        const auto color = color_ramp(place_of(errors[i], largest));
         std::copy(color.begin(), color.end(), &map.rgb[3 * i]);
     }
     return map;

@@ -16,6 +16,16 @@ namespace packtrace::abi {
 inline constexpr int tile_size = 16;
 inline constexpr int tile_pixels = tile_size * tile_size;
 
+/// Places in a tile that camera rays go through, in place of one a pixel. Counted from its first
+/// pixel to the right and down, each in [0, tile_size]; the camera's own sample is not looked at
+/// otherwise, so that `first_x` and `first_y` should be those of a pixel's upper left corner.
+template <class Real>
+struct TileSamples {
+    alignas(64) Real column[tile_pixels] = {};
+    alignas(64) Real row[tile_pixels] = {};
+    int count = 0;  ///< 1 … tile_pixels
+};
+
 /// One tile of one frame. The kernel fills rows y … y + height - 1, columns x … x + width - 1
 /// of a picture whose pixels are interleaved r, g, b.
 template <class Real>
@@ -30,6 +40,9 @@ struct TileJob {
     std::ptrdiff_t row_stride = 0;  ///< elements from one row to the next
     /// Working memory of `scratch_bytes`, 64-byte aligned, one per thread.
     void* scratch = nullptr;
+    /// Null: one ray a pixel. Else the colour of sample i goes to rgb[3 i], and `width`, `height`
+    /// and `row_stride` are not looked at. closest_tile takes none.
+    const TileSamples<Real>* samples = nullptr;
     /// Must be set for kernels of Features::probe, and is not looked at by others.
     const Probe<Real>* probe = nullptr;
 };
@@ -48,6 +61,15 @@ struct RayCounts {
     std::uint64_t shadow = 0;
     std::uint64_t reflected = 0;
     std::uint64_t refracted = 0;
+
+    RayCounts& operator+=(const RayCounts& more)
+    {
+        camera += more.camera;
+        shadow += more.shadow;
+        reflected += more.reflected;
+        refracted += more.refracted;
+        return *this;
+    }
 };
 
 /// The kernels of one precision for one feature set.

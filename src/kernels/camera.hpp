@@ -32,10 +32,12 @@ struct TilePixels {
 template <class Real>
 constexpr TilePixels<Real> tile_pixels;
 
-/// The rays of a tile's packet that are within its width and height.
+/// The rays of a tile's packet that are within its width and height, or its samples.
 template <class Real>
 inline std::uint32_t lanes_inside(const abi::TileJob<Real>& job, int first)
 {
+    if (job.samples != nullptr)
+        return job.samples->count > first ? first_lanes<Real>(job.samples->count - first) : 0;
     if (job.width == abi::tile_size && job.height == abi::tile_size)
         return all_lanes<Real>;
     const vreal<Real> width(static_cast<Real>(job.width));
@@ -49,12 +51,16 @@ inline std::uint32_t lanes_inside(const abi::TileJob<Real>& job, int first)
 template <class Real>
 struct TileCamera {
     abi::CameraView<Real> view;
-    Real left, top;  ///< canvas position of the tile's first pixel
+    Real left, top;      ///< canvas position of the tile's first pixel
+    const Real* column;  ///< of each ray, counted from there
+    const Real* row;
 
     explicit TileCamera(const abi::TileJob<Real>& job)
         : view(*job.camera),
           left(static_cast<Real>(job.x) + view.first_x),
-          top(view.first_y - static_cast<Real>(job.y))
+          top(view.first_y - static_cast<Real>(job.y)),
+          column(job.samples != nullptr ? job.samples->column : tile_pixels<Real>.column),
+          row(job.samples != nullptr ? job.samples->row : tile_pixels<Real>.row)
     {
     }
 };
@@ -64,8 +70,8 @@ struct TileCamera {
 template <class Real>
 inline RayPacket<Real> camera_rays(const TileCamera<Real>& camera, int first, abi::RayUnits units)
 {
-    const vreal<Real> x = vreal<Real>(camera.left) + load(tile_pixels<Real>.column + first);
-    const vreal<Real> y = vreal<Real>(camera.top) - load(tile_pixels<Real>.row + first);
+    const vreal<Real> x = vreal<Real>(camera.left) + load(camera.column + first);
+    const vreal<Real> y = vreal<Real>(camera.top) - load(camera.row + first);
     Vec3v<Real> dir =
         madd<Real>(x, broadcast(camera.view.right),
                    madd<Real>(y, broadcast(camera.view.up), broadcast(camera.view.forward)));

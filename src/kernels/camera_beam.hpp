@@ -20,7 +20,9 @@ struct TileAxes {
     explicit TileAxes(const abi::TileJob<Real>& job)
     {
         const abi::CameraView<Real>& camera = *job.camera;
-        const Real half = Real(0.5) * static_cast<Real>(abi::tile_size - 1);
+        // From pixel to pixel, or for samples from edge to edge.
+        const int side = job.samples != nullptr ? abi::tile_size : abi::tile_size - 1;
+        const Real half = Real(0.5) * static_cast<Real>(side);
         const Real x = static_cast<Real>(job.x) + camera.first_x + half;
         const Real y = camera.first_y - static_cast<Real>(job.y) - half;
         for (int i = 0; i < 3; ++i) {

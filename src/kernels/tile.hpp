@@ -81,6 +81,19 @@ void trace_generation(const TileRun<F, Real>& run, const RayStream<F, Real>& ray
     }
 }
 
+/// The finished pixels, row by row, or the samples in their order.
+template <class Real>
+inline void write_tile(const abi::TileJob<Real>& job, const TilePixelColors<Real>& pixels)
+{
+    if (job.samples != nullptr) {
+        for (int i = 0; i < job.samples->count; ++i)
+            copy(job.rgb + 3 * i, pixels[i], 3);
+        return;
+    }
+    for (int row = 0; row < job.height; ++row)
+        write_row(job.rgb + row * job.row_stride, pixels, row, job.width);
+}
+
 template <abi::Features F, class Real>
 inline abi::RayCounts render_tile(const abi::TileJob<Real>& job)
 {
@@ -88,7 +101,8 @@ inline abi::RayCounts render_tile(const abi::TileJob<Real>& job)
     Workspace<F, Real> work(job.scratch, scene);
     TileMemory<F, Real>& memory = *work.memory;
     abi::RayCounts counts;
-    counts.camera = static_cast<unsigned>(job.width * job.height);
+    counts.camera =
+        static_cast<unsigned>(job.samples != nullptr ? job.samples->count : job.width * job.height);
 
     // Camera rays, against what the tile's beam may meet; a hit's first light replaces the
     // background.
@@ -105,8 +119,7 @@ inline abi::RayCounts render_tile(const abi::TileJob<Real>& job)
     const TileRun<F, Real> run{scene, work, counts};
     if (const auto* next = shade_chunk<PixelWrite::set>(run, 0))
         trace_generation(run, *next, 1);
-    for (int row = 0; row < job.height; ++row)
-        write_row(job.rgb + row * job.row_stride, memory.color, row, job.width);
+    write_tile(job, memory.color);
     return counts;
 }
 

@@ -16,6 +16,8 @@ struct Canvas {
     /// Canvas coordinates of the sample in column 0 and row 0.
     Real first_x{};
     Real first_y{};
+    Real half_width{};  ///< of the canvas, pixels
+    Real half_height{};
 
     explicit Canvas(const Scene& scene)
     {
@@ -25,8 +27,10 @@ struct Canvas {
         up = Vec3<Real>(basis.up);
         forward = Vec3<Real>(basis.forward);
         const Vec2 sample = scene.camera.pixel_sample;
-        first_x = static_cast<Real>(sample.x) - static_cast<Real>(scene.width) / 2;
-        first_y = static_cast<Real>(scene.height) / 2 - static_cast<Real>(sample.y);
+        half_width = static_cast<Real>(scene.width) / 2;
+        half_height = static_cast<Real>(scene.height) / 2;
+        first_x = static_cast<Real>(sample.x) - half_width;
+        first_y = half_height - static_cast<Real>(sample.y);
     }
 
     /// camera.rotation * (x*Vw/Cw, y*Vh/Ch, d) for the pixel in column `i` and row `j`.
@@ -34,6 +38,14 @@ struct Canvas {
     {
         const Real x = first_x + static_cast<Real>(i);
         const Real y = first_y - static_cast<Real>(j);
+        return x * right + y * up + forward;
+    }
+
+    /// The same through `sample` of the pixel, as Camera::pixel_sample has it.
+    [[nodiscard]] Vec3<Real> canvas_to_viewport(int i, int j, const Vec2& sample) const
+    {
+        const Real x = static_cast<Real>(sample.x) - half_width + static_cast<Real>(i);
+        const Real y = half_height - static_cast<Real>(sample.y) - static_cast<Real>(j);
         return x * right + y * up + forward;
     }
 };

@@ -85,6 +85,7 @@ Color<Real> General<Real, Recorder>::trace_ray(const Vec3<Real>& org, const Vec3
 template class General<float>;
 template class General<double>;
 template class General<long double>;
+template class General<float, TreeRecorder>;
 template class General<double, TreeRecorder>;
 
 }  // namespace packtrace::reference

@@ -113,6 +113,7 @@ Color<Real> Note000<Real, Recorder>::trace_ray(const Vec3<Real>& org, const Vec3
 template class Note000<float>;
 template class Note000<double>;
 template class Note000<long double>;
+template class Note000<float, TreeRecorder>;
 template class Note000<double, TreeRecorder>;
 
 }  // namespace packtrace::reference

@@ -113,6 +113,7 @@ Color<Real> Note001<Real, Recorder>::trace_ray(const Vec3<Real>& O, const Vec3<R
 template class Note001<float>;
 template class Note001<double>;
 template class Note001<long double>;
+template class Note001<float, TreeRecorder>;
 template class Note001<double, TreeRecorder>;
 
 }  // namespace packtrace::reference

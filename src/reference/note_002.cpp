@@ -92,6 +92,7 @@ Color<Real> Note002<Real, Recorder>::trace_ray(const Vec3<Real>& org, const Vec3
 template class Note002<float>;
 template class Note002<double>;
 template class Note002<long double>;
+template class Note002<float, TreeRecorder>;
 template class Note002<double, TreeRecorder>;
 
 }  // namespace packtrace::reference

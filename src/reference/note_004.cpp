@@ -152,6 +152,7 @@ Color<Real> Note004<Real, Recorder>::trace_ray(const Vec3<Real>& e, const Vec3<R
 template class Note004<float>;
 template class Note004<double>;
 template class Note004<long double>;
+template class Note004<float, TreeRecorder>;
 template class Note004<double, TreeRecorder>;
 
 }  // namespace packtrace::reference

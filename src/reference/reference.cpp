@@ -55,9 +55,20 @@ void Reference<Real, Recorder>::trace_row(int j, Image<Real>& image) const
     std::visit(trace_with, note_);
 }
 
+template <class Real, class Recorder>
+Color<Real> Reference<Real, Recorder>::trace_samples(int i, int j,
+                                                     const std::vector<Vec2>& places) const
+{
+    Color<Real> sum(0, 0, 0);
+    for (const Vec2& place : places)
+        sum += trace_ray(world_.canvas.position, world_.canvas.canvas_to_viewport(i, j, place));
+    return sum * (Real(1) / static_cast<Real>(places.size()));
+}
+
 template class Reference<float>;
 template class Reference<double>;
 template class Reference<long double>;
+template class Reference<float, TreeRecorder>;
 template class Reference<double, TreeRecorder>;
 
 }  // namespace packtrace::reference

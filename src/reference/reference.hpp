@@ -10,6 +10,7 @@
 #include "reference/world.hpp"
 
 #include <variant>
+#include <vector>
 
 namespace packtrace::reference {
 
@@ -33,6 +34,9 @@ public:
 
     /// Fills row `j` of `image`, which has the scene's size.
     void trace_row(int j, Image<Real>& image) const;
+
+    /// The mean colour of the pixel over samples at `places`, as Camera::pixel_sample has them.
+    [[nodiscard]] Color<Real> trace_samples(int i, int j, const std::vector<Vec2>& places) const;
 
     [[nodiscard]] const World<Real>& world() const
     {

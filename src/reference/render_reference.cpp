@@ -1,6 +1,8 @@
 #include "reference/render_reference.hpp"
 
+#include "image/contrast.hpp"
 #include "reference/reference.hpp"
+#include "scene/sample_pattern.hpp"
 
 #include <tbb/blocked_range.h>
 #include <tbb/global_control.h>
@@ -52,30 +54,57 @@ void run_on_threads(int threads, const Work& work)
     tbb::task_arena(threads).execute(work);
 }
 
+// The samples of render.hpp, in its order; `each_row` calls work for all rows.
+template <class Real, class EachRow>
+void trace_samples(const reference::Reference<Real>& reference, const RenderOptions& options,
+                   Image<Real>& image, const EachRow& each_row)
+{
+    const std::vector<Vec2> pattern = sample_pattern(options.samples);
+    const auto trace_pixels = [&](int j, const std::vector<Vec2>& places, const auto& wanted) {
+        for (int i = 0; i < image.width; ++i)
+            if (wanted(i, j))
+                put_pixel(image, i, j, reference.trace_samples(i, j, places));
+    };
+    const auto all = [](int, int) { return true; };
+    if (!options.adaptive)
+        return each_row([&](int j) { trace_pixels(j, pattern, all); });
+    each_row([&](int j) { trace_pixels(j, {Vec2(0.5)}, all); });
+    ContrastMap<Real> contrast(image, *options.adaptive);
+    for (int j = 0; j < image.height; ++j)
+        contrast.mark_row(j);
+    each_row([&](int j) { trace_pixels(j, pattern, contrast); });
+}
+
 }  // namespace
 
 template <class Real>
-Image<Real> render_reference(const Scene& scene, int threads,
-                             const std::function<void(double)>& progress)
+Image<Real> render_reference(const Scene& scene, const RenderOptions& options)
 {
-    const reference::Reference<Real> reference(scene);
     Image<Real> image(scene.width, scene.height);
-    RowCounter counter(image.height, progress);
-    const auto trace_rows = [&](const tbb::blocked_range<int>& rows) {
-        for (int j = rows.begin(); j != rows.end(); ++j) {
-            reference.trace_row(j, image);
-            counter.row_done();
-        }
+    const reference::Reference<Real> reference(scene);
+    RowCounter counter(options.adaptive ? 2 * image.height : image.height, options.progress);
+    const auto each_row = [&](const auto& work) {
+        tbb::parallel_for(
+            tbb::blocked_range<int>(0, image.height, 1),
+            [&](const tbb::blocked_range<int>& rows) {
+                for (int j = rows.begin(); j != rows.end(); ++j) {
+                    work(j);
+                    counter.row_done();
+                }
+            },
+            tbb::simple_partitioner());
     };
-    run_on_threads(threads, [&] {
-        tbb::parallel_for(tbb::blocked_range<int>(0, image.height, 1), trace_rows,
-                          tbb::simple_partitioner());
+    run_on_threads(options.threads, [&] {
+        if (options.samples == 1)
+            each_row([&](int j) { reference.trace_row(j, image); });
+        else
+            trace_samples(reference, options, image, each_row);
     });
     return image;
 }
 
-template Image<float> render_reference(const Scene&, int, const std::function<void(double)>&);
-template Image<double> render_reference(const Scene&, int, const std::function<void(double)>&);
-template Image<long double> render_reference(const Scene&, int, const std::function<void(double)>&);
+template Image<float> render_reference(const Scene&, const RenderOptions&);
+template Image<double> render_reference(const Scene&, const RenderOptions&);
+template Image<long double> render_reference(const Scene&, const RenderOptions&);
 
 }  // namespace packtrace

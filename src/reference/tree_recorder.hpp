@@ -2,6 +2,7 @@
 
 #include <packtrace/explain.hpp>
 #include "reference/closest_intersection.hpp"
+#include "reference/surface_normal.hpp"
 
 #include <vector>
 
@@ -40,21 +41,85 @@ public:
     {
     }
 
-    [[nodiscard]] Traced ray(const Vec3<double>& org, const Vec3<double>& dir) const;
-    void hit(double t, int object, const Vec3<double>& P, const Vec3<double>& N) const;
-    void outward_hit(const Bodies<double>& bodies, const Hit<double>& hit,
-                     const Vec3<double>& P) const;
-    [[nodiscard]] Color<double> miss(const Color<double>& color) const;
-    [[nodiscard]] Color<double> share(int light, const Color<double>& share) const;
-    [[nodiscard]] bool blocked(int light, bool blocked) const;
-    [[nodiscard]] Color<double> adds(const Color<double>& color) const;
-    void tint(const Color<double>& color) const;
-    [[nodiscard]] Color<double> local(const Color<double>& color) const;
-    void mirrored(const Color<double>& factor) const;
-    void refracted(const Color<double>& factor) const;
-    [[nodiscard]] Color<double> limit(const Color<double>& color) const;
+    template <class Real>
+    [[nodiscard]] Traced ray(const Vec3<Real>& org, const Vec3<Real>& dir) const
+    {
+        return begin_ray(rgb(org), rgb(dir));
+    }
+    template <class Real>
+    void hit(Real t, int object, const Vec3<Real>& P, const Vec3<Real>& N) const
+    {
+        now().t = static_cast<double>(t);
+        now().object = object;
+        now().point = rgb(P);
+        now().normal = rgb(N);
+    }
+    template <class Real>
+    void outward_hit(const Bodies<Real>& bodies, const Hit<Real>& at, const Vec3<Real>& P) const
+    {
+        hit(at.t, at.object, P, outward_normal(bodies, at, P));
+    }
+    template <class Real>
+    [[nodiscard]] Color<Real> miss(const Color<Real>& color) const
+    {
+        now().brought = rgb(color);
+        return color;
+    }
+    template <class Real>
+    [[nodiscard]] Color<Real> share(int light, const Color<Real>& share) const
+    {
+        now().lights.push_back({light, rgb(share), Rgb(0.0)});
+        return share;
+    }
+    [[nodiscard]] bool blocked(int light, bool blocked) const
+    {
+        now().lights.push_back({light, Rgb(blocked ? 0.0 : 1.0), Rgb(0.0)});
+        return blocked;
+    }
+    template <class Real>
+    [[nodiscard]] Color<Real> adds(const Color<Real>& color) const
+    {
+        now().lights.back().color += rgb(color);
+        return color;
+    }
+    template <class Real>
+    void tint(const Color<Real>& color) const
+    {
+        for (LightShare& light : now().lights)
+            light.color *= rgb(color);
+    }
+    template <class Real>
+    [[nodiscard]] Color<Real> local(const Color<Real>& color) const
+    {
+        now().local = rgb(color);
+        return color;
+    }
+    template <class Real>
+    void mirrored(const Color<Real>& factor) const
+    {
+        growth_->next = RayKind::mirrored;
+        growth_->factor = rgb(factor);
+    }
+    template <class Real>
+    void refracted(const Color<Real>& factor) const
+    {
+        growth_->next = RayKind::refracted;
+        growth_->factor = rgb(factor);
+    }
+    template <class Real>
+    [[nodiscard]] Color<Real> limit(const Color<Real>& color) const
+    {
+        now().brought += growth_->factor * rgb(color);
+        return color;
+    }
 
 private:
+    template <class Real>
+    [[nodiscard]] static Rgb rgb(const Vec3<Real>& v)
+    {
+        return {static_cast<double>(v.x), static_cast<double>(v.y), static_cast<double>(v.z)};
+    }
+    [[nodiscard]] Traced begin_ray(const Rgb& org, const Rgb& dir) const;
     [[nodiscard]] RayNode& now() const
     {
         return *growth_->open.back();

@@ -7,9 +7,11 @@
 
 namespace packtrace {
 
-/// The scene's camera over its own canvas, rounded to the kernels' precision.
+/// The scene's camera over its own canvas, rounded to the kernels' precision, its rays going
+/// through `sample` of each pixel.
 template <class Real>
-[[nodiscard]] abi::CameraView<Real> camera_view(const Scene& scene, const LoweredScene& lowered)
+[[nodiscard]] abi::CameraView<Real> camera_view(const Scene& scene, const LoweredScene& lowered,
+                                                const Vec2& sample)
 {
     const CameraBasis basis = camera_basis(scene.camera, scene.width, scene.height);
     abi::CameraView<Real> view;
@@ -19,12 +21,19 @@ template <class Real>
         view.up[axis] = static_cast<Real>(basis.up[axis]);
         view.forward[axis] = static_cast<Real>(basis.forward[axis]);
     }
-    view.first_x = static_cast<Real>(scene.camera.pixel_sample.x - 0.5 * scene.width);
-    view.first_y = static_cast<Real>(0.5 * scene.height - scene.camera.pixel_sample.y);
+    view.first_x = static_cast<Real>(sample.x - 0.5 * scene.width);
+    view.first_y = static_cast<Real>(0.5 * scene.height - sample.y);
     view.t_min = static_cast<Real>(lowered.camera_t_min);
     for (std::size_t i = 0; i < lowered.eye_inside.size(); ++i)
         view.inside[i] = lowered.eye_inside[i];
     return view;
+}
+
+/// The same, with its rays where the scene says.
+template <class Real>
+[[nodiscard]] abi::CameraView<Real> camera_view(const Scene& scene, const LoweredScene& lowered)
+{
+    return camera_view<Real>(scene, lowered, scene.camera.pixel_sample);
 }
 
 }  // namespace packtrace

@@ -6,6 +6,7 @@
 #include <packtrace/renderer.hpp>
 
 #include "reference/render_reference.hpp"
+#include "render/check_sampling.hpp"
 
 namespace packtrace {
 
@@ -13,7 +14,7 @@ template <class Real>
 Image<Real> render(const Scene& scene, const RenderOptions& options)
 {
     if (options.kernel == Kernel::scalar)
-        return render_reference<Real>(scene, options.threads, options.progress);
+        return render_reference<Real>(scene, checked_sampling(options));
     if constexpr (std::is_same_v<Real, long double>) {
         throw std::invalid_argument(
             "precision: packets come in single and double only; "

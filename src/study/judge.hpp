@@ -4,7 +4,7 @@
 #include <span>
 #include <vector>
 
-#include "study/truth.hpp"
+#include "study/wide_truth.hpp"
 
 namespace packtrace::study {
 

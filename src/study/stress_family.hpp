@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "study/stress_random.hpp"
-#include "study/truth.hpp"
+#include "study/wide_truth.hpp"
 
 namespace packtrace::study {
 

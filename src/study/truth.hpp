@@ -1,37 +1,32 @@
 #pragma once
 
-#include <limits>
-#include <vector>
+#include <filesystem>
+#include <functional>
+#include <string>
 
-#include "study/wide_surface.hpp"
+#include <packtrace/image.hpp>
+#include <packtrace/scene.hpp>
 
-// What a ray really meets, how sensitive that is, and how far it is from being otherwise.
-namespace packtrace::study {
+namespace packtrace {
 
-/// A ray with the bits the kernels are given.
-struct StressRay {
-    Vec3 org{0.0};
-    Vec3 dir{0.0};
-    double t_min = 0.0;
-    double t_max = 0.0;
+struct Truth {
+    Image<double> image;
+    std::string what;
+    double seconds = 0.0;  ///< that it took when it was made
+    bool cached = false;   ///< taken from a file
 };
 
-/// A place where a ray meets a surface, or would after a small change of its inputs.
-struct Meeting {
-    bool exists = false;
-    Wide t = 0;
-    std::int32_t object = -1;
-    WideVec normal;          ///< unit, outwards
-    double condition = 0.0;  ///< relative change of t for relative changes 1 of every input
-    double margin = 0.0;     ///< relative change of the inputs that makes `exists` another
-    /// The same for the ends of the range other than 0, which t is compared with as rounded.
-    double end_margin = std::numeric_limits<double>::infinity();
+struct TruthRequest {
+    std::string text;             ///< tells the scene from others
+    int samples = 1;              ///< a pixel; one is the scene's own
+    std::filesystem::path cache;  ///< folder; nothing is kept where empty
+    std::function<void(double)> progress;
 };
 
-/// Appends the meetings of one ray with one surface.
-void find_meetings(const WideSurface& surface, const StressRay& ray, std::vector<Meeting>& found);
+/// The scalar reference's picture: in long double at one sample a pixel, in double at more. A file
+/// of the cache is used only if its name agrees with the scene, its bytes with their checksum, and
+/// some of its pixels with what the reference gives now; else it is made anew. Throws FileError
+/// when it can't be kept.
+[[nodiscard]] Truth find_truth(const Scene& scene, const TruthRequest& request);
 
-/// How far the world point P is from the surface, to first order.
-[[nodiscard]] double distance_to(const WideSurface& surface, const WideVec& P);
-
-}  // namespace packtrace::study
+}  // namespace packtrace

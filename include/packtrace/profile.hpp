@@ -1,0 +1,93 @@
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include <packtrace/image.hpp>
+#include <packtrace/render.hpp>
+#include <packtrace/renderer.hpp>
+#include <packtrace/scene.hpp>
+
+// Where a frame's time goes. Everything is measured, in frames taken in turns.
+namespace packtrace {
+
+struct ProfileOptions {
+    std::string isa = "auto";
+    int threads = 1;
+    int samples = 1;  ///< as RenderOptions has them, and adaptive
+    std::optional<double> adaptive = {};
+    int repetitions = 9;
+};
+
+/// A part of the way from the lowered scene's text to a file's bytes.
+struct ProfileStage {
+    std::string name;
+    double seconds = 0.0;
+};
+
+/// What the rays of one generation took: the difference between frames that end after it and before
+/// it.
+struct ProfileGeneration {
+    int depth = 0;  ///< reflections and refractions before
+    FrameCounts rays;
+    double seconds = 0.0;
+    /// Share of lanes with a ray in the packets that its rays are traced in, at one sample a pixel;
+    /// none for scenes with glass.
+    std::optional<double> lanes_filled = {};
+};
+
+/// The frame without one thing, and so what that costs.
+struct ProfileWhatIf {
+    std::string name;      ///< "without shadows"
+    double seconds = 0.0;  ///< of the frame without it
+    double saves = 0.0;    ///< seconds, the median of the differences between frames in turn
+    FrameCounts rays;      ///< of the frame without it
+};
+
+struct Profile {
+    int width = 0;
+    int height = 0;
+    std::string isa;
+    int lanes = 0;
+    int threads = 1;
+    FrameCounts rays;
+    double frame = 0.0;         ///< seconds, median
+    double frame_spread = 0.0;  ///< of the middle half of the repetitions, over the median
+    double whole = 0.0;         ///< seconds from the scene's text to the PNG's bytes
+    std::vector<ProfileStage> stages;
+    std::vector<ProfileGeneration> generations;
+    std::vector<ProfileWhatIf> what_if;
+};
+
+/// `text` is read as a scene for the stages' sake, then changed as `scene` says: size, depth.
+/// `Real` is float or double.
+template <class Real>
+[[nodiscard]] Profile profile(const std::string& text, const Scene& scene,
+                              const ProfileOptions& options = {});
+
+/// A tile's time on its thread.
+struct TileSpan {
+    int x = 0;  ///< first pixel
+    int y = 0;
+    int thread = 0;      ///< counted from 0 in the order of their first tiles
+    double start = 0.0;  ///< seconds after the frame's
+    double seconds = 0.0;
+    std::uint64_t rays = 0;
+};
+
+/// The tiles of one frame, by their start.
+template <class Real>
+[[nodiscard]] std::vector<TileSpan> trace_tiles(const Scene& scene, const ProfileOptions& options);
+
+/// Seconds of each pixel's rays, in reading order: packets full of that pixel alone, over their
+/// lanes. What rays of neighbours cost each other by parting ways is not in it.
+template <class Real>
+[[nodiscard]] std::vector<double> pixel_costs(const Scene& scene, const ProfileOptions& options);
+
+/// The costs as a picture, black for the least through blue, green, yellow and red to white for
+/// the most, over a bar with its scale in nanoseconds.
+[[nodiscard]] Image<float> cost_picture(const std::vector<double>& seconds, int width, int height);
+
+}  // namespace packtrace

@@ -1,0 +1,122 @@
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <filesystem>
+#include <functional>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include <packtrace/compare.hpp>
+#include <packtrace/image.hpp>
+#include <packtrace/render.hpp>
+#include <packtrace/scene.hpp>
+
+// Error against run time: a scene rendered in many ways, each timed and held against the truth.
+namespace packtrace {
+
+/// What a set of runs varies, and so what its truth is: for `sampling` the mean over each pixel,
+/// for the others the colour at each pixel's one sample.
+enum class Study { arithmetic, depth, sampling };
+
+/// One way to render a scene.
+struct Variant {
+    std::string name;  ///< "packets single avx2, 2 threads"
+    Study study = Study::arithmetic;
+    Kernel kernel = Kernel::packet;
+    std::string precision = "single";  ///< or "double"
+    std::string isa;                   ///< packets only
+    int lanes = 1;                     ///< rays in a packet
+    int threads = 1;
+    int depth = 0;    ///< Scene::max_depth
+    int samples = 1;  ///< as RenderOptions has them
+    std::optional<double> adaptive = {};
+};
+
+/// A scene, and the bytes that tell it from others in the cache of truths.
+struct ReportScene {
+    std::string name;
+    std::string text;
+    Scene scene;
+};
+
+struct ReportOptions {
+    std::vector<int> threads{1, 2};
+    std::vector<std::string> isas;  ///< none: all this machine runs
+    std::vector<int> samples{1, 4, 16, 64};
+    /// Samples and contrast of adaptive sampling.
+    std::vector<std::pair<int, double>> adaptive{{16, 0.05}, {16, 0.01}, {20, 0.01}, {64, 0.01}};
+    int repetitions = 9;             ///< of each run, taken in turns
+    int truth_samples = 256;         ///< a pixel, of the truth of Study::sampling
+    double threshold = 1.0 / 255.0;  ///< a pixel further off counts as off
+    int classified = 128;            ///< pixels of a picture whose rays are compared, at most
+    double max_error = 1e-3;         ///< RMSE that the cheapest run is sought for
+    double max_time = 0.02;          ///< seconds that the most exact run is sought for
+    std::filesystem::path cache;     ///< folder of truths; none where empty
+    /// What is being done, and the share of it done, in [0, 1]. May be called from any thread.
+    std::function<void(const std::string& what, double share)> progress;
+};
+
+/// How many of the pixels looked at are off for one reason (study/error_class.hpp).
+struct ErrorShare {
+    std::string kind;
+    std::string meaning;
+    int pixels = 0;
+    double squared_error = 0.0;  ///< their part of the squared error of those looked at, in [0, 1]
+};
+
+/// What came of a variant.
+struct ReportRun {
+    Variant variant;
+    std::vector<double> seconds;  ///< by repetition
+    double median = 0.0;          ///< seconds
+    double spread = 0.0;          ///< of the middle half of the repetitions, over the median
+    std::uint64_t rays = 0;       ///< of a frame; 0 for the reference, which does not count
+    Comparison error;
+    int looked_at = 0;  ///< pixels whose rays were compared
+    /// Whether these are among those that are off, rather than the worst of a picture without.
+    bool looked_at_off = true;
+    std::vector<ErrorShare> shares;  ///< largest first, none that are empty
+    bool pareto = false;             ///< no run of the study is both faster and more exact
+    std::size_t picture = 0;         ///< index in StudyReport::pictures
+};
+
+struct ReportPicture {
+    std::string name;  ///< of the first variant that gave it, as a file's name
+    Image<double> image;
+};
+
+/// The runs of one study. `pictures` are told apart bit by bit; the first is the truth.
+struct StudyReport {
+    Study study = Study::arithmetic;
+    std::string truth;           ///< what it is
+    double truth_seconds = 0.0;  ///< what it took when it was made
+    bool truth_cached = false;
+    std::vector<ReportRun> runs;
+    std::vector<ReportPicture> pictures;
+};
+
+struct SceneReport {
+    std::string name;
+    int width = 0;
+    int height = 0;
+    std::vector<StudyReport> studies;
+};
+
+/// The ways a scene is rendered in a report: a further one is one more row here.
+[[nodiscard]] std::vector<Variant> report_variants(const Scene& scene,
+                                                   const ReportOptions& options);
+
+/// Renders a scene in all these ways. Throws what render() does.
+[[nodiscard]] SceneReport report(const ReportScene& scene, const ReportOptions& options = {});
+
+/// The fastest of the runs with an RMSE of at most `error`; null when there is none.
+[[nodiscard]] const ReportRun* cheapest_within(const StudyReport& study, double error);
+
+/// The run of least RMSE that takes at most `seconds`; null when there is none.
+[[nodiscard]] const ReportRun* most_exact_within(const StudyReport& study, double seconds);
+
+}  // namespace packtrace

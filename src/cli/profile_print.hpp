@@ -1,0 +1,20 @@
+#pragma once
+
+#include <iosfwd>
+#include <string>
+#include <vector>
+
+#include <packtrace/profile.hpp>
+
+#include <nlohmann/json.hpp>
+
+namespace packtrace::cli {
+
+void print_profile(std::ostream& to, const std::string& scene, const Profile& profile);
+
+[[nodiscard]] nlohmann::ordered_json profile_json(const std::string& scene, const Profile& profile);
+
+/// Events that chrome://tracing and Perfetto show: a row a thread.
+[[nodiscard]] nlohmann::ordered_json trace_json(const std::vector<TileSpan>& tiles);
+
+}  // namespace packtrace::cli

@@ -1,0 +1,32 @@
+#pragma once
+
+#include <packtrace/renderer.hpp>
+
+#include "render/tile_loop.hpp"
+#include "render/tile_renderer.hpp"
+
+namespace packtrace {
+
+/// Whole pictures of a lowered scene, with the kernels of any table: what Renderer is made of.
+template <class Real>
+class FrameRenderer {
+public:
+    /// Of the options threads, sampling and progress count. Throws std::invalid_argument for
+    /// impossible sampling.
+    FrameRenderer(const Scene& scene, const LoweredScene& lowered, const abi::KernelTable& table,
+                  const RenderOptions& options);
+
+    /// As Renderer::render.
+    FrameCounts render(Image<Real>& image) const;
+
+private:
+    [[nodiscard]] FrameCounts render_tiles(Image<Real>& image) const;
+    [[nodiscard]] FrameCounts render_adaptive(const TileGrid& grid, Image<Real>& image) const;
+
+    int width_;
+    int height_;
+    RenderOptions options_;
+    TileRenderer<Real> tiles_;
+};
+
+}  // namespace packtrace

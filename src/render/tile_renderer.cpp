@@ -1,0 +1,109 @@
+#include "render/tile_renderer.hpp"
+
+#include <algorithm>
+#include <stdexcept>
+
+#include "dispatch/kernels.hpp"
+#include "render/camera_view.hpp"
+#include "render/sample_batch.hpp"
+#include "scene/sample_pattern.hpp"
+
+namespace packtrace {
+namespace {
+
+Vec2 only_sample(const Scene& scene, const RenderOptions& options)
+{
+    return options.samples > 1 ? Vec2(0.5) : scene.camera.pixel_sample;
+}
+
+}  // namespace
+
+template <class Real>
+TileRenderer<Real>::TileRenderer(const Scene& scene, const LoweredScene& lowered,
+                                 const abi::KernelTable& table, const RenderOptions& options)
+    : width_(scene.width),
+      height_(scene.height),
+      kernels_(kernels_for(precision<Real>(table), lowered.features)),
+      packed_(lowered, options.traversal),
+      pattern_(sample_pattern(options.samples)),
+      once_(camera_view<Real>(scene, lowered, only_sample(scene, options))),
+      corner_(camera_view<Real>(scene, lowered, Vec2(0.0))),
+      scratch_bytes_(kernels_.scratch_bytes(packed_.view())),
+      scratch_([this] { return AlignedArray<std::byte>(scratch_bytes_); })
+{
+}
+
+template <class Real>
+abi::TileJob<Real> TileRenderer<Real>::job_at(const abi::CameraView<Real>& camera, int x,
+                                              int y) const
+{
+    abi::TileJob<Real> job;
+    job.scene = &packed_.view();
+    job.camera = &camera;
+    job.x = x;
+    job.y = y;
+    job.width = std::min(abi::tile_size, width_ - x);
+    job.height = std::min(abi::tile_size, height_ - y);
+    job.scratch = scratch_.local().data();
+    return job;
+}
+
+template <class Real>
+abi::RayCounts TileRenderer<Real>::render_once(Image<Real>& image, int x, int y) const
+{
+    abi::TileJob<Real> job = job_at(once_, x, y);
+    job.rgb = image.pixel(x, y);
+    job.row_stride = std::ptrdiff_t{3} * width_;
+    return kernels_.render_tile(job);
+}
+
+// One sample of all pixels after the other, so that packets are as compact as with one sample.
+template <class Real>
+abi::RayCounts TileRenderer<Real>::render_mean(Image<Real>& image, int x, int y) const
+{
+    constexpr int row_length = 3 * abi::tile_size;
+    Real sums[row_length * abi::tile_size] = {};
+    Real sample[row_length * abi::tile_size] = {};
+    abi::CameraView<Real> camera = corner_;
+    abi::TileJob<Real> job = job_at(camera, x, y);
+    job.rgb = sample;
+    job.row_stride = row_length;
+    abi::RayCounts counts;
+    for (const Vec2& place : pattern_) {
+        camera.first_x = corner_.first_x + static_cast<Real>(place.x);
+        camera.first_y = corner_.first_y - static_cast<Real>(place.y);
+        counts += kernels_.render_tile(job);
+        for (int i = 0; i < row_length * abi::tile_size; ++i)
+            sums[i] += sample[i];
+    }
+    const Real share = Real(1) / static_cast<Real>(pattern_.size());
+    for (int row = 0; row < job.height; ++row)
+        for (int i = 0; i < 3 * job.width; ++i)
+            image.pixel(x, y + row)[i] = share * sums[row * row_length + i];
+    return counts;
+}
+
+template <class Real>
+abi::RayCounts TileRenderer<Real>::refine(Image<Real>& image, const ContrastMap<Real>& contrast,
+                                          int x, int y) const
+{
+    abi::TileJob<Real> job = job_at(corner_, x, y);
+    abi::RayCounts counts;
+    SampleBatch<Real> batch(pattern_, [&](const abi::TileSamples<Real>& samples, Real* rgb) {
+        job.samples = &samples;
+        job.rgb = rgb;
+        counts += kernels_.render_tile(job);
+    });
+    for (int number = 0; number < abi::tile_pixels; ++number) {
+        const auto [column, row] = z_order_place(number);
+        if (column < job.width && row < job.height && contrast(x + column, y + row))
+            batch.add_pixel(column, row, image.pixel(x + column, y + row));
+    }
+    batch.finish();
+    return counts;
+}
+
+template class TileRenderer<float>;
+template class TileRenderer<double>;
+
+}  // namespace packtrace

@@ -1,0 +1,51 @@
+#pragma once
+
+#include <packtrace/render.hpp>
+
+#include <tbb/enumerable_thread_specific.h>
+
+#include "core/aligned_array.hpp"
+#include "image/contrast.hpp"
+#include "kernel_abi/kernel_table.hpp"
+#include "lower/lowered_scene.hpp"
+#include "lower/packed_scene.hpp"
+
+namespace packtrace {
+
+/// A scene and the kernels for it, tile by tile. Thread-safe; a thread's first tile allocates.
+template <class Real>
+class TileRenderer {
+public:
+    /// Of the options the sampling counts. `lowered` is not kept.
+    TileRenderer(const Scene& scene, const LoweredScene& lowered, const abi::KernelTable& table,
+                 const RenderOptions& options);
+    TileRenderer(const TileRenderer&) = delete;
+    TileRenderer& operator=(const TileRenderer&) = delete;
+
+    /// Fills the tile whose first pixel is (x, y) with one sample a pixel: the scene's own, or of
+    /// several the centre.
+    abi::RayCounts render_once(Image<Real>& image, int x, int y) const;
+
+    /// The same with the mean of all samples.
+    abi::RayCounts render_mean(Image<Real>& image, int x, int y) const;
+
+    /// Gives the pixels where `contrast` says so what render_mean() gives them, bit for bit.
+    abi::RayCounts refine(Image<Real>& image, const ContrastMap<Real>& contrast, int x,
+                          int y) const;
+
+private:
+    [[nodiscard]] abi::TileJob<Real> job_at(const abi::CameraView<Real>& camera, int x,
+                                            int y) const;
+
+    int width_;
+    int height_;
+    const abi::FeatureKernels<Real>& kernels_;
+    PackedScene<Real> packed_;
+    std::vector<Vec2> pattern_;
+    abi::CameraView<Real> once_;    // one sample a pixel
+    abi::CameraView<Real> corner_;  // through the upper left corner of each pixel
+    std::size_t scratch_bytes_;
+    mutable tbb::enumerable_thread_specific<AlignedArray<std::byte>> scratch_;
+};
+
+}  // namespace packtrace

@@ -1,0 +1,142 @@
+#include <packtrace/profile.hpp>
+
+#include <chrono>
+
+#include <packtrace/read_scene.hpp>
+
+#include "dispatch/kernels.hpp"
+#include "image/png.hpp"
+#include "lower/packed_scene.hpp"
+#include "study/filled_lanes.hpp"
+#include "study/profile_subjects.hpp"
+#include "study/statistics.hpp"
+
+namespace packtrace {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+FrameCounts operator-(const FrameCounts& a, const FrameCounts& b)
+{
+    return {a.camera - b.camera, a.shadow - b.shadow, a.reflected - b.reflected,
+            a.refracted - b.refracted};
+}
+
+// Times steps that follow each other without a gap.
+class StageClock {
+public:
+    template <class Work>
+    auto time(const std::string& name, const Work& work)
+    {
+        const auto start = Clock::now();
+        auto result = work();
+        stages.push_back({name, std::chrono::duration<double>(Clock::now() - start).count()});
+        return result;
+    }
+    std::vector<ProfileStage> stages;
+};
+
+// The whole way once; the steps' medians come from several.
+template <class Real>
+std::vector<ProfileStage> stages_once(const std::string& text, const Scene& scene,
+                                      const ProfileOptions& options, double& whole)
+{
+    const auto start = Clock::now();
+    StageClock clock;
+    Scene read = clock.time("scene load", [&] { return parse_scene(text, "scene"); });
+    read.width = scene.width;
+    read.height = scene.height;
+    read.max_depth = scene.max_depth;
+    read.camera = scene.camera;
+    const LoweredScene lowered = clock.time("lowering", [&] { return lower(read); });
+    // A renderer packs for itself; this is what it takes alone.
+    const auto packed_start = Clock::now();
+    {
+        const PackedScene<Real> packed(lowered);
+    }
+    const std::chrono::duration<double> packing = Clock::now() - packed_start;
+    RenderOptions render_options;
+    render_options.isa = options.isa;
+    render_options.threads = options.threads;
+    render_options.samples = options.samples;
+    render_options.adaptive = options.adaptive;
+    const auto renderer_start = Clock::now();
+    const Renderer<Real> renderer(read, render_options);
+    const std::chrono::duration<double> extra = Clock::now() - renderer_start;
+    clock.stages.push_back({"packing, hierarchy of boxes", packing.count()});
+    Image<Real> image;
+    clock.time("frame", [&] { return renderer.render(image); });
+    const Bytes png =
+        clock.time("encoding as PNG", [&] { return encode_png(convert<float>(image)); });
+    whole = std::chrono::duration<double>(Clock::now() - start).count() - extra.count();
+    return clock.stages;
+}
+
+template <class Real>
+void measure_stages(const std::string& text, const Scene& scene, const ProfileOptions& options,
+                    Profile& result)
+{
+    std::vector<std::vector<double>> seconds;
+    std::vector<double> wholes;
+    for (int i = 0; i < options.repetitions; ++i) {
+        double whole = 0.0;
+        result.stages = stages_once<Real>(text, scene, options, whole);
+        wholes.push_back(whole);
+        seconds.resize(result.stages.size());
+        for (std::size_t stage = 0; stage < seconds.size(); ++stage)
+            seconds[stage].push_back(result.stages[stage].seconds);
+    }
+    for (std::size_t stage = 0; stage < seconds.size(); ++stage)
+        result.stages[stage].seconds = median_of(seconds[stage]);
+    result.whole = median_of(wholes);
+}
+
+// A generation is what the frame that ends after it has over the one that ends before.
+void add_generations(const std::vector<ProfileRun>& runs, int max_depth, Profile& result)
+{
+    const auto run_to = [&](int depth) -> const ProfileRun& {
+        return depth < max_depth ? runs[static_cast<std::size_t>(depth) + 1] : runs.front();
+    };
+    result.generations.push_back({0, run_to(0).rays, median_of(run_to(0).seconds), {}});
+    for (int depth = 1; depth <= max_depth; ++depth) {
+        const ProfileRun& run = run_to(depth);
+        const ProfileRun& before = run_to(depth - 1);
+        result.generations.push_back(
+            {depth, run.rays - before.rays, median_difference(run.seconds, before.seconds), {}});
+    }
+}
+
+}  // namespace
+
+template <class Real>
+Profile profile(const std::string& text, const Scene& scene, const ProfileOptions& options)
+{
+    const IsaInfo isa = choose_isa(options.isa);
+    Profile result;
+    result.width = scene.width;
+    result.height = scene.height;
+    result.isa = isa.name;
+    result.lanes = sizeof(Real) == sizeof(float) ? isa.lanes_single : isa.lanes_double;
+    result.threads = options.threads;
+
+    std::vector<ProfileRun> runs = profile_runs<Real>(scene, options);
+    take_times(runs, options.repetitions);
+    result.rays = runs.front().rays;
+    result.frame = median_of(runs.front().seconds);
+    result.frame_spread = relative_spread(runs.front().seconds);
+    add_generations(runs, scene.max_depth, result);
+    if (const auto filled = filled_lanes<Real>(scene, lower(scene), kernels_of(isa.name)))
+        for (ProfileGeneration& generation : result.generations)
+            generation.lanes_filled = (*filled)[static_cast<std::size_t>(generation.depth)];
+    for (std::size_t i = static_cast<std::size_t>(scene.max_depth) + 1; i < runs.size(); ++i)
+        result.what_if.push_back({runs[i].name, median_of(runs[i].seconds),
+                                  median_difference(runs.front().seconds, runs[i].seconds),
+                                  runs[i].rays});
+    measure_stages<Real>(text, scene, options, result);
+    return result;
+}
+
+template Profile profile<float>(const std::string&, const Scene&, const ProfileOptions&);
+template Profile profile<double>(const std::string&, const Scene&, const ProfileOptions&);
+
+}  // namespace packtrace

@@ -1,0 +1,153 @@
+#include "study/profile_subjects.hpp"
+
+#include <algorithm>
+#include <chrono>
+#include <memory>
+#include <utility>
+
+#include "core/aligned_array.hpp"
+#include "dispatch/kernels.hpp"
+#include "render/camera_view.hpp"
+#include "render/frame_renderer.hpp"
+
+namespace packtrace {
+namespace {
+
+RenderOptions render_options(const ProfileOptions& options)
+{
+    RenderOptions result;
+    result.threads = options.threads;
+    result.samples = options.samples;
+    result.adaptive = options.adaptive;
+    return result;
+}
+
+template <class Real>
+ProfileRun frame_run(const std::string& name, const Scene& scene, const LoweredScene& lowered,
+                     const abi::KernelTable& table, const RenderOptions& options)
+{
+    const auto renderer = std::make_shared<FrameRenderer<Real>>(scene, lowered, table, options);
+    const auto image = std::make_shared<Image<Real>>();
+    return {name, [renderer, image] { return renderer->render(*image); }, {}, {}};
+}
+
+// Camera rays and what they meet, on this thread.
+template <class Real>
+class CameraRays {
+public:
+    CameraRays(const Scene& scene, const LoweredScene& lowered, const abi::KernelTable& table)
+        : width_(scene.width),
+          height_(scene.height),
+          packed_(lowered),
+          camera_(camera_view<Real>(scene, lowered)),
+          kernels_(kernels_for(precision<Real>(table), lowered.features)),
+          scratch_(kernels_.scratch_bytes(packed_.view()))
+    {
+    }
+
+    FrameCounts trace()
+    {
+        abi::TileJob<Real> job;
+        job.scene = &packed_.view();
+        job.camera = &camera_;
+        job.scratch = scratch_.data();
+        for (job.y = 0; job.y < height_; job.y += abi::tile_size)
+            for (job.x = 0; job.x < width_; job.x += abi::tile_size) {
+                job.width = std::min(abi::tile_size, width_ - job.x);
+                job.height = std::min(abi::tile_size, height_ - job.y);
+                kernels_.closest_tile(job, hits_);
+            }
+        return {static_cast<std::uint64_t>(width_) * static_cast<std::uint64_t>(height_), 0, 0, 0};
+    }
+
+private:
+    int width_;
+    int height_;
+    PackedScene<Real> packed_;
+    abi::CameraView<Real> camera_;
+    const abi::FeatureKernels<Real>& kernels_;
+    AlignedArray<std::byte> scratch_;
+    abi::TileHits<Real> hits_;
+};
+
+template <class Real>
+ProfileRun camera_run(const Scene& scene, const LoweredScene& lowered,
+                      const abi::KernelTable& table)
+{
+    const auto rays = std::make_shared<CameraRays<Real>>(scene, lowered, table);
+    return {"camera rays and their closest hits alone", [rays] { return rays->trace(); }, {}, {}};
+}
+
+LoweredScene without_highlights(LoweredScene lowered)
+{
+    for (LoweredMaterial& material : lowered.materials)
+        material.highlight = Rgb(0.0);
+    return lowered;
+}
+
+LoweredScene without_shadows(LoweredScene lowered)
+{
+    lowered.shadows = false;
+    lowered.transparent_shadows = false;
+    return lowered;
+}
+
+LoweredScene without_lights(LoweredScene lowered)
+{
+    lowered.lights.clear();
+    return lowered;
+}
+
+LoweredScene ended_at(LoweredScene lowered, int depth)
+{
+    lowered.max_depth = depth;
+    return lowered;
+}
+
+}  // namespace
+
+void take_times(std::vector<ProfileRun>& runs, int repetitions)
+{
+    for (int repetition = -1; repetition < repetitions; ++repetition)
+        for (ProfileRun& run : runs) {
+            const auto start = std::chrono::steady_clock::now();
+            run.rays = run.render();
+            const std::chrono::duration<double> time = std::chrono::steady_clock::now() - start;
+            if (repetition >= 0)
+                run.seconds.push_back(time.count());
+        }
+}
+
+template <class Real>
+std::vector<ProfileRun> profile_runs(const Scene& scene, const ProfileOptions& options)
+{
+    const LoweredScene lowered = lower(scene);
+    const auto& table = kernels_of(choose_isa(options.isa).name);
+    const RenderOptions sampling = render_options(options);
+    std::vector<ProfileRun> runs;
+    const auto add = [&](const std::string& name, const LoweredScene& changed) {
+        runs.push_back(frame_run<Real>(name, scene, changed, table, sampling));
+    };
+    add("frame", lowered);
+    for (int depth = 0; depth < scene.max_depth; ++depth)
+        add("depth " + std::to_string(depth), ended_at(lowered, depth));
+    add("without highlights", without_highlights(lowered));
+    add("without shadows", without_shadows(lowered));
+    if (scene.max_depth > 0)
+        add("without reflections and refractions", ended_at(lowered, 0));
+    add("without lights but ambient ones", without_lights(lowered));
+    if (options.samples > 1) {
+        RenderOptions once = sampling;
+        once.samples = 1;
+        once.adaptive.reset();
+        runs.push_back(frame_run<Real>("without anti-aliasing", scene, lowered, table, once));
+    }
+    if (options.threads == 1 && options.samples == 1)
+        runs.push_back(camera_run<Real>(scene, lowered, table));
+    return runs;
+}
+
+template std::vector<ProfileRun> profile_runs<float>(const Scene&, const ProfileOptions&);
+template std::vector<ProfileRun> profile_runs<double>(const Scene&, const ProfileOptions&);
+
+}  // namespace packtrace

@@ -1,0 +1,31 @@
+#pragma once
+
+#include <functional>
+#include <vector>
+
+#include <packtrace/explain.hpp>
+
+#include "kernel_abi/kernel_table.hpp"
+#include "lower/lowered_scene.hpp"
+
+namespace packtrace {
+
+/// The ray tree of the pixel in column x and row y of one scene, made ready once to be asked often.
+/// Not for several threads at once.
+using TreeOfPixel = std::function<RayNode(int x, int y)>;
+
+/// As packets trace it, with kernels that have a probe, of the scene as `lowered` says it.
+template <class Real>
+[[nodiscard]] TreeOfPixel packet_trees(const Scene& scene, const LoweredScene& lowered,
+                                       const abi::KernelTable& table);
+
+/// As the scalar reference traces it in `Real`, float or double.
+template <class Real>
+[[nodiscard]] TreeOfPixel reference_trees(const Scene& scene);
+
+/// The trees of the pixel's samples at `places`, as the reference traces them in double.
+using TreesOfPixel = std::function<std::vector<RayNode>(int x, int y)>;
+[[nodiscard]] TreesOfPixel reference_sample_trees(const Scene& scene,
+                                                  const std::vector<Vec2>& places);
+
+}  // namespace packtrace

@@ -1,0 +1,52 @@
+#include <sstream>
+
+#include "study/report_text.hpp"
+
+namespace packtrace {
+namespace {
+
+// A field between quotes, as some names have commas.
+std::string quoted(const std::string& text)
+{
+    std::string result = "\"";
+    for (const char c : text)
+        result += c == '"' ? std::string("\"\"") : std::string(1, c);
+    return result + "\"";
+}
+
+std::string exact(double value)
+{
+    return brief(value, 9);
+}
+
+void write_row(std::ostream& to, const SceneReport& scene, const StudyReport& study,
+               const ReportRun& run)
+{
+    const Variant& variant = run.variant;
+    to << quoted(scene.name) << ',' << scene.width << ',' << scene.height << ','
+       << name_of(study.study) << ',' << quoted(variant.name) << ','
+       << (variant.kernel == Kernel::scalar ? "scalar" : "packet") << ',' << variant.precision
+       << ',' << variant.isa << ',' << variant.lanes << ',' << variant.threads << ','
+       << variant.depth << ',' << variant.samples << ','
+       << (variant.adaptive ? exact(*variant.adaptive) : "") << ',' << exact(run.median) << ','
+       << exact(run.spread) << ',' << run.rays << ',' << exact(run.error.rmse) << ','
+       << exact(run.error.max_abs) << ',' << exact(run.error.psnr) << ',' << run.error.pixels << ','
+       << run.error.pixels_off << ',' << (run.pareto ? 1 : 0) << ',' << quoted(shares_text(run))
+       << '\n';
+}
+
+}  // namespace
+
+std::string report_csv(const std::vector<SceneReport>& scenes)
+{
+    std::ostringstream csv;
+    csv << "scene,width,height,study,run,kernel,precision,isa,lanes,threads,depth,samples,adaptive,"
+           "median_s,spread,rays,rmse,max_abs,psnr,pixels,pixels_off,pareto,errors\n";
+    for (const SceneReport& scene : scenes)
+        for (const StudyReport& study : scene.studies)
+            for (const ReportRun& run : study.runs)
+                write_row(csv, scene, study, run);
+    return csv.str();
+}
+
+}  // namespace packtrace

@@ -1,0 +1,12 @@
+# Kernels of the narrowest instruction set with a planted defect, for the test that reports see it:
+# the same sources, behind headers of this folder.
+list(GET PACKTRACE_KERNELS 0 planted_isa)
+get_target_property(planted_options packtrace_kernels_${planted_isa} COMPILE_OPTIONS)
+add_library(packtrace_planted OBJECT ${PROJECT_SOURCE_DIR}/src/kernels/table.cpp
+            ${PROJECT_SOURCE_DIR}/src/kernels/probe_kernels.cpp)
+target_compile_definitions(packtrace_planted PRIVATE PACKTRACE_ISA=planted PACKTRACE_LANES=4)
+target_compile_options(packtrace_planted PRIVATE ${planted_options})
+target_include_directories(packtrace_planted PRIVATE ${CMAKE_CURRENT_LIST_DIR}
+                           ${PROJECT_SOURCE_DIR}/src)
+target_link_libraries(packtrace_planted PRIVATE packtrace_flags packtrace_xsimd)
+target_sources(packtrace_tests PRIVATE $<TARGET_OBJECTS:packtrace_planted>)

@@ -1,0 +1,250 @@
+// Where a frame's time goes.
+#include <packtrace/profile.hpp>
+
+#include <packtrace/isa.hpp>
+#include <packtrace/read_scene.hpp>
+
+#include <algorithm>
+#include <set>
+
+#include <nlohmann/json.hpp>
+
+#include "catch.hpp"
+#include "run_program.hpp"
+#include "scenes.hpp"
+#include "study/statistics.hpp"
+
+namespace packtrace::test {
+namespace {
+
+const std::string four_spheres_file = PACKTRACE_SOURCE_DIR "/scenes/four_spheres.scene";
+
+Profile small_profile(ProfileOptions options = {})
+{
+    options.repetitions = 3;
+    return profile<float>(read_text(four_spheres_file), four_spheres(128, 96), options);
+}
+
+FrameCounts rays_of(const Scene& scene)
+{
+    Image<float> image;
+    return Renderer<float>(scene).render(image);
+}
+
+const ProfileWhatIf& row_of(const Profile& profile, const std::string& name)
+{
+    for (const ProfileWhatIf& row : profile.what_if)
+        if (row.name == name)
+            return row;
+    FAIL("no row " + name);
+    return profile.what_if.front();
+}
+
+}  // namespace
+
+TEST_CASE("a profile's generations have all rays of the frame, each once", "[profile]")
+{
+    const Profile result = small_profile();
+    const FrameCounts all = rays_of(four_spheres(128, 96));
+    CHECK(result.rays.total() == all.total());
+    REQUIRE(result.generations.size() == 4);
+    FrameCounts sum;
+    for (const ProfileGeneration& generation : result.generations) {
+        sum.camera += generation.rays.camera;
+        sum.shadow += generation.rays.shadow;
+        sum.reflected += generation.rays.reflected;
+        CHECK((generation.rays.camera == 0) == (generation.depth > 0));
+        CHECK((generation.rays.reflected == 0) == (generation.depth == 0));
+    }
+    CHECK(sum.camera == all.camera);
+    CHECK(sum.shadow == all.shadow);
+    CHECK(sum.reflected == all.reflected);
+    Scene flat = four_spheres(128, 96);
+    flat.max_depth = 0;
+    CHECK(result.generations.front().rays.shadow == rays_of(flat).shadow);
+}
+
+TEST_CASE("a profile's stages sum to the whole within three per cent", "[profile]")
+{
+    // Stages and whole are medians of their own, so a busy moment may fall between them.
+    double best = 1.0;
+    for (int turn = 0; turn < 5 && best > 0.03; ++turn) {
+        const Profile result = small_profile();
+        REQUIRE(result.stages.size() == 5);
+        double sum = 0.0;
+        for (const ProfileStage& stage : result.stages)
+            sum += stage.seconds;
+        best = std::min(best, std::abs(sum - result.whole) / result.whole);
+    }
+    CHECK(best <= 0.03);
+}
+
+TEST_CASE("what-if rows are frames without the rays of what they lack", "[profile]")
+{
+    ProfileOptions options;
+    options.samples = 4;
+    const Profile result = small_profile(options);
+    CHECK(result.rays.shadow > 0);
+    CHECK(result.rays.reflected > 0);
+    CHECK(row_of(result, "without shadows").rays.shadow == 0);
+    CHECK(row_of(result, "without shadows").rays.reflected == result.rays.reflected);
+    CHECK(row_of(result, "without reflections and refractions").rays.reflected == 0);
+    CHECK(row_of(result, "without lights but ambient ones").rays.shadow == 0);
+    // Highlights make a light wanted where it shines from behind.
+    CHECK(row_of(result, "without highlights").rays.shadow <= result.rays.shadow);
+    CHECK(row_of(result, "without highlights").rays.reflected == result.rays.reflected);
+    const ProfileWhatIf& once = row_of(result, "without anti-aliasing");
+    CHECK(4 * once.rays.camera == result.rays.camera);
+    CHECK(once.saves > 0.3 * result.frame);
+    for (const ProfileWhatIf& row : result.what_if)
+        CHECK(row.seconds > 0.0);
+}
+
+TEST_CASE("lanes are filled by all rays of whole tiles, and by fewer after each mirror",
+          "[profile]")
+{
+    const auto filled = [](const Scene& scene, const std::string& isa) {
+        std::vector<double> shares;
+        ProfileOptions options;
+        options.isa = isa;
+        options.repetitions = 1;
+        for (const auto& generation :
+             profile<float>(read_text(four_spheres_file), scene, options).generations)
+            shares.push_back(generation.lanes_filled.value());
+        return shares;
+    };
+    const Scene whole = four_spheres(64, 64);
+    for (const IsaInfo& isa : list_isas()) {
+        if (!isa.supported)
+            continue;
+        const std::vector<double> shares = filled(whole, isa.name);
+        CAPTURE(isa.name);
+        CHECK(shares[0] == 1.0);
+        CHECK(shares[1] > shares[3]);
+        for (const double share : shares) {
+            CHECK(share > 0.0);
+            CHECK(share <= 1.0);
+        }
+        // A single pixel is one lane of a packet.
+        CHECK(filled(four_spheres(1, 1), isa.name)[0] == 1.0 / isa.lanes_single);
+    }
+    Scene glass = read_scene(PACKTRACE_SOURCE_DIR "/scenes/nested_glass.scene");
+    set_size(glass, 16, 16);
+    ProfileOptions once;
+    once.repetitions = 1;
+    const std::string text = read_text(PACKTRACE_SOURCE_DIR "/scenes/nested_glass.scene");
+    CHECK_FALSE(profile<float>(text, glass, once).generations[0].lanes_filled.has_value());
+}
+
+TEST_CASE("the median difference is of pairs", "[profile]")
+{
+    CHECK(median_difference({10, 20, 30}, {9, 18, 31}) == 1.0);
+}
+
+TEST_CASE("traced tiles cover the picture once, and those of a thread do not overlap", "[profile]")
+{
+    const Scene scene = four_spheres(100, 50);
+    ProfileOptions options;
+    options.threads = 2;
+    const std::vector<TileSpan> tiles = trace_tiles<float>(scene, options);
+    CHECK(tiles.size() == 7 * 4);
+    std::set<std::pair<int, int>> places;
+    std::uint64_t rays = 0;
+    for (std::size_t i = 0; i < tiles.size(); ++i) {
+        places.insert({tiles[i].x, tiles[i].y});
+        rays += tiles[i].rays;
+        CHECK(tiles[i].thread >= 0);
+        CHECK(tiles[i].thread < 2);
+        for (std::size_t k = i + 1; k < tiles.size(); ++k)
+            if (tiles[k].thread == tiles[i].thread)
+                CHECK(tiles[k].start >= tiles[i].start + tiles[i].seconds - 1e-9);
+    }
+    CHECK(places.size() == tiles.size());
+    CHECK(rays == rays_of(scene).total());
+}
+
+TEST_CASE("pixels that see a mirror cost more than those that see nothing", "[profile]")
+{
+    const Scene scene = four_spheres(64, 64);
+    const std::vector<double> costs = pixel_costs<float>(scene, {});
+    REQUIRE(costs.size() == 64 * 64);
+    CHECK(*std::min_element(costs.begin(), costs.end()) > 0.0);
+    const auto mean = [&](int first_row, int last_row) {
+        double sum = 0.0;
+        for (int i = first_row * 64; i < last_row * 64; ++i)
+            sum += costs[static_cast<std::size_t>(i)];
+        return sum / (64 * (last_row - first_row));
+    };
+    // The sky above, the ground and its reflections below.
+    CHECK(mean(50, 64) > 1.5 * mean(0, 6));
+}
+
+TEST_CASE("the picture of costs has a legend below", "[profile]")
+{
+    std::vector<double> costs(64 * 8, 1e-8);
+    costs[0] = 5e-8;
+    for (int i = 1; i < 10; ++i)
+        costs[static_cast<std::size_t>(i)] = 5e-8;
+    const Image<float> picture = cost_picture(costs, 64, 8);
+    CHECK(picture.width == 64);
+    CHECK(picture.height > 16);
+    CHECK(picture.pixel(0, 0)[0] == 1.0f);
+    CHECK(picture.pixel(40, 4)[2] == 0.0f);
+    // The bar goes from black to white; below it are digits.
+    int lit = 0;
+    for (int y = picture.height - 8; y < picture.height; ++y)
+        for (int x = 0; x < 64; ++x)
+            lit += picture.pixel(x, y)[0] == 1.0f;
+    CHECK(lit > 30);
+}
+
+TEST_CASE("profile prints tables and JSON, and writes a heat map and a trace",
+          "[profile][profile_cli]")
+{
+    const TempFolder folder;
+    const std::string map = (folder / "map.png").string();
+    const std::string trace = (folder / "trace.json").string();
+    const std::vector<std::string> words{"profile", four_spheres_file, "--size",
+                                         "64x48",   "--repetitions",   "2"};
+    auto more = words;
+    more.insert(more.end(), {"--heatmap", map, "--trace", trace});
+    const ProgramResult text = run_packtrace(more);
+    CAPTURE(text.err);
+    REQUIRE(text.exit_code == 0);
+    for (const char* part : {"64 x 48, ", "scene load", "lowering", "encoding as PNG", "depth 3",
+                             "without highlights", "without shadows", "ns/ray"})
+        CHECK_THAT(text.out, ContainsSubstring(part));
+    CHECK(std::filesystem::file_size(map) > 100);
+    const auto events = nlohmann::json::parse(read_text(trace))["traceEvents"];
+    CHECK(events.size() == 4 * 3);
+    CHECK(events[0]["ph"] == "X");
+    CHECK(events[0]["dur"] > 0.0);
+
+    more = words;
+    more.insert(more.end(), {"--json", "--precision", "double", "--depth", "1"});
+    const auto json = nlohmann::json::parse(run_packtrace(more).out);
+    CHECK(json["packtrace_profile"] == 1);
+    CHECK(json["generations"].size() == 2);
+    CHECK(json["rays"]["camera"] == 64 * 48);
+    CHECK(json["lanes"] == choose_isa().lanes_double);
+}
+
+TEST_CASE("profile refuses what it can't do", "[profile][profile_cli]")
+{
+    const TempFolder folder;
+    const auto result = [&](const std::vector<std::string>& options) {
+        std::vector<std::string> words{"profile", four_spheres_file};
+        words.insert(words.end(), options.begin(), options.end());
+        return run_packtrace(words);
+    };
+    CHECK(result({"--repetitions", "0"}).exit_code == 2);
+    CHECK(result({"--isa", "sse9"}).exit_code == 2);
+    CHECK(result({"--adaptive", "0.1", "--spp", "1"}).exit_code == 2);
+    const ProgramResult bad = result({"--heatmap", (folder / "no" / "a.png").string()});
+    CHECK(bad.exit_code == 1);
+    CHECK(std::count(bad.err.begin(), bad.err.end(), '\n') == 1);
+    CHECK(result({"--trace", (folder / "no" / "a.json").string()}).exit_code == 1);
+    CHECK(run_packtrace({"profile", "missing.scene"}).exit_code == 1);
+}
+
+}  // namespace packtrace::test

@@ -1,0 +1,326 @@
+// Error against run time: what is run, what is measured, what is written.
+#include <packtrace/report.hpp>
+
+#include <packtrace/isa.hpp>
+#include <packtrace/write_report.hpp>
+
+#include <algorithm>
+#include <set>
+
+#include <nlohmann/json.hpp>
+
+#include "catch.hpp"
+#include "render_scene.hpp"
+#include "scenes.hpp"
+#include "study/report_study.hpp"
+#include "study/report_text.hpp"
+#include "study/statistics.hpp"
+#include "study/truth_file.hpp"
+#include "temp_folder.hpp"
+
+namespace packtrace::test {
+namespace {
+
+ReportOptions short_options()
+{
+    ReportOptions options;
+    options.threads = {1};
+    options.isas = {choose_isa().name};
+    options.samples = {1, 4};
+    options.adaptive = {{4, 0.1}};
+    options.repetitions = 2;
+    options.truth_samples = 16;
+    options.classified = 8;
+    return options;
+}
+
+ReportScene small_scene()
+{
+    return {"small", "some text", four_spheres(48, 40)};
+}
+
+/// A run of a name, with a time and an error.
+ReportRun run_of(const std::string& name, double seconds, double rmse)
+{
+    ReportRun run;
+    run.variant.name = name;
+    run.median = seconds;
+    run.error.rmse = rmse;
+    return run;
+}
+
+/// A subject that shows the truth with every pixel off by `error`.
+Subject constant_error(const Image<double>& truth, double error)
+{
+    Subject subject;
+    subject.variant.name = "off by " + brief(error);
+    subject.render = [] {};
+    subject.rays = [] { return std::uint64_t{7}; };
+    subject.picture = [truth, error] {
+        Image<double> picture = truth;
+        for (double& value : picture.rgb)
+            value += error;
+        return picture;
+    };
+    return subject;
+}
+
+}  // namespace
+
+TEST_CASE("a report runs every kernel, precision, instruction set and number of threads",
+          "[report]")
+{
+    const Scene scene = four_spheres(8, 8);
+    const std::vector<Variant> variants = report_variants(scene, {});
+    std::set<std::string> names;
+    for (const Variant& variant : variants)
+        CHECK(names.insert(variant.name).second);
+    for (const std::string precision : {"single", "double"})
+        for (const std::string threads : {", 1 thread", ", 2 threads"}) {
+            CHECK(names.count("scalar " + precision + threads) == 1);
+            for (const std::string& isa : supported_isas())
+                CHECK(names.count("packets " + isa + " " + precision + threads) == 1);
+        }
+    for (const char* name : {"depth 0", "depth 1", "depth 2", "depth 3", "spp 1", "spp 4", "spp 16",
+                             "spp 64", "adaptive 16 at 0.01"})
+        CHECK(names.count(name) == 1);
+    CHECK(names.count("depth 4") == 0);
+}
+
+TEST_CASE("a report's errors are those of the pictures against the truth", "[report]")
+{
+    const ReportScene scene = small_scene();
+    const SceneReport whole = report(scene, short_options());
+    REQUIRE(whole.studies.size() == 3);
+    const StudyReport& arithmetic = whole.studies.front();
+    RenderOptions scalar;
+    scalar.kernel = Kernel::scalar;
+    const auto truth = convert<double>(render<long double>(scene.scene, scalar));
+    CHECK((arithmetic.pictures.front().image.rgb == truth.rgb));
+    for (const ReportRun& run : arithmetic.runs)
+        if (run.variant.kernel == Kernel::packet && run.variant.precision == "single") {
+            RenderOptions options;
+            options.isa = run.variant.isa;
+            const auto picture = convert<double>(render<float>(scene.scene, options));
+            CHECK(run.error.rmse == compare(picture, truth).rmse);
+            CHECK((arithmetic.pictures[run.picture].image.rgb == picture.rgb));
+            CHECK(run.rays > 48 * 40);
+        }
+    const ReportRun& full_depth = whole.studies[1].runs.back();
+    CHECK(full_depth.variant.depth == 3);
+    CHECK(full_depth.error.rmse < 1e-3);
+    CHECK(whole.studies[1].runs.front().error.rmse > 0.01);
+}
+
+TEST_CASE("the truth of sampling is the mean of many samples in each pixel", "[report]")
+{
+    const ReportScene scene = small_scene();
+    const StudyReport sampling = report(scene, short_options()).studies.back();
+    RenderOptions many;
+    many.kernel = Kernel::scalar;
+    many.samples = 16;
+    CHECK((sampling.pictures.front().image.rgb == render<double>(scene.scene, many).rgb));
+    CHECK(sampling.truth == "scalar reference, double, 16 samples a pixel");
+    CHECK(sampling.runs[1].error.rmse < sampling.runs[0].error.rmse);
+}
+
+TEST_CASE("a truth with no more samples than its runs is refused", "[report]")
+{
+    ReportOptions options = short_options();
+    options.truth_samples = 4;
+    CHECK_THROWS_WITH(report(small_scene(), options),
+                      "report: a truth of 4 samples a pixel cannot judge runs of 4; give it more");
+}
+
+TEST_CASE("each run is timed as often as asked, and its median is of these times", "[report]")
+{
+    for (const StudyReport& study : report(small_scene(), short_options()).studies)
+        for (const ReportRun& run : study.runs) {
+            REQUIRE(run.seconds.size() == 2);
+            CHECK(run.seconds[0] > 0.0);
+            CHECK(run.median == (run.seconds[0] + run.seconds[1]) / 2.0);
+        }
+}
+
+TEST_CASE("quantiles lie between neighbours", "[report]")
+{
+    CHECK(quantile({3, 1, 2}, 0.5) == 2.0);
+    CHECK(quantile({4, 1, 2, 3}, 0.5) == 2.5);
+    CHECK(quantile({5}, 0.25) == 5.0);
+    CHECK(quantile({0, 10}, 0.25) == 2.5);
+    CHECK(relative_spread({1, 2, 3, 4, 5}) == Approx(2.0 / 3.0));
+}
+
+TEST_CASE("known errors come out as they went in", "[report]")
+{
+    const Scene scene = four_spheres(16, 16);
+    const Truth truth = find_truth(scene, {});
+    ReportOptions options;
+    options.repetitions = 3;
+    const StudyReport report =
+        run_study(scene, Study::arithmetic, truth,
+                  {constant_error(truth.image, 0.0), constant_error(truth.image, 0.25),
+                   constant_error(truth.image, 0.25), constant_error(truth.image, 1e-3)},
+                  options);
+    CHECK(report.runs[0].error.rmse == 0.0);
+    CHECK(report.runs[1].error.rmse == Approx(0.25));
+    CHECK(report.runs[1].error.pixels_off == 256);
+    CHECK(report.runs[3].error.pixels_off == 0);
+    CHECK(report.runs[3].error.max_abs == Approx(1e-3));
+    CHECK(report.runs[0].rays == 7);
+    // The truth, the two that are alike, the last.
+    CHECK(report.pictures.size() == 3);
+    CHECK(report.runs[0].picture == 0);
+    CHECK(report.runs[1].picture == report.runs[2].picture);
+}
+
+TEST_CASE("the judgement names the cheapest and the most exact run", "[report]")
+{
+    StudyReport study;
+    study.runs = {run_of("coarse", 0.001, 0.1), run_of("middle", 0.010, 0.01),
+                  run_of("slow", 0.020, 0.01), run_of("fine", 0.100, 1e-6)};
+    REQUIRE(cheapest_within(study, 0.05) != nullptr);
+    CHECK(cheapest_within(study, 0.05)->variant.name == "middle");
+    CHECK(cheapest_within(study, 1e-3)->variant.name == "fine");
+    CHECK(cheapest_within(study, 1e-9) == nullptr);
+    CHECK(most_exact_within(study, 0.05)->variant.name == "middle");
+    CHECK(most_exact_within(study, 1.0)->variant.name == "fine");
+    CHECK(most_exact_within(study, 1e-6) == nullptr);
+    ReportOptions options;
+    options.max_error = 1e-9;
+    options.max_time = 0.05;
+    const auto lines = judgement(study, options);
+    CHECK(lines[0] == "Cheapest with an RMSE of at most 1e-09: none reaches it.");
+    CHECK(lines[1] == "Most exact within 50 ms: middle (10 ms, RMSE 0.01).");
+}
+
+TEST_CASE("the Pareto front has the runs that no other beats in both", "[report]")
+{
+    const StudyReport study = report(small_scene(), short_options()).studies.front();
+    for (const ReportRun& run : study.runs) {
+        bool beaten = false;
+        for (const ReportRun& other : study.runs)
+            beaten = beaten || (other.median < run.median && other.error.rmse < run.error.rmse);
+        if (beaten)
+            CHECK_FALSE(run.pareto);
+    }
+    CHECK(std::any_of(study.runs.begin(), study.runs.end(),
+                      [](const ReportRun& run) { return run.pareto; }));
+}
+
+TEST_CASE("a truth is kept, found again, and made anew when it is not whole or not true",
+          "[report]")
+{
+    const TempFolder folder;
+    const Scene scene = four_spheres(24, 20);
+    TruthRequest request;
+    request.text = "a scene";
+    request.cache = folder / "cache";
+    const Truth made = find_truth(scene, request);
+    CHECK_FALSE(made.cached);
+    const Truth found = find_truth(scene, request);
+    CHECK(found.cached);
+    CHECK((found.image.rgb == made.image.rgb));
+    CHECK(found.seconds == Approx(made.seconds).epsilon(1e-4));
+
+    // Other scenes and settings have files of their own.
+    TruthRequest other = request;
+    other.text = "another scene";
+    CHECK_FALSE(find_truth(scene, other).cached);
+    other = request;
+    other.samples = 2;
+    CHECK_FALSE(find_truth(scene, other).cached);
+    Scene flat = scene;
+    flat.max_depth = 0;
+    CHECK_FALSE(find_truth(flat, request).cached);
+
+    // The first file, cut short; then with pixels of another picture.
+    std::filesystem::remove_all(request.cache);
+    (void)find_truth(scene, request);
+    const auto file = std::filesystem::directory_iterator(request.cache)->path();
+    const std::string bytes = read_text(file);
+    write_text(file, bytes.substr(0, bytes.size() - 8));
+    CHECK_FALSE(find_truth(scene, request).cached);
+    std::string flipped = bytes;
+    flipped[flipped.size() - 3] ^= 1;
+    write_text(file, flipped);
+    CHECK_FALSE(find_truth(scene, request).cached);
+    Truth wrong = made;
+    for (double& value : wrong.image.rgb)
+        value += 1e-9;
+    write_truth(file, wrong);
+    const Truth anew = find_truth(scene, request);
+    CHECK_FALSE(anew.cached);
+    CHECK((anew.image.rgb == made.image.rgb));
+}
+
+TEST_CASE("the CSV has a row a run, each of the head's length", "[report]")
+{
+    const SceneReport scene = report(small_scene(), short_options());
+    const std::string csv = report_csv({scene});
+    std::size_t runs = 0;
+    for (const StudyReport& study : scene.studies)
+        runs += study.runs.size();
+    CHECK(static_cast<std::size_t>(std::count(csv.begin(), csv.end(), '\n')) == runs + 1);
+    const auto fields = [](const std::string& line) {
+        bool inside = false;
+        int count = 1;
+        for (const char c : line) {
+            inside = inside != (c == '"');
+            count += c == ',' && !inside;
+        }
+        return count;
+    };
+    for (std::size_t at = 0; at < csv.size(); at = csv.find('\n', at) + 1)
+        CHECK(fields(csv.substr(at, csv.find('\n', at) - at)) == 23);
+}
+
+TEST_CASE("the JSON says what was run, how, and what came of it", "[report]")
+{
+    const SceneReport scene = report(small_scene(), short_options());
+    const auto json = nlohmann::json::parse(
+        report_json({scene}, short_options(), {"some processor", 2, "a compiler", "abc", "cmd"}));
+    CHECK(json["packtrace_report"] == 1);
+    CHECK(json["conditions"]["processor"] == "some processor");
+    CHECK(json["conditions"]["commit"] == "abc");
+    CHECK(json["scenes"][0]["width"] == 48);
+    for (const auto& study : json["scenes"][0]["studies"]) {
+        CHECK(study["truth"]["what"].is_string());
+        CHECK(study["judgement"].size() >= 2);
+        for (const auto& run : study["runs"]) {
+            CHECK(run["median_s"] > 0.0);
+            CHECK(run["seconds"].size() == 2);
+            CHECK(run["error"]["pixels"] == 48 * 40);
+            CHECK(run["isa"].is_null() == (run["kernel"] == "scalar"));
+            CHECK(run["adaptive"].is_null() ==
+                  (run["name"].get<std::string>().find("adaptive") == std::string::npos));
+            for (const auto& kind : run["error"]["classes"])
+                CHECK(kind["pixels"] > 0);
+        }
+    }
+}
+
+TEST_CASE("a report's files are all that it names, and its page needs no other",
+          "[report][report_plot]")
+{
+    const TempFolder folder;
+    const SceneReport scene = report(small_scene(), short_options());
+    write_report({scene}, short_options(), {"p", 1, "c", "x", "cmd"}, folder / "out");
+    for (const char* name : {"report.md", "report.csv", "report.json", "report.html"})
+        CHECK(std::filesystem::file_size(folder / "out" / name) > 0);
+    const auto json = nlohmann::json::parse(read_text(folder / "out" / "report.json"));
+    for (const auto& study : json["scenes"][0]["studies"]) {
+        const std::string plot = read_text(folder / "out" / study["plot"].get<std::string>());
+        CHECK_THAT(plot, ContainsSubstring("<svg"));
+        CHECK_THAT(plot, ContainsSubstring("Pareto front"));
+        for (const auto& run : study["runs"])
+            CHECK(std::filesystem::exists(folder / "out" / run["picture"].get<std::string>()));
+    }
+    const std::string page = read_text(folder / "out" / "report.html");
+    for (const char* outside : {"src=\"http", "href=\"http", "@import"})
+        CHECK(page.find(outside) == std::string::npos);
+    for (const char* part : {"data:image/png;base64,", "<svg", "type=\"range\"", "gnuplot_plot_2"})
+        CHECK_THAT(page, ContainsSubstring(part));
+}
+
+}  // namespace packtrace::test

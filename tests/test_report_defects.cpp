@@ -1,0 +1,140 @@
+// A report says what is wrong with kernels that have a defect.
+#include <packtrace/report.hpp>
+
+#include <packtrace/isa.hpp>
+
+#include "catch.hpp"
+#include "dispatch/kernels.hpp"
+#include "render_scene.hpp"
+#include "scenes.hpp"
+#include "study/report_study.hpp"
+#include "study/report_text.hpp"
+
+namespace packtrace::planted {
+[[nodiscard]] const abi::KernelTable& kernel_table();
+}
+
+namespace packtrace::test {
+namespace {
+
+Variant variant_named(const std::string& name, const Scene& scene)
+{
+    Variant variant;
+    variant.name = name;
+    variant.isa = choose_isa().name;
+    variant.depth = scene.max_depth;
+    return variant;
+}
+
+/// The report of sound kernels beside those of a defect.
+StudyReport report_beside(const Scene& scene, const Subject& defect)
+{
+    ReportOptions options;
+    options.repetitions = 1;
+    const std::string isa = choose_isa().name;
+    const std::vector<Subject> subjects{
+        packet_subject<float>(scene, lower(scene), kernels_of(isa), variant_named("sound", scene)),
+        defect};
+    return run_study(scene, Study::arithmetic, find_truth(scene, {}), subjects, options);
+}
+
+/// Sound kernels on a scene that was lowered wrongly.
+template <class Change>
+Subject wrongly_lowered(const Scene& scene, const Change& change)
+{
+    LoweredScene lowered = lower(scene);
+    change(lowered);
+    const auto& table = kernels_of(choose_isa().name);
+    return packet_subject<float>(scene, lowered, table, variant_named("defect", scene));
+}
+
+/// The defect's errors are of one class above all, which the written report names.
+void check_named(const StudyReport& report, const std::string& kind)
+{
+    const ReportRun& sound = report.runs[0];
+    const ReportRun& defect = report.runs[1];
+    CAPTURE(kind, shares_text(sound), shares_text(defect), sound.error.pixels_off,
+            defect.error.pixels_off);
+    CHECK(sound.error.pixels_off <= 3);
+    REQUIRE(defect.error.pixels_off >= 10);
+    REQUIRE_FALSE(defect.shares.empty());
+    CHECK(defect.looked_at_off);
+    CHECK(defect.shares.front().kind == kind);
+    CHECK(2 * defect.shares.front().pixels > defect.looked_at);
+
+    SceneReport scene;
+    scene.name = "four_spheres";
+    scene.studies.push_back(report);
+    const std::string text = report_markdown({scene}, {}, {});
+    const std::size_t row = text.find("defect");
+    REQUIRE(row != std::string::npos);
+    CHECK_THAT(text.substr(row, text.find('\n', row) - row), ContainsSubstring(kind));
+    CHECK_THAT(text, ContainsSubstring("*" + kind + "*: "));
+}
+
+}  // namespace
+
+TEST_CASE("an epsilon that is too small is named", "[report_defects]")
+{
+    const Scene scene = four_spheres(192, 192);
+    const Subject defect = wrongly_lowered(scene, [](LoweredScene& s) { s.epsilon = 1e-9; });
+    check_named(report_beside(scene, defect), "near start");
+}
+
+TEST_CASE("an epsilon that is too large is named", "[report_defects]")
+{
+    const Scene scene = four_spheres(192, 192);
+    const Subject defect = wrongly_lowered(scene, [](LoweredScene& s) { s.epsilon = 0.05; });
+    check_named(report_beside(scene, defect), "near start");
+}
+
+TEST_CASE("a highlight's exponent that is off by one is named", "[report_defects]")
+{
+    const Scene scene = four_spheres(192, 192);
+    const Subject defect = wrongly_lowered(scene, [](LoweredScene& s) {
+        for (LoweredMaterial& material : s.materials)
+            material.shininess += 1.0;
+    });
+    check_named(report_beside(scene, defect), "highlight");
+}
+
+TEST_CASE("a culling slip that drops one ray in ten thousand is named", "[report_defects]")
+{
+    const Scene scene = four_spheres(384, 384);
+    const Subject defect = packet_subject<float>(scene, lower(scene), planted::kernel_table(),
+                                                 variant_named("defect", scene));
+    const StudyReport report = report_beside(scene, defect);
+    check_named(report, "lost hit");
+    // Of camera rays and mirrored ones, which are about as many.
+    CHECK(report.runs[1].error.pixels_off <= 2 * report.runs[1].error.pixels / 5000);
+}
+
+TEST_CASE("a depth limit that is too low is named", "[report_defects]")
+{
+    const Scene scene = four_spheres(192, 192);
+    const Subject defect = wrongly_lowered(scene, [](LoweredScene& s) { s.max_depth = 1; });
+    check_named(report_beside(scene, defect), "deep");
+}
+
+TEST_CASE("errors of sampling sit where trees of a pixel's samples part", "[report_defects]")
+{
+    ReportScene scene{"four spheres", "", four_spheres(96, 96)};
+    ReportOptions options;
+    options.repetitions = 1;
+    options.samples = {1};
+    options.adaptive = {};
+    options.truth_samples = 64;
+    options.isas = {choose_isa().name};
+    const SceneReport whole = report(scene, options);
+    const ReportRun& once = whole.studies.back().runs.front();
+    REQUIRE(once.variant.samples == 1);
+    REQUIRE(once.error.pixels_off > 100);
+    int edges = 0;
+    for (const ErrorShare& share : once.shares)
+        if (share.kind == "silhouette" || share.kind == "shadow edge" || share.kind == "deep")
+            edges += share.pixels;
+    CAPTURE(shares_text(once));
+    CHECK(5 * edges > 4 * once.looked_at);
+}
+
+}  // namespace packtrace::test

@@ -1,0 +1,146 @@
+// report.html in a real browser.
+#include <packtrace/isa.hpp>
+#include <packtrace/report.hpp>
+#include <packtrace/write_report.hpp>
+
+#include <nlohmann/json.hpp>
+
+#include "browser.hpp"
+#include "catch.hpp"
+#include "scenes.hpp"
+
+namespace packtrace::test {
+namespace {
+
+/// Writes the report of a small scene, and returns its page.
+std::string write_page(const TempFolder& folder)
+{
+    ReportOptions options;
+    options.threads = {1};
+    options.isas = {choose_isa().name};
+    options.samples = {1, 4};
+    options.adaptive = {{4, 0.1}};
+    options.repetitions = 1;
+    options.truth_samples = 8;
+    options.classified = 4;
+    const SceneReport scene = report({"four <spheres>", "", four_spheres(96, 64)}, options);
+    write_report({scene}, options, {"p", 1, "c", "x", "cmd"}, folder / "out");
+    return (folder / "out" / "report.html").string();
+}
+
+/// Works the page as a user does and leaves what it saw in an element of its own.
+const std::string user = R"js(<script>
+addEventListener('load', async () => {
+    const seen = {};
+    const slider = document.querySelector('.slider');
+    const range = slider.querySelector('input[type=range]');
+    const [left, right] = slider.querySelectorAll('.compare img');
+    await Promise.all([left.decode(), right.decode()]);
+    seen.ready = document.documentElement.dataset.ready;
+    seen.width = left.naturalWidth;
+    seen.height = right.naturalHeight;
+    seen.overlaid = left.getBoundingClientRect().left === right.getBoundingClientRect().left;
+    seen.before = getComputedStyle(right).clipPath;
+    range.value = 80;
+    range.dispatchEvent(new Event('input'));
+    seen.after = getComputedStyle(right).clipPath;
+    const choices = slider.querySelectorAll('select');
+    seen.choices = choices[0].options.length;
+    const old = left.src;
+    choices[0].selectedIndex = choices[0].options.length - 1;
+    choices[0].dispatchEvent(new Event('change'));
+    await left.decode();
+    seen.changed = left.src !== old && left.naturalWidth === 96;
+    const plots = [...document.querySelectorAll('.plot')];
+    seen.plots = plots.length;
+    seen.drawn = plots.every(plot =>
+        plot.querySelector('svg').getBoundingClientRect().height > 100);
+    const box = plots[0].querySelectorAll('label input')[1];
+    const group = plots[0].querySelector('#' + box.dataset.groups.split(' ')[0]);
+    seen.marks = group.querySelectorAll('use, path, circle').length;
+    const shown = () => group.getBoundingClientRect().width > 0;
+    seen.shown = shown();
+    box.click();
+    seen.hidden = !shown();
+    box.click();
+    seen.shownAgain = shown();
+    const result = document.createElement('output');
+    result.id = 'seen';
+    result.textContent = JSON.stringify(seen);
+    document.body.append(result);
+});
+</script></body>)js";
+
+nlohmann::json what_was_seen(const std::string& dom)
+{
+    const std::string start = "<output id=\"seen\">";
+    const std::size_t at = dom.find(start);
+    REQUIRE(at != std::string::npos);
+    const std::size_t from = at + start.size();
+    return nlohmann::json::parse(dom.substr(from, dom.find("</output>", from) - from));
+}
+
+}  // namespace
+
+TEST_CASE("the page escapes what names contain", "[report_page]")
+{
+    const TempFolder folder;
+    const std::string page = read_text(write_page(folder));
+    CHECK_THAT(page, ContainsSubstring("<h2>four &lt;spheres>, 96 x 64</h2>"));
+    CHECK(page.find("<spheres>,") == std::string::npos);
+}
+
+TEST_CASE("the page opens in a browser without an error, and its slider and plots work",
+          "[report_page][slow]")
+{
+    const std::string name = browser();
+    if (name.empty()) {
+        // On a build machine that is to have one, its absence is no excuse.
+        REQUIRE(std::getenv("CI") == nullptr);
+        WARN("skipped: no browser; apt-get install chromium");
+        return;
+    }
+    const TempFolder folder;
+    const std::string file = write_page(folder);
+    const PageResult plain = open_page(name, folder, file);
+    CHECK_THAT(plain.dom, ContainsSubstring("data-ready=\"yes\""));
+    CHECK(plain.console.empty());
+
+    std::string page = read_text(file);
+    page.replace(page.rfind("</body>"), 7, user);
+    write_text(file, page);
+    const PageResult used = open_page(name, folder, file);
+    CHECK(used.console.empty());
+    const nlohmann::json seen = what_was_seen(used.dom);
+    CAPTURE(seen.dump(2));
+    CHECK(seen["ready"] == "yes");
+    CHECK(seen["width"] == 96);
+    CHECK(seen["height"] == 64);
+    CHECK(seen["overlaid"] == true);
+    CHECK(seen["before"] == "inset(0px 0px 0px 50%)");
+    CHECK(seen["after"] == "inset(0px 0px 0px 80%)");
+    CHECK(seen["choices"] >= 8);
+    CHECK(seen["changed"] == true);
+    CHECK(seen["plots"] == 3);
+    CHECK(seen["drawn"] == true);
+    CHECK(seen["marks"] >= 1);
+    CHECK(seen["shown"] == true);
+    CHECK(seen["hidden"] == true);
+    CHECK(seen["shownAgain"] == true);
+}
+
+TEST_CASE("a page with an error is found out", "[report_page][slow]")
+{
+    const std::string name = browser();
+    if (name.empty()) {
+        REQUIRE(std::getenv("CI") == nullptr);
+        WARN("skipped: no browser; apt-get install chromium");
+        return;
+    }
+    const TempFolder folder;
+    write_text(folder / "bad.html", "<html><script>nothing.at.all();</script></html>");
+    CHECK_THAT(open_page(name, folder, (folder / "bad.html").string()).console,
+               ContainsSubstring("nothing is not defined"));
+}
+
+}  // namespace packtrace::test
