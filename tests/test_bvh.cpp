@@ -1,0 +1,176 @@
+#include "bvh/bvh.hpp"
+
+#include <cmath>
+#include <cstring>
+#include <random>
+
+#include <tbb/task_arena.h>
+
+#include "catch.hpp"
+
+// The hierarchy's invariants, whatever it is built of.
+namespace packtrace {
+namespace {
+
+struct Items {
+    const char* name;
+    std::vector<BvhItem> items;
+};
+
+BvhItem item_at(float x, float y, float z, float size, std::uint32_t number,
+                std::uint32_t kind = 0)
+{
+    return {{x - size, y - size, z - size}, number, {x + size, y + size, z + size}, kind};
+}
+
+std::vector<BvhItem> scattered(int count, std::uint32_t kinds)
+{
+    std::mt19937 random(static_cast<unsigned>(count));
+    std::uniform_real_distribution<float> place(-10.0f, 10.0f);
+    std::vector<BvhItem> items;
+    for (int i = 0; i < count; ++i) {
+        const float x = place(random);
+        const float y = place(random);
+        const float z = place(random);
+        const auto number = static_cast<std::uint32_t>(i);
+        items.push_back(item_at(x, y, z, 0.01f * std::abs(place(random)), number, number % kinds));
+    }
+    return items;
+}
+
+std::vector<BvhItem> along_a_line(int count, float ratio)
+{
+    std::vector<BvhItem> items;
+    float x = 1.0f;
+    for (int i = 0; i < count; ++i, x *= ratio)
+        items.push_back(item_at(x, 0.0f, 0.0f, 0.1f * x, static_cast<std::uint32_t>(i)));
+    return items;
+}
+
+std::vector<Items> families()
+{
+    return {{"one item", scattered(1, 1)},
+            {"eight items", scattered(8, 1)},
+            {"nine items", scattered(9, 1)},
+            {"a few of two kinds", scattered(7, 2)},
+            {"a thousand of three kinds", scattered(1000, 3)},
+            {"a hundred thousand", scattered(100000, 1)},
+            {"all in one place", along_a_line(500, 1.0f)},
+            {"ever smaller", along_a_line(150, 0.6f)},
+            {"flat", std::vector<BvhItem>(300, item_at(2.0f, 2.0f, 2.0f, 0.0f, 0))}};
+}
+
+/// Walks a hierarchy and counts what is wrong with it.
+class Validator {
+public:
+    Validator(const Bvh& bvh, const std::vector<BvhItem>& items)
+        : bvh_(bvh), items_(items), seen_(bvh.leaves.size(), 0)
+    {
+        visit(0, 1);
+        for (const int times : seen_)
+            faults += times == 1 ? 0 : 1;
+    }
+
+    int faults = 0;
+    int levels = 0;
+
+private:
+    void visit(std::uint32_t index, int level)
+    {
+        levels = std::max(levels, level);
+        const abi::BvhNode& node = bvh_.nodes.at(index);
+        for (int slot = 0; slot < abi::node_width; ++slot) {
+            if (node.low[0][slot] > node.high[0][slot])
+                continue;
+            const std::uint32_t child = node.child[slot];
+            if (abi::is_leaf(child)) {
+                check_leaf(node, slot, child & ~abi::leaf_bit);
+            } else {
+                check_inside(node, slot, bvh_.nodes.at(child));
+                visit(child, level + 1);
+            }
+        }
+    }
+
+    void check_leaf(const abi::BvhNode& node, int slot, std::uint32_t number)
+    {
+        const BvhLeaf& leaf = bvh_.leaves.at(number);
+        ++seen_[number];
+        faults += leaf.count < 1 || leaf.count > abi::node_width ? 1 : 0;
+        for (std::uint32_t i = 0; i < leaf.count; ++i) {
+            const BvhItem& item = items_.at(bvh_.order.at(leaf.first + i));
+            faults += item.kind == leaf.kind ? 0 : 1;
+            for (int axis = 0; axis < 3; ++axis)
+                faults += node.low[axis][slot] <= item.low[axis] &&
+                                  item.high[axis] <= node.high[axis][slot]
+                              ? 0
+                              : 1;
+        }
+    }
+
+    void check_inside(const abi::BvhNode& node, int slot, const abi::BvhNode& child)
+    {
+        for (int inner = 0; inner < abi::node_width; ++inner)
+            for (int axis = 0; axis < 3; ++axis)
+                if (child.low[axis][inner] <= child.high[axis][inner])
+                    faults += node.low[axis][slot] <= child.low[axis][inner] &&
+                                      child.high[axis][inner] <= node.high[axis][slot]
+                                  ? 0
+                                  : 1;
+    }
+
+    const Bvh& bvh_;
+    const std::vector<BvhItem>& items_;
+    std::vector<int> seen_;
+};
+
+}  // namespace
+
+TEST_CASE("a hierarchy holds every item once, in boxes inside boxes", "[bvh]")
+{
+    for (const Items& family : families()) {
+        INFO(family.name);
+        std::vector<BvhItem> items = family.items;
+        for (std::size_t i = 0; i < items.size(); ++i)
+            items[i].number = static_cast<std::uint32_t>(i);
+        const std::vector<BvhItem> as_given = items;
+        const Bvh bvh = build_bvh(items);
+        std::vector<int> times(items.size(), 0);
+        for (const std::uint32_t number : bvh.order)
+            ++times.at(number);
+        CHECK(times == std::vector<int>(items.size(), 1));
+        const Validator validator(bvh, as_given);
+        CHECK(validator.faults == 0);
+        CHECK(validator.levels <= abi::bvh_levels);
+    }
+}
+
+TEST_CASE("a hierarchy of nothing has no nodes", "[bvh]")
+{
+    CHECK(build_bvh({}).nodes.empty());
+}
+
+TEST_CASE("the validator sees a box that is too small", "[bvh]")
+{
+    std::vector<BvhItem> items = scattered(100, 1);
+    const std::vector<BvhItem> as_given = items;
+    Bvh bvh = build_bvh(items);
+    bvh.nodes[0].high[1][0] -= 1.0f;
+    CHECK(Validator(bvh, as_given).faults > 0);
+}
+
+TEST_CASE("a hierarchy does not depend on the number of threads", "[bvh]")
+{
+    const auto built_with = [](int threads) {
+        std::vector<BvhItem> items = scattered(100000, 1);
+        return tbb::task_arena(threads).execute([&] { return build_bvh(items); });
+    };
+    const Bvh one = built_with(1);
+    const Bvh two = built_with(2);
+    CHECK(one.order == two.order);
+    REQUIRE(one.nodes.size() == two.nodes.size());
+    CHECK(std::memcmp(one.nodes.data(), two.nodes.data(),
+                      one.nodes.size() * sizeof(abi::BvhNode)) == 0);
+}
+
+}  // namespace packtrace

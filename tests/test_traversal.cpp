@@ -1,0 +1,261 @@
+#include <packtrace/traversal.hpp>
+
+#include <cmath>
+#include <cstring>
+#include <limits>
+#include <random>
+#include <vector>
+
+#include <packtrace/intersect.hpp>
+#include <packtrace/isa.hpp>
+#include <packtrace/renderer.hpp>
+
+#include <glm/gtc/matrix_transform.hpp>
+
+#include "catch.hpp"
+#include "scenes.hpp"
+
+// Through the hierarchy, as beams, cells or single rays, the same is hit as one by one: bit for
+// bit, in t and in object.
+namespace packtrace::test {
+namespace {
+
+Quadric quadric_of(int which)
+{
+    Quadric quadric;
+    switch (which % 3) {
+        case 0:
+            quadric.kind = QuadricKind::cylinder;
+            quadric.coefficients = {1, 1, 0, 0, 0, 0, 0, 0, 0, -1};
+            break;
+        case 1:
+            quadric.kind = QuadricKind::cone;
+            quadric.coefficients = {1, 1, -1, 0, 0, 0, 0, 0, 0, 0};
+            break;
+        default:
+            quadric.kind = QuadricKind::ellipsoid;
+            quadric.coefficients = {1, 1, 1, 0, 0, 0, 0, 0, 0, -1};
+            return quadric;
+    }
+    quadric.z_range = ZRange{-1.0, 0.7};
+    quadric.capped = which % 2 == 0;
+    return quadric;
+}
+
+/// Objects of all kinds in a ball around (0, 0, 6): overlapping, in each other, some twice.
+Scene mixed_scene(int count, unsigned seed)
+{
+    std::mt19937 random(seed);
+    std::uniform_real_distribution<double> unit(-1.0, 1.0);
+    const auto place = [&] {
+        const double x = 3.0 * unit(random);
+        const double y = 3.0 * unit(random);
+        return Vec3(x, y, 6.0 + 3.0 * unit(random));
+    };
+    Scene scene;
+    set_size(scene, 70, 50);
+    scene.lights = note_lights();
+    const Material material = scratch(Rgb(0.5), 50, 0.3);
+    for (int i = 0; i < count; ++i) {
+        const Vec3 center = place();
+        const double radius = std::pow(10.0, -0.5 + 0.8 * unit(random));
+        if (i % 4 == 3) {
+            add_object(scene, quadric_of(i / 4), material);
+            scene.objects.back().transform =
+                glm::scale(glm::rotate(glm::translate(Mat4(1.0), center), 3.0 * unit(random),
+                                       Vec3(1, 2, 3)),
+                           Vec3(radius, 0.5 * radius, 2.0 * radius));
+        } else {
+            add_sphere(scene, i % 7 == 0 ? Vec3(0, 0, 6) : center, i % 7 == 0 ? 0.5 : radius,
+                       material);
+        }
+    }
+    add_sphere(scene, {0, -5004, 0}, 5000, material);
+    add_plane(scene, {0, 6, 0}, {0.1, -1, 0}, material);
+    return scene;
+}
+
+template <class Real>
+struct Rays {
+    std::vector<Real> columns[8];
+
+    [[nodiscard]] std::size_t count() const
+    {
+        return columns[0].size();
+    }
+    [[nodiscard]] RaysView<Real> view() const
+    {
+        const auto& c = columns;
+        return {c[0].data(), c[1].data(), c[2].data(), c[3].data(), c[4].data(),
+                c[5].data(), c[6].data(), c[7].data(), count()};
+    }
+};
+
+/// In runs of 64: bundles from a point, parallel ones, along an axis, and every which way; of
+/// any length, from inside and from far away, some ending early, a few of no use at all.
+template <class Real>
+Rays<Real> many_rays(int count, unsigned seed)
+{
+    std::mt19937 random(seed);
+    std::uniform_real_distribution<double> unit(-1.0, 1.0);
+    const auto vector = [&] {
+        const double x = unit(random);
+        const double y = unit(random);
+        return Vec3(x, y, unit(random));
+    };
+    constexpr double infinity = std::numeric_limits<double>::infinity();
+    Rays<Real> rays;
+    Vec3 origin(0.0);
+    Vec3 way(0.0, 0.0, 1.0);
+    for (int i = 0; i < count; ++i) {
+        const int run = i / 64 % 4;
+        if (i % 64 == 0) {
+            origin = Vec3(0, 0, 6) + (i / 64 % 5 == 0 ? 400.0 : 5.0) * vector();
+            way = Vec3(0, 0, 6) - origin + vector();
+        }
+        const Vec3 org = run == 1 ? origin + 0.3 * vector() : origin;
+        Vec3 dir = run == 1 ? way : way + 0.05 * glm::length(way) * vector();
+        if (run == 2)
+            dir = Vec3(i / 256 % 2, (i / 256 + 1) % 2, 0);
+        if (run == 3)
+            dir = std::pow(10.0, 4.0 * unit(random)) * vector();
+        if (i % 501 == 500)
+            dir.y = std::numeric_limits<double>::quiet_NaN();
+        const double row[8] = {org.x, org.y, org.z,           dir.x,
+                               dir.y, dir.z, i % 9 ? 0 : 0.1, i % 5 ? infinity : 1.0};
+        for (std::size_t column = 0; column < 8; ++column)
+            rays.columns[column].push_back(static_cast<Real>(row[column]));
+    }
+    return rays;
+}
+
+template <class Element>
+std::size_t differing(const std::vector<Element>& a, const std::vector<Element>& b)
+{
+    std::size_t count = 0;
+    for (std::size_t i = 0; i < a.size(); ++i)
+        if (std::memcmp(&a[i], &b[i], sizeof(Element)) != 0)
+            ++count;
+    return count;
+}
+
+template <class Real>
+struct Results {
+    std::vector<Real> t;
+    std::vector<std::int32_t> object;
+    std::vector<std::uint8_t> mask;
+    std::size_t hits = 0;
+    std::size_t all_hits = 0;
+    double all_t = 0;
+};
+
+template <class Real>
+Results<Real> trace(const Scene& scene, const Rays<Real>& rays, RenderOptions options,
+                    Traversal traversal)
+{
+    options.traversal = traversal;
+    const RayScene<Real> traced(scene, options);
+    Results<Real> results;
+    results.t.resize(rays.count());
+    results.object.resize(rays.count());
+    results.mask.resize(rays.count());
+    traced.closest_hits(rays.view(), {results.t.data(), results.object.data()});
+    traced.occluded(rays.view(), results.mask.data());
+    traced.all_hits(rays.view(), [&](std::size_t, std::span<const SurfaceHit<Real>> hits) {
+        results.all_hits += hits.size();
+        for (const auto& hit : hits)
+            results.all_t += static_cast<double>(hit.t);
+    });
+    for (const std::int32_t object : results.object)
+        results.hits += object >= 0 ? 1 : 0;
+    return results;
+}
+
+template <class Real>
+void compare_traversals(const Scene& scene, const Rays<Real>& rays, const RenderOptions& options)
+{
+    const Results<Real> list = trace(scene, rays, options, Traversal::list);
+    const Results<Real> tree = trace(scene, rays, options, Traversal::tree);
+    CHECK(list.hits > rays.count() / 20);
+    CHECK(differing(list.t, tree.t) == 0);
+    CHECK(differing(list.object, tree.object) == 0);
+    CHECK(differing(list.mask, tree.mask) == 0);
+    CHECK(list.all_hits == tree.all_hits);
+    CHECK(list.all_t == Approx(tree.all_t).epsilon(1e-12));
+}
+
+template <class Real>
+void compare_frames(const Scene& scene, const RenderOptions& given)
+{
+    Image<Real> pictures[2];
+    FrameCounts counts[2];
+    for (int i = 0; i < 2; ++i) {
+        RenderOptions options = given;
+        options.traversal = i == 0 ? Traversal::list : Traversal::tree;
+        counts[i] = Renderer<Real>(scene, options).render(pictures[i]);
+    }
+    CHECK(differing(pictures[0].rgb, pictures[1].rgb) == 0);
+    CHECK(counts[0].shadow == counts[1].shadow);
+    CHECK(counts[0].reflected == counts[1].reflected);
+    CHECK(counts[0].reflected > 0);
+}
+
+void compare_on_every_isa(int scenes, int rays, unsigned seed)
+{
+    for (const IsaInfo& isa : list_isas()) {
+        if (!isa.supported)
+            continue;
+        for (int i = 0; i < scenes; ++i) {
+            const int objects = 3 + (i * 37) % 190;
+            INFO(isa.name << ", scene " << i << ", " << objects << " objects");
+            const unsigned number = seed + static_cast<unsigned>(i);
+            const Scene scene = mixed_scene(objects, number);
+            RenderOptions options;
+            options.isa = isa.name;
+            options.accuracy = i % 2 == 0 ? Accuracy::fast : Accuracy::automatic;
+            compare_traversals(scene, many_rays<float>(rays, number), options);
+            compare_traversals(scene, many_rays<double>(rays, number), options);
+            compare_frames<float>(scene, options);
+            compare_frames<double>(scene, options);
+        }
+    }
+}
+
+}  // namespace
+
+TEST_CASE("lists and hierarchies give the same hits and pictures", "[traversal]")
+{
+    compare_on_every_isa(4, 3000, 1);
+}
+
+TEST_CASE("lists and hierarchies give the same for two hundred scenes", "[traversal][slow]")
+{
+    compare_on_every_isa(200, 5000, 1000);
+}
+
+TEST_CASE("light through glass passes a hierarchy as it passes a list", "[traversal]")
+{
+    Scene scene = mixed_scene(60, 3);
+    scene.illumination = Illumination::whitted;
+    scene.shadows = ShadowKind::transparent;
+    WhittedMaterial glass;
+    glass.diffuse = Rgb(0.4);
+    glass.transmissive = Rgb(0.5);
+    glass.ior = 1.3;
+    for (Object& object : scene.objects)
+        object.material.model = glass;
+    Image<double> pictures[2];
+    for (int i = 0; i < 2; ++i) {
+        RenderOptions options;
+        options.traversal = i == 0 ? Traversal::list : Traversal::tree;
+        Renderer<double>(scene, options).render(pictures[i]);
+    }
+    double worst = 0.0;
+    for (std::size_t i = 0; i < pictures[0].rgb.size(); ++i)
+        worst = std::max(worst, std::abs(pictures[0].rgb[i] - pictures[1].rgb[i]));
+    // Shares are multiplied in the order blockers are found.
+    CHECK(worst < 1e-12);
+    CHECK(pictures[0].rgb[3 * 70 * 25] >= 0.0);
+}
+
+}  // namespace packtrace::test
