@@ -7,8 +7,8 @@
 
 namespace packtrace::peers {
 
-CameraTiles::CameraTiles(const Scene& scene, const std::string& isa)
-    : lowered_(lower(scene)),
+CameraTiles::CameraTiles(const Scene& scene, const std::string& isa, Accuracy accuracy)
+    : lowered_(lower(scene, accuracy)),
       packed_(lowered_),
       camera_(camera_view<float>(scene, lowered_)),
       kernels_(kernels_for(precision<float>(kernels_of(isa)), lowered_.features)),

@@ -2,6 +2,7 @@
 
 #include <string>
 
+#include <packtrace/render.hpp>
 #include <packtrace/scene.hpp>
 
 #include "core/aligned_array.hpp"
@@ -14,7 +15,7 @@ namespace packtrace::peers {
 /// Closest hits of camera rays as the renderer finds them, tile by tile.
 class CameraTiles {
 public:
-    CameraTiles(const Scene& scene, const std::string& isa);
+    CameraTiles(const Scene& scene, const std::string& isa, Accuracy accuracy);
     /// Seconds; the hits are in the order of camera_rays().
     double trace(Hits& hits);
 

@@ -26,32 +26,33 @@ double trace_stream(const RayScene<float>& scene, const RaySet& rays, Query quer
     return watch.seconds();
 }
 
-Tracer stream_tracer(const Scene& scene, const std::string& isa)
+Tracer stream_tracer(const Scene& scene, const PacktraceMode& mode)
 {
     RenderOptions options;
-    options.isa = isa;
+    options.isa = mode.isa;
+    options.accuracy = mode.accuracy;
     const auto rays = std::make_shared<const RayScene<float>>(scene, options);
-    return {"packtrace " + isa + " stream", Side::packtrace, false,
+    return {"packtrace " + mode.name + " stream", Side::packtrace, false,
             [rays](const RaySet& set, Query query, Hits& hits) {
                 return trace_stream(*rays, set, query, hits);
             }};
 }
 
-Tracer tile_tracer(const Scene& scene, const std::string& isa)
+Tracer tile_tracer(const Scene& scene, const PacktraceMode& mode)
 {
-    const auto tiles = std::make_shared<CameraTiles>(scene, isa);
-    return {"packtrace " + isa + " tiles", Side::packtrace, true,
+    const auto tiles = std::make_shared<CameraTiles>(scene, mode.isa, mode.accuracy);
+    return {"packtrace " + mode.name + " tiles", Side::packtrace, true,
             [tiles](const RaySet&, Query, Hits& hits) { return tiles->trace(hits); }};
 }
 
 }  // namespace
 
-std::vector<Tracer> packtrace_tracers(const Scene& scene, const std::vector<std::string>& isas)
+std::vector<Tracer> packtrace_tracers(const Scene& scene, const std::vector<PacktraceMode>& modes)
 {
     std::vector<Tracer> tracers;
-    for (const std::string& isa : isas) {
-        tracers.push_back(stream_tracer(scene, isa));
-        tracers.push_back(tile_tracer(scene, isa));
+    for (const PacktraceMode& mode : modes) {
+        tracers.push_back(stream_tracer(scene, mode));
+        tracers.push_back(tile_tracer(scene, mode));
     }
     return tracers;
 }

@@ -1,16 +1,25 @@
 #pragma once
 
+#include <string>
 #include <vector>
 
+#include <packtrace/render.hpp>
 #include <packtrace/scene.hpp>
 
 #include "tracer.hpp"
 
 namespace packtrace::peers {
 
-/// packtrace's public ray interface for each of the instruction sets, and its tiles of camera
-/// rays, which it makes itself.
+/// An instruction set and an accuracy, and what the table calls both.
+struct PacktraceMode {
+    std::string name;
+    std::string isa;
+    Accuracy accuracy;
+};
+
+/// packtrace's public ray interface in each mode, and its tiles of camera rays, which it makes
+/// itself.
 [[nodiscard]] std::vector<Tracer> packtrace_tracers(const Scene& scene,
-                                                    const std::vector<std::string>& isas);
+                                                    const std::vector<PacktraceMode>& modes);
 
 }  // namespace packtrace::peers

@@ -24,6 +24,7 @@ struct Arguments {
     std::vector<std::string> scenes = scene_names();
     std::vector<std::string> kinds{"camera", "shadow", "bounce"};
     std::vector<std::string> isas{"avx512", "avx2"};
+    std::vector<std::string> accuracies{"fast", "auto"};
     std::string json;
     int repetitions = 9;
     int size = 1024;
@@ -41,15 +42,23 @@ bool is_supported(const std::string& name)
     return false;
 }
 
+std::vector<PacktraceMode> modes_of(const Arguments& arguments)
+{
+    std::vector<PacktraceMode> modes;
+    for (const std::string& isa : arguments.isas)
+        for (const std::string& accuracy : arguments.accuracies)
+            if (is_supported(isa))
+                modes.push_back({isa + " " + accuracy, isa,
+                                 accuracy == "fast" ? Accuracy::fast : Accuracy::automatic});
+    return modes;
+}
+
 std::vector<Tracer> tracers_for(const Scene& scene, const Arguments& arguments,
                                 const std::vector<SphereRecord>& spheres)
 {
     std::vector<Tracer> tracers;
     if (scene.objects.size() <= arguments.most_objects) {
-        std::vector<std::string> isas;
-        std::copy_if(arguments.isas.begin(), arguments.isas.end(), std::back_inserter(isas),
-                     is_supported);
-        tracers = packtrace_tracers(scene, isas);
+        tracers = packtrace_tracers(scene, modes_of(arguments));
     }
     for (const Geometry geometry : {Geometry::user, Geometry::sphere}) {
         if (arguments.quick && geometry == Geometry::sphere)
@@ -202,6 +211,11 @@ void add_options(CLI::App& app, Arguments& arguments)
         ->delimiter(',');
     app.add_option("--isas", arguments.isas, "Instruction sets of packtrace (avx512,avx2)")
         ->check(CLI::IsMember({"avx512", "avx2", "sse_fma", "sse42"}))
+        ->delimiter(',');
+    app.add_option("--accuracies", arguments.accuracies,
+                   "Accuracy modes of packtrace (fast,auto); Embree's single precision compares "
+                   "with fast")
+        ->check(CLI::IsMember({"fast", "auto"}))
         ->delimiter(',');
     app.add_option("--repetitions", arguments.repetitions, "Passes that count (default 9)")
         ->check(CLI::Range(1, 1000));
