@@ -77,15 +77,17 @@ struct StreamPacket {
     }
 };
 
-/// Object numbers of the lanes of `active`, -1 elsewhere.
+/// Object numbers of the lanes of `active`; the others keep what they have.
 template <class Real>
 inline vint<Real> objects_of(const abi::SceneView<Real>& scene, const vint<Real>& surface,
                              std::uint32_t active)
 {
     alignas(64) lane_int<Real> number[lanes<Real>];
     store(number, surface);
-    for (int lane = 0; lane < lanes<Real>; ++lane)
-        number[lane] = active >> lane & 1u ? scene.material_index[number[lane]].object : -1;
+    for (; active != 0; active &= active - 1) {
+        const int lane = __builtin_ctz(active);
+        number[lane] = scene.material_index[number[lane]].object;
+    }
     return load(number);
 }
 
@@ -134,32 +136,38 @@ inline int gather_stream(const abi::RaysView<Real>& view, int begin, RayGroup<Re
     return count;
 }
 
-/// Hands out the hits of a group from `begin` in the stream.
+/// Hands out what a packet of rays, of which `live` are left, hit: to `at` and after.
 template <abi::Features F, class Real>
-inline void store_group_hits(const abi::SceneView<Real>& scene, const RayGroup<Real>& group,
-                             const abi::RaysView<Real>& view, int begin, int count,
-                             const abi::HitsView<Real>& hits)
+inline void store_packet_hits(const abi::SceneView<Real>& scene, const RayPacket<Real>& rays,
+                              const HitPacket<Real>& hit, const vreal<Real>& t_max,
+                              const abi::HitsView<Real>& hits, int at, int live)
 {
-    for (int first = 0; first < count; first += lanes<Real>) {
-        const HitPacket<Real> hit = load_hits(group, first);
-        const RayPacket<Real> rays = load_rays(group, first);
-        const auto missed = int_equal(hit.surface, vint<Real>(lane_int<Real>(-1)));
-        const int live = count - first;
-        const std::uint32_t found = ~bits(missed) & first_lanes<Real>(live);
-        const int at = begin + first;
-        const vreal<Real> t_max = load_some(view.t_max + at, live);
-        if (hits.normal[0] == nullptr && scene.finish == nullptr) {
-            store_some(hits.t + at, select(missed, t_max, hit.t), live);
-            store_some(hits.object + at, objects_of(scene, hit.surface, found), live);
-            continue;
-        }
-        vreal<Real> t = hit.t;
-        const SurfacePacket<Real> surface = outward_surface<F>(scene, rays, t, hit.surface, found);
-        store_some(hits.t + at, select(missed, t_max, t), live);
-        store_some(hits.object + at, select(missed, hit.surface, surface.object), live);
-        store_some3(hits.normal, at, surface.normal, live);
-        store_some3(hits.outer_start, at, surface.point + surface.lift, live);
-        store_some3(hits.inner_start, at, surface.point - surface.lift, live);
+    const auto missed = int_equal(hit.surface, vint<Real>(lane_int<Real>(-1)));
+    const std::uint32_t found = ~bits(missed) & first_lanes<Real>(live);
+    if (hits.normal[0] == nullptr && scene.finish == nullptr) {
+        store_some(hits.t + at, select(missed, t_max, hit.t), live);
+        store_some(hits.object + at, objects_of(scene, hit.surface, found), live);
+        return;
+    }
+    vreal<Real> t = hit.t;
+    const SurfacePacket<Real> surface = outward_surface<F>(scene, rays, t, hit.surface, found);
+    store_some(hits.t + at, select(missed, t_max, t), live);
+    store_some(hits.object + at, select(missed, hit.surface, surface.object), live);
+    store_some3(hits.normal, at, surface.normal, live);
+    store_some3(hits.outer_start, at, surface.point + surface.lift, live);
+    store_some3(hits.inner_start, at, surface.point - surface.lift, live);
+}
+
+/// Where the scene has no hierarchy: packet by packet, without a group in between.
+template <abi::Features F, class Real>
+inline void closest_hits_in_lists(const abi::SceneView<Real>& scene,
+                                  const abi::RaysView<Real>& view, const abi::HitsView<Real>& hits)
+{
+    for (int first = 0; first < view.count; first += lanes<Real>) {
+        const StreamPacket<Real> packet(view, first);
+        HitPacket<Real> hit{packet.t_max, vint<Real>(lane_int<Real>(-1))};
+        closest_hit<F>(hit, scene, packet.rays);
+        store_packet_hits<F>(scene, packet.rays, hit, packet.t_max, hits, first, packet.count);
     }
 }
 
@@ -167,11 +175,37 @@ template <abi::Features F, class Real>
 inline void closest_hits(const abi::SceneView<Real>& scene, const abi::RaysView<Real>& view,
                          const abi::HitsView<Real>& hits)
 {
+    if (scene.tree.empty())
+        return closest_hits_in_lists<F>(scene, view, hits);
     RayGroup<Real> group;
     for (int begin = 0; begin < view.count; begin += group_rays) {
         const int count = gather_stream(view, begin, group);
         closest_of_group<F>(scene, scene, group);
-        store_group_hits<F>(scene, group, view, begin, count, hits);
+        for (int first = 0; first < count; first += lanes<Real>)
+            store_packet_hits<F>(scene, load_rays(group, first), load_hits(group, first),
+                                 load_some(view.t_max + begin + first, count - first), hits,
+                                 begin + first, count - first);
+    }
+}
+
+/// Writes a byte a lane.
+template <class Real>
+inline void store_mask(std::uint8_t* mask, std::uint32_t blocked, int live)
+{
+    for (int lane = 0; lane < lanes<Real> && lane < live; ++lane)
+        mask[lane] = static_cast<std::uint8_t>(blocked >> lane & 1u);
+}
+
+template <abi::Features F, class Real>
+inline void occluded_in_lists(const abi::SceneView<Real>& scene, const abi::RaysView<Real>& view,
+                              std::uint8_t* mask)
+{
+    for (int first = 0; first < view.count; first += lanes<Real>) {
+        const StreamPacket<Real> packet(view, first);
+        const std::uint32_t wanted = first_lanes<Real>(packet.count);
+        store_mask<Real>(mask + first,
+                         occluded<F>(StreamRange<Real>{packet.t_max}, scene, packet.rays, wanted),
+                         packet.count);
     }
 }
 
@@ -179,6 +213,8 @@ template <abi::Features F, class Real>
 inline void occluded_rays(const abi::SceneView<Real>& scene, const abi::RaysView<Real>& view,
                           std::uint8_t* mask)
 {
+    if (scene.tree.empty())
+        return occluded_in_lists<F>(scene, view, mask);
     RayGroup<Real> group;
     for (int begin = 0; begin < view.count; begin += group_rays) {
         const int count = gather_stream(view, begin, group);
@@ -186,10 +222,10 @@ inline void occluded_rays(const abi::SceneView<Real>& scene, const abi::RaysView
         for (int cell = 0; cell < group_cells; ++cell)
             wanted[cell] = group.active[cell];
         visit_blockers_of_group<F, StreamRange<Real>>(scene, scene, group, EndsRays{});
-        for (int ray = 0; ray < count; ++ray) {
-            const unsigned blocked =
-                wanted[ray / cell_rays] & ~unsigned{group.active[ray / cell_rays]};
-            mask[begin + ray] = static_cast<std::uint8_t>(blocked >> ray % cell_rays & 1u);
+        for (int first = 0; first < count; first += lanes<Real>) {
+            const std::uint32_t before = wanted[first / cell_rays] >> first % cell_rays;
+            store_mask<Real>(mask + begin + first, before & ~active_lanes(group, first),
+                             count - first);
         }
     }
 }
