@@ -90,7 +90,7 @@ struct ChildBox {
     }
 };
 
-/// Rays of a cell that are better off alone than with the cell; results/few_rays.json.
+/// Rays of a cell that are better off alone than with the cell; results/tree_designs.json.
 inline constexpr int few_rays = 4;
 
 /// Takes a group's coherent cells through the hierarchy. `visit(child, cells)` is called for the
