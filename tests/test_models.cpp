@@ -9,6 +9,7 @@
 
 #include "catch.hpp"
 #include "reference_scenes.hpp"
+#include "study/own_surface.hpp"
 
 // Every illumination model and every surface: packets of doubles against the scalar reference.
 namespace packtrace::test {
@@ -16,34 +17,11 @@ namespace {
 
 Quadric named(QuadricKind kind)
 {
+    if (kind != QuadricKind::general)
+        return study::quadric_of(kind);
     Quadric quadric;
     quadric.kind = kind;
-    switch (kind) {
-        case QuadricKind::ellipsoid:
-            quadric.coefficients = {1, 1, 1, 0, 0, 0, 0, 0, 0, -1};
-            break;
-        case QuadricKind::cylinder:
-            quadric.coefficients = {1, 1, 0, 0, 0, 0, 0, 0, 0, -1};
-            break;
-        case QuadricKind::cone:
-            quadric.coefficients = {1, 1, -1, 0, 0, 0, 0, 0, 0, 0};
-            break;
-        case QuadricKind::paraboloid:
-            quadric.coefficients = {1, 1, 0, 0, 0, 0, 0, 0, -1, 0};
-            break;
-        case QuadricKind::hyperboloid:
-            quadric.coefficients = {1, 1, -1, 0, 0, 0, 0, 0, 0, -1};
-            break;
-        case QuadricKind::hyperboloid2:
-            quadric.coefficients = {1, 1, -1, 0, 0, 0, 0, 0, 0, 1};
-            break;
-        case QuadricKind::saddle:
-            quadric.coefficients = {1, -1, 0, 0, 0, 0, 0, 0, -1, 0};
-            break;
-        case QuadricKind::general:
-            quadric.coefficients = {1.0, 1.4, 0.7, 0.3, -0.4, 0.2, 0.1, -0.2, 0.15, -0.9};
-            break;
-    }
+    quadric.coefficients = {1.0, 1.4, 0.7, 0.3, -0.4, 0.2, 0.1, -0.2, 0.15, -0.9};
     return quadric;
 }
 

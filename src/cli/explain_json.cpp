@@ -1,6 +1,7 @@
 #include <cmath>
 
 #include "cli/explain_print.hpp"
+#include "study/ray_kind_name.hpp"
 
 namespace packtrace::cli {
 namespace {
@@ -10,19 +11,6 @@ using Json = nlohmann::ordered_json;
 Json triple(const Vec3& v)
 {
     return {v.x, v.y, v.z};
-}
-
-const char* name_of(RayKind kind)
-{
-    switch (kind) {
-        case RayKind::camera:
-            return "camera";
-        case RayKind::mirrored:
-            return "mirrored";
-        case RayKind::refracted:
-            break;
-    }
-    return "refracted";
 }
 
 Json lights_json(const RayNode& ray)

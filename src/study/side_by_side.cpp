@@ -4,6 +4,8 @@
 #include <cmath>
 #include <set>
 
+#include "study/ray_kind_name.hpp"
+
 namespace packtrace {
 namespace {
 
@@ -37,19 +39,6 @@ bool close(const Numbers& a, const Numbers& b, double tolerance)
         between[i] -= b[i];
     const double scale = std::max({1.0, length(a), length(b)});
     return std::isfinite(scale) && length(between) <= tolerance * scale;
-}
-
-const char* name_of(RayKind kind)
-{
-    switch (kind) {
-        case RayKind::camera:
-            return "camera";
-        case RayKind::mirrored:
-            return "mirrored";
-        case RayKind::refracted:
-            break;
-    }
-    return "refracted";
 }
 
 const RayNode* child_of(const RayNode* parent, RayKind kind)

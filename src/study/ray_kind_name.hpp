@@ -1,0 +1,21 @@
+#pragma once
+
+#include <packtrace/explain.hpp>
+
+namespace packtrace {
+
+/// What tables and JSON call a kind of ray.
+[[nodiscard]] inline const char* name_of(RayKind kind)
+{
+    switch (kind) {
+        case RayKind::camera:
+            return "camera";
+        case RayKind::mirrored:
+            return "mirrored";
+        case RayKind::refracted:
+            break;
+    }
+    return "refracted";
+}
+
+}  // namespace packtrace
