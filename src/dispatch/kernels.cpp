@@ -4,28 +4,21 @@
 
 namespace packtrace {
 
-#define PACKTRACE_DECLARE(isa)              \
+// kernel_list.inc is written by the build: a line KERNELS(isa) for each set compiled in.
+#define KERNELS(isa)                        \
     namespace isa {                         \
     const abi::KernelTable& kernel_table(); \
     }
-#ifdef PACKTRACE_HAS_sse42
-PACKTRACE_DECLARE(sse42)
-PACKTRACE_DECLARE(sse_fma)
-PACKTRACE_DECLARE(avx2)
-PACKTRACE_DECLARE(avx512)
-#else
-PACKTRACE_DECLARE(neon64)
-#endif
+#include "dispatch/kernel_list.inc"
+#undef KERNELS
 
 const std::vector<const abi::KernelTable*>& all_kernels()
 {
-#ifdef PACKTRACE_HAS_sse42
     static const std::vector<const abi::KernelTable*> tables = {
-        &sse42::kernel_table(), &sse_fma::kernel_table(), &avx2::kernel_table(),
-        &avx512::kernel_table()};
-#else
-    static const std::vector<const abi::KernelTable*> tables = {&neon64::kernel_table()};
-#endif
+#define KERNELS(isa) &isa::kernel_table(),
+#include "dispatch/kernel_list.inc"
+#undef KERNELS
+    };
     return tables;
 }
 

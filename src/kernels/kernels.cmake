@@ -5,9 +5,15 @@
 # -finline-limit and its kin make GCC inline xsimd's one-line functions everywhere, so that no
 # weak copy of them leaves the object. -Wno-maybe-uninitialized: GCC 12's own AVX-512 header
 # starts from undefined registers.
+set(PACKTRACE_ISAS "all" CACHE STRING
+    "Instruction sets to compile kernels for: all, or a list such as sse42;avx2")
 set(PACKTRACE_KERNELS "" CACHE INTERNAL "Instruction sets compiled in")
 
+# Unless PACKTRACE_ISAS leaves it out.
 function(packtrace_kernel isa lanes)
+    if(NOT PACKTRACE_ISAS STREQUAL "all" AND NOT isa IN_LIST PACKTRACE_ISAS)
+        return()
+    endif()
     file(GLOB kernel_sources CONFIGURE_DEPENDS ${CMAKE_CURRENT_SOURCE_DIR}/kernels/*.cpp)
     add_library(packtrace_kernels_${isa} OBJECT ${kernel_sources})
     target_compile_definitions(packtrace_kernels_${isa} PRIVATE
@@ -22,7 +28,6 @@ function(packtrace_kernel isa lanes)
     target_link_libraries(packtrace_kernels_${isa} PRIVATE packtrace_flags packtrace_xsimd)
     set_target_properties(packtrace_kernels_${isa} PROPERTIES INTERPROCEDURAL_OPTIMIZATION OFF)
     target_sources(packtrace PRIVATE $<TARGET_OBJECTS:packtrace_kernels_${isa}>)
-    target_compile_definitions(packtrace PRIVATE PACKTRACE_HAS_${isa})
     set(PACKTRACE_KERNELS ${PACKTRACE_KERNELS} ${isa} CACHE INTERNAL "")
 endfunction()
 
@@ -38,3 +43,20 @@ else()
     message(FATAL_ERROR "packtrace: no kernels for ${CMAKE_SYSTEM_PROCESSOR}; "
                         "it runs on x86-64 and 64-bit Arm")
 endif()
+foreach(isa IN LISTS PACKTRACE_ISAS)
+    if(NOT isa STREQUAL "all" AND NOT isa IN_LIST PACKTRACE_KERNELS)
+        message(FATAL_ERROR "packtrace: PACKTRACE_ISAS names '${isa}', which this processor family "
+                            "has no kernels for")
+    endif()
+endforeach()
+if(NOT PACKTRACE_KERNELS)
+    message(FATAL_ERROR "packtrace: PACKTRACE_ISAS is empty; give all, or a list such as sse42;avx2")
+endif()
+
+# What src/dispatch knows them by: one line KERNELS(isa) each.
+set(kernel_list "")
+foreach(isa IN LISTS PACKTRACE_KERNELS)
+    string(APPEND kernel_list "KERNELS(${isa})\n")
+endforeach()
+file(CONFIGURE OUTPUT ${CMAKE_CURRENT_BINARY_DIR}/dispatch/kernel_list.inc CONTENT "${kernel_list}")
+target_include_directories(packtrace PRIVATE ${CMAKE_CURRENT_BINARY_DIR})
