@@ -12,6 +12,7 @@ struct Light {
     Rgb intensity{1.0};
     /// A point light's position, or the direction *towards* a directional light (any length).
     Vec3 vector{0.0};
+    bool casts_shadow = true;  ///< false: it reaches what turns to it through all that is between
 };
 
 }  // namespace packtrace

@@ -33,7 +33,10 @@ struct RenderOptions {
     SelfHits self_hits = SelfHits::note;  ///< packets
     int width = 0;                        ///< packet kernel: float lanes 4, 8 or 16; 0 is any
     Traversal traversal = Traversal::automatic;  ///< packet kernel
-    int threads = 0;           ///< 0: all of the TBB arena the call runs in
+    /// Packet kernel: run the one that knows everything, and leave nothing out of the scene. The
+    /// picture is the same, bit for bit.
+    bool force_general = false;
+    int threads = 0;  ///< 0: all of the TBB arena the call runs in
     /// Samples a pixel, 1 … 1024. One lies where the scene's camera says; more lie in the same
     /// stratified places of every pixel, whose colour is their mean.
     int samples = 1;

@@ -25,6 +25,7 @@ struct Object {
     /// From the object's own space to the world, applied after the surface's own placement.
     Mat4 transform{1.0};
     Material material;
+    bool casts_shadow = true;  ///< false: no light is stopped by it
 };
 
 /// A scene as its file says it, in double precision. Object numbers are indices into

@@ -136,6 +136,9 @@ void add_kernel_options(CLI::App& command, KernelArguments& arguments)
                     "notes have it (note, default), or by what rounding can do there (exact)")
         ->check(one_of({"note", "exact"}))
         ->type_name("note|exact");
+    command.add_flag("--force-general", arguments.force_general,
+                     "Run the packet kernel that knows everything, and leave nothing of the scene "
+                     "out; the picture is the same");
     add_isa_options(command, arguments.isa);
     add_threads_option(command, arguments.threads);
 }
@@ -152,11 +155,12 @@ Traversal traversal_named(const std::string& name)
 /// The option given that only packets have, or nothing.
 std::string packet_option(const KernelArguments& arguments)
 {
-    return arguments.isa.isa     ? "--isa"
-           : arguments.isa.width ? "--width"
-           : arguments.traversal ? "--traversal"
-           : arguments.self_hits ? "--self-hits"
-                                 : "";
+    return arguments.isa.isa         ? "--isa"
+           : arguments.isa.width     ? "--width"
+           : arguments.traversal     ? "--traversal"
+           : arguments.self_hits     ? "--self-hits"
+           : arguments.force_general ? "--force-general"
+                                     : "";
 }
 
 }  // namespace
@@ -214,6 +218,7 @@ RenderOptions render_options(const KernelArguments& arguments)
         options.self_hits = SelfHits::exact;
     options.isa = chosen_isa(arguments.isa).name;
     options.traversal = traversal_named(arguments.traversal.value_or("auto"));
+    options.force_general = arguments.force_general;
     return options;
 }
 

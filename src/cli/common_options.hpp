@@ -24,13 +24,14 @@ struct PictureArguments {
 };
 
 /// How to render it: `--kernel`, `--precision`, `--traversal`, `--accuracy`, `--self-hits`,
-/// `--threads` and those of IsaArguments.
+/// `--force-general`, `--threads` and those of IsaArguments.
 struct KernelArguments {
     std::string kernel = "packet";
     std::optional<std::string> traversal;
     std::string precision = "single";
     std::optional<std::string> accuracy;
     std::optional<std::string> self_hits;
+    bool force_general = false;
     IsaArguments isa;
     int threads = 0;
 };

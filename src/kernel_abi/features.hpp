@@ -5,31 +5,60 @@ namespace packtrace::abi {
 /// What a scene uses. Kernels are compiled for feature sets, and have no branch, no array and
 /// no pass for what theirs lacks.
 struct Features {
-    bool quadrics = false;  ///< surfaces other than spheres and planes
-    bool glass = false;     ///< refracted rays, or shadows that let light through
-    bool probe = false;     ///< reports of single rays to TileJob::probe
+    bool quadrics = false;    ///< surfaces other than spheres and planes
+    bool highlights = false;  ///< materials with a highlight
+    bool bounces = false;     ///< mirrored rays, or refracted ones
+    bool colored = false;     ///< children whose weight differs from channel to channel
+    bool glass = false;       ///< refracted rays, or shadows that let light through
+    bool probe = false;       ///< reports of single rays to TileJob::probe
 };
 
-/// The feature sets compiled in; a scene runs the first that covers it.
-inline constexpr Features feature_sets[] = {
-    {.quadrics = false, .glass = false},
-    {.quadrics = true, .glass = false},
-    {.quadrics = true, .glass = true},
-    {.quadrics = true, .glass = true, .probe = true},
+/// A feature set that kernels are compiled for.
+struct FeatureSet {
+    const char* name;
+    Features features;
 };
-inline constexpr int feature_set_count = 4;
+
+/// A scene runs the first that covers it. Which features have a set of their own is measured:
+/// results/features.json.
+inline constexpr FeatureSet feature_sets[] = {
+    {"matt", {}},
+    {"mirrors", {.highlights = true, .bounces = true}},
+    {"quadrics", {.quadrics = true, .highlights = true, .bounces = true, .colored = true}},
+    {"general",
+     {.quadrics = true, .highlights = true, .bounces = true, .colored = true, .glass = true}},
+    {"probe",
+     {.quadrics = true,
+      .highlights = true,
+      .bounces = true,
+      .colored = true,
+      .glass = true,
+      .probe = true}},
+};
+inline constexpr int feature_set_count = 5;
+/// Renders every scene.
+inline constexpr int general_set = 3;
+/// Renders every scene, and tells of its rays.
+inline constexpr int probe_set = 4;
 
 /// A probe is never chosen for a scene that does not ask for it.
 constexpr bool covers(Features set, Features needed)
 {
-    return (set.quadrics || !needed.quadrics) && (set.glass || !needed.glass) &&
-           set.probe == needed.probe;
+    return (set.quadrics || !needed.quadrics) && (set.highlights || !needed.highlights) &&
+           (set.bounces || !needed.bounces) && (set.colored || !needed.colored) &&
+           (set.glass || !needed.glass) && set.probe == needed.probe;
 }
 
 /// What of a set makes a difference to how rays find objects: kernels share that code.
 constexpr Features tree_features(Features set)
 {
     return {.quadrics = set.quadrics};
+}
+
+/// How many numbers a ray's weight takes.
+constexpr int weight_channels(Features set)
+{
+    return set.colored ? 3 : set.bounces ? 1 : 0;
 }
 
 }  // namespace packtrace::abi

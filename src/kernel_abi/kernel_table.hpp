@@ -9,6 +9,7 @@
 #include "kernel_abi/ray_streams.hpp"
 #include "kernel_abi/scene_view.hpp"
 #include "kernel_abi/self_test.hpp"
+#include "kernel_abi/stage.hpp"
 
 namespace packtrace::abi {
 
@@ -55,12 +56,13 @@ struct TileHits {
     lane_int<Real> surface[tile_pixels];  ///< -1 for a miss
 };
 
-/// How many rays of each kind were traced.
+/// How many rays of each kind were traced, and what was done for them.
 struct RayCounts {
     std::uint64_t camera = 0;
     std::uint64_t shadow = 0;
     std::uint64_t reflected = 0;
     std::uint64_t refracted = 0;
+    std::uint32_t stages = 0;  ///< of Stage
 
     RayCounts& operator+=(const RayCounts& more)
     {
@@ -68,6 +70,7 @@ struct RayCounts {
         shadow += more.shadow;
         reflected += more.reflected;
         refracted += more.refracted;
+        stages |= more.stages;
         return *this;
     }
 };
@@ -75,7 +78,7 @@ struct RayCounts {
 /// The kernels of one precision for one feature set.
 template <class Real>
 struct FeatureKernels {
-    Features features;
+    FeatureSet set;
     std::size_t (*scratch_bytes)(const SceneView<Real>& scene) = nullptr;
     RayCounts (*render_tile)(const TileJob<Real>& job) = nullptr;
     /// The tile's camera rays only; `rgb` is not used. Null for kernels of Features::probe.

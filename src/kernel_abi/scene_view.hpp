@@ -19,6 +19,10 @@ enum class RayUnits : std::int32_t {
 /// A lowered scene in one precision, as the kernels see it.
 template <class Real>
 struct SceneView {
+    /// Where shadow rays find their blockers, of which only the lists and the tree count; null
+    /// where that is here, as every object casts shadows.
+    const SceneView* casters = nullptr;
+
     SphereListView<Real> spheres;
     RecordList<HugeSphere<Real>> huge_spheres;
     RecordList<PlaneRecord<Real>> planes;
@@ -43,7 +47,9 @@ struct SceneView {
     Real background[3] = {};
     Real limit_color[3] = {};  ///< what rays beyond the depth limit bring
     int max_depth = 0;
-    bool shadows = true;
+    /// No light reaches anything and nothing is mirrored or refracted: hits show their ambient
+    /// light, and need no normals.
+    bool flat = false;
     bool transparent_shadows = false;  ///< blockers pass on their transmitted share
     bool visible_lights = false;       ///< a ray that escapes towards a light sees it (note 000)
     RayUnits units = RayUnits::as_given;

@@ -64,6 +64,7 @@ struct LightRecord {
     Real intensity[3];
     Real vector[3];  ///< position, or direction towards the light
     LightKind kind;
+    bool casts_shadow;
 };
 
 }  // namespace packtrace::abi

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "kernel_abi/kernel_table.hpp"
 #include "kernels/material.hpp"
 #include "kernels/occluded.hpp"
 #include "kernels/power.hpp"
@@ -21,7 +22,7 @@ struct LightPacket {
 };
 
 /// R·V of the mirrored light direction R = 2 (N·L) N - L comes down to 2 (N·L)(N·V) - L·V.
-template <class Real>
+template <abi::Features F, class Real>
 inline LightPacket<Real> light_at(const abi::LightRecord<Real>& light,
                                   const SurfacePacket<Real>& surface,
                                   const MaterialPacket<Real>& material, std::uint32_t active)
@@ -34,28 +35,34 @@ inline LightPacket<Real> light_at(const abi::LightRecord<Real>& light,
     const vreal<Real> inverse_length = vreal<Real>(Real(1)) / sqrt(length2);
 
     const vreal<Real> normal_light = dot(surface.normal, result.to_light);
-    const vreal<Real> normal_dir = dot(surface.normal, surface.dir);
-    const vreal<Real> mirror =
-        nmadd(normal_light + normal_light, normal_dir, dot(result.to_light, surface.dir));
     result.inverse_length = inverse_length;
     result.diffuse = max(normal_light, zero) * inverse_length;
-    result.highlight = mirror * inverse_length * surface.inverse_length;
-
-    result.has_highlight =
-        bits((result.highlight > zero) & (result.highlight >= material.highlight_floor)) & active;
+    result.highlight = zero;
+    result.has_highlight = 0;
+    if constexpr (F.highlights) {
+        const vreal<Real> normal_dir = dot(surface.normal, surface.dir);
+        const vreal<Real> mirror =
+            nmadd(normal_light + normal_light, normal_dir, dot(result.to_light, surface.dir));
+        result.highlight = mirror * inverse_length * surface.inverse_length;
+        result.has_highlight =
+            bits((result.highlight > zero) & (result.highlight >= material.highlight_floor)) &
+            active;
+    }
     result.wanted = (bits(normal_light > zero) & active) | result.has_highlight;
     return result;
 }
 
 /// diffuse kd + highlight^n ks, times the light's intensity, in the lanes of `lit`.
-template <class Real>
+template <abi::Features F, class Real>
 inline Vec3v<Real> lit_color(const abi::LightRecord<Real>& light, const LightPacket<Real>& packet,
-                             const MaterialPacket<Real>& material, std::uint32_t lit)
+                             const MaterialPacket<Real>& material, std::uint32_t lit,
+                             abi::RayCounts& counts)
 {
     const vreal<Real> zero(Real(0));
     Vec3v<Real> sum = scale<Real>(packet.diffuse, material.diffuse);
     const std::uint32_t shiny = packet.has_highlight & lit;
-    if (shiny != 0) {
+    if (F.highlights && shiny != 0) {
+        counts.stages |= abi::stage_powers;
         const vreal<Real> power =
             select(from_bits<Real>(shiny),
                    highlight_power<Real>(packet.highlight, material.shininess), zero);

@@ -5,7 +5,7 @@
 namespace packtrace::PACKTRACE_ISA {
 namespace {
 
-constexpr abi::Features features = abi::feature_sets[3];
+constexpr abi::Features features = abi::feature_sets[abi::probe_set].features;
 static_assert(features.probe);
 
 }  // namespace

@@ -16,19 +16,20 @@ inline Vec3v<Real> light_color(const ShadeContext<F, Real>& context, int number,
                                int first)
 {
     const abi::LightRecord<Real>& light = context.scene->lights.data[number];
-    const LightPacket<Real> packet = light_at(light, surface, material, active);
+    const LightPacket<Real> packet = light_at<F>(light, surface, material, active);
     if constexpr (F.glass) {
-        if (context.scene->transparent_shadows && packet.wanted != 0) {
+        if (context.scene->transparent_shadows && light.casts_shadow && packet.wanted != 0) {
             const Vec3v<Real> share =
                 transmitted<F>(context, number, packet, surface, packet.wanted, first);
             const Vec3v<Real> color =
-                share * lit_color(light, packet, material, packet.wanted & any_channel(share));
+                share * lit_color<F>(light, packet, material, packet.wanted & any_channel(share),
+                                     *context.counts);
             probe.light(number, packet.wanted, share, color);
             return color;
         }
     }
     const std::uint32_t lit = unshadowed<F>(context, number, packet, surface, packet.wanted, first);
-    const Vec3v<Real> color = lit_color(light, packet, material, lit);
+    const Vec3v<Real> color = lit_color<F>(light, packet, material, lit, *context.counts);
     probe.light(number, packet.wanted, lit, color);
     return color;
 }
@@ -82,24 +83,43 @@ inline void shade_packet(const ShadeContext<F, Real>& context, const HitStream<F
                          const Children<F, Real>& children)
 {
     const std::uint32_t active = first_lanes<Real>(hits.count - first);
-    const PathPacket<Real> path{load3(hits.weight, first), load(hits.pixel + first),
+    const PathPacket<Real> path{load_weight(hits, first), load(hits.pixel + first),
                                 load_path(hits, first)};
     const PacketProbe<F.probe, Real> probe = packet_probe(hits, path, active);
     const SurfacePacket<Real> surface = surface_of<F>(*context.scene, hits, first, active);
     const MaterialPacket<Real> material = fetch_materials(*context.scene, surface.material, active);
 
     Vec3v<Real> color = local_color<F>(context, surface, material, probe, active, first);
-    if (context.spawns()) {
-        color = color * material.local;
-        probe.hit(surface, color);
-        spawn_children(context, children, surface, material, path, load_glass(hits, first), active);
-    } else {
-        const Vec3v<Real> share = material.reflect + material.transmit;
-        const Vec3v<Real> limit = broadcast(context.scene->limit_color);
-        probe.last_hit(surface, color, share, limit);
-        color = madd<Real>(share, limit, color);
+    if constexpr (F.bounces) {
+        if (context.spawns()) {
+            color = color * material.local;
+            probe.hit(surface, color);
+            spawn_children(context, children, surface, material, path, load_glass(hits, first),
+                           active);
+        } else {
+            const Vec3v<Real> share = material.reflect + material.transmit;
+            const Vec3v<Real> limit = broadcast(context.scene->limit_color);
+            probe.last_hit(surface, color, share, limit);
+            color = madd<Real>(share, limit, color);
+        }
+        color = path.weight * color;
     }
-    write_colors<Write>(pixels, path.pixel, path.weight * color, active);
+    write_colors<Write>(pixels, path.pixel, color, active);
+}
+
+/// The hits of a scene in which no light reaches anything: their colour is their material's alone.
+template <abi::Features F, class Real>
+inline void shade_flat(const abi::SceneView<Real>& scene, const HitStream<F, Real>& hits,
+                       TilePixelColors<Real>& pixels)
+{
+    for (int first = 0; first < hits.count; first += lanes<Real>) {
+        const std::uint32_t active = first_lanes<Real>(hits.count - first);
+        SurfacePacket<Real> surface;
+        surface.point = load3(hits.point, first);
+        set_material(surface, scene, load(hits.surface + first), active);
+        const MaterialPacket<Real> material = fetch_materials(scene, surface.material, active);
+        write_colors<PixelWrite::set>(pixels, load(hits.pixel + first), material.ambient, active);
+    }
 }
 
 /// Shades every hit of a stream.

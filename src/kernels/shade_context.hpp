@@ -7,6 +7,13 @@
 namespace packtrace::PACKTRACE_ISA {
 namespace {
 
+/// Where the shadow rays of a scene find what is in their way.
+template <class Real>
+inline const abi::SceneView<Real>& casters_of(const abi::SceneView<Real>& scene)
+{
+    return scene.casters != nullptr ? *scene.casters : scene;
+}
+
 /// What shading a tile needs besides the hits themselves.
 template <abi::Features F, class Real>
 struct ShadeContext {

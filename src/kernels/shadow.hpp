@@ -68,12 +68,18 @@ inline auto with_shadow_rays(const ShadeContext<F, Real>& context, int light,
     return with_shadow_ray(context, light, packet, surface,
                            [&](const vreal<Real>& t_end, const RayPacket<Real>& rays) {
                                if (scene.lights.data[light].kind == abi::LightKind::directional)
-                                   return trace(NoEnd<Real>{}, scene, rays);
+                                   return trace(NoEnd<Real>{}, casters_of(scene), rays);
                                if (scene.start_error > 0)
                                    return trace(StreamRange<Real>{t_end}, context.blockers[light],
                                                 rays);
                                return trace(SegmentEnd<Real>{t_end}, context.blockers[light], rays);
                            });
+}
+
+inline void count_shadow_rays(abi::RayCounts& counts, std::uint32_t traced)
+{
+    counts.shadow += static_cast<unsigned>(__builtin_popcount(traced));
+    counts.stages |= abi::stage_shadow_rays;
 }
 
 /// Lanes of `wanted` that no opaque or any other object keeps from the light.
@@ -82,9 +88,9 @@ inline std::uint32_t unshadowed(const ShadeContext<F, Real>& context, int light,
                                 const LightPacket<Real>& packet, const SurfacePacket<Real>& surface,
                                 std::uint32_t wanted, int first)
 {
-    if (!context.scene->shadows || wanted == 0)
+    if (!context.scene->lights.data[light].casts_shadow || wanted == 0)
         return wanted;
-    context.counts->shadow += static_cast<unsigned>(__builtin_popcount(wanted));
+    count_shadow_rays(*context.counts, wanted);
     if (context.shadows != nullptr)
         return wanted & context.shadows[light].lit_lanes(first);
     return wanted & ~with_shadow_rays(context, light, packet, surface,
@@ -111,7 +117,8 @@ inline Vec3v<Real> transmitted(const ShadeContext<F, Real>& context, int light,
     const abi::SceneView<Real>& scene = *context.scene;
     const vreal<Real> one(Real(1));
     Vec3v<Real> share{one, one, one};
-    context.counts->shadow += static_cast<unsigned>(__builtin_popcount(wanted));
+    count_shadow_rays(*context.counts, wanted);
+    context.counts->stages |= abi::stage_glass_shadows;
     if (context.shadows != nullptr)
         return context.shadows[light].shares(first);
     const auto pass_on = [&](std::int32_t blocker, std::uint32_t blocked) {

@@ -19,7 +19,7 @@ inline void gather_shadow_rays(const ShadeContext<F, Real>& context, const HitSt
         const std::uint32_t active = first_lanes<Real>(hits.count - first);
         const SurfacePacket<Real> surface = surface_of<F>(scene, hits, first, active);
         const MaterialPacket<Real> material = fetch_materials(scene, surface.material, active);
-        const LightPacket<Real> packet = light_at(record, surface, material, active);
+        const LightPacket<Real> packet = light_at<F>(record, surface, material, active);
         with_shadow_ray(context, light, packet, surface,
                         [&](const vreal<Real>& t_end, const RayPacket<Real>& rays) {
                             store_rays(group, first, rays);
@@ -34,13 +34,14 @@ inline void visit_shadow_blockers(const ShadeContext<F, Real>& context, int ligh
                                   RayGroup<Real>& group, const Blocker& blocker)
 {
     const abi::SceneView<Real>& scene = *context.scene;
+    const abi::SceneView<Real>& casters = casters_of(scene);
     if (scene.lights.data[light].kind == abi::LightKind::directional)
-        visit_blockers_of_group<F, NoEnd<Real>>(scene, scene, group, blocker);
+        visit_blockers_of_group<F, NoEnd<Real>>(casters, casters, group, blocker);
     else if (scene.start_error > 0)
-        visit_blockers_of_group<F, StreamRange<Real>>(scene, context.blockers[light], group,
+        visit_blockers_of_group<F, StreamRange<Real>>(casters, context.blockers[light], group,
                                                       blocker);
     else
-        visit_blockers_of_group<F, SegmentEnd<Real>>(scene, context.blockers[light], group,
+        visit_blockers_of_group<F, SegmentEnd<Real>>(casters, context.blockers[light], group,
                                                      blocker);
 }
 

@@ -12,7 +12,7 @@ inline void append_ray(RayStream<F, Real>& next, const Vec3v<Real>& org, const V
 {
     append3(next.org, next.count, active, org);
     append3(next.dir, next.count, active, dir);
-    append3(next.weight, next.count, active, weight);
+    append_weight(next, active, weight);
     compress_store(next.pixel + next.count, active, pixel);
 }
 

@@ -27,13 +27,16 @@ void power_of_arrays(const Real* x, const Real* n, Real* y, int count)
     }
 }
 
-template <abi::Features F, class Real>
+template <int Set, class Real>
 constexpr abi::FeatureKernels<Real> feature_kernels()
 {
+    constexpr abi::FeatureSet set = abi::feature_sets[Set];
+    constexpr abi::Features F = set.features;
     if constexpr (F.probe)
-        return {F, probe_scratch_bytes, probe_tile, nullptr};
+        return {set, probe_scratch_bytes, probe_tile, nullptr};
     else
-        return {F, scratch_bytes<F, Real>, render_tile<F, Real>, closest_tile<F, Real>};
+        return {set, scratch_bytes<F, Real>, render_tile<F, Real>,
+                closest_tile<abi::tree_features(F), Real>};
 }
 
 template <class Real>
@@ -41,10 +44,11 @@ constexpr abi::PrecisionTable<Real> precision_table()
 {
     abi::PrecisionTable<Real> table;
     table.lanes = lanes<Real>;
-    table.kernels[0] = feature_kernels<abi::feature_sets[0], Real>();
-    table.kernels[1] = feature_kernels<abi::feature_sets[1], Real>();
-    table.kernels[2] = feature_kernels<abi::feature_sets[2], Real>();
-    table.kernels[3] = feature_kernels<abi::feature_sets[3], Real>();
+    table.kernels[0] = feature_kernels<0, Real>();
+    table.kernels[1] = feature_kernels<1, Real>();
+    table.kernels[2] = feature_kernels<2, Real>();
+    table.kernels[3] = feature_kernels<3, Real>();
+    table.kernels[4] = feature_kernels<4, Real>();
     constexpr abi::Features any_surface{.quadrics = true};
     table.closest_hits = closest_hits<any_surface, Real>;
     table.occluded = occluded_rays<any_surface, Real>;

@@ -11,21 +11,6 @@
 namespace packtrace::PACKTRACE_ISA {
 namespace {
 
-/// Per point light, what may stand between it and the hit points.
-template <abi::Features F, class Real>
-inline void find_blockers(const abi::SceneView<Real>& scene, const HitStream<F, Real>& hits,
-                          SharedOriginObjects<Real>* blockers)
-{
-    if (!scene.shadows || hits.count == 0)
-        return;
-    const Box<Real> box = box_of(hits.point, hits.count);
-    for (int i = 0; i < scene.lights.count; ++i) {
-        const abi::LightRecord<Real>& light = scene.lights.data[i];
-        if (light.kind == abi::LightKind::point)
-            find_objects<F>(blockers[i], segment_beam(light.vector, box), scene);
-    }
-}
-
 /// What stays the same while a tile is rendered.
 template <abi::Features F, class Real>
 struct TileRun {
@@ -33,6 +18,50 @@ struct TileRun {
     Workspace<F, Real>& work;
     abi::RayCounts& counts;
 };
+
+/// Per point light, what may stand between it and the hit points.
+template <abi::Features F, class Real>
+inline void find_blockers(const TileRun<F, Real>& run)
+{
+    const abi::SceneView<Real>& scene = run.scene;
+    const HitStream<F, Real>& hits = run.work.memory->hits;
+    const Box<Real> box = box_of(hits.point, hits.count);
+    for (int i = 0; i < scene.lights.count; ++i) {
+        const abi::LightRecord<Real>& light = scene.lights.data[i];
+        if (!light.casts_shadow)
+            continue;
+        run.counts.stages |= abi::stage_blockers;
+        if (light.kind == abi::LightKind::point)
+            find_objects<F>(run.work.blockers[i], segment_beam(light.vector, box),
+                            casters_of(scene));
+    }
+}
+
+/// For a scene with a hierarchy, what the hits see of each light.
+template <abi::Features F, class Real>
+inline void find_shadows(const TileRun<F, Real>& run, const ShadeContext<F, Real>& context)
+{
+    for (int light = 0; light < run.scene.lights.count; ++light)
+        if (run.scene.lights.data[light].casts_shadow)
+            find_shadows(context, run.work.memory->hits, light, *run.work.group,
+                         run.work.shadows[light]);
+}
+
+/// Counts a chunk's children and puts them into one stream, mirrored rays first.
+template <abi::Features F, class Real>
+inline void join_children(const TileRun<F, Real>& run, RayStream<F, Real>& next)
+{
+    run.counts.reflected += static_cast<unsigned>(next.count);
+    if (next.count > 0)
+        run.counts.stages |= abi::stage_mirrored;
+    if constexpr (F.glass) {
+        const RayStream<F, Real>& refracted = *run.work.refracted;
+        run.counts.refracted += static_cast<unsigned>(refracted.count);
+        if (refracted.count > 0)
+            run.counts.stages |= abi::stage_refracted;
+        append_stream(next, refracted);
+    }
+}
 
 /// Shades the chunk's hits, of rays after `depth` bounces, into the pixels, and gathers their
 /// children in the stream of the next generation, which is returned; null when there are none.
@@ -44,24 +73,21 @@ inline RayStream<F, Real>* shade_chunk(const TileRun<F, Real>& run, int depth)
     const HitStream<F, Real>& hits = run.work.memory->hits;
     if (hits.count == 0)
         return nullptr;
-    find_blockers(run.scene, hits, run.work.blockers);
-    if (run.work.shadows != nullptr && run.scene.shadows)
-        for (int light = 0; light < run.scene.lights.count; ++light)
-            find_shadows(context, hits, light, *run.work.group, run.work.shadows[light]);
-    RayStream<F, Real>* next = context.spawns() ? run.work.streams + depth : nullptr;
+    run.counts.stages |= abi::stage_normals;
+    if (run.scene.finish != nullptr)
+        run.counts.stages |= abi::stage_solved_again;
+    find_blockers(run);
+    if (run.work.shadows != nullptr)
+        find_shadows(run, context);
+    RayStream<F, Real>* next = F.bounces && context.spawns() ? run.work.streams + depth : nullptr;
     if (next != nullptr)
         next->count = 0;
     if constexpr (F.glass)
         run.work.refracted->count = 0;
     shade_stream<Write>(context, hits, run.work.memory->color,
                         Children<F, Real>{next, run.work.refracted});
-    if (next == nullptr)
-        return nullptr;
-    run.counts.reflected += static_cast<unsigned>(next->count);
-    if constexpr (F.glass) {
-        run.counts.refracted += static_cast<unsigned>(run.work.refracted->count);
-        append_stream(*next, *run.work.refracted);
-    }
+    if (next != nullptr)
+        join_children(run, *next);
     return next;
 }
 
@@ -79,6 +105,20 @@ void trace_generation(const TileRun<F, Real>& run, const RayStream<F, Real>& ray
         if (const auto* next = shade_chunk<PixelWrite::add>(run, depth))
             trace_generation(run, *next, depth + 1);
     }
+}
+
+/// Shades the hits of camera rays, with all that comes from them.
+template <abi::Features F, class Real>
+inline void shade_camera(const TileRun<F, Real>& run)
+{
+    const HitStream<F, Real>& hits = run.work.memory->hits;
+    run.counts.stages |= hits.count > 0 ? abi::stage_hits : 0u;
+    if (!F.probe && run.scene.flat)
+        return shade_flat(run.scene, hits, run.work.memory->color);
+    const RayStream<F, Real>* next = shade_chunk<PixelWrite::set>(run, 0);
+    if constexpr (F.bounces)
+        if (next != nullptr)
+            trace_generation(run, *next, 1);
 }
 
 /// The finished pixels, row by row, or the samples in their order.
@@ -111,14 +151,14 @@ inline abi::RayCounts render_tile(const abi::TileJob<Real>& job)
     memory.hits.count = 0;
     if constexpr (F.probe)
         memory.hits.probe = job.probe;
-    if (!scene.tree.empty())
+    if (!scene.tree.empty()) {
+        counts.stages |= abi::stage_hierarchy;
         trace_camera_group(job, work.visible, *work.group, memory);
-    else if (F.probe || !work.visible.empty() || scene.visible_lights)
+    } else if (F.probe || !work.visible.empty() || scene.visible_lights) {
         trace_camera(job, work.visible, memory);
+    }
 
-    const TileRun<F, Real> run{scene, work, counts};
-    if (const auto* next = shade_chunk<PixelWrite::set>(run, 0))
-        trace_generation(run, *next, 1);
+    shade_camera(TileRun<F, Real>{scene, work, counts});
     write_tile(job, memory.color);
     return counts;
 }

@@ -38,6 +38,15 @@ struct PathArrays<true, F, Real> {
     const abi::Probe<Real>* probe;  ///< set in hits
 };
 
+/// The weight of each ray's path so far: a number a channel, one for all, or none where it is 1.
+template <int Channels, abi::Features F, class Real>
+struct WeightArrays {
+    StreamArray<F, Real> weight[static_cast<std::size_t>(Channels)];
+};
+template <abi::Features F, class Real>
+struct WeightArrays<0, F, Real> {
+};
+
 /// The gradients that double found at the hits, only for rays in single precision.
 template <abi::Features F, class Real>
 struct GradientArrays {
@@ -49,10 +58,11 @@ struct GradientArrays<F, float> {
 
 /// Rays of one generation, in an order that does not depend on the packet width.
 template <abi::Features F, class Real>
-struct alignas(64) RayStream : GlassArrays<F.glass, F, Real>, PathArrays<F.probe, F, Real> {
+struct alignas(64) RayStream : GlassArrays<F.glass, F, Real>,
+                               PathArrays<F.probe, F, Real>,
+                               WeightArrays<abi::weight_channels(F), F, Real> {
     StreamArray<F, Real> org[3];
     StreamArray<F, Real> dir[3];
-    StreamArray<F, Real> weight[3];        ///< throughput of the path so far, per channel
     StreamArray<F, lane_int<Real>> pixel;  ///< number in the tile, along its Z-order curve
     int count = 0;
 };
@@ -61,10 +71,10 @@ struct alignas(64) RayStream : GlassArrays<F.glass, F, Real>, PathArrays<F.probe
 template <abi::Features F, class Real>
 struct alignas(64) HitStream : GlassArrays<F.glass, F, Real>,
                                PathArrays<F.probe, F, Real>,
+                               WeightArrays<abi::weight_channels(F), F, Real>,
                                GradientArrays<F, Real> {
     StreamArray<F, Real> point[3];
     StreamArray<F, Real> dir[3];
-    StreamArray<F, Real> weight[3];
     StreamArray<F, lane_int<Real>> pixel;
     StreamArray<F, lane_int<Real>> surface;
     int count = 0;
@@ -88,6 +98,31 @@ inline void append3(Real (&to)[3][Size], int at, std::uint32_t pattern, const Ve
     compress_store(to[0] + at, pattern, v.x);
     compress_store(to[1] + at, pattern, v.y);
     compress_store(to[2] + at, pattern, v.z);
+}
+
+/// The weights of a packet of a stream.
+template <template <abi::Features, class> class Stream, abi::Features F, class Real>
+inline Vec3v<Real> load_weight(const Stream<F, Real>& stream, int first)
+{
+    if constexpr (abi::weight_channels(F) == 3) {
+        return load3(stream.weight, first);
+    } else if constexpr (abi::weight_channels(F) == 1) {
+        const vreal<Real> weight = load(stream.weight[0] + first);
+        return {weight, weight, weight};
+    } else {
+        const vreal<Real> one(Real(1));
+        return {one, one, one};
+    }
+}
+
+/// Does not count the rays.
+template <template <abi::Features, class> class Stream, abi::Features F, class Real>
+inline void append_weight(Stream<F, Real>& stream, std::uint32_t active, const Vec3v<Real>& weight)
+{
+    if constexpr (abi::weight_channels(F) == 3)
+        append3(stream.weight, stream.count, active, weight);
+    else if constexpr (abi::weight_channels(F) == 1)
+        compress_store(stream.weight[0] + stream.count, active, weight.x);
 }
 
 /// The glass of a packet of a stream; nothing is read where the stream has none.
@@ -146,8 +181,9 @@ inline void append_stream(RayStream<F, Real>& to, const RayStream<F, Real>& from
     for (int axis = 0; axis < 3; ++axis) {
         copy(to.org[axis] + to.count, from.org[axis], from.count);
         copy(to.dir[axis] + to.count, from.dir[axis], from.count);
-        copy(to.weight[axis] + to.count, from.weight[axis], from.count);
     }
+    for (int channel = 0; channel < abi::weight_channels(F); ++channel)
+        copy(to.weight[channel] + to.count, from.weight[channel], from.count);
     copy(to.pixel + to.count, from.pixel, from.count);
     if constexpr (F.glass)
         for (int i = 0; i < abi::glass_depth; ++i)

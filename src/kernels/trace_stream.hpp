@@ -17,6 +17,22 @@ struct TracedRays {
     GlassPacket<Real> inside;
 };
 
+/// Where the rays hit, as far as the scene's shading asks.
+template <abi::Features F, class Real>
+inline void append_places(const abi::SceneView<Real>& scene, HitStream<F, Real>& hits,
+                          const RayPacket<Real>& rays, const HitPacket<Real>& hit,
+                          std::uint32_t active)
+{
+    if (!F.probe && scene.flat && scene.checkers == nullptr)
+        return;
+    const FinishedHits<Real> exact = finished<F>(scene, rays, hit.t, hit.surface, active);
+    append3(hits.point, hits.count, active, exact.point);
+    if constexpr (sizeof(Real) == sizeof(float))
+        if (scene.finish != nullptr)
+            append3(hits.gradient, hits.count, active, exact.gradient);
+    append3(hits.dir, hits.count, active, rays.dir);
+}
+
 template <abi::Features F, class Real>
 inline void append_hits(const abi::SceneView<Real>& scene, HitStream<F, Real>& hits,
                         const TracedRays<Real>& from, const HitPacket<Real>& hit,
@@ -24,13 +40,8 @@ inline void append_hits(const abi::SceneView<Real>& scene, HitStream<F, Real>& h
 {
     if (active == 0)
         return;
-    const FinishedHits<Real> exact = finished<F>(scene, from.rays, hit.t, hit.surface, active);
-    append3(hits.point, hits.count, active, exact.point);
-    if constexpr (sizeof(Real) == sizeof(float))
-        if (scene.finish != nullptr)
-            append3(hits.gradient, hits.count, active, exact.gradient);
-    append3(hits.dir, hits.count, active, from.rays.dir);
-    append3(hits.weight, hits.count, active, from.path.weight);
+    append_places(scene, hits, from.rays, hit, active);
+    append_weight(hits, active, from.path.weight);
     compress_store(hits.pixel + hits.count, active, from.path.pixel);
     compress_store(hits.surface + hits.count, active, hit.surface);
     if constexpr (F.glass)
@@ -174,7 +185,7 @@ inline TracedRays<Real> load_stream(const abi::SceneView<Real>& scene,
 {
     return {
         make_rays<Real>(load3(stream.org, first), load3(stream.dir, first), scene.secondary_t_min),
-        {load3(stream.weight, first), load(stream.pixel + first), load_path(stream, first)},
+        {load_weight(stream, first), load(stream.pixel + first), load_path(stream, first)},
         load_glass(stream, first)};
 }
 

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "kernels/light_shadows.hpp"
+#include "kernels/shade_context.hpp"
 #include "kernels/shared_origin.hpp"
 #include "kernels/tile_memory.hpp"
 
@@ -56,6 +57,16 @@ inline SharedOriginObjects<Real> take_objects(Arena& arena, const abi::SceneView
     return objects;
 }
 
+template <class Real>
+inline std::size_t count_shadowed(const abi::SceneView<Real>& scene)
+{
+    std::size_t count = 0;
+    for (int i = 0; i < scene.lights.count; ++i)
+        count += scene.lights.data[i].casts_shadow ? 1 : 0;
+    return count;
+}
+
+/// Of what a scene does not need there is none.
 template <abi::Features F, class Real>
 struct Workspace {
     TileMemory<F, Real>* memory = nullptr;
@@ -73,17 +84,20 @@ struct Workspace {
         const std::size_t lights = static_cast<std::size_t>(scene.lights.count);
         Arena arena(scratch);
         memory = arena.take<TileMemory<F, Real>>(1);
-        streams = arena.take<RayStream<F, Real>>(static_cast<std::size_t>(scene.max_depth));
+        if constexpr (F.bounces)
+            streams = arena.take<RayStream<F, Real>>(static_cast<std::size_t>(scene.max_depth));
         if constexpr (F.glass)
             refracted = arena.take<RayStream<F, Real>>(1);
-        if (!scene.tree.empty()) {
+        const std::size_t shadowed = count_shadowed(scene);
+        if (!scene.tree.empty())
             group = arena.take<RayGroup<Real>>(1);
+        if (!scene.tree.empty() && shadowed > 0)
             shadows = arena.take<LightShadows<F, Real>>(lights);
-        }
         visible = take_objects(arena, scene);
-        blockers = arena.take<SharedOriginObjects<Real>>(lights);
-        for (std::size_t light = 0; light < lights; ++light) {
-            const SharedOriginObjects<Real> objects = take_objects(arena, scene);
+        if (shadowed > 0)
+            blockers = arena.take<SharedOriginObjects<Real>>(lights);
+        for (std::size_t light = 0; shadowed > 0 && light < lights; ++light) {
+            const SharedOriginObjects<Real> objects = take_objects(arena, casters_of(scene));
             if (scratch != nullptr)
                 blockers[light] = objects;
         }

@@ -8,12 +8,13 @@
 namespace packtrace {
 namespace {
 
-bool any_glass(const LoweredScene& lowered)
+/// Keeps by surface whether it casts a shadow, from the first one on that does not.
+void lower_shadow(const Object& object, LoweredScene& lowered)
 {
-    for (const LoweredMaterial& material : lowered.materials)
-        if (material.transmit != Rgb(0.0))
-            return true;
-    return false;
+    if (lowered.casts_shadow.empty() && object.casts_shadow)
+        return;
+    lowered.casts_shadow.resize(lowered.material_index.size() - 1, true);
+    lowered.casts_shadow.push_back(object.casts_shadow);
 }
 
 void lower_objects(const Scene& scene, LoweredScene& lowered)
@@ -27,6 +28,7 @@ void lower_objects(const Scene& scene, LoweredScene& lowered)
         for (int piece = 0; piece < pieces; ++piece) {
             lowered.material_index.push_back(index);
             lowered.faces_viewer.push_back(normal_faces_viewer(scene, object));
+            lower_shadow(object, lowered);
         }
     }
 }
@@ -43,8 +45,7 @@ LoweredScene lower(const Scene& scene, Accuracy accuracy, SelfHits self_hits)
     mark_finished(accuracy, self_hits, lowered);
     lowered.self_hits = self_hits;
 
-    lowered.features.quadrics = !lowered.quadrics.empty();
-    lowered.features.glass = any_glass(lowered);
+    lowered.features = features_of(lowered);
     lowered.transparent_shadows =
         scene.shadows == ShadowKind::transparent && lowered.features.glass;
     if (lowered.features.glass)

@@ -84,6 +84,7 @@ struct LoweredScene {
     std::vector<LoweredQuadric> quadrics;
     std::vector<abi::MaterialIndex> material_index;  ///< by surface
     std::vector<bool> faces_viewer;                  ///< by surface: normals turn to the ray
+    std::vector<bool> casts_shadow;                  ///< by surface; none: all do
     std::vector<LoweredMaterial> materials;
     std::vector<LoweredChecker> checkers;
     std::vector<double> ior;    ///< by object
@@ -92,6 +93,7 @@ struct LoweredScene {
     Rgb limit_color{0.0};  ///< what rays beyond the depth limit bring
     int max_depth = 0;
     bool shadows = true;
+    bool flat = false;  ///< see leave_out()
     bool transparent_shadows = false;
     bool visible_lights = false;
     abi::RayUnits units = abi::RayUnits::as_given;
@@ -103,6 +105,9 @@ struct LoweredScene {
     std::vector<std::int32_t> eye_inside;  ///< glass objects around the eye, innermost first
     abi::Features features;
 };
+
+/// What of the features a scene uses, whatever its lights and depth are.
+[[nodiscard]] abi::Features features_of(const LoweredScene& lowered);
 
 /// Lowers a scene. Throws SceneError for what it can't hold: a quadric without a surface.
 [[nodiscard]] LoweredScene lower(const Scene& scene, Accuracy accuracy = Accuracy::automatic,

@@ -41,10 +41,11 @@ PackedScene<Real>::PackedScene(const LoweredScene& lowered, Traversal traversal)
     pack_normals(lowered);
     pack_materials(lowered);
     pack_lights(lowered);
+    pack_casters(lowered);
     round_to(view_.background, lowered.background);
     round_to(view_.limit_color, lowered.limit_color);
     view_.max_depth = lowered.max_depth;
-    view_.shadows = lowered.shadows;
+    view_.flat = lowered.flat;
     view_.transparent_shadows = lowered.transparent_shadows;
     view_.visible_lights = lowered.visible_lights;
     view_.units = lowered.units;
@@ -227,7 +228,7 @@ void PackedScene<Real>::pack_materials(const LoweredScene& lowered)
     view_.ior = ior_.data() + 1;
     view_.material_index = material_index_.data();
     view_.materials = materials_.data();
-    view_.checkers = checkers_.data();
+    view_.checkers = lowered.checkers.empty() ? nullptr : checkers_.data();
 }
 
 template <class Real>
@@ -240,8 +241,29 @@ void PackedScene<Real>::pack_lights(const LoweredScene& lowered)
         round_to(lights_[i].vector, light.vector);
         lights_[i].kind =
             light.type == LightType::point ? abi::LightKind::point : abi::LightKind::directional;
+        lights_[i].casts_shadow = lowered.shadows && light.casts_shadow;
     }
     view_.lights = {lights_.data(), static_cast<int>(lowered.lights.size())};
+}
+
+template <class Real>
+void PackedScene<Real>::pack_casters(const LoweredScene& lowered)
+{
+    const auto& casts = lowered.casts_shadow;
+    if (!lowered.shadows || casts.empty())
+        return;
+    LoweredScene casters = lowered;
+    casters.casts_shadow.clear();
+    const auto casts_none = [&](const auto& surface) {
+        return !casts[static_cast<std::size_t>(surface.surface)];
+    };
+    std::erase_if(casters.spheres, casts_none);
+    std::erase_if(casters.planes, casts_none);
+    std::erase_if(casters.quadrics, casts_none);
+    // Without a hierarchy for the camera's rays there are no groups of shadow rays either.
+    casters_ = std::make_unique<PackedScene>(
+        casters, tree_.view().empty() ? Traversal::list : Traversal::automatic);
+    view_.casters = &casters_->view();
 }
 
 template class PackedScene<float>;

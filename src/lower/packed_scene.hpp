@@ -1,5 +1,7 @@
 #pragma once
 
+#include <memory>
+
 #include <packtrace/traversal.hpp>
 
 #include "core/aligned_array.hpp"
@@ -38,6 +40,7 @@ private:
     void pack_normals(const LoweredScene& lowered);
     void pack_materials(const LoweredScene& lowered);
     void pack_lights(const LoweredScene& lowered);
+    void pack_casters(const LoweredScene& lowered);
 
     PackedTree<Real> tree_;
     AlignedArray<Real> sphere_reals_;
@@ -55,6 +58,7 @@ private:
     AlignedArray<abi::CheckerRecord<Real>> checkers_;
     AlignedArray<Real> ior_;
     AlignedArray<abi::LightRecord<Real>> lights_;
+    std::unique_ptr<PackedScene> casters_;  // where some objects cast no shadow, the others
     abi::SceneView<Real> view_;
 };
 

@@ -131,9 +131,13 @@ PackedTree<Real>::PackedTree(const LoweredScene& lowered)
     pack_leaves(lowered, bvh);
     nodes_ = AlignedArray<abi::BvhNode>(bvh.nodes.size());
     std::copy(bvh.nodes.begin(), bvh.nodes.end(), nodes_.data());
-    view_ = {nodes_.data(),        blocks_.data(),
-             quadrics_.data(),     static_cast<int>(bvh.nodes.size()),
-             extent_of(nodes_[0]), static_cast<float>(worst_slack(lowered)), coherent_spread(bvh.nodes, extent_of(nodes_[0]))};
+    view_ = {nodes_.data(),
+             blocks_.data(),
+             quadrics_.data(),
+             static_cast<int>(bvh.nodes.size()),
+             extent_of(nodes_[0]),
+             static_cast<float>(worst_slack(lowered)),
+             coherent_spread(bvh.nodes, extent_of(nodes_[0]))};
 }
 
 /// Also points the nodes' leaves to where they are packed.

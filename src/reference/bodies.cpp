@@ -48,10 +48,13 @@ template PlacedBody<double> place_body(const Object&, int);
 template PlacedBody<long double> place_body(const Object&, int);
 
 template <class Real>
-Bodies<Real>::Bodies(const Scene& scene)
+Bodies<Real>::Bodies(const Scene& scene, bool (*wanted)(const Object&))
 {
+    int number = 0;
     for (const Object& from : scene.objects) {
-        const int object = static_cast<int>(places.size());
+        const int object = number++;
+        if (wanted != nullptr && !wanted(from))
+            continue;
         const bool in_world = from.transform == Mat4(1.0);
         if (const auto* sphere = std::get_if<Sphere>(&from.surface); sphere && in_world) {
             places.push_back({BodyKind::sphere, spheres.size()});

@@ -31,9 +31,10 @@ struct Bodies {
     std::vector<SphereBody<Real>> spheres;
     std::vector<PlaneBody<Real>> planes;
     std::vector<PlacedBody<Real>> placed;
-    std::vector<Place> places;  ///< by object number
+    std::vector<Place> places;  ///< by object number, of those that are in
 
-    explicit Bodies(const Scene& scene);
+    /// All objects, or those that `wanted` says.
+    explicit Bodies(const Scene& scene, bool (*wanted)(const Object&) = nullptr);
 };
 
 /// Object number `object` of a scene in its own space, whether it has a matrix or not.

@@ -35,7 +35,7 @@ Color<Real> Note001<Real, Recorder>::compute_lighting(const Vec3<Real>& P, const
         const Real t_max = is_point ? Real(1) : infinity<Real>;
 
         // The listing kept only the `continue` of its shadow check.
-        if (record_.blocked(light.number, in_shadow(P, L, t_max)))
+        if (record_.blocked(light.number, light.casts_shadow && in_shadow(P, L, t_max)))
             continue;
 
         // Diffuse
@@ -59,7 +59,7 @@ bool Note001<Real, Recorder>::in_shadow(const Vec3<Real>& P, const Vec3<Real>& L
 {
     if (world_.shadows == ShadowKind::none)
         return false;
-    const auto shadow_sphere = closest_intersection(world_.bodies, P, L, epsilon<Real>, t_max);
+    const auto shadow_sphere = closest_intersection(world_.blockers, P, L, epsilon<Real>, t_max);
     return static_cast<bool>(shadow_sphere);
 }
 

@@ -53,6 +53,8 @@ Note004<Real, Recorder>::Note004(const Scene& scene, const World<Real>& world, R
 {
     for (const Object& object : scene.objects) {
         object_list_.push_back(place_body<Real>(object, static_cast<int>(object_list_.size())));
+        if (object.casts_shadow)
+            blockers_.push_back(object_list_.back());
         Material material;
         for (std::size_t i = 0; i < 4; ++i)
             material.r[i] = static_cast<Real>(model_of<ShaderMaterial>(object).reflectance[i]);
@@ -102,7 +104,7 @@ Color<Real> Note004<Real, Recorder>::shader(const Tuple& intersection, const Vec
     const Real Id = std::max(dot(N, S), Real(0));
     const Real Is = std::max(dot(R, V), Real(0));
     Real f = r[0];
-    if (!record_.blocked(light.number, shadowed(object, I, S, distance)))
+    if (!record_.blocked(light.number, light.casts_shadow && shadowed(object, I, S, distance)))
         f = r[0] + r[1] * Id + r[2] * std::pow(Is, r[3]);
     // r0 is ambient light, which nothing keeps off.
     (void)record_.adds((f - r[0]) * (c * Li));
@@ -117,7 +119,7 @@ bool Note004<Real, Recorder>::shadowed(const PlacedBody<Real>& shaded, const Vec
         return false;
     const Vec3<Real> I = shaded.placement.point_to_world(own_I + epsilon<Real> * own_S);
     const Vec3<Real> S = shaded.placement.vector_to_world(own_S);
-    for (const PlacedBody<Real>& object : object_list_) {
+    for (const PlacedBody<Real>& object : blockers_) {
         // The note assigns the results to I and S themselves, so that each object would start
         // from the last one's space; each must start from the world's.
         const Vec3<Real> Te = object.placement.point_to_own(I);

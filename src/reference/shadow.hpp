@@ -24,9 +24,9 @@ template <class Real>
                                       const Vec3<Real>& P, const WayToLight<Real>& way)
 {
     Color<Real> share(1, 1, 1);
-    if (world.shadows == ShadowKind::none)
+    if (world.shadows == ShadowKind::none || !way.light_casts_shadow)
         return share;
-    visit_bodies(world.bodies, [&](const auto& body) {
+    visit_bodies(world.blockers, [&](const auto& body) {
         if (!any_within(roots_of(body, P, way.L), epsilon<Real>, way.distance))
             return true;
         const bool opaque = world.shadows == ShadowKind::opaque;

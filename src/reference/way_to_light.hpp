@@ -9,6 +9,7 @@ template <class Real>
 struct WayToLight {
     Vec3<Real> L;  ///< unit
     Real distance;
+    bool light_casts_shadow;
 };
 
 /// `light` must not be ambient.
@@ -16,10 +17,10 @@ template <class Real>
 [[nodiscard]] WayToLight<Real> way_to_light(const LightSource<Real>& light, const Vec3<Real>& P)
 {
     if (light.type == LightType::directional)
-        return {light.unit, infinity<Real>};
+        return {light.unit, infinity<Real>, light.casts_shadow};
     const Vec3<Real> v = light.vector - P;
     const Real distance = length(v);
-    return {v / distance, distance};
+    return {v / distance, distance, light.casts_shadow};
 }
 
 }  // namespace packtrace::reference

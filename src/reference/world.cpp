@@ -5,6 +5,7 @@ namespace packtrace::reference {
 template <class Real>
 World<Real>::World(const Scene& scene)
     : bodies(scene),
+      blockers(scene, [](const Object& object) { return object.casts_shadow; }),
       background(scene.background),
       shadows(scene.shadows),
       max_depth(scene.max_depth),
@@ -17,7 +18,7 @@ World<Real>::World(const Scene& scene)
         const bool directional = light.type == LightType::directional;
         lights.push_back({light.type, Color<Real>(light.intensity), vector,
                           directional ? normalize(vector) : Vec3<Real>(),
-                          static_cast<int>(lights.size())});
+                          static_cast<int>(lights.size()), light.casts_shadow});
         if (light.type == LightType::ambient)
             ambient += Color<Real>(light.intensity);
     }

@@ -20,12 +20,14 @@ struct LightSource {
     Vec3<Real> vector;  ///< a point light's position, or the way to a directional light
     Vec3<Real> unit;    ///< the way to a directional light, normalised
     int number = 0;     ///< in Scene::lights
+    bool casts_shadow = true;
 };
 
 /// What every note needs of a scene, converted once to the precision of the reference.
 template <class Real>
 struct World {
     Bodies<Real> bodies;
+    Bodies<Real> blockers;            ///< those that cast shadows
     std::vector<Paint<Real>> paints;  ///< by object number
     std::vector<LightSource<Real>> lights;
     Color<Real> ambient;  ///< sum of the ambient lights

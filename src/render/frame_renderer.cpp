@@ -1,5 +1,7 @@
 #include "render/frame_renderer.hpp"
 
+#include <utility>
+
 #include <tbb/task_arena.h>
 
 #include "render/check_sampling.hpp"
@@ -16,12 +18,12 @@ FrameCounts operator+(const FrameCounts& a, const FrameCounts& b)
 }  // namespace
 
 template <class Real>
-FrameRenderer<Real>::FrameRenderer(const Scene& scene, const LoweredScene& lowered,
+FrameRenderer<Real>::FrameRenderer(const Scene& scene, LoweredScene lowered,
                                    const abi::KernelTable& table, const RenderOptions& options)
     : width_(scene.width),
       height_(scene.height),
       options_(options),
-      tiles_(scene, lowered, table, checked_sampling(options))
+      tiles_(scene, std::move(lowered), table, checked_sampling(options))
 {
 }
 
@@ -43,8 +45,8 @@ template <class Real>
 FrameCounts FrameRenderer<Real>::render_adaptive(const TileGrid& grid, Image<Real>& image) const
 {
     Progress done(2 * grid.count, options_.progress);
-    const FrameCounts first = for_each_tile(
-        grid, done, [&](int x, int y) { return tiles_.render_once(image, x, y); });
+    const FrameCounts first =
+        for_each_tile(grid, done, [&](int x, int y) { return tiles_.render_once(image, x, y); });
     ContrastMap<Real> contrast(image, *options_.adaptive);
     tbb::parallel_for(0, height_, [&](int y) { contrast.mark_row(y); });
     return first + for_each_tile(grid, done, [&](int x, int y) {

@@ -13,7 +13,7 @@ class FrameRenderer {
 public:
     /// Of the options threads, sampling and progress count. Throws std::invalid_argument for
     /// impossible sampling.
-    FrameRenderer(const Scene& scene, const LoweredScene& lowered, const abi::KernelTable& table,
+    FrameRenderer(const Scene& scene, LoweredScene lowered, const abi::KernelTable& table,
                   const RenderOptions& options);
 
     /// As Renderer::render.

@@ -4,6 +4,7 @@
 #include <stdexcept>
 
 #include "dispatch/kernels.hpp"
+#include "lower/leave_out.hpp"
 #include "render/camera_view.hpp"
 #include "render/sample_batch.hpp"
 #include "scene/sample_pattern.hpp"
@@ -16,14 +17,24 @@ Vec2 only_sample(const Scene& scene, const RenderOptions& options)
     return options.samples > 1 ? Vec2(0.5) : scene.camera.pixel_sample;
 }
 
+/// Leaves out what the picture does not need, or puts in all there is.
+const LoweredScene& fitted(LoweredScene& lowered, const RenderOptions& options)
+{
+    if (options.force_general)
+        lowered.features = abi::feature_sets[abi::general_set].features;
+    else
+        leave_out(lowered);
+    return lowered;
+}
+
 }  // namespace
 
 template <class Real>
-TileRenderer<Real>::TileRenderer(const Scene& scene, const LoweredScene& lowered,
+TileRenderer<Real>::TileRenderer(const Scene& scene, LoweredScene lowered,
                                  const abi::KernelTable& table, const RenderOptions& options)
     : width_(scene.width),
       height_(scene.height),
-      kernels_(kernels_for(precision<Real>(table), lowered.features)),
+      kernels_(kernels_for(precision<Real>(table), fitted(lowered, options).features)),
       packed_(lowered, options.traversal),
       pattern_(sample_pattern(options.samples)),
       once_(camera_view<Real>(scene, lowered, only_sample(scene, options))),

@@ -16,8 +16,9 @@ namespace packtrace {
 template <class Real>
 class TileRenderer {
 public:
-    /// Of the options the sampling counts. `lowered` is not kept.
-    TileRenderer(const Scene& scene, const LoweredScene& lowered, const abi::KernelTable& table,
+    /// Of the options traversal, sampling and force_general count. What the picture does not need
+    /// of `lowered` is left out.
+    TileRenderer(const Scene& scene, LoweredScene lowered, const abi::KernelTable& table,
                  const RenderOptions& options);
     TileRenderer(const TileRenderer&) = delete;
     TileRenderer& operator=(const TileRenderer&) = delete;

@@ -29,11 +29,15 @@ Vec3 read_vector(const Block& block, LightType type)
 
 Light build_light(const Field& field)
 {
-    const Block block(field, "light", {"type", "intensity", "position", "direction"});
+    const Block block(field, "light",
+                      {"type", "intensity", "position", "direction", "casts_shadow"});
     Light light;
     light.type = static_cast<LightType>(read_choice(block.require("type", "point"), light_types));
     light.intensity = read_factor(block.require("intensity", "0.6"));
     light.vector = read_vector(block, light.type);
+    if (light.type == LightType::ambient)
+        refuse(block, "casts_shadow", "an ambient light casts no shadow anyway; remove it");
+    block.set("casts_shadow", light.casts_shadow, read_flag);
     return light;
 }
 

@@ -14,7 +14,7 @@ Keys object_keys(std::string_view keyword, Illumination illumination)
     Keys keys = surface_keys(keyword);
     for (const std::string_view key : material_keys(illumination))
         keys.push_back(key);
-    keys.insert(keys.end(), {"name", "material", "checker"});
+    keys.insert(keys.end(), {"name", "material", "checker", "casts_shadow"});
     return keys;
 }
 
@@ -91,6 +91,7 @@ Object build_object(const Field& field, Illumination illumination, const NamedMa
     object.transform = build_transform(block);
     object.material = object_material(block, illumination, materials);
     build_checker(block, illumination, object);
+    block.set("casts_shadow", object.casts_shadow, read_flag);
     return object;
 }
 

@@ -24,8 +24,8 @@ std::size_t read_choice(const Field& field, std::span<const std::string_view> ch
 
 bool read_flag(const Field& field)
 {
-    static constexpr std::string_view choices[] = {"false", "true"};
-    return read_choice(field, choices) == 1;
+    static constexpr std::string_view choices[] = {"false", "true", "no", "yes"};
+    return read_choice(field, choices) % 2 == 1;
 }
 
 }  // namespace packtrace::reader

@@ -95,6 +95,8 @@ void write_objects(TextWriter& out, const Scene& scene, const MaterialTexts& mat
         std::visit(SurfaceKeys{out}, object.surface);
         put_transform(out, object.transform);
         put_material(out, object.material, scene.illumination, materials);
+        if (!object.casts_shadow)
+            out.put(" casts_shadow=no");
         namer.put_name(out, keyword, object.name);
         out.put("}\n");
     }

@@ -57,6 +57,8 @@ void write_lights(TextWriter& out, const Scene& scene)
             out.put(" position = ").put(light.vector);
         if (light.type == LightType::directional)
             out.put(" direction = ").put(light.vector);
+        if (!light.casts_shadow)
+            out.put(" casts_shadow = no");
         out.put(" }\n");
     }
 }

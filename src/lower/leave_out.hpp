@@ -1,0 +1,26 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "lower/lowered_scene.hpp"
+
+namespace packtrace {
+
+/// Something that a picture does without, and why it may.
+struct LeftOut {
+    std::string what;
+    std::string why;
+};
+
+/// Takes out of a scene what can't change a bit of its picture, and narrows its features to what
+/// is left: dark lights, objects in another's very place, reflections that no depth allows,
+/// shadows that nothing casts, hits that nothing would be done with. For pictures alone: rays of
+/// the caller's own may ask for all of it.
+std::vector<LeftOut> leave_out(LoweredScene& lowered);
+
+/// Everything that the kernels chosen for a scene are without, in the order of a frame's stages.
+/// `lowered` is what leave_out() left.
+[[nodiscard]] std::vector<LeftOut> unused_features(const LoweredScene& lowered);
+
+}  // namespace packtrace
