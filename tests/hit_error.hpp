@@ -13,17 +13,18 @@ template <class Real>
 {
     std::vector<ExactHit> hits(scene.material_index.size());
     for (const LoweredSphere& sphere : scene.spheres) {
-        // A huge sphere's centre is not rounded to float: it is given by a point of its
-        // surface, and held against the scene's own numbers. For doubles those are rounded too.
-        LongVec center(sphere.center);
-        long double radius2 = static_cast<long double>(sphere.radius) * sphere.radius;
-        if (!sphere.huge) {
-            center = LongVec(glm::vec<3, Real>(sphere.center));
-            radius2 = static_cast<Real>(sphere.radius * sphere.radius);
-        }
-        const bool by_anchor = sphere.huge && sizeof(Real) < sizeof(double);
-        const LongVec place(by_anchor ? sphere.anchor : sphere.center);
-        hits[static_cast<std::size_t>(sphere.surface)] = exact_sphere(ray, center, radius2, place);
+        const LongVec center(glm::vec<3, Real>(sphere.center));
+        const long double radius2 = static_cast<Real>(sphere.radius * sphere.radius);
+        hits[static_cast<std::size_t>(sphere.surface)] =
+            exact_sphere(ray, center, radius2, LongVec(sphere.center));
+    }
+    // A huge sphere's centre is not rounded to float: it is given by a point of its surface, and
+    // held against the scene's own numbers. For doubles those are rounded too.
+    for (const LoweredHugeSphere& sphere : scene.huge_spheres) {
+        const long double radius2 = static_cast<long double>(sphere.radius) * sphere.radius;
+        const LongVec place(sizeof(Real) < sizeof(double) ? sphere.anchor : sphere.center);
+        hits[static_cast<std::size_t>(sphere.surface)] =
+            exact_sphere(ray, LongVec(sphere.center), radius2, place);
     }
     for (const LoweredPlane& plane : scene.planes)
         hits[static_cast<std::size_t>(plane.surface)] = exact_plane(

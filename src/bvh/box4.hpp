@@ -10,6 +10,7 @@
 namespace packtrace {
 
 using Float4 [[gnu::vector_size(16)]] = float;
+using Int4 [[gnu::vector_size(16)]] = std::int32_t;
 
 inline Float4 smaller(Float4 a, Float4 b)
 {

@@ -116,6 +116,7 @@ private:
     [[nodiscard]] std::uint32_t make_child(const BvhRange& range, int level)
     {
         if (is_leaf(range)) {
+            sort_by_number(range);
             leaf_count_[range.begin] = static_cast<std::uint8_t>(range.count());
             return abi::leaf_bit | static_cast<std::uint32_t>(range.begin);
         }
@@ -125,6 +126,14 @@ private:
         else
             build_node(index, range, level);
         return index;
+    }
+
+    /// So that the order in a leaf says nothing of how it came about.
+    void sort_by_number(const BvhRange& range)
+    {
+        const auto members = items_.subspan(range.begin, range.count());
+        std::sort(members.begin(), members.end(),
+                  [](const BvhItem& a, const BvhItem& b) { return a.number < b.number; });
     }
 
     /// Numbers the leaves along the items, and the nodes depth first, neither of which depends

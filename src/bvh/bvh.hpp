@@ -27,7 +27,7 @@ struct BvhLeaf {
 struct Bvh {
     std::vector<abi::BvhNode> nodes;
     std::vector<BvhLeaf> leaves;
-    std::vector<std::uint32_t> order;  ///< numbers, leaf after leaf
+    std::vector<std::uint32_t> order;  ///< numbers, leaf after leaf, rising in each
 };
 
 /// Builds by the surface area heuristic over 16 bins an axis (Wald, "On fast Construction of

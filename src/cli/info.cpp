@@ -52,7 +52,8 @@ std::size_t count_stiff(const Scene& scene)
         return static_cast<std::size_t>(
             std::count_if(surfaces.begin(), surfaces.end(), [](const auto& s) { return s.stiff; }));
     };
-    return stiff(lowered.spheres) + stiff(lowered.planes) + stiff(lowered.quadrics);
+    return stiff(lowered.spheres) + stiff(lowered.huge_spheres) + stiff(lowered.planes) +
+           stiff(lowered.quadrics);
 }
 
 void print_scene(const std::string& file, const Scene& scene)

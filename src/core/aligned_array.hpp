@@ -28,6 +28,15 @@ public:
             data_.get()[i] = T{};
     }
 
+    /// With any bytes, to be set by several threads at once.
+    [[nodiscard]] static AlignedArray unset(std::size_t size)
+    {
+        AlignedArray array;
+        array.size_ = size;
+        array.data_.reset(allocate(size));
+        return array;
+    }
+
     [[nodiscard]] T* data() const
     {
         return data_.get();
@@ -35,6 +44,11 @@ public:
     [[nodiscard]] std::size_t size() const
     {
         return size_;
+    }
+    /// Of the elements.
+    [[nodiscard]] std::size_t bytes() const
+    {
+        return size_ * sizeof(T);
     }
     [[nodiscard]] T& operator[](std::size_t i) const
     {

@@ -30,14 +30,17 @@ struct SceneView {
     BvhView<Real> tree;             ///< holds what the lists do not
     RecordList<StiffObject> stiff;  ///< not in the other lists; none in double precision
 
-    /// What hits of rays in single precision are solved again with, in double: by surface a place
-    /// in `finish`, or -1. Null where no hit is.
+    const SurfacePlace* places = nullptr;           ///< by surface: where the following have it
+    const SphereShape* sphere_shapes = nullptr;     ///< of all spheres but huge ones
+    const SurfaceRecord<Real>* surfaces = nullptr;  ///< the others, but quadrics
+    const CurvedSurfaceRecord<Real>* curved_surfaces = nullptr;  ///< the others, every kind
+
+    /// What hits of rays in single precision on those others are solved again with, in double: a
+    /// place in `finish`, or -1. Null where no hit is solved again, not even on spheres.
     const std::int32_t* finish_index = nullptr;
     const StiffObject* finish = nullptr;
 
-    const SurfaceRecord<Real>* surfaces = nullptr;               ///< by surface; planes, spheres
-    const CurvedSurfaceRecord<Real>* curved_surfaces = nullptr;  ///< by surface; every kind
-    const MaterialIndex* material_index = nullptr;               ///< by surface
+    const MaterialIndex* material_index = nullptr;  ///< by surface
     const MaterialRecord<Real>* materials = nullptr;
     const CheckerRecord<Real>* checkers = nullptr;
     /// Refractive index by object; [-1] is outside everything.

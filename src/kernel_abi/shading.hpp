@@ -6,6 +6,25 @@
 // where kernels fetch them by lane, so that a record is an array of its fields.
 namespace packtrace::abi {
 
+/// Where the shape of a surface is kept: among the spheres, or among the others, which are planes,
+/// quadrics with their caps, and huge spheres.
+using SurfacePlace = std::uint32_t;
+inline constexpr SurfacePlace other_shape_bit = 1u << 31;
+inline constexpr SurfacePlace finished_bit = 1u << 30;      ///< a sphere's hits are solved again
+inline constexpr SurfacePlace faces_viewer_bit = 1u << 29;  ///< as SurfaceRecord has it; spheres
+inline constexpr SurfacePlace place_mask = faces_viewer_bit - 1;
+
+constexpr bool is_other_shape(SurfacePlace place)
+{
+    return (place & other_shape_bit) != 0;
+}
+
+/// A sphere to shade by and to solve hits again by, for kernels of both precisions.
+struct SphereShape {
+    double center[3];
+    double radius;
+};
+
 /// Outward normal of a plane or sphere at P, before normalising: normal + curvature (P - anchor).
 /// A plane has curvature 0; a sphere has its centre as anchor and normal 0.
 template <class Real>

@@ -15,7 +15,7 @@ struct StiffSphere {
     double radius2;
 };
 
-/// The record of its kind is set, the others are not looked at.
+/// The record of its kind is set.
 struct StiffObject {
     StiffKind kind;
     std::int32_t surface;
@@ -25,10 +25,12 @@ struct StiffObject {
     float bound[3];
     float bound_radius;   ///< of the ball, rounded up
     float bound_radius2;  ///< (1 + 32 u) r² + 4 u |centre|²
-    StiffSphere sphere;
-    HugeSphere<double> huge;
-    PlaneRecord<double> plane;
-    QuadricRecord<double> quadric;
+    union {
+        StiffSphere sphere;
+        HugeSphere<double> huge;
+        PlaneRecord<double> plane;
+        QuadricRecord<double> quadric;
+    };
 };
 
 }  // namespace packtrace::abi

@@ -110,13 +110,14 @@ struct FinishedHits {
     Vec3v<Real> gradient;  ///< outwards and unit; not set where the scene has none solved again
 };
 
-/// Solves the lanes of `same` again, all on one surface.
-inline void finish_surface(FinishedHits<float>& hits, const abi::StiffObject& object, int piece,
-                           const RayPacket<double>& low, const RayPacket<double>& high,
-                           const vmask<float>& same)
+/// Solves the lanes of `same` again, all on one surface, which `solve(rays, t)` knows.
+template <class Solve>
+inline void finish_surface(FinishedHits<float>& hits, const RayPacket<double>& low,
+                           const RayPacket<double>& high, const vmask<float>& same,
+                           const Solve& solve)
 {
-    const HalfHit a = finish(object, piece, low, low_half(hits.t));
-    const HalfHit b = finish(object, piece, high, high_half(hits.t));
+    const HalfHit a = solve(low, low_half(hits.t));
+    const HalfHit b = solve(high, high_half(hits.t));
     const vreal<float> t = joined(a.t, b.t);
     // Where the search and double disagree of a root's being there, the search's t stays.
     const auto use = same & (abs(t - hits.t) <= abs(hits.t) * vreal<float>(0.01f));
@@ -124,6 +125,11 @@ inline void finish_surface(FinishedHits<float>& hits, const abi::StiffObject& ob
     hits.point = select(use, joined(at(low, a.t), at(high, b.t)), hits.point);
     hits.gradient =
         select(same, joined(unit<double>(a.gradient), unit<double>(b.gradient)), hits.gradient);
+}
+
+inline abi::StiffSphere stiff_sphere(const abi::SphereShape& sphere)
+{
+    return {{sphere.center[0], sphere.center[1], sphere.center[2]}, sphere.radius * sphere.radius};
 }
 
 /// Solves all hits of `active` again whose surface has a record for it.
@@ -134,12 +140,24 @@ inline void finish_surface(FinishedHits<float>& hits, const abi::StiffObject& ob
 {
     const RayPacket<double> low = low_half(rays);
     const RayPacket<double> high = high_half(rays);
+    using Half = RayPacket<double>;
     for_each_distinct<float>(surface, active, [&](std::int32_t number, const vmask<float>& same) {
-        const std::int32_t index = scene.finish_index[number];
-        if (index < 0)
-            return;
-        const abi::StiffObject& object = scene.finish[index];
-        finish_surface(hits, object, number - object.surface, low, high, same);
+        const abi::SurfacePlace place = scene.places[number];
+        const abi::SurfacePlace index = place & abi::place_mask;
+        if (!abi::is_other_shape(place)) {
+            if ((place & abi::finished_bit) == 0)
+                return;
+            const abi::StiffSphere sphere = stiff_sphere(scene.sphere_shapes[index]);
+            finish_surface(hits, low, high, same, [&](const Half& half, const vreal<double>& t) {
+                return finish(sphere, half, t);
+            });
+        } else if (scene.finish_index[index] >= 0) {
+            const abi::StiffObject& object = scene.finish[scene.finish_index[index]];
+            const int piece = number - object.surface;
+            finish_surface(hits, low, high, same, [&](const Half& half, const vreal<double>& t) {
+                return finish(object, piece, half, t);
+            });
+        }
     });
 }
 

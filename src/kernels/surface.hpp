@@ -29,14 +29,49 @@ struct GradientPacket {
         from_anchor;  ///< the point relative to the surface's centre, or what it has for one
 };
 
+/// What a plane's and a sphere's normals come from.
+template <class Real>
+inline abi::SurfaceRecord<Real> round_record(const abi::SceneView<Real>& scene,
+                                             lane_int<Real> surface)
+{
+    const abi::SurfacePlace place = scene.places[surface];
+    if (abi::is_other_shape(place))
+        return scene.surfaces[place & abi::place_mask];
+    const abi::SphereShape& sphere = scene.sphere_shapes[place & abi::place_mask];
+    abi::SurfaceRecord<Real> record{};
+    for (int axis = 0; axis < 3; ++axis)
+        record.anchor[axis] = static_cast<Real>(sphere.center[axis]);
+    record.curvature = static_cast<Real>(1.0 / sphere.radius);
+    record.faces_viewer = (place & abi::faces_viewer_bit) != 0 ? Real(1) : Real(0);
+    return record;
+}
+
+/// The same for every kind.
+template <class Real>
+inline abi::CurvedSurfaceRecord<Real> curved_record(const abi::SceneView<Real>& scene,
+                                                    lane_int<Real> surface)
+{
+    const abi::SurfacePlace place = scene.places[surface];
+    if (abi::is_other_shape(place))
+        return scene.curved_surfaces[place & abi::place_mask];
+    const abi::SurfaceRecord<Real> sphere = round_record(scene, surface);
+    abi::CurvedSurfaceRecord<Real> record{};
+    for (int axis = 0; axis < 3; ++axis) {
+        record.anchor[axis] = sphere.anchor[axis];
+        record.curvature[axis] = sphere.curvature;
+    }
+    record.faces_viewer = sphere.faces_viewer;
+    return record;
+}
+
 /// Planes and spheres (abi::SurfaceRecord).
 template <class Real>
 inline GradientPacket<Real> round_gradient(const abi::SceneView<Real>& scene,
                                            const Vec3v<Real>& point, const vint<Real>& surface,
                                            std::uint32_t active)
 {
-    static_assert(sizeof(abi::SurfaceRecord<Real>) == 8 * sizeof(Real));
-    const auto record = fetch_records<8, Real>(&scene.surfaces->anchor[0], surface, active);
+    const auto record = make_records<8, Real>(
+        surface, active, [&](lane_int<Real> value) { return round_record(scene, value); });
     const Vec3v<Real> p = point - record.vector(0);
     return {madd<Real>(record.field[6], p, record.vector(3)), record.field[7], p};
 }
@@ -47,8 +82,8 @@ inline GradientPacket<Real> curved_gradient(const abi::SceneView<Real>& scene,
                                             const Vec3v<Real>& point, const vint<Real>& surface,
                                             std::uint32_t active)
 {
-    static_assert(sizeof(abi::CurvedSurfaceRecord<Real>) == 13 * sizeof(Real));
-    const auto record = fetch_records<13, Real>(&scene.curved_surfaces->anchor[0], surface, active);
+    const auto record = make_records<13, Real>(
+        surface, active, [&](lane_int<Real> value) { return curved_record(scene, value); });
     const Vec3v<Real> p = point - record.vector(0);
     const Vec3v<Real> n = record.vector(3);
     const auto& g = record.field;

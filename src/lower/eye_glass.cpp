@@ -27,13 +27,23 @@ double first_positive(double a, double b, double c)
     return first;
 }
 
-Exit exit_of(const LoweredSphere& sphere, const Vec3& eye, const Vec3& forward)
+Exit exit_of_sphere(const Vec3& center, double radius, const Vec3& eye, const Vec3& forward)
 {
-    const Vec3 o = eye - sphere.center;
-    const double c = glm::dot(o, o) - sphere.radius * sphere.radius;
+    const Vec3 o = eye - center;
+    const double c = glm::dot(o, o) - radius * radius;
     if (!(c < 0.0))
         return std::nullopt;
     return first_positive(glm::dot(forward, forward), glm::dot(o, forward), c);
+}
+
+Exit exit_of(const LoweredSphere& sphere, const Vec3& eye, const Vec3& forward)
+{
+    return exit_of_sphere(sphere.center, sphere.radius, eye, forward);
+}
+
+Exit exit_of(const LoweredHugeSphere& sphere, const Vec3& eye, const Vec3& forward)
+{
+    return exit_of_sphere(sphere.center, sphere.radius, eye, forward);
 }
 
 Exit exit_of(const LoweredPlane& plane, const Vec3& eye, const Vec3& forward)
@@ -80,6 +90,7 @@ std::vector<std::int32_t> glass_around(const Vec3& eye, const Vec3& forward,
         }
     };
     look(lowered.spheres);
+    look(lowered.huge_spheres);
     look(lowered.planes);
     look(lowered.quadrics);
     std::sort(exits.begin(), exits.end());

@@ -31,6 +31,8 @@ std::vector<bool> used_materials(const LoweredScene& lowered)
     };
     for (const LoweredSphere& sphere : lowered.spheres)
         mark(sphere);
+    for (const LoweredHugeSphere& sphere : lowered.huge_spheres)
+        mark(sphere);
     for (const LoweredPlane& plane : lowered.planes)
         mark(plane);
     for (const LoweredQuadric& quadric : lowered.quadrics)

@@ -1,7 +1,9 @@
 #include <algorithm>
 #include <limits>
+#include <numeric>
 #include <vector>
 
+#include <tbb/parallel_sort.h>
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
 
@@ -44,14 +46,44 @@ Vec3 nearest_surface_point(const LoweredSphere& sphere, const Vec3& to)
 
 bool is_huge(const LoweredSphere& sphere, const Extent& extent)
 {
+    // Most spheres are not by far, which costs no look at their places.
+    if (!(sphere.radius > huge_ratio * extent.radius()))
+        return false;
     const Vec3 anchor = nearest_surface_point(sphere, extent.middle());
-    const double size = std::max(extent.radius(), glm::length(anchor - extent.middle()));
-    return sphere.radius > huge_ratio * size;
+    return sphere.radius > huge_ratio * glm::length(anchor - extent.middle());
+}
+
+/// From the smallest up, equal ones as they are numbered.
+std::vector<std::uint32_t> order_by_radius(const std::vector<LoweredSphere>& spheres)
+{
+    const auto before = [&](std::uint32_t a, std::uint32_t b) {
+        const double left = spheres[a].radius;
+        const double right = spheres[b].radius;
+        return left < right || (left == right && a < b);
+    };
+    std::vector<std::uint32_t> order(spheres.size());
+    std::iota(order.begin(), order.end(), 0u);
+    if (!std::is_sorted(order.begin(), order.end(), before))
+        tbb::parallel_sort(order.begin(), order.end(), before);
+    return order;
+}
+
+/// Moves the spheres numbered by `huge` in `lowered.spheres`, rising.
+void move_huge(const std::vector<std::uint32_t>& huge, const Vec3& middle, LoweredScene& lowered)
+{
+    for (const std::uint32_t number : huge) {
+        LoweredSphere& sphere = lowered.spheres[number];
+        lowered.huge_spheres.push_back(
+            {sphere.center, sphere.radius, nearest_surface_point(sphere, middle), sphere.surface});
+        sphere.surface = -1;
+    }
+    if (!huge.empty())
+        std::erase_if(lowered.spheres, [](const LoweredSphere& s) { return s.surface < 0; });
 }
 
 }  // namespace
 
-void mark_huge_spheres(const Vec3& eye, LoweredScene& lowered)
+void part_huge_spheres(const Vec3& eye, LoweredScene& lowered)
 {
     Extent extent;
     extent.include(eye, 0.0);
@@ -59,22 +91,17 @@ void mark_huge_spheres(const Vec3& eye, LoweredScene& lowered)
         if (light.type == LightType::point)
             extent.include(light.vector, 0.0);
 
-    // From the smallest up: a sphere that is not huge is part of the scene that later ones
-    // are held against.
-    std::vector<LoweredSphere*> by_radius;
-    for (LoweredSphere& sphere : lowered.spheres)
-        by_radius.push_back(&sphere);
-    std::stable_sort(
-        by_radius.begin(), by_radius.end(),
-        [](const LoweredSphere* a, const LoweredSphere* b) { return a->radius < b->radius; });
-    for (LoweredSphere* sphere : by_radius) {
-        sphere->huge = is_huge(*sphere, extent);
-        if (!sphere->huge)
-            extent.include(sphere->center, sphere->radius);
+    // A sphere that is not huge is part of the scene that later ones are held against.
+    std::vector<std::uint32_t> huge;
+    for (const std::uint32_t number : order_by_radius(lowered.spheres)) {
+        const LoweredSphere& sphere = lowered.spheres[number];
+        if (is_huge(sphere, extent))
+            huge.push_back(number);
+        else
+            extent.include(sphere.center, sphere.radius);
     }
-    for (LoweredSphere& sphere : lowered.spheres)
-        if (sphere.huge)
-            sphere.anchor = nearest_surface_point(sphere, extent.middle());
+    std::sort(huge.begin(), huge.end());
+    move_huge(huge, extent.middle(), lowered);
 }
 
 }  // namespace packtrace

@@ -59,7 +59,7 @@ void narrow_hits(LoweredScene& lowered)
 {
     lowered.flat = lowered.lights.empty() && !lowered.features.bounces;
     if (lowered.flat && lowered.checkers.empty())
-        std::fill(lowered.finished.begin(), lowered.finished.end(), false);
+        std::fill(lowered.finished.begin(), lowered.finished.end(), std::uint8_t{0});
 }
 
 }  // namespace

@@ -1,4 +1,12 @@
+#include <algorithm>
+#include <array>
+#include <exception>
+#include <span>
+
+#include <tbb/parallel_for.h>
+
 #include "lower/eye_glass.hpp"
+#include "lower/join_parts.hpp"
 #include "lower/lower_material.hpp"
 #include "lower/lower_model.hpp"
 #include "lower/lower_surface.hpp"
@@ -8,28 +16,69 @@
 namespace packtrace {
 namespace {
 
-/// Keeps by surface whether it casts a shadow, from the first one on that does not.
-void lower_shadow(const Object& object, LoweredScene& lowered)
+/// By surface whether it casts a shadow; none where all do.
+std::vector<bool> shadow_casters(const Scene& scene, const LoweredScene& lowered)
 {
-    if (lowered.casts_shadow.empty() && object.casts_shadow)
-        return;
-    lowered.casts_shadow.resize(lowered.material_index.size() - 1, true);
-    lowered.casts_shadow.push_back(object.casts_shadow);
+    std::vector<bool> casts;
+    const auto casts_shadow = [](const Object& object) { return object.casts_shadow; };
+    if (std::all_of(scene.objects.begin(), scene.objects.end(), casts_shadow))
+        return casts;
+    for (const abi::MaterialIndex& index : lowered.material_index)
+        casts.push_back(scene.objects[static_cast<std::size_t>(index.object)].casts_shadow);
+    return casts;
+}
+
+/// Objects that one task lowers. The numbers of materials depend on it, pictures do not.
+constexpr std::size_t part_objects = 4096;
+
+/// What is not yet joined stays small enough for caches.
+constexpr std::size_t parts_at_once = 16;
+
+void lower_part(const Scene& scene, std::size_t begin, std::size_t end, LoweredScene& part)
+{
+    const LightSums lights = sum_lights(scene);
+    RecentMaterials recent;
+    for (std::size_t i = begin; i < end; ++i) {
+        const Object& object = scene.objects[i];
+        const auto number = static_cast<std::int32_t>(i);
+        const auto index = lower_material(object, number, lights, recent, part);
+        const auto first = static_cast<std::int32_t>(part.material_index.size());
+        const auto pieces = static_cast<std::size_t>(lower_surface(object, first, part));
+        part.material_index.insert(part.material_index.end(), pieces, index);
+        part.faces_viewer.insert(part.faces_viewer.end(), pieces,
+                                 normal_faces_viewer(scene, object) ? 1 : 0);
+    }
+}
+
+/// The objects from `begin` on, as many as the parts hold.
+void lower_parts(const Scene& scene, std::size_t begin, std::span<LoweredScene> parts)
+{
+    const std::size_t objects = scene.objects.size();
+    std::vector<std::exception_ptr> errors(parts.size());
+    tbb::parallel_for(std::size_t{0}, parts.size(), [&](std::size_t i) {
+        try {
+            lower_part(scene, std::min(objects, begin + i * part_objects),
+                       std::min(objects, begin + (i + 1) * part_objects), parts[i]);
+        } catch (...) {
+            errors[i] = std::current_exception();
+        }
+    });
+    // Of several the first object's, whoever came first.
+    for (const std::exception_ptr& error : errors)
+        if (error)
+            std::rethrow_exception(error);
 }
 
 void lower_objects(const Scene& scene, LoweredScene& lowered)
 {
-    const LightSums lights = sum_lights(scene);
-    std::int32_t number = 0;
-    for (const Object& object : scene.objects) {
-        const auto index = lower_material(object, number++, lights, lowered);
-        const auto first = static_cast<std::int32_t>(lowered.material_index.size());
-        const int pieces = lower_surface(object, first, lowered);
-        for (int piece = 0; piece < pieces; ++piece) {
-            lowered.material_index.push_back(index);
-            lowered.faces_viewer.push_back(normal_faces_viewer(scene, object));
-            lower_shadow(object, lowered);
-        }
+    const std::size_t objects = scene.objects.size();
+    std::array<LoweredScene, parts_at_once> parts;
+    RecentMaterials recent;
+    lowered.spheres.reserve(objects);
+    lowered.material_index.reserve(objects);
+    for (std::size_t begin = 0; begin < objects; begin += parts_at_once * part_objects) {
+        lower_parts(scene, begin, parts);
+        join_parts(parts, recent, lowered);
     }
 }
 
@@ -40,10 +89,11 @@ LoweredScene lower(const Scene& scene, Accuracy accuracy, SelfHits self_hits)
     LoweredScene lowered;
     lower_model_rules(scene, lowered);
     lower_objects(scene, lowered);
-    mark_huge_spheres(scene.camera.position, lowered);
+    part_huge_spheres(scene.camera.position, lowered);
     mark_stiff(accuracy, lowered);
     mark_finished(accuracy, self_hits, lowered);
     lowered.self_hits = self_hits;
+    lowered.casts_shadow = shadow_casters(scene, lowered);
 
     lowered.features = features_of(lowered);
     lowered.transparent_shadows =

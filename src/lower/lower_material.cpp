@@ -106,19 +106,20 @@ LightSums sum_lights(const Scene& scene)
 }
 
 abi::MaterialIndex lower_material(const Object& object, std::int32_t number,
-                                  const LightSums& lights, LoweredScene& lowered)
+                                  const LightSums& lights, RecentMaterials& recent,
+                                  LoweredScene& lowered)
 {
     const Material& material = object.material;
-    abi::MaterialIndex index{static_cast<std::int32_t>(lowered.materials.size()), -1, number};
-    lowered.materials.push_back(lower_color(object, material.color, lights));
-    lowered.ior.push_back(lowered.materials.back().ior);
-
+    const LoweredMaterial first = lower_color(object, material.color, lights);
     const auto* plane = std::get_if<Plane>(&object.surface);
-    if (material.checker && plane != nullptr) {
-        index.checker = static_cast<std::int32_t>(lowered.checkers.size());
-        lowered.checkers.push_back(lower_checker(*plane, object.transform, material.checker->size));
-        lowered.materials.push_back(lower_color(object, material.checker->other, lights));
-    }
+    if (!material.checker || plane == nullptr)
+        return {recent.place_of(first, lowered.materials), -1, number};
+
+    const abi::MaterialIndex index{static_cast<std::int32_t>(lowered.materials.size()),
+                                   static_cast<std::int32_t>(lowered.checkers.size()), number};
+    lowered.checkers.push_back(lower_checker(*plane, object.transform, material.checker->size));
+    lowered.materials.push_back(first);
+    lowered.materials.push_back(lower_color(object, material.checker->other, lights));
     return index;
 }
 

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "lower/lowered_scene.hpp"
+#include "lower/recent_materials.hpp"
 
 namespace packtrace {
 
@@ -12,8 +13,10 @@ struct LightSums {
 
 [[nodiscard]] LightSums sum_lights(const Scene& scene);
 
-/// Appends the material of `object` and its checker; returns where its surfaces find them.
+/// Appends the material of `object`, unless `recent` knows it, and its checker; returns where its
+/// surfaces find them.
 [[nodiscard]] abi::MaterialIndex lower_material(const Object& object, std::int32_t number,
-                                                const LightSums& lights, LoweredScene& lowered);
+                                                const LightSums& lights, RecentMaterials& recent,
+                                                LoweredScene& lowered);
 
 }  // namespace packtrace

@@ -16,11 +16,17 @@ struct LoweredSphere {
     Vec3 center{0.0};
     double radius = 1.0;
     std::int32_t surface = 0;
-    /// So large against the scene that kernels use its curvature at `anchor`, the point of its
-    /// surface nearest the scene, in place of its centre.
-    bool huge = false;
-    Vec3 anchor{0.0};
     bool stiff = false;  ///< tested in double for rays in single
+};
+
+/// A sphere so large against the scene that kernels use its curvature at `anchor`, the point of its
+/// surface nearest the scene, in place of its centre.
+struct LoweredHugeSphere {
+    Vec3 center{0.0};
+    double radius = 1.0;
+    Vec3 anchor{0.0};
+    std::int32_t surface = 0;
+    bool stiff = false;
 };
 
 struct LoweredPlane {
@@ -80,14 +86,14 @@ struct LoweredChecker {
 /// world space, double precision.
 struct LoweredScene {
     std::vector<LoweredSphere> spheres;  ///< rising surface numbers, as in every list
+    std::vector<LoweredHugeSphere> huge_spheres;
     std::vector<LoweredPlane> planes;
     std::vector<LoweredQuadric> quadrics;
     std::vector<abi::MaterialIndex> material_index;  ///< by surface
-    std::vector<bool> faces_viewer;                  ///< by surface: normals turn to the ray
+    std::vector<std::uint8_t> faces_viewer;          ///< by surface: normals turn to the ray
     std::vector<bool> casts_shadow;                  ///< by surface; none: all do
-    std::vector<LoweredMaterial> materials;
+    std::vector<LoweredMaterial> materials;          ///< may be shared by objects
     std::vector<LoweredChecker> checkers;
-    std::vector<double> ior;    ///< by object
     std::vector<Light> lights;  ///< none ambient
     Rgb background{0.0};
     Rgb limit_color{0.0};  ///< what rays beyond the depth limit bring
@@ -100,7 +106,7 @@ struct LoweredScene {
     double epsilon = 0.0;  ///< start of secondary and shadow rays with SelfHits::note
     SelfHits self_hits = SelfHits::note;
     /// By surface: hits of rays in single precision are solved again in double.
-    std::vector<bool> finished;
+    std::vector<std::uint8_t> finished;
     double camera_t_min = 0.0;             ///< start of camera rays
     std::vector<std::int32_t> eye_inside;  ///< glass objects around the eye, innermost first
     abi::Features features;
@@ -109,7 +115,8 @@ struct LoweredScene {
 /// What of the features a scene uses, whatever its lights and depth are.
 [[nodiscard]] abi::Features features_of(const LoweredScene& lowered);
 
-/// Lowers a scene. Throws SceneError for what it can't hold: a quadric without a surface.
+/// Lowers a scene on the threads of the TBB arena the call runs in; the result does not depend on
+/// their number. Throws SceneError for what it can't hold: a quadric without a surface.
 [[nodiscard]] LoweredScene lower(const Scene& scene, Accuracy accuracy = Accuracy::automatic,
                                  SelfHits self_hits = SelfHits::note);
 

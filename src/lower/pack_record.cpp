@@ -32,7 +32,7 @@ Real highlight_floor(const LoweredMaterial& material)
 
 /// The curvature form around the anchor as rounded: what rounding moved goes into the offset.
 template <class Real>
-abi::HugeSphere<Real> pack_huge(const LoweredSphere& sphere)
+abi::HugeSphere<Real> pack_huge(const LoweredHugeSphere& sphere)
 {
     abi::HugeSphere<Real> packed;
     round_to(packed.anchor, sphere.anchor);
@@ -125,8 +125,8 @@ abi::CurvedSurfaceRecord<Real> cap_normal(const LoweredQuadric& quadric, int cap
     return packed;
 }
 
-template abi::HugeSphere<float> pack_huge(const LoweredSphere&);
-template abi::HugeSphere<double> pack_huge(const LoweredSphere&);
+template abi::HugeSphere<float> pack_huge(const LoweredHugeSphere&);
+template abi::HugeSphere<double> pack_huge(const LoweredHugeSphere&);
 template abi::PlaneRecord<float> pack_plane(const LoweredPlane&);
 template abi::PlaneRecord<double> pack_plane(const LoweredPlane&);
 template abi::QuadricRecord<float> pack_quadric(const LoweredQuadric&);

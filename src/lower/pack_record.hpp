@@ -14,7 +14,7 @@ void round_to(Real (&to)[3], const Vec3& from)
 }
 
 template <class Real>
-[[nodiscard]] abi::HugeSphere<Real> pack_huge(const LoweredSphere& sphere);
+[[nodiscard]] abi::HugeSphere<Real> pack_huge(const LoweredHugeSphere& sphere);
 
 template <class Real>
 [[nodiscard]] abi::PlaneRecord<Real> pack_plane(const LoweredPlane& plane);

@@ -40,13 +40,15 @@ abi::StiffObject unbounded(abi::StiffKind kind, std::int32_t surface)
 
 }  // namespace
 
+abi::StiffObject pack_stiff_object(const LoweredHugeSphere& sphere)
+{
+    abi::StiffObject packed = unbounded(abi::StiffKind::huge_sphere, sphere.surface);
+    packed.huge = pack_huge<double>(sphere);
+    return packed;
+}
+
 abi::StiffObject pack_stiff_object(const LoweredSphere& sphere)
 {
-    if (sphere.huge) {
-        abi::StiffObject packed = unbounded(abi::StiffKind::huge_sphere, sphere.surface);
-        packed.huge = pack_huge<double>(sphere);
-        return packed;
-    }
     abi::StiffObject packed = unbounded(abi::StiffKind::sphere, sphere.surface);
     round_to(packed.sphere.center, sphere.center);
     packed.sphere.radius2 = sphere.radius * sphere.radius;

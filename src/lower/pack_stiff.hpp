@@ -15,6 +15,7 @@ template <class Real, class Surface>
 }
 
 [[nodiscard]] abi::StiffObject pack_stiff_object(const LoweredSphere& sphere);
+[[nodiscard]] abi::StiffObject pack_stiff_object(const LoweredHugeSphere& sphere);
 [[nodiscard]] abi::StiffObject pack_stiff_object(const LoweredPlane& plane);
 [[nodiscard]] abi::StiffObject pack_stiff_object(const LoweredQuadric& quadric);
 

@@ -23,23 +23,25 @@ bool wants_tree(const LoweredScene& lowered, Traversal traversal)
 template <class Real>
 constexpr Real start_roundoffs = sizeof(Real) == sizeof(float) ? Real(8) : Real(32);
 
+template <class Real>
+PackedTree<Real> pack_tree(const LoweredScene& lowered, Traversal traversal)
+{
+    return wants_tree(lowered, traversal) ? PackedTree<Real>(lowered) : PackedTree<Real>();
+}
+
 }  // namespace
 
 template <class Real>
 PackedScene<Real>::PackedScene(const LoweredScene& lowered, Traversal traversal)
-    : surfaces_(lowered.material_index.size())
+    : tree_(pack_tree<Real>(lowered, traversal)),
+      lists_(lowered, !tree_.view().empty()),
+      shapes_(lowered)
 {
-    if (wants_tree(lowered, traversal))
-        tree_ = PackedTree<Real>(lowered);
     view_.tree = tree_.view();
-    pack_spheres(lowered);
-    pack_huge_spheres(lowered);
-    pack_planes(lowered);
-    pack_quadrics(lowered);
-    pack_stiff(lowered);
-    pack_finish(lowered);
-    pack_normals(lowered);
+    lists_.show(view_);
+    shapes_.show(view_);
     pack_materials(lowered);
+    pack_ior(lowered);
     pack_lights(lowered);
     pack_casters(lowered);
     round_to(view_.background, lowered.background);
@@ -57,157 +59,6 @@ PackedScene<Real>::PackedScene(const LoweredScene& lowered, Traversal traversal)
 }
 
 template <class Real>
-void PackedScene<Real>::pack_spheres(const LoweredScene& lowered)
-{
-    const std::size_t stride = (tree_.view().empty() ? lowered.spheres.size() : 0) + abi::padding;
-    sphere_reals_ = AlignedArray<Real>(5 * stride);
-    sphere_surfaces_ = AlignedArray<abi::lane_int<Real>>(stride);
-    Real* reals = sphere_reals_.data();
-    std::size_t count = 0;
-    for (const LoweredSphere& sphere : lowered.spheres) {
-        if (sphere.huge)
-            continue;
-        auto& surface = surfaces_[static_cast<std::size_t>(sphere.surface)];
-        round_to(surface.anchor, sphere.center);
-        surface.curvature = static_cast<Real>(1.0 / sphere.radius);
-        if (in_tree(sphere) || goes_to_stiff<Real>(sphere))
-            continue;
-        for (int axis = 0; axis < 3; ++axis)
-            reals[static_cast<std::size_t>(axis) * stride + count] =
-                static_cast<Real>(sphere.center[axis]);
-        reals[3 * stride + count] = static_cast<Real>(sphere.radius);
-        reals[4 * stride + count] = static_cast<Real>(sphere.radius * sphere.radius);
-        sphere_surfaces_[count] = sphere.surface;
-        ++count;
-    }
-    view_.spheres = {reals,
-                     reals + stride,
-                     reals + 2 * stride,
-                     reals + 3 * stride,
-                     reals + 4 * stride,
-                     sphere_surfaces_.data(),
-                     static_cast<int>(count)};
-}
-
-template <class Real>
-void PackedScene<Real>::pack_huge_spheres(const LoweredScene& lowered)
-{
-    huge_spheres_ = AlignedArray<abi::HugeSphere<Real>>(lowered.spheres.size());
-    int count = 0;
-    for (const LoweredSphere& sphere : lowered.spheres) {
-        if (!sphere.huge)
-            continue;
-        const auto packed = pack_huge<Real>(sphere);
-        if (!goes_to_stiff<Real>(sphere))
-            huge_spheres_[static_cast<std::size_t>(count++)] = packed;
-        auto& surface = surfaces_[static_cast<std::size_t>(sphere.surface)];
-        std::copy(packed.anchor, packed.anchor + 3, surface.anchor);
-        std::copy(packed.normal, packed.normal + 3, surface.normal);
-        surface.curvature = packed.curvature;
-    }
-    view_.huge_spheres = {huge_spheres_.data(), count};
-}
-
-template <class Real>
-void PackedScene<Real>::pack_planes(const LoweredScene& lowered)
-{
-    planes_ = AlignedArray<abi::PlaneRecord<Real>>(lowered.planes.size());
-    std::size_t count = 0;
-    for (const LoweredPlane& plane : lowered.planes) {
-        auto& surface = surfaces_[static_cast<std::size_t>(plane.surface)];
-        round_to(surface.normal, plane.normal);
-        if (!goes_to_stiff<Real>(plane))
-            planes_[count++] = pack_plane<Real>(plane);
-    }
-    view_.planes = {planes_.data(), static_cast<int>(count)};
-}
-
-template <class Real>
-void PackedScene<Real>::pack_quadrics(const LoweredScene& lowered)
-{
-    quadrics_ = AlignedArray<abi::QuadricRecord<Real>>(lowered.quadrics.size());
-    std::size_t count = 0;
-    for (const LoweredQuadric& quadric : lowered.quadrics)
-        if (!in_tree(quadric) && !goes_to_stiff<Real>(quadric))
-            quadrics_[count++] = pack_quadric<Real>(quadric);
-    view_.quadrics = {quadrics_.data(), static_cast<int>(count)};
-}
-
-/// All that is stiff, in double whatever Real is; nothing where Real is double itself.
-template <class Real>
-void PackedScene<Real>::pack_stiff(const LoweredScene& lowered)
-{
-    stiff_ = AlignedArray<abi::StiffObject>(lowered.spheres.size() + lowered.planes.size() +
-                                            lowered.quadrics.size());
-    std::size_t count = 0;
-    const auto pack = [&](const auto& surfaces) {
-        for (const auto& surface : surfaces)
-            if (goes_to_stiff<Real>(surface))
-                stiff_[count++] = pack_stiff_object(surface);
-    };
-    pack(lowered.spheres);
-    pack(lowered.planes);
-    pack(lowered.quadrics);
-    view_.stiff = {stiff_.data(), static_cast<int>(count)};
-}
-
-template <class Real>
-void PackedScene<Real>::pack_finish(const LoweredScene& lowered)
-{
-    const auto& wanted = lowered.finished;
-    if (sizeof(Real) != sizeof(float) ||
-        std::find(wanted.begin(), wanted.end(), true) == wanted.end())
-        return;
-    finish_ = AlignedArray<abi::StiffObject>(lowered.spheres.size() + lowered.planes.size() +
-                                             lowered.quadrics.size());
-    finish_index_ = AlignedArray<std::int32_t>(wanted.size());
-    std::fill_n(finish_index_.data(), wanted.size(), -1);
-    std::int32_t count = 0;
-    const auto pack = [&](const auto& surfaces, const auto& pieces) {
-        for (const auto& surface : surfaces) {
-            const auto first = static_cast<std::size_t>(surface.surface);
-            if (!wanted[first])
-                continue;
-            finish_[static_cast<std::size_t>(count)] = pack_stiff_object(surface);
-            std::fill_n(finish_index_.data() + first, pieces(surface), count++);
-        }
-    };
-    pack(lowered.spheres, [](const LoweredSphere&) { return 1; });
-    pack(lowered.planes, [](const LoweredPlane&) { return 1; });
-    pack(lowered.quadrics, [](const LoweredQuadric& quadric) { return quadric.capped ? 3 : 1; });
-    view_.finish = finish_.data();
-    view_.finish_index = finish_index_.data();
-}
-
-/// Round surfaces have their normals already; the kernels of every kind of surface take them in
-/// the form of the curved ones.
-template <class Real>
-void PackedScene<Real>::pack_normals(const LoweredScene& lowered)
-{
-    const std::size_t count = surfaces_.size();
-    for (std::size_t i = 0; i < count; ++i)
-        surfaces_[i].faces_viewer = lowered.faces_viewer[i] ? Real(1) : Real(0);
-    view_.surfaces = surfaces_.data();
-
-    curved_surfaces_ = AlignedArray<abi::CurvedSurfaceRecord<Real>>(count);
-    for (std::size_t i = 0; i < count; ++i) {
-        std::copy(surfaces_[i].anchor, surfaces_[i].anchor + 3, curved_surfaces_[i].anchor);
-        std::copy(surfaces_[i].normal, surfaces_[i].normal + 3, curved_surfaces_[i].normal);
-        std::fill_n(curved_surfaces_[i].curvature, 3, surfaces_[i].curvature);
-    }
-    for (const LoweredQuadric& quadric : lowered.quadrics) {
-        const auto first = static_cast<std::size_t>(quadric.surface);
-        curved_surfaces_[first] = side_normal<Real>(quadric);
-        for (int cap = 1; quadric.capped && cap <= 2; ++cap)
-            curved_surfaces_[first + static_cast<std::size_t>(cap)] =
-                cap_normal<Real>(quadric, cap);
-    }
-    for (std::size_t i = 0; i < count; ++i)
-        curved_surfaces_[i].faces_viewer = surfaces_[i].faces_viewer;
-    view_.curved_surfaces = curved_surfaces_.data();
-}
-
-template <class Real>
 void PackedScene<Real>::pack_materials(const LoweredScene& lowered)
 {
     material_index_ = AlignedArray<abi::MaterialIndex>(lowered.material_index.size());
@@ -221,14 +72,25 @@ void PackedScene<Real>::pack_materials(const LoweredScene& lowered)
         round_to(checkers_[i].u, lowered.checkers[i].u);
         round_to(checkers_[i].v, lowered.checkers[i].v);
     }
-    ior_ = AlignedArray<Real>(lowered.ior.size() + 1);
-    ior_[0] = 1;
-    for (std::size_t i = 0; i < lowered.ior.size(); ++i)
-        ior_[i + 1] = static_cast<Real>(lowered.ior[i]);
-    view_.ior = ior_.data() + 1;
     view_.material_index = material_index_.data();
     view_.materials = materials_.data();
     view_.checkers = lowered.checkers.empty() ? nullptr : checkers_.data();
+}
+
+/// By object where rays enter any; else there is the world alone.
+template <class Real>
+void PackedScene<Real>::pack_ior(const LoweredScene& lowered)
+{
+    const auto& surfaces = lowered.material_index;
+    const bool objects = lowered.features.glass && !surfaces.empty();
+    ior_ = AlignedArray<Real>(objects ? static_cast<std::size_t>(surfaces.back().object) + 2 : 1);
+    ior_[0] = 1;
+    view_.ior = ior_.data() + 1;
+    if (!objects)
+        return;
+    for (const abi::MaterialIndex& index : surfaces)
+        ior_[static_cast<std::size_t>(index.object) + 1] =
+            static_cast<Real>(lowered.materials[static_cast<std::size_t>(index.first)].ior);
 }
 
 template <class Real>
@@ -258,6 +120,7 @@ void PackedScene<Real>::pack_casters(const LoweredScene& lowered)
         return !casts[static_cast<std::size_t>(surface.surface)];
     };
     std::erase_if(casters.spheres, casts_none);
+    std::erase_if(casters.huge_spheres, casts_none);
     std::erase_if(casters.planes, casts_none);
     std::erase_if(casters.quadrics, casts_none);
     // Without a hierarchy for the camera's rays there are no groups of shadow rays either.

@@ -7,6 +7,8 @@
 #include "core/aligned_array.hpp"
 #include "kernel_abi/scene_view.hpp"
 #include "lower/lowered_scene.hpp"
+#include "lower/packed_lists.hpp"
+#include "lower/packed_shapes.hpp"
 #include "lower/packed_tree.hpp"
 
 namespace packtrace {
@@ -24,35 +26,23 @@ public:
         return view_;
     }
 
-private:
-    template <class Object>
-    [[nodiscard]] bool in_tree(const Object& object) const
+    /// What is held all in all.
+    [[nodiscard]] std::size_t bytes() const
     {
-        return !tree_.view().empty() && fits_tree(object);
+        return sizeof *this + tree_.bytes() + lists_.bytes() + shapes_.bytes() +
+               material_index_.bytes() + materials_.bytes() + checkers_.bytes() + ior_.bytes() +
+               lights_.bytes();
     }
 
-    void pack_spheres(const LoweredScene& lowered);
-    void pack_huge_spheres(const LoweredScene& lowered);
-    void pack_planes(const LoweredScene& lowered);
-    void pack_quadrics(const LoweredScene& lowered);
-    void pack_stiff(const LoweredScene& lowered);
-    void pack_finish(const LoweredScene& lowered);
-    void pack_normals(const LoweredScene& lowered);
+private:
     void pack_materials(const LoweredScene& lowered);
+    void pack_ior(const LoweredScene& lowered);
     void pack_lights(const LoweredScene& lowered);
     void pack_casters(const LoweredScene& lowered);
 
     PackedTree<Real> tree_;
-    AlignedArray<Real> sphere_reals_;
-    AlignedArray<abi::lane_int<Real>> sphere_surfaces_;
-    AlignedArray<abi::HugeSphere<Real>> huge_spheres_;
-    AlignedArray<abi::PlaneRecord<Real>> planes_;
-    AlignedArray<abi::QuadricRecord<Real>> quadrics_;
-    AlignedArray<abi::StiffObject> stiff_;
-    AlignedArray<abi::StiffObject> finish_;
-    AlignedArray<std::int32_t> finish_index_;
-    AlignedArray<abi::SurfaceRecord<Real>> surfaces_;
-    AlignedArray<abi::CurvedSurfaceRecord<Real>> curved_surfaces_;
+    PackedLists<Real> lists_;
+    PackedShapes<Real> shapes_;
     AlignedArray<abi::MaterialIndex> material_index_;
     AlignedArray<abi::MaterialRecord<Real>> materials_;
     AlignedArray<abi::CheckerRecord<Real>> checkers_;

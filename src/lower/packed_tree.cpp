@@ -5,6 +5,7 @@
 
 #include <glm/geometric.hpp>
 
+#include "lower/in_parallel.hpp"
 #include "lower/pack_record.hpp"
 
 namespace packtrace {
@@ -46,19 +47,34 @@ BvhItem make_item(const Vec3& center, const Vec3& half, std::size_t number, Item
     return item;
 }
 
-std::vector<BvhItem> tree_items(const LoweredScene& lowered)
+BvhItem make_item(const LoweredSphere& sphere, std::size_t number)
 {
-    std::vector<BvhItem> items;
-    items.reserve(count_tree_objects(lowered));
-    for (std::size_t i = 0; i < lowered.spheres.size(); ++i)
-        if (fits_tree(lowered.spheres[i]))
-            items.push_back(make_item(lowered.spheres[i].center, Vec3(lowered.spheres[i].radius), i,
-                                      sphere_item));
-    for (std::size_t i = 0; i < lowered.quadrics.size(); ++i)
-        if (fits_tree(lowered.quadrics[i]))
-            items.push_back(make_item(lowered.quadrics[i].bound, lowered.quadrics[i].box_half, i,
-                                      quadric_item));
-    return items;
+    return make_item(sphere.center, Vec3(sphere.radius), number, sphere_item);
+}
+BvhItem make_item(const LoweredQuadric& quadric, std::size_t number)
+{
+    return make_item(quadric.bound, quadric.box_half, number, quadric_item);
+}
+
+/// Writes items of the objects that fit, in order; returns the end of them.
+template <class Object>
+BvhItem* fill_items(const std::vector<Object>& objects, BvhItem* items)
+{
+    for_each_in_parallel(objects, [&](const Object& object) {
+        const auto number = static_cast<std::size_t>(&object - objects.data());
+        items[number] = make_item(object, number);
+    });
+    return std::remove_if(items, items + objects.size(),
+                          [&](const BvhItem& item) { return !fits_tree(objects[item.number]); });
+}
+
+Bvh build_tree(const LoweredScene& lowered)
+{
+    const auto items =
+        AlignedArray<BvhItem>::unset(lowered.spheres.size() + lowered.quadrics.size());
+    BvhItem* end = fill_items(lowered.spheres, items.data());
+    end = fill_items(lowered.quadrics, end);
+    return build_bvh({items.data(), end});
 }
 
 float extent_of(const abi::BvhNode& root)
@@ -103,7 +119,7 @@ double worst_slack(const LoweredScene& lowered)
 
 bool fits_tree(const LoweredSphere& sphere)
 {
-    return !sphere.huge && !sphere.stiff;
+    return !sphere.stiff;
 }
 
 bool fits_tree(const LoweredQuadric& quadric)
@@ -123,11 +139,9 @@ std::size_t count_tree_objects(const LoweredScene& lowered)
 template <class Real>
 PackedTree<Real>::PackedTree(const LoweredScene& lowered)
 {
-    std::vector<BvhItem> items = tree_items(lowered);
-    if (items.empty())
+    Bvh bvh = build_tree(lowered);
+    if (bvh.nodes.empty())
         return;
-    Bvh bvh = build_bvh(items);
-    items = {};
     pack_leaves(lowered, bvh);
     nodes_ = AlignedArray<abi::BvhNode>(bvh.nodes.size());
     std::copy(bvh.nodes.begin(), bvh.nodes.end(), nodes_.data());
@@ -159,22 +173,28 @@ void PackedTree<Real>::pack_leaves(const LoweredScene& lowered, Bvh& bvh)
         }
     }
     // One more: kernels read a whole packet from the last.
-    blocks_ = AlignedArray<abi::SphereBlock<Real>>(block_count + 1);
-    quadrics_ = AlignedArray<abi::QuadricRecord<Real>>(quadric_count);
-    std::size_t block = 0;
-    std::size_t quadric = 0;
-    for (const BvhLeaf& leaf : bvh.leaves) {
+    blocks_ = AlignedArray<abi::SphereBlock<Real>>::unset(block_count + 1);
+    blocks_[block_count] = {};
+    quadrics_ = AlignedArray<abi::QuadricRecord<Real>>::unset(quadric_count);
+    for_each_in_parallel(bvh.leaves, [&](const BvhLeaf& leaf) {
+        const std::uint32_t at = packed_at[static_cast<std::size_t>(&leaf - bvh.leaves.data())];
         if (leaf.kind == sphere_item)
-            pack_block(lowered, bvh, leaf, blocks_[block++]);
+            pack_block(lowered, bvh, leaf, blocks_[at & abi::block_mask]);
         else
-            for (std::uint32_t i = 0; i < leaf.count; ++i)
-                quadrics_[quadric++] =
-                    pack_quadric<Real>(lowered.quadrics[bvh.order[leaf.first + i]]);
-    }
+            pack_run(lowered, bvh, leaf, &quadrics_[at & abi::quadric_mask]);
+    });
     for (abi::BvhNode& node : bvh.nodes)
         for (int slot = 0; slot < abi::node_width; ++slot)
             if (abi::is_leaf(node.child[slot]) && node.low[0][slot] <= node.high[0][slot])
                 node.child[slot] = packed_at[node.child[slot] & ~abi::leaf_bit];
+}
+
+template <class Real>
+void PackedTree<Real>::pack_run(const LoweredScene& lowered, const Bvh& bvh, const BvhLeaf& leaf,
+                                abi::QuadricRecord<Real>* run)
+{
+    for (std::uint32_t i = 0; i < leaf.count; ++i)
+        run[i] = pack_quadric<Real>(lowered.quadrics[bvh.order[leaf.first + i]]);
 }
 
 template <class Real>

@@ -30,15 +30,15 @@ public:
 
     [[nodiscard]] std::size_t bytes() const
     {
-        return nodes_.size() * sizeof(abi::BvhNode) +
-               blocks_.size() * sizeof(abi::SphereBlock<Real>) +
-               quadrics_.size() * sizeof(abi::QuadricRecord<Real>);
+        return nodes_.bytes() + blocks_.bytes() + quadrics_.bytes();
     }
 
 private:
     void pack_leaves(const LoweredScene& lowered, Bvh& bvh);
-    void pack_block(const LoweredScene& lowered, const Bvh& bvh, const BvhLeaf& leaf,
-                    abi::SphereBlock<Real>& block);
+    static void pack_run(const LoweredScene& lowered, const Bvh& bvh, const BvhLeaf& leaf,
+                         abi::QuadricRecord<Real>* run);
+    static void pack_block(const LoweredScene& lowered, const Bvh& bvh, const BvhLeaf& leaf,
+                           abi::SphereBlock<Real>& block);
 
     AlignedArray<abi::BvhNode> nodes_;
     AlignedArray<abi::SphereBlock<Real>> blocks_;

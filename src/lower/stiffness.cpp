@@ -6,6 +6,8 @@
 #include <glm/geometric.hpp>
 #include <glm/gtc/matrix_access.hpp>
 
+#include "lower/in_parallel.hpp"
+
 namespace packtrace {
 namespace {
 
@@ -22,7 +24,12 @@ bool fits_single(double x)
 
 bool is_stiff(const LoweredSphere& sphere)
 {
-    return sphere.huge || glm::length(sphere.center) > far_ratio * sphere.radius;
+    return glm::length(sphere.center) > far_ratio * sphere.radius;
+}
+
+bool is_stiff(const LoweredHugeSphere&)
+{
+    return true;
 }
 
 /// Along an axis and at a place that float has, a plane's only rounding is a subtraction's.
@@ -48,9 +55,13 @@ bool is_stiff(const LoweredQuadric& quadric)
 }
 
 /// Whether a hierarchy could hold the surface, were it not stiff.
-bool bounded(const LoweredSphere& sphere)
+bool bounded(const LoweredSphere&)
 {
-    return !sphere.huge;
+    return true;
+}
+bool bounded(const LoweredHugeSphere&)
+{
+    return false;
 }
 bool bounded(const LoweredPlane&)
 {
@@ -68,14 +79,15 @@ constexpr std::ptrdiff_t longest_list = 32;
 template <class Surfaces>
 void mark(Accuracy accuracy, Surfaces& surfaces)
 {
-    for (auto& surface : surfaces)
+    for_each_in_parallel(surfaces, [&](auto& surface) {
         surface.stiff =
             accuracy == Accuracy::robust || (accuracy == Accuracy::automatic && is_stiff(surface));
+    });
     const auto listed = [](const auto& surface) { return surface.stiff && bounded(surface); };
     if (std::count_if(surfaces.begin(), surfaces.end(), listed) <= longest_list)
         return;
-    for (auto& surface : surfaces)
-        surface.stiff = surface.stiff && !bounded(surface);
+    for_each_in_parallel(surfaces,
+                         [](auto& surface) { surface.stiff = surface.stiff && !bounded(surface); });
 }
 
 }  // namespace
@@ -83,6 +95,7 @@ void mark(Accuracy accuracy, Surfaces& surfaces)
 void mark_stiff(Accuracy accuracy, LoweredScene& lowered)
 {
     mark(accuracy, lowered.spheres);
+    mark(accuracy, lowered.huge_spheres);
     mark(accuracy, lowered.planes);
     mark(accuracy, lowered.quadrics);
 }
@@ -90,16 +103,17 @@ void mark_stiff(Accuracy accuracy, LoweredScene& lowered)
 void mark_finished(Accuracy accuracy, SelfHits self_hits, LoweredScene& lowered)
 {
     const bool all = accuracy == Accuracy::robust || self_hits == SelfHits::exact;
-    lowered.finished.assign(lowered.material_index.size(), all);
+    lowered.finished.assign(lowered.material_index.size(), all ? 1 : 0);
     if (all || accuracy == Accuracy::fast)
         return;
-    for (const LoweredSphere& sphere : lowered.spheres)
-        if (!sphere.huge && is_stiff(sphere))
-            lowered.finished[static_cast<std::size_t>(sphere.surface)] = true;
-    for (const LoweredQuadric& quadric : lowered.quadrics)
-        for (int piece = 0; piece < (quadric.capped ? 3 : 1); ++piece)
-            if (is_stiff(quadric))
-                lowered.finished[static_cast<std::size_t>(quadric.surface + piece)] = true;
+    for_each_in_parallel(lowered.spheres, [&](const LoweredSphere& sphere) {
+        if (is_stiff(sphere))
+            lowered.finished[static_cast<std::size_t>(sphere.surface)] = 1;
+    });
+    for_each_in_parallel(lowered.quadrics, [&](const LoweredQuadric& quadric) {
+        if (is_stiff(quadric))
+            std::fill_n(lowered.finished.begin() + quadric.surface, quadric.capped ? 3 : 1, 1);
+    });
 }
 
 }  // namespace packtrace

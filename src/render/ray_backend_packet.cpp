@@ -63,8 +63,7 @@ template <class Real>
 class PacketBackend final : public RayBackend<Real> {
 public:
     PacketBackend(const Scene& scene, const RenderOptions& options)
-        : lowered_(lower(scene, accuracy_in<Real>(options), options.self_hits)),
-          packed_(lowered_, options.traversal),
+        : packed_(lower(scene, accuracy_in<Real>(options), options.self_hits), options.traversal),
           kernels_(precision<Real>(kernels_of(choose_isa(options.isa, options.width).name)))
     {
     }
@@ -101,7 +100,6 @@ public:
     }
 
 private:
-    LoweredScene lowered_;
     PackedScene<Real> packed_;
     const abi::PrecisionTable<Real>& kernels_;
 };

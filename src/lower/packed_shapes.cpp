@@ -1,0 +1,156 @@
+#include "lower/packed_shapes.hpp"
+
+#include <algorithm>
+
+#include "lower/in_parallel.hpp"
+#include "lower/pack_record.hpp"
+#include "lower/pack_stiff.hpp"
+
+namespace packtrace {
+namespace {
+
+int pieces_of(const LoweredHugeSphere&)
+{
+    return 1;
+}
+int pieces_of(const LoweredPlane&)
+{
+    return 1;
+}
+int pieces_of(const LoweredQuadric& quadric)
+{
+    return quadric.capped ? 3 : 1;
+}
+
+/// Calls `visit` with every object that is not among the spheres, kind by kind.
+template <class Visit>
+void for_each_other(const LoweredScene& lowered, const Visit& visit)
+{
+    std::for_each(lowered.huge_spheres.begin(), lowered.huge_spheres.end(), visit);
+    std::for_each(lowered.planes.begin(), lowered.planes.end(), visit);
+    std::for_each(lowered.quadrics.begin(), lowered.quadrics.end(), visit);
+}
+
+/// Planes and huge spheres in the form of the curved ones, for the kernels of every kind.
+template <class Real>
+abi::CurvedSurfaceRecord<Real> curved(const abi::SurfaceRecord<Real>& surface)
+{
+    abi::CurvedSurfaceRecord<Real> record{};
+    std::copy(surface.anchor, surface.anchor + 3, record.anchor);
+    std::copy(surface.normal, surface.normal + 3, record.normal);
+    std::fill_n(record.curvature, 3, surface.curvature);
+    return record;
+}
+
+}  // namespace
+
+template <class Real>
+PackedShapes<Real>::PackedShapes(const LoweredScene& lowered)
+    : finishes_(sizeof(Real) == sizeof(float) &&
+                std::find(lowered.finished.begin(), lowered.finished.end(), 1) !=
+                    lowered.finished.end()),
+      places_(lowered.material_index.size())
+{
+    pack_spheres(lowered);
+    place_others(lowered);
+    pack_others(lowered);
+    pack_curved(lowered);
+    if (finishes_)
+        pack_finish(lowered);
+}
+
+template <class Real>
+void PackedShapes<Real>::pack_spheres(const LoweredScene& lowered)
+{
+    spheres_ = AlignedArray<abi::SphereShape>(lowered.spheres.size());
+    for_each_in_parallel(lowered.spheres, [&](const LoweredSphere& sphere) {
+        const auto at = static_cast<std::size_t>(&sphere - lowered.spheres.data());
+        const auto surface = static_cast<std::size_t>(sphere.surface);
+        round_to(spheres_[at].center, sphere.center);
+        spheres_[at].radius = sphere.radius;
+        places_[surface] = static_cast<abi::SurfacePlace>(at) |
+                           (finishes_ && lowered.finished[surface] ? abi::finished_bit : 0) |
+                           (lowered.faces_viewer[surface] ? abi::faces_viewer_bit : 0);
+    });
+}
+
+template <class Real>
+void PackedShapes<Real>::place_others(const LoweredScene& lowered)
+{
+    for_each_other(lowered, [&](const auto& object) {
+        for (int piece = 0; piece < pieces_of(object); ++piece) {
+            const auto surface = static_cast<std::size_t>(object.surface + piece);
+            places_[surface] = static_cast<abi::SurfacePlace>(others_++) | abi::other_shape_bit;
+        }
+    });
+}
+
+template <class Real>
+void PackedShapes<Real>::pack_others(const LoweredScene& lowered)
+{
+    surfaces_ = AlignedArray<abi::SurfaceRecord<Real>>(others_);
+    for (const LoweredHugeSphere& sphere : lowered.huge_spheres) {
+        const auto packed = pack_huge<Real>(sphere);
+        auto& surface = surfaces_[other(sphere.surface)];
+        std::copy(packed.anchor, packed.anchor + 3, surface.anchor);
+        std::copy(packed.normal, packed.normal + 3, surface.normal);
+        surface.curvature = packed.curvature;
+    }
+    for (const LoweredPlane& plane : lowered.planes)
+        round_to(surfaces_[other(plane.surface)].normal, plane.normal);
+    for_each_other(lowered, [&](const auto& object) {
+        const auto surface = static_cast<std::size_t>(object.surface);
+        const Real faces_viewer = lowered.faces_viewer[surface] ? Real(1) : Real(0);
+        for (int piece = 0; piece < pieces_of(object); ++piece)
+            surfaces_[other(object.surface + piece)].faces_viewer = faces_viewer;
+    });
+}
+
+template <class Real>
+void PackedShapes<Real>::pack_curved(const LoweredScene& lowered)
+{
+    curved_ = AlignedArray<abi::CurvedSurfaceRecord<Real>>(others_);
+    for (std::size_t i = 0; i < others_; ++i)
+        curved_[i] = curved(surfaces_[i]);
+    for_each_in_parallel(lowered.quadrics, [&](const LoweredQuadric& quadric) {
+        const std::size_t side = other(quadric.surface);
+        curved_[side] = side_normal<Real>(quadric);
+        for (int cap = 1; quadric.capped && cap <= 2; ++cap)
+            curved_[side + static_cast<std::size_t>(cap)] = cap_normal<Real>(quadric, cap);
+    });
+    for (std::size_t i = 0; i < others_; ++i)
+        curved_[i].faces_viewer = surfaces_[i].faces_viewer;
+}
+
+template <class Real>
+void PackedShapes<Real>::pack_finish(const LoweredScene& lowered)
+{
+    finish_index_ = AlignedArray<std::int32_t>(others_);
+    std::fill_n(finish_index_.data(), others_, -1);
+    std::vector<abi::StiffObject> finish;
+    for_each_other(lowered, [&](const auto& object) {
+        if (!lowered.finished[static_cast<std::size_t>(object.surface)])
+            return;
+        std::fill_n(finish_index_.data() + other(object.surface), pieces_of(object),
+                    static_cast<std::int32_t>(finish.size()));
+        finish.push_back(pack_stiff_object(object));
+    });
+    finish_ = AlignedArray<abi::StiffObject>(finish.size());
+    std::copy(finish.begin(), finish.end(), finish_.data());
+}
+
+template <class Real>
+void PackedShapes<Real>::show(abi::SceneView<Real>& view) const
+{
+    view.places = places_.data();
+    view.sphere_shapes = spheres_.data();
+    view.surfaces = surfaces_.data();
+    view.curved_surfaces = curved_.data();
+    view.finish_index = finish_index_.data();
+    view.finish = finish_.data();
+}
+
+template class PackedShapes<float>;
+template class PackedShapes<double>;
+
+}  // namespace packtrace
