@@ -11,6 +11,7 @@
 
 #include "cli/command.hpp"
 #include "cli/common_options.hpp"
+#include "cli/scene_features.hpp"
 #include "cli/scene_summary.hpp"
 #include "cli/text_table.hpp"
 #include "lower/lowered_scene.hpp"
@@ -67,6 +68,40 @@ void print_scene(const std::string& file, const Scene& scene)
               << ", tested in double with --accuracy auto\n";
 }
 
+std::string joined(const std::vector<std::string>& words)
+{
+    std::string text;
+    for (const std::string& word : words)
+        text += (text.empty() ? "" : ", ") + word;
+    return text.empty() ? "nothing" : text;
+}
+
+void print_features(const SceneFeatures& features, const IsaInfo& isa)
+{
+    std::cout << "kernel   " << features.kernel << ", " << isa.name << ", " << isa.lanes_single
+              << " lanes\nuses     " << joined(features.uses) << "\nmemory   " << features.bytes
+              << " bytes";
+    if (features.surfaces > 0)
+        std::cout << ", " << features.bytes / features.surfaces << " a surface";
+    std::cout << "\n\n";
+    TextTable table(2, {"left out", "as"});
+    for (const LeftOut& left : features.left_out)
+        table.add({left.what, left.why});
+    table.print(std::cout);
+}
+
+nlohmann::ordered_json features_json(const SceneFeatures& features)
+{
+    nlohmann::ordered_json json{{"kernel", features.kernel},
+                                {"uses", features.uses},
+                                {"surfaces", features.surfaces},
+                                {"bytes", features.bytes}};
+    json["left_out"] = nlohmann::ordered_json::array();
+    for (const LeftOut& left : features.left_out)
+        json["left_out"].push_back({{"what", left.what}, {"why", left.why}});
+    return json;
+}
+
 nlohmann::ordered_json counted(const Census& census)
 {
     nlohmann::ordered_json json = nlohmann::ordered_json::object();
@@ -99,8 +134,10 @@ void print_json(const IsaInfo& chosen, const std::string& file, const std::optio
                                 {"lanes_double", isa.lanes_double},
                                 {"supported", isa.supported}});
     json["chosen"] = chosen.name;
-    if (scene)
+    if (scene) {
         json["scene"] = scene_json(file, *scene);
+        json["scene"]["features"] = features_json(scene_features(*scene, chosen));
+    }
     std::cout << json.dump(2, ' ', false, nlohmann::json::error_handler_t::replace) << '\n';
 }
 
@@ -114,8 +151,10 @@ void run_info(const InfoArguments& arguments)
         return print_json(chosen, arguments.scene, scene);
     std::cout << "packtrace " PACKTRACE_VERSION "\n\n";
     print_isas(chosen);
-    if (scene)
+    if (scene) {
         print_scene(arguments.scene, *scene);
+        print_features(scene_features(*scene, chosen), chosen);
+    }
 }
 
 }  // namespace

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "lower/duplicates.hpp"
+#include "lower/packed_scene.hpp"
 
 namespace packtrace {
 namespace {
@@ -77,6 +78,23 @@ std::vector<LeftOut> leave_out(LoweredScene& lowered)
     return left_out;
 }
 
+namespace {
+
+template <class Object>
+bool any_stiff(const std::vector<Object>& objects)
+{
+    return std::any_of(objects.begin(), objects.end(),
+                       [](const Object& object) { return object.stiff; });
+}
+
+bool any_stiff(const LoweredScene& lowered)
+{
+    return any_stiff(lowered.spheres) || any_stiff(lowered.huge_spheres) ||
+           any_stiff(lowered.planes) || any_stiff(lowered.quadrics);
+}
+
+}  // namespace
+
 std::vector<LeftOut> unused_features(const LoweredScene& lowered)
 {
     const abi::Features& uses = lowered.features;
@@ -85,7 +103,10 @@ std::vector<LeftOut> unused_features(const LoweredScene& lowered)
         if (!used)
             unused.push_back({what, why});
     };
+    unless(wants_tree(lowered, Traversal::automatic), "hierarchy", "lists are quicker for so few");
     unless(uses.quadrics, "quadrics", "all surfaces are spheres and planes");
+    unless(any_stiff(lowered), "tests in double", "single precision holds every surface well");
+    unless(!lowered.checkers.empty(), "checkers", "no plane has one");
     unless(!lowered.lights.empty(), "lights", "none shines from a place or a direction");
     unless(!lowered.flat, "normals", "no light and no mirror asks for them");
     unless(uses.highlights || lowered.lights.empty(), "highlights", "no material has one");

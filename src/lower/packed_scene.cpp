@@ -12,12 +12,6 @@ namespace {
 /// Below this number objects stay in a list. A round number: where the two cross is not measured.
 constexpr std::size_t tree_objects = 32;
 
-bool wants_tree(const LoweredScene& lowered, Traversal traversal)
-{
-    return traversal == Traversal::tree ||
-           (traversal == Traversal::automatic && count_tree_objects(lowered) >= tree_objects);
-}
-
 /// Hits in single precision are solved again in double and rounded once; those in double are
 /// as the search found them. Measured in docs/numerics.md.
 template <class Real>
@@ -30,6 +24,12 @@ PackedTree<Real> pack_tree(const LoweredScene& lowered, Traversal traversal)
 }
 
 }  // namespace
+
+bool wants_tree(const LoweredScene& lowered, Traversal traversal)
+{
+    return traversal == Traversal::tree ||
+           (traversal == Traversal::automatic && count_tree_objects(lowered) >= tree_objects);
+}
 
 template <class Real>
 PackedScene<Real>::PackedScene(const LoweredScene& lowered, Traversal traversal)

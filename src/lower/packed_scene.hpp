@@ -13,6 +13,9 @@
 
 namespace packtrace {
 
+/// Whether a scene gets a hierarchy rather than lists alone.
+[[nodiscard]] bool wants_tree(const LoweredScene& lowered, Traversal traversal);
+
 /// A lowered scene in the arrays and the precision the kernels read. Values are rounded once,
 /// from double, here.
 template <class Real>

@@ -34,6 +34,18 @@ public:
     abi::RayCounts refine(Image<Real>& image, const ContrastMap<Real>& contrast, int x,
                           int y) const;
 
+    /// Working memory of a thread.
+    [[nodiscard]] std::size_t scratch_bytes() const
+    {
+        return scratch_bytes_;
+    }
+
+    /// The kernels that run.
+    [[nodiscard]] const abi::FeatureSet& feature_set() const
+    {
+        return kernels_.set;
+    }
+
 private:
     [[nodiscard]] abi::TileJob<Real> job_at(const abi::CameraView<Real>& camera, int x,
                                             int y) const;

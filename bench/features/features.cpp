@@ -1,0 +1,171 @@
+// What leaving things out saves: frames by each scene's own kernel and by the general one, in turns
+// on one thread.
+#include <chrono>
+#include <cstdio>
+#include <cstring>
+#include <filesystem>
+#include <fstream>
+#include <iostream>
+#include <string>
+#include <vector>
+
+#include <packtrace/isa.hpp>
+#include <packtrace/read_scene.hpp>
+#include <packtrace/renderer.hpp>
+
+#include <CLI/CLI.hpp>
+#include <nlohmann/json.hpp>
+
+#include "dispatch/kernels.hpp"
+#include "lower/leave_out.hpp"
+#include "study/machine.hpp"
+#include "study/statistics.hpp"
+
+namespace {
+
+using namespace packtrace;
+using Json = nlohmann::ordered_json;
+
+struct Arguments {
+    std::vector<std::string> scenes;
+    std::string isa = "auto";
+    std::string json;
+    int size = 512;
+    int repetitions = 15;
+};
+
+/// One way to render a scene, with the times it took.
+class Frames {
+public:
+    Frames(const Scene& scene, const std::string& isa, bool general)
+        : renderer_(scene, options_of(isa, general))
+    {
+        (void)renderer_.render(image_);
+    }
+
+    /// The mean of as many frames as take some milliseconds.
+    void time()
+    {
+        using Clock = std::chrono::steady_clock;
+        const auto start = Clock::now();
+        double seconds = 0.0;
+        int frames = 0;
+        for (; seconds < 0.05; ++frames) {
+            (void)renderer_.render(image_);
+            seconds = std::chrono::duration<double>(Clock::now() - start).count();
+        }
+        milliseconds_.push_back(1e3 * seconds / frames);
+    }
+
+    [[nodiscard]] const std::vector<double>& milliseconds() const
+    {
+        return milliseconds_;
+    }
+    [[nodiscard]] bool same_bits(const Frames& other) const
+    {
+        return std::memcmp(image_.rgb.data(), other.image_.rgb.data(),
+                           image_.rgb.size() * sizeof(float)) == 0;
+    }
+
+private:
+    static RenderOptions options_of(const std::string& isa, bool general)
+    {
+        RenderOptions options;
+        options.isa = isa;
+        options.threads = 1;
+        options.force_general = general;
+        return options;
+    }
+
+    Renderer<float> renderer_;
+    Image<float> image_;
+    std::vector<double> milliseconds_;
+};
+
+std::string kernel_name(const Scene& scene, const std::string& isa)
+{
+    LoweredScene lowered = lower(scene);
+    leave_out(lowered);
+    return kernels_for(precision<float>(kernels_of(isa)), lowered.features).set.name;
+}
+
+Json measure(const std::string& file, const Arguments& arguments, const std::string& isa)
+{
+    Scene scene = read_scene(file);
+    scene.width = scene.height = arguments.size;
+    Frames special(scene, isa, false);
+    Frames general(scene, isa, true);
+    for (int i = 0; i < arguments.repetitions; ++i) {
+        special.time();
+        general.time();
+    }
+    std::vector<double> ratios;
+    for (std::size_t i = 0; i < special.milliseconds().size(); ++i)
+        ratios.push_back(general.milliseconds()[i] / special.milliseconds()[i]);
+    return {{"scene", std::filesystem::path(file).stem().string()},
+            {"kernel", kernel_name(scene, isa)},
+            {"special_ms", median_of(special.milliseconds())},
+            {"general_ms", median_of(general.milliseconds())},
+            {"general_over_special", median_of(ratios)},
+            {"spread", relative_spread(ratios)},
+            {"same_bits", special.same_bits(general)}};
+}
+
+void print(const Json& row)
+{
+    std::printf("%-22s %-9s %9.3f %9.3f %7.2f %6.1f%%  %s\n",
+                row["scene"].get<std::string>().c_str(), row["kernel"].get<std::string>().c_str(),
+                row["special_ms"].get<double>(), row["general_ms"].get<double>(),
+                row["general_over_special"].get<double>(), 100.0 * row["spread"].get<double>(),
+                row["same_bits"].get<bool>() ? "same bits" : "OTHER BITS");
+    std::fflush(stdout);
+}
+
+int run(const Arguments& arguments)
+{
+    const std::string isa = choose_isa(arguments.isa).name;
+    Json report{{"machine", processor_name()},
+                {"compiler", compiler_name()},
+                {"commit", commit_name()},
+                {"isa", isa},
+                {"size", arguments.size},
+                {"repetitions", arguments.repetitions},
+                {"scenes", Json::array()}};
+    std::printf("%-22s %-9s %9s %9s %7s %7s\n", "scene", "kernel", "special", "general", "ratio",
+                "spread");
+    bool same = true;
+    for (const std::string& file : arguments.scenes) {
+        const Json row = measure(file, arguments, isa);
+        print(row);
+        same = same && row["same_bits"].get<bool>();
+        report["scenes"].push_back(row);
+    }
+    if (!arguments.json.empty()) {
+        const std::string part = arguments.json + ".part";
+        std::ofstream(part) << report.dump(1) << '\n';
+        std::filesystem::rename(part, arguments.json);
+    }
+    return same ? 0 : 1;
+}
+
+}  // namespace
+
+int main(int argc, char** argv)
+{
+    Arguments arguments;
+    CLI::App app("Times each scene's own kernel against the general one");
+    app.add_option("SCENE", arguments.scenes, "Scene files")->required();
+    app.add_option("--isa", arguments.isa, "Instruction set");
+    app.add_option("--size", arguments.size, "Edge of the pictures, pixels")
+        ->check(CLI::Range(16, 16384));
+    app.add_option("--repetitions", arguments.repetitions, "Times each is measured")
+        ->check(CLI::Range(1, 10000));
+    app.add_option("--json", arguments.json, "File to write the figures to");
+    CLI11_PARSE(app, argc, argv);
+    try {
+        return run(arguments);
+    } catch (const std::exception& error) {
+        std::cerr << "packtrace_features: " << error.what() << '\n';
+        return 1;
+    }
+}

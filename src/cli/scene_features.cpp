@@ -1,0 +1,59 @@
+#include "cli/scene_features.hpp"
+
+#include <algorithm>
+
+#include "dispatch/kernels.hpp"
+#include "lower/packed_scene.hpp"
+
+namespace packtrace::cli {
+namespace {
+
+std::vector<std::string> used_features(const LoweredScene& lowered)
+{
+    std::vector<std::string> uses;
+    const auto add = [&](bool used, const char* what) {
+        if (used)
+            uses.emplace_back(what);
+    };
+    add(wants_tree(lowered, Traversal::automatic), "hierarchy");
+    add(!lowered.spheres.empty(), "spheres");
+    add(!lowered.huge_spheres.empty(), "huge spheres");
+    add(!lowered.planes.empty(), "planes");
+    add(lowered.features.quadrics, "quadrics");
+    add(std::any_of(lowered.quadrics.begin(), lowered.quadrics.end(),
+                    [](const LoweredQuadric& quadric) { return quadric.clipped(); }),
+        "clipping");
+    add(!lowered.checkers.empty(), "checkers");
+    add(!lowered.lights.empty(), lowered.lights.size() > 1 ? "several lights" : "one light");
+    add(lowered.features.highlights, "highlights");
+    add(lowered.shadows && !lowered.transparent_shadows, "opaque shadows");
+    add(lowered.transparent_shadows, "transparent shadows");
+    add(lowered.features.bounces, "mirrored rays");
+    add(lowered.features.glass, "refracted rays");
+    return uses;
+}
+
+std::size_t count_surfaces(const LoweredScene& lowered)
+{
+    return lowered.spheres.size() + lowered.huge_spheres.size() + lowered.planes.size() +
+           lowered.quadrics.size();
+}
+
+}  // namespace
+
+SceneFeatures scene_features(const Scene& scene, const IsaInfo& isa)
+{
+    LoweredScene lowered = lower(scene);
+    SceneFeatures features;
+    features.left_out = leave_out(lowered);
+    for (LeftOut& unused : unused_features(lowered))
+        features.left_out.push_back(std::move(unused));
+    features.uses = used_features(lowered);
+    features.kernel =
+        kernels_for(precision<float>(kernels_of(isa.name)), lowered.features).set.name;
+    features.surfaces = count_surfaces(lowered);
+    features.bytes = PackedScene<float>(lowered).bytes();
+    return features;
+}
+
+}  // namespace packtrace::cli

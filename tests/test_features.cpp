@@ -1,0 +1,213 @@
+// What a scene does not need is left out, and its picture stays the same, bit for bit.
+#include <cstring>
+
+#include <packtrace/compare.hpp>
+#include <packtrace/write_scene.hpp>
+
+#include "catch.hpp"
+#include "dispatch/kernels.hpp"
+#include "feature_scenes.hpp"
+#include "lower/leave_out.hpp"
+#include "lower/packed_scene.hpp"
+#include "render/tile_renderer.hpp"
+#include "render_scene.hpp"
+
+namespace packtrace::test {
+namespace {
+
+template <class Real>
+Image<Real> render_general(const Scene& scene, const std::string& isa)
+{
+    RenderOptions options;
+    options.isa = isa;
+    options.force_general = true;
+    return render<Real>(scene, options);
+}
+
+template <class Real>
+bool same_bits(const Image<Real>& a, const Image<Real>& b)
+{
+    return std::memcmp(a.rgb.data(), b.rgb.data(), a.rgb.size() * sizeof(Real)) == 0;
+}
+
+/// What one thread did for a whole picture, and the memory it did it in.
+struct Work {
+    abi::RayCounts counts;
+    std::size_t bytes = 0;
+};
+
+Work work_of(const Scene& scene, bool force_general = false)
+{
+    const abi::KernelTable& table = kernels_of(choose_isa().name);
+    RenderOptions options;
+    options.force_general = force_general;
+    LoweredScene lowered = lower(scene);
+    const TileRenderer<float> tiles(scene, lowered, table, options);
+    Image<float> image(scene.width, scene.height);
+    Work work;
+    work.bytes = tiles.scratch_bytes();
+    for (int y = 0; y < scene.height; y += abi::tile_size)
+        for (int x = 0; x < scene.width; x += abi::tile_size)
+            work.counts += tiles.render_once(image, x, y);
+    return work;
+}
+
+/// The name of the kernel that renders a scene.
+std::string kernel_of(const Scene& scene)
+{
+    LoweredScene lowered = lower(scene);
+    leave_out(lowered);
+    return kernels_for(precision<float>(*all_kernels().front()), lowered.features).set.name;
+}
+
+Scene scene_named(const std::string& name)
+{
+    for (const NamedScene& named : feature_scenes())
+        if (named.name == name)
+            return named.scene;
+    FAIL("no scene is named " + name);
+    return {};
+}
+
+}  // namespace
+
+TEMPLATE_TEST_CASE("special kernels and the general one give the same bits", "[features]", float,
+                   double)
+{
+    std::vector<NamedScene> scenes = feature_scenes();
+    scenes.push_back({"a forest", forest_scene()});
+    for (NamedScene& named : packet_scenes())
+        scenes.push_back(std::move(named));
+    for (const NamedScene& named : scenes)
+        for (const std::string& isa : supported_isas()) {
+            CAPTURE(named.name, isa);
+            CHECK(same_bits(render_packets<TestType>(named.scene, isa),
+                            render_general<TestType>(named.scene, isa)));
+        }
+}
+
+TEST_CASE("scenes that do without something are rendered as the reference has them", "[features]")
+{
+    std::vector<NamedScene> scenes = feature_scenes();
+    scenes.push_back({"a forest", forest_scene()});
+    for (const NamedScene& named : scenes) {
+        CAPTURE(named.name);
+        const Image<double> truth = render_scalar<double>(named.scene);
+        CHECK(compare(render_packets<double>(named.scene, choose_isa().name), truth).max_abs <=
+              1e-9);
+    }
+}
+
+TEST_CASE("each scene gets the narrowest kernel", "[features]")
+{
+    CHECK(kernel_of(matt_scene()) == "matt");
+    CHECK(kernel_of(scene_named("checkers")) == "matt");
+    CHECK(kernel_of(scene_named("mirrors at depth 0")) == "matt");
+    CHECK(kernel_of(scene_named("highlights")) == "mirrors");
+    CHECK(kernel_of(scene_named("mirrors")) == "mirrors");
+    CHECK(kernel_of(scene_named("quadrics")) == "quadrics");
+    CHECK(kernel_of(scene_named("tinted mirrors")) == "quadrics");
+    CHECK(kernel_of(scene_named("glass")) == "general");
+    // Its limit has a colour, which transparent and mirroring surfaces show.
+    CHECK(kernel_of(scene_named("glass at depth 0")) != "matt");
+}
+
+TEST_CASE("what is left out does not run", "[features]")
+{
+    const auto stages = [](const Scene& scene) { return work_of(scene).counts.stages; };
+    CHECK(stages(matt_scene()) == (abi::stage_hits | abi::stage_normals | abi::stage_blockers |
+                                   abi::stage_shadow_rays));
+    CHECK(stages(scene_named("ambient light alone")) == abi::stage_hits);
+    CHECK(stages(scene_named("ambient light on a quadric")) == abi::stage_hits);
+    CHECK(stages(scene_named("no shadows")) == (abi::stage_hits | abi::stage_normals));
+    CHECK(stages(scene_named("no object with a shadow")) == (abi::stage_hits | abi::stage_normals));
+    CHECK((stages(scene_named("highlights")) & abi::stage_powers) != 0);
+    CHECK((stages(scene_named("mirrors")) & (abi::stage_powers | abi::stage_mirrored)) ==
+          abi::stage_mirrored);
+    CHECK((stages(scene_named("tinted mirrors")) & abi::stage_refracted) == 0);
+    CHECK((stages(scene_named("glass")) & abi::stage_refracted) != 0);
+    CHECK((stages(forest_scene()) & abi::stage_hierarchy) != 0);
+    CHECK((stages(matt_scene()) & abi::stage_hierarchy) == 0);
+}
+
+TEST_CASE("rays of what is left out are not traced", "[features]")
+{
+    const abi::RayCounts none = work_of(scene_named("no object with a shadow")).counts;
+    CHECK(none.camera == 80u * 60u);
+    CHECK(none.shadow + none.reflected + none.refracted == 0);
+    CHECK(work_of(scene_named("ambient light alone")).counts.shadow == 0);
+    CHECK(work_of(scene_named("mirrors at depth 0")).counts.reflected == 0);
+
+    // Of two lights one reaches everything.
+    Scene scene = scene_named("a light that reaches everything");
+    const std::uint64_t one = work_of(scene).counts.shadow;
+    scene.lights[0].casts_shadow = true;
+    CHECK(one > 0);
+    CHECK(work_of(scene).counts.shadow > one);
+
+    // A dark light is none.
+    CHECK(work_of(scene_named("a dark light and an object twice")).counts.shadow ==
+          work_of(matt_scene()).counts.shadow);
+}
+
+TEST_CASE("memory is not taken for what is left out", "[features]")
+{
+    const Scene matt = matt_scene();
+    const std::size_t special = work_of(matt).bytes;
+    CHECK(special < work_of(matt, true).bytes / 3);
+    CHECK(work_of(scene_named("no object with a shadow")).bytes < special);
+    CHECK(work_of(scene_named("mirrors")).bytes > special);
+    CHECK(work_of(scene_named("glass")).bytes > work_of(scene_named("tinted mirrors")).bytes);
+}
+
+TEST_CASE("dark lights and objects in another's place count for nothing", "[features]")
+{
+    LoweredScene lowered = lower(scene_named("a dark light and an object twice"));
+    const std::vector<LeftOut> left_out = leave_out(lowered);
+    REQUIRE(left_out.size() == 2);
+    CHECK(left_out[0].what == "1 light");
+    CHECK(left_out[1].what == "2 surfaces");
+    CHECK(lowered.lights.size() == 1);
+    REQUIRE(lowered.spheres.size() == 2);
+    CHECK(lowered.spheres[1].surface == 1);
+
+    // Where light passes through objects each dims it.
+    lowered = lower(parse("illumination = general\nshadows = transparent\n" + one_light +
+                          "sphere { center = (0, 0, 3) radius = 1 transmit = 0.5 }\n"
+                          "sphere { center = (0, 0, 3) radius = 1 transmit = 0.5 }\n"));
+    CHECK(leave_out(lowered).empty());
+    CHECK(lowered.spheres.size() == 2);
+
+    // Nor does an object without a shadow stand for one with.
+    lowered = lower(parse(one_light + "sphere { center = (0, 0, 3) radius = 1 casts_shadow = no }\n"
+                                      "sphere { center = (0, 0, 3) radius = 1 }\n"));
+    CHECK(leave_out(lowered).empty());
+}
+
+TEST_CASE("a material that no surface left has counts for nothing", "[features]")
+{
+    CHECK(kernel_of(parse(one_light + "sphere { center = (0, 0, 3) radius = 1 }\n"
+                                      "sphere { center = (0, 0, 3) radius = 1 reflective = 0.5 "
+                                      "specular = 9 }\n")) == "matt");
+}
+
+TEST_CASE("casts_shadow is read, and written again", "[features]")
+{
+    const std::string text =
+        "sphere { center = (0, 0, 3) radius = 1 casts_shadow = no }\n"
+        "light { type = point intensity = 1 position = (0, 9, 0) casts_shadow = no }\n";
+    const Scene scene = parse(text);
+    CHECK_FALSE(scene.objects[0].casts_shadow);
+    CHECK_FALSE(scene.lights[0].casts_shadow);
+    const Scene again = parse(scene_text(scene));
+    CHECK_FALSE(again.objects[0].casts_shadow);
+    CHECK_FALSE(again.lights[0].casts_shadow);
+    CHECK(parse(any_sphere).objects[0].casts_shadow);
+
+    CHECK_THAT(error_of_line("light { type = ambient intensity = 1 casts_shadow = no }"),
+               ContainsSubstring("an ambient light casts no shadow anyway"));
+    CHECK_THAT(error_of("sphere { center = (0, 0, 3) radius = 1 casts_shadow = 0 }"),
+               ContainsSubstring("casts_shadow"));
+}
+
+}  // namespace packtrace::test
