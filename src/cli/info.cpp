@@ -6,6 +6,7 @@
 
 #include <packtrace/isa.hpp>
 #include <packtrace/read_scene.hpp>
+#include <packtrace/renderer.hpp>
 
 #include <nlohmann/json.hpp>
 
@@ -56,6 +57,21 @@ std::size_t count_stiff(const Scene& scene)
            stiff(lowered.quadrics);
 }
 
+/// Held while it is rendered in single precision.
+std::size_t scene_bytes(const Scene& scene)
+{
+    return Renderer<float>(scene).scene_bytes();
+}
+
+void print_memory(const Scene& scene)
+{
+    const std::size_t bytes = scene_bytes(scene);
+    std::cout << "memory   " << (bytes + 1023) / 1024 << " KiB in single precision";
+    if (!scene.objects.empty())
+        std::cout << ", " << bytes / scene.objects.size() << " bytes an object";
+    std::cout << '\n';
+}
+
 void print_scene(const std::string& file, const Scene& scene)
 {
     std::cout << "\nscene    " << file << "\nsize     " << scene.width << " x " << scene.height
@@ -65,6 +81,7 @@ void print_scene(const std::string& file, const Scene& scene)
               << "\nstiff    " << count_stiff(scene)
               << (count_stiff(scene) == 1 ? " object" : " objects")
               << ", tested in double with --accuracy auto\n";
+    print_memory(scene);
 }
 
 nlohmann::ordered_json counted(const Census& census)
@@ -85,7 +102,8 @@ nlohmann::ordered_json scene_json(const std::string& file, const Scene& scene)
             {"model", name_of(scene.illumination)},
             {"depth", scene.max_depth},
             {"shadows", name_of(scene.shadows)},
-            {"stiff_objects", count_stiff(scene)}};
+            {"stiff_objects", count_stiff(scene)},
+            {"memory_bytes", scene_bytes(scene)}};
 }
 
 void print_json(const IsaInfo& chosen, const std::string& file, const std::optional<Scene>& scene)

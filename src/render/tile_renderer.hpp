@@ -33,6 +33,11 @@ public:
     abi::RayCounts refine(Image<Real>& image, const ContrastMap<Real>& contrast, int x,
                           int y) const;
 
+    [[nodiscard]] std::size_t scene_bytes() const
+    {
+        return packed_.bytes();
+    }
+
 private:
     [[nodiscard]] abi::TileJob<Real> job_at(const abi::CameraView<Real>& camera, int x,
                                             int y) const;
