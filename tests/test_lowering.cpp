@@ -91,7 +91,7 @@ std::vector<std::int32_t> surfaces_of(const std::vector<Object>& objects)
 
 }  // namespace
 
-TEST_CASE("every surface of a large scene has its own object's material", "[lower]")
+TEST_CASE("every surface of a large scene has its own object's material", "[lowering]")
 {
     const Scene scene = many_objects();
     const LoweredScene lowered = lower(scene);
@@ -117,7 +117,7 @@ TEST_CASE("every surface of a large scene has its own object's material", "[lowe
     CHECK(lowered.faces_viewer.size() == surface);
 }
 
-TEST_CASE("surfaces are numbered in the order of objects, whatever their kinds", "[lower]")
+TEST_CASE("surfaces are numbered in the order of objects, whatever their kinds", "[lowering]")
 {
     const LoweredScene lowered = lower(many_objects());
     std::vector<std::int32_t> spheres, planes, quadrics;
@@ -137,7 +137,7 @@ TEST_CASE("surfaces are numbered in the order of objects, whatever their kinds",
           lowered.material_index[static_cast<std::size_t>(spheres.back())].object);
 }
 
-TEST_CASE("what a scene lowers to does not depend on the number of threads", "[lower]")
+TEST_CASE("what a scene lowers to does not depend on the number of threads", "[lowering]")
 {
     const Scene scene = many_objects();
     const LoweredScene one = lower_on(1, scene);
@@ -150,7 +150,7 @@ TEST_CASE("what a scene lowers to does not depend on the number of threads", "[l
     CHECK(surfaces_of(one.spheres) == surfaces_of(two.spheres));
 }
 
-TEST_CASE("of several objects without a surface the first is named", "[lower]")
+TEST_CASE("of several objects without a surface the first is named", "[lowering]")
 {
     Scene scene = many_objects();
     for (const std::size_t number : {69'000u, 30'000u, 29'000u, 20'000u}) {
@@ -161,13 +161,13 @@ TEST_CASE("of several objects without a surface the first is named", "[lower]")
     CHECK_THROWS_WITH(lower(scene), test::ContainsSubstring("'object 20000'"));
 }
 
-TEST_CASE("objects of one material share its record", "[lower]")
+TEST_CASE("objects of one material share its record", "[lowering]")
 {
     const LoweredScene lowered = lower(generate_random_spheres({.count = 10'000}));
     CHECK(lowered.materials.size() == 1);
 }
 
-TEST_CASE("a sphere among many costs a hundred bytes at most", "[lower]")
+TEST_CASE("a sphere among many costs a hundred bytes at most", "[lowering]")
 {
     constexpr int count = 50'000;
     // Small ones far from the origin are solved again in double, large ones are not.
@@ -198,7 +198,7 @@ Image<Real> picture_of(std::size_t count, const RenderOptions& options)
     return image;
 }
 
-TEMPLATE_TEST_CASE("many spheres look as few do, to the bit", "[lower]", float, double)
+TEMPLATE_TEST_CASE("many spheres look as few do, to the bit", "[lowering]", float, double)
 {
     for (const Accuracy accuracy : {Accuracy::fast, Accuracy::automatic, Accuracy::robust})
         for (const SelfHits self_hits : {SelfHits::note, SelfHits::exact}) {
@@ -212,7 +212,7 @@ TEMPLATE_TEST_CASE("many spheres look as few do, to the bit", "[lower]", float, 
         }
 }
 
-TEST_CASE("spheres of every size are told huge or not as one by one", "[lower]")
+TEST_CASE("spheres of every size are told huge or not as one by one", "[lowering]")
 {
     Scene scene;
     scene.camera.position = Vec3(0.0, 0.0, -1.0);
