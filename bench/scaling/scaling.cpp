@@ -68,6 +68,8 @@ nlohmann::ordered_json measure(const Arguments& arguments)
     const Renderer<float> renderer(scene, options);
     point["build_seconds"] = seconds_since(start);
     point["build_bytes_an_object"] = (allocated_bytes() - before) / arguments.objects;
+    point["scene_bytes_an_object"] =
+        static_cast<double>(renderer.scene_bytes()) / arguments.objects;
     Image<float> image;
     for (int frame = 0; frame < arguments.frames; ++frame) {
         start = std::chrono::steady_clock::now();

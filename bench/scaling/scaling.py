@@ -35,7 +35,7 @@ def run_point(program, point, frames):
 
 def add_run(point, measured):
     """Joins one process's figures to a point's."""
-    for key in ("build_seconds", "peak_bytes", "build_bytes_an_object"):
+    for key in ("build_seconds", "peak_bytes", "build_bytes_an_object", "scene_bytes_an_object"):
         point.setdefault(key + "_of_all", []).append(measured[key])
     # The first frame also touches its memory for the first time.
     point.setdefault("first_frame_seconds_of_all", []).append(measured["frame_seconds"][0])

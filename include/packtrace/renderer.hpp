@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <memory>
 
@@ -37,6 +38,9 @@ public:
 
     /// Renders into `image`, whose size is the scene's; an image of another size is replaced.
     FrameCounts render(Image<Real>& image) const;
+
+    /// Memory held for the scene, its hierarchy included and threads' working memory not.
+    [[nodiscard]] std::size_t scene_bytes() const;
 
     /// The instruction set in use.
     [[nodiscard]] const IsaInfo& isa() const;

@@ -57,18 +57,15 @@ struct Bins {
     }
 };
 
-Bins fill_bins(std::span<const BvhItem> items, const Binning& binning)
+void fill_bins(std::span<const BvhItem> items, const Binning& binning, Bins& bins)
 {
-    if (items.size() < parallel_items) {
-        Bins bins;
-        bins.include(items, binning);
-        return bins;
-    }
-    return tbb::parallel_reduce(
+    if (items.size() < parallel_items)
+        return bins.include(items, binning);
+    bins = tbb::parallel_reduce(
         tbb::blocked_range<std::size_t>(0, items.size(), parallel_items), Bins{},
-        [&](const tbb::blocked_range<std::size_t>& part, Bins bins) {
-            bins.include(items.subspan(part.begin(), part.size()), binning);
-            return bins;
+        [&](const tbb::blocked_range<std::size_t>& part, Bins sum) {
+            sum.include(items.subspan(part.begin(), part.size()), binning);
+            return sum;
         },
         [](Bins a, const Bins& b) {
             a.include(b);
@@ -168,7 +165,8 @@ std::pair<BvhRange, BvhRange> split(std::span<BvhItem> items, const BvhRange& ra
 {
     const Binning binning(range.centroids);
     const auto members = items.subspan(range.begin, range.count());
-    const Bins bins = fill_bins(members, binning);
+    Bins bins;
+    fill_bins(members, binning, bins);
     Cut cut;
     for (int axis = 0; axis < 3; ++axis)
         look_for_cut(bins, axis, cut);

@@ -6,6 +6,7 @@
 
 #include <packtrace/isa.hpp>
 #include <packtrace/read_scene.hpp>
+#include <packtrace/renderer.hpp>
 
 #include <nlohmann/json.hpp>
 
@@ -57,6 +58,21 @@ std::size_t count_stiff(const Scene& scene)
            stiff(lowered.quadrics);
 }
 
+/// Held while it is rendered in single precision.
+std::size_t scene_bytes(const Scene& scene)
+{
+    return Renderer<float>(scene).scene_bytes();
+}
+
+void print_memory(const Scene& scene)
+{
+    const std::size_t bytes = scene_bytes(scene);
+    std::cout << "memory   " << (bytes + 1023) / 1024 << " KiB in single precision";
+    if (!scene.objects.empty())
+        std::cout << ", " << bytes / scene.objects.size() << " bytes an object";
+    std::cout << '\n';
+}
+
 void print_scene(const std::string& file, const Scene& scene)
 {
     std::cout << "\nscene    " << file << "\nsize     " << scene.width << " x " << scene.height
@@ -66,6 +82,7 @@ void print_scene(const std::string& file, const Scene& scene)
               << "\nstiff    " << count_stiff(scene)
               << (count_stiff(scene) == 1 ? " object" : " objects")
               << ", tested in double with --accuracy auto\n";
+    print_memory(scene);
 }
 
 std::string joined(const std::vector<std::string>& words)
@@ -79,11 +96,7 @@ std::string joined(const std::vector<std::string>& words)
 void print_features(const SceneFeatures& features, const IsaInfo& isa)
 {
     std::cout << "kernel   " << features.kernel << ", " << isa.name << ", " << isa.lanes_single
-              << " lanes\nuses     " << joined(features.uses) << "\nmemory   " << features.bytes
-              << " bytes";
-    if (features.surfaces > 0)
-        std::cout << ", " << features.bytes / features.surfaces << " a surface";
-    std::cout << "\n\n";
+              << " lanes\nuses     " << joined(features.uses) << "\n\n";
     TextTable table(2, {"left out", "as"});
     for (const LeftOut& left : features.left_out)
         table.add({left.what, left.why});
@@ -92,10 +105,7 @@ void print_features(const SceneFeatures& features, const IsaInfo& isa)
 
 nlohmann::ordered_json features_json(const SceneFeatures& features)
 {
-    nlohmann::ordered_json json{{"kernel", features.kernel},
-                                {"uses", features.uses},
-                                {"surfaces", features.surfaces},
-                                {"bytes", features.bytes}};
+    nlohmann::ordered_json json{{"kernel", features.kernel}, {"uses", features.uses}};
     json["left_out"] = nlohmann::ordered_json::array();
     for (const LeftOut& left : features.left_out)
         json["left_out"].push_back({{"what", left.what}, {"why", left.why}});
@@ -120,7 +130,8 @@ nlohmann::ordered_json scene_json(const std::string& file, const Scene& scene)
             {"model", name_of(scene.illumination)},
             {"depth", scene.max_depth},
             {"shadows", name_of(scene.shadows)},
-            {"stiff_objects", count_stiff(scene)}};
+            {"stiff_objects", count_stiff(scene)},
+            {"memory_bytes", scene_bytes(scene)}};
 }
 
 void print_json(const IsaInfo& chosen, const std::string& file, const std::optional<Scene>& scene)

@@ -33,12 +33,6 @@ std::vector<std::string> used_features(const LoweredScene& lowered)
     return uses;
 }
 
-std::size_t count_surfaces(const LoweredScene& lowered)
-{
-    return lowered.spheres.size() + lowered.huge_spheres.size() + lowered.planes.size() +
-           lowered.quadrics.size();
-}
-
 }  // namespace
 
 SceneFeatures scene_features(const Scene& scene, const IsaInfo& isa)
@@ -51,8 +45,6 @@ SceneFeatures scene_features(const Scene& scene, const IsaInfo& isa)
     features.uses = used_features(lowered);
     features.kernel =
         kernels_for(precision<float>(kernels_of(isa.name)), lowered.features).set.name;
-    features.surfaces = count_surfaces(lowered);
-    features.bytes = PackedScene<float>(lowered).bytes();
     return features;
 }
 

@@ -15,8 +15,6 @@ struct SceneFeatures {
     std::string kernel;             ///< name of the feature set
     std::vector<std::string> uses;  ///< in the order of a frame's stages
     std::vector<LeftOut> left_out;
-    std::size_t surfaces = 0;  ///< left
-    std::size_t bytes = 0;     ///< held for the kernels, all in all
 };
 
 [[nodiscard]] SceneFeatures scene_features(const Scene& scene, const IsaInfo& isa);

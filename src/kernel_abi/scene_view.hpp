@@ -31,7 +31,7 @@ struct SceneView {
     RecordList<StiffObject> stiff;  ///< not in the other lists; none in double precision
 
     const SurfacePlace* places = nullptr;           ///< by surface: where the following have it
-    const SphereShape* sphere_shapes = nullptr;     ///< of all spheres but huge ones
+    const SphereShape* sphere_shapes = nullptr;     ///< of many spheres
     const SurfaceRecord<Real>* surfaces = nullptr;  ///< the others, but quadrics
     const CurvedSurfaceRecord<Real>* curved_surfaces = nullptr;  ///< the others, every kind
 

@@ -6,8 +6,8 @@
 // where kernels fetch them by lane, so that a record is an array of its fields.
 namespace packtrace::abi {
 
-/// Where the shape of a surface is kept: among the spheres, or among the others, which are planes,
-/// quadrics with their caps, and huge spheres.
+/// Where the shape of a surface is kept: among the spheres, or among the others. Spheres are
+/// among the others where there are few of them, or where they are huge.
 using SurfacePlace = std::uint32_t;
 inline constexpr SurfacePlace other_shape_bit = 1u << 31;
 inline constexpr SurfacePlace finished_bit = 1u << 30;      ///< a sphere's hits are solved again

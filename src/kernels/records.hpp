@@ -53,18 +53,20 @@ inline RecordPacket<Fields, Real> fetch_records(const Real* table, const vint<Re
     return records;
 }
 
-/// The same of records that `make(number)` returns: structs of `Fields` reals.
-template <int Fields, class Real, class Make>
-inline RecordPacket<Fields, Real> make_records(const vint<Real>& number, std::uint32_t active,
-                                               const Make& make)
+/// The same of records that `find(number, room)` returns, structs of `Fields` reals: one of a
+/// table, or one made in the room for one.
+template <int Fields, class Record, class Real, class Find>
+inline RecordPacket<Fields, Real> find_records(const vint<Real>& number, std::uint32_t active,
+                                               const Find& find)
 {
+    static_assert(sizeof(Record) == Fields * sizeof(Real));
     RecordPacket<Fields, Real> records;
     for (int i = 0; i < Fields; ++i)
         records.field[i] = vreal<Real>(Real(0));
     for_each_distinct<Real>(number, active, [&](lane_int<Real> value, vmask<Real> same) {
-        const auto record = make(value);
-        static_assert(sizeof record == Fields * sizeof(Real));
-        blend_record<Fields, Real>(records, same, reinterpret_cast<const Real*>(&record));
+        Record room;
+        const Record& record = find(value, room);
+        blend_record<Fields, Real>(records, same, &record.anchor[0]);
     });
     return records;
 }

@@ -29,39 +29,49 @@ struct GradientPacket {
         from_anchor;  ///< the point relative to the surface's centre, or what it has for one
 };
 
-/// What a plane's and a sphere's normals come from.
+/// What a sphere that has a shape of its own would have for a record.
 template <class Real>
-inline abi::SurfaceRecord<Real> round_record(const abi::SceneView<Real>& scene,
-                                             lane_int<Real> surface)
+inline void make_record(const abi::SceneView<Real>& scene, abi::SurfacePlace place,
+                        abi::SurfaceRecord<Real>& record)
 {
-    const abi::SurfacePlace place = scene.places[surface];
-    if (abi::is_other_shape(place))
-        return scene.surfaces[place & abi::place_mask];
     const abi::SphereShape& sphere = scene.sphere_shapes[place & abi::place_mask];
-    abi::SurfaceRecord<Real> record{};
-    for (int axis = 0; axis < 3; ++axis)
+    for (int axis = 0; axis < 3; ++axis) {
         record.anchor[axis] = static_cast<Real>(sphere.center[axis]);
+        record.normal[axis] = 0;
+    }
     record.curvature = static_cast<Real>(1.0 / sphere.radius);
     record.faces_viewer = (place & abi::faces_viewer_bit) != 0 ? Real(1) : Real(0);
-    return record;
 }
 
-/// The same for every kind.
 template <class Real>
-inline abi::CurvedSurfaceRecord<Real> curved_record(const abi::SceneView<Real>& scene,
-                                                    lane_int<Real> surface)
+inline void make_record(const abi::SceneView<Real>& scene, abi::SurfacePlace place,
+                        abi::CurvedSurfaceRecord<Real>& record)
 {
-    const abi::SurfacePlace place = scene.places[surface];
-    if (abi::is_other_shape(place))
-        return scene.curved_surfaces[place & abi::place_mask];
-    const abi::SurfaceRecord<Real> sphere = round_record(scene, surface);
-    abi::CurvedSurfaceRecord<Real> record{};
+    abi::SurfaceRecord<Real> sphere;
+    make_record(scene, place, sphere);
     for (int axis = 0; axis < 3; ++axis) {
         record.anchor[axis] = sphere.anchor[axis];
+        record.normal[axis] = 0;
         record.curvature[axis] = sphere.curvature;
+        record.curvature[axis + 3] = 0;
     }
     record.faces_viewer = sphere.faces_viewer;
-    return record;
+}
+
+/// The records of lanes' surfaces, from a table or made of spheres' shapes.
+template <int Fields, class Record, class Real>
+inline RecordPacket<Fields, Real> surface_records(const abi::SceneView<Real>& scene,
+                                                  const Record* table, const vint<Real>& surface,
+                                                  std::uint32_t active)
+{
+    const auto find = [&](lane_int<Real> number, Record& room) -> const Record& {
+        const abi::SurfacePlace place = scene.places[number];
+        if (abi::is_other_shape(place))
+            return table[place & abi::place_mask];
+        make_record(scene, place, room);
+        return room;
+    };
+    return find_records<Fields, Record, Real>(surface, active, find);
 }
 
 /// Planes and spheres (abi::SurfaceRecord).
@@ -70,8 +80,7 @@ inline GradientPacket<Real> round_gradient(const abi::SceneView<Real>& scene,
                                            const Vec3v<Real>& point, const vint<Real>& surface,
                                            std::uint32_t active)
 {
-    const auto record = make_records<8, Real>(
-        surface, active, [&](lane_int<Real> value) { return round_record(scene, value); });
+    const auto record = surface_records<8>(scene, scene.surfaces, surface, active);
     const Vec3v<Real> p = point - record.vector(0);
     return {madd<Real>(record.field[6], p, record.vector(3)), record.field[7], p};
 }
@@ -82,15 +91,15 @@ inline GradientPacket<Real> curved_gradient(const abi::SceneView<Real>& scene,
                                             const Vec3v<Real>& point, const vint<Real>& surface,
                                             std::uint32_t active)
 {
-    const auto record = make_records<13, Real>(
-        surface, active, [&](lane_int<Real> value) { return curved_record(scene, value); });
+    const auto record = surface_records<13>(scene, scene.curved_surfaces, surface, active);
     const Vec3v<Real> p = point - record.vector(0);
     const Vec3v<Real> n = record.vector(3);
     const auto& g = record.field;
-    const Vec3v<Real> x_row{g[6], g[9], g[10]};
-    const Vec3v<Real> y_row{g[9], g[7], g[11]};
-    const Vec3v<Real> z_row{g[10], g[11], g[8]};
-    return {n + Vec3v<Real>{dot(x_row, p), dot(y_row, p), dot(z_row, p)}, g[12], p};
+    // The diagonal comes last, so that planes and spheres get the bits of round_gradient().
+    const vreal<Real> x = madd(g[6], p.x, madd(g[9], p.y, madd(g[10], p.z, n.x)));
+    const vreal<Real> y = madd(g[7], p.y, madd(g[9], p.x, madd(g[11], p.z, n.y)));
+    const vreal<Real> z = madd(g[8], p.z, madd(g[10], p.x, madd(g[11], p.y, n.z)));
+    return {{x, y, z}, g[12], p};
 }
 
 /// The sum of |a_i| |b_i|.

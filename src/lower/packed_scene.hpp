@@ -34,7 +34,7 @@ public:
     {
         return sizeof *this + tree_.bytes() + lists_.bytes() + shapes_.bytes() +
                material_index_.bytes() + materials_.bytes() + checkers_.bytes() + ior_.bytes() +
-               lights_.bytes();
+               lights_.bytes() + (casters_ ? casters_->bytes() : 0);
     }
 
 private:

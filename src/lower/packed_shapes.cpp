@@ -9,11 +9,8 @@
 namespace packtrace {
 namespace {
 
-int pieces_of(const LoweredHugeSphere&)
-{
-    return 1;
-}
-int pieces_of(const LoweredPlane&)
+template <class Object>
+int pieces_of(const Object&)
 {
     return 1;
 }
@@ -22,16 +19,35 @@ int pieces_of(const LoweredQuadric& quadric)
     return quadric.capped ? 3 : 1;
 }
 
-/// Calls `visit` with every object that is not among the spheres, kind by kind.
-template <class Visit>
-void for_each_other(const LoweredScene& lowered, const Visit& visit)
+template <class Real>
+void pack_normal(const LoweredSphere& sphere, abi::SurfaceRecord<Real>& surface)
 {
-    std::for_each(lowered.huge_spheres.begin(), lowered.huge_spheres.end(), visit);
-    std::for_each(lowered.planes.begin(), lowered.planes.end(), visit);
-    std::for_each(lowered.quadrics.begin(), lowered.quadrics.end(), visit);
+    round_to(surface.anchor, sphere.center);
+    surface.curvature = static_cast<Real>(1.0 / sphere.radius);
 }
 
-/// Planes and huge spheres in the form of the curved ones, for the kernels of every kind.
+template <class Real>
+void pack_normal(const LoweredHugeSphere& sphere, abi::SurfaceRecord<Real>& surface)
+{
+    const auto packed = pack_huge<Real>(sphere);
+    std::copy(packed.anchor, packed.anchor + 3, surface.anchor);
+    std::copy(packed.normal, packed.normal + 3, surface.normal);
+    surface.curvature = packed.curvature;
+}
+
+template <class Real>
+void pack_normal(const LoweredPlane& plane, abi::SurfaceRecord<Real>& surface)
+{
+    round_to(surface.normal, plane.normal);
+}
+
+/// Quadrics have curved records only.
+template <class Real>
+void pack_normal(const LoweredQuadric&, abi::SurfaceRecord<Real>&)
+{
+}
+
+/// Planes and spheres in the form of the curved ones, for the kernels of every kind.
 template <class Real>
 abi::CurvedSurfaceRecord<Real> curved(const abi::SurfaceRecord<Real>& surface)
 {
@@ -45,13 +61,15 @@ abi::CurvedSurfaceRecord<Real> curved(const abi::SurfaceRecord<Real>& surface)
 }  // namespace
 
 template <class Real>
-PackedShapes<Real>::PackedShapes(const LoweredScene& lowered)
-    : finishes_(sizeof(Real) == sizeof(float) &&
+PackedShapes<Real>::PackedShapes(const LoweredScene& lowered, bool many_spheres)
+    : many_spheres_(many_spheres),
+      finishes_(sizeof(Real) == sizeof(float) &&
                 std::find(lowered.finished.begin(), lowered.finished.end(), 1) !=
                     lowered.finished.end()),
-      places_(lowered.material_index.size())
+      places_(AlignedArray<abi::SurfacePlace>::unset(lowered.material_index.size()))
 {
-    pack_spheres(lowered);
+    if (many_spheres_)
+        pack_sphere_shapes(lowered);
     place_others(lowered);
     pack_others(lowered);
     pack_curved(lowered);
@@ -59,10 +77,22 @@ PackedShapes<Real>::PackedShapes(const LoweredScene& lowered)
         pack_finish(lowered);
 }
 
+/// Calls `visit` with every object that is not among the spheres, kind by kind.
 template <class Real>
-void PackedShapes<Real>::pack_spheres(const LoweredScene& lowered)
+template <class Visit>
+void PackedShapes<Real>::for_each_other(const LoweredScene& lowered, const Visit& visit) const
 {
-    spheres_ = AlignedArray<abi::SphereShape>(lowered.spheres.size());
+    if (!many_spheres_)
+        std::for_each(lowered.spheres.begin(), lowered.spheres.end(), visit);
+    std::for_each(lowered.huge_spheres.begin(), lowered.huge_spheres.end(), visit);
+    std::for_each(lowered.planes.begin(), lowered.planes.end(), visit);
+    std::for_each(lowered.quadrics.begin(), lowered.quadrics.end(), visit);
+}
+
+template <class Real>
+void PackedShapes<Real>::pack_sphere_shapes(const LoweredScene& lowered)
+{
+    spheres_ = AlignedArray<abi::SphereShape>::unset(lowered.spheres.size());
     for_each_in_parallel(lowered.spheres, [&](const LoweredSphere& sphere) {
         const auto at = static_cast<std::size_t>(&sphere - lowered.spheres.data());
         const auto surface = static_cast<std::size_t>(sphere.surface);
@@ -89,16 +119,8 @@ template <class Real>
 void PackedShapes<Real>::pack_others(const LoweredScene& lowered)
 {
     surfaces_ = AlignedArray<abi::SurfaceRecord<Real>>(others_);
-    for (const LoweredHugeSphere& sphere : lowered.huge_spheres) {
-        const auto packed = pack_huge<Real>(sphere);
-        auto& surface = surfaces_[other(sphere.surface)];
-        std::copy(packed.anchor, packed.anchor + 3, surface.anchor);
-        std::copy(packed.normal, packed.normal + 3, surface.normal);
-        surface.curvature = packed.curvature;
-    }
-    for (const LoweredPlane& plane : lowered.planes)
-        round_to(surfaces_[other(plane.surface)].normal, plane.normal);
     for_each_other(lowered, [&](const auto& object) {
+        pack_normal(object, surfaces_[other(object.surface)]);
         const auto surface = static_cast<std::size_t>(object.surface);
         const Real faces_viewer = lowered.faces_viewer[surface] ? Real(1) : Real(0);
         for (int piece = 0; piece < pieces_of(object); ++piece)

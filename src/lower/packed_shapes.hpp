@@ -7,11 +7,12 @@
 namespace packtrace {
 
 /// The shapes hits are shaded by, and in single precision solved again by, as the kernels find
-/// them by surface number. A sphere costs 36 bytes.
+/// them by surface number. A sphere among many costs 36 bytes; few spheres have records as
+/// surfaces of all kinds have, which are larger, but need not be made of anything.
 template <class Real>
 class PackedShapes {
 public:
-    explicit PackedShapes(const LoweredScene& lowered);
+    PackedShapes(const LoweredScene& lowered, bool many_spheres);
 
     /// Points `view` to the shapes, valid as long as this object.
     void show(abi::SceneView<Real>& view) const;
@@ -23,7 +24,10 @@ public:
     }
 
 private:
-    void pack_spheres(const LoweredScene& lowered);
+    template <class Visit>
+    void for_each_other(const LoweredScene& lowered, const Visit& visit) const;
+
+    void pack_sphere_shapes(const LoweredScene& lowered);
     void place_others(const LoweredScene& lowered);
     void pack_others(const LoweredScene& lowered);
     void pack_curved(const LoweredScene& lowered);
@@ -35,6 +39,7 @@ private:
         return places_[static_cast<std::size_t>(surface)] & abi::place_mask;
     }
 
+    bool many_spheres_ = false;
     std::size_t others_ = 0;
     bool finishes_ = false;
     AlignedArray<abi::SurfacePlace> places_;

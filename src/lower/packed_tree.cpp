@@ -143,7 +143,7 @@ PackedTree<Real>::PackedTree(const LoweredScene& lowered)
     if (bvh.nodes.empty())
         return;
     pack_leaves(lowered, bvh);
-    nodes_ = AlignedArray<abi::BvhNode>(bvh.nodes.size());
+    nodes_ = AlignedArray<abi::BvhNode>::unset(bvh.nodes.size());
     std::copy(bvh.nodes.begin(), bvh.nodes.end(), nodes_.data());
     view_ = {nodes_.data(),
              blocks_.data(),

@@ -29,11 +29,18 @@ bool same(const LoweredMaterial& a, const LoweredMaterial& b)
 std::int32_t RecentMaterials::place_of(const LoweredMaterial& material,
                                        std::vector<LoweredMaterial>& materials)
 {
+    const auto is_at = [&](std::int32_t place) {
+        return place >= 0 && same(materials[static_cast<std::size_t>(place)], material);
+    };
+    // Neighbours are often alike, and comparing costs less than a hash.
+    if (is_at(latest_))
+        return latest_;
     std::int32_t& place = places_[hash_of(material) % places_.size()];
-    if (place < 0 || !same(materials[static_cast<std::size_t>(place)], material)) {
+    if (!is_at(place)) {
         place = static_cast<std::int32_t>(materials.size());
         materials.push_back(material);
     }
+    latest_ = place;
     return place;
 }
 

@@ -21,6 +21,7 @@ public:
 
 private:
     std::array<std::int32_t, 1024> places_;  ///< by hash; -1 for none
+    std::int32_t latest_ = -1;
 };
 
 }  // namespace packtrace

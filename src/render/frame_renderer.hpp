@@ -19,6 +19,11 @@ public:
     /// As Renderer::render.
     FrameCounts render(Image<Real>& image) const;
 
+    [[nodiscard]] std::size_t scene_bytes() const
+    {
+        return tiles_.scene_bytes();
+    }
+
 private:
     [[nodiscard]] FrameCounts render_tiles(Image<Real>& image) const;
     [[nodiscard]] FrameCounts render_adaptive(const TileGrid& grid, Image<Real>& image) const;

@@ -38,6 +38,12 @@ FrameCounts Renderer<Real>::render(Image<Real>& image) const
 }
 
 template <class Real>
+std::size_t Renderer<Real>::scene_bytes() const
+{
+    return state_->frames.scene_bytes();
+}
+
+template <class Real>
 const IsaInfo& Renderer<Real>::isa() const
 {
     return state_->isa;

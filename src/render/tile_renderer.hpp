@@ -46,6 +46,11 @@ public:
         return kernels_.set;
     }
 
+    [[nodiscard]] std::size_t scene_bytes() const
+    {
+        return packed_.bytes();
+    }
+
 private:
     [[nodiscard]] abi::TileJob<Real> job_at(const abi::CameraView<Real>& camera, int x,
                                             int y) const;

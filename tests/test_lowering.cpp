@@ -1,0 +1,232 @@
+#include <packtrace/generate.hpp>
+#include <packtrace/read_scene.hpp>
+#include <packtrace/renderer.hpp>
+
+#include <algorithm>
+#include <cstring>
+
+#include <tbb/task_arena.h>
+
+#include "catch.hpp"
+#include "lower/packed_scene.hpp"
+
+// Large scenes are lowered in runs of objects, several at once.
+namespace packtrace {
+namespace {
+
+/// More than are lowered at once, of every kind; `kind_of` says which.
+constexpr int object_count = 70'000;
+
+enum class Kind { sphere, plane, checkered, capped };
+
+Kind kind_of(int number)
+{
+    return number % 97 == 5   ? Kind::plane
+           : number % 89 == 7 ? Kind::checkered
+           : number % 83 == 9 ? Kind::capped
+                              : Kind::sphere;
+}
+
+Rgb color_of(int number)
+{
+    return {0.25 * (number % 3), 0.125 * (number % 7), number % 5 == 0 ? number * 1e-6 : 0.5};
+}
+
+Quadric capped_cylinder()
+{
+    Quadric quadric;
+    quadric.kind = QuadricKind::cylinder;
+    quadric.coefficients = {1, 1, 0, 0, 0, 0, 0, 0, 0, -1};
+    quadric.z_range = ZRange{-1.0, 1.0};
+    quadric.capped = true;
+    return quadric;
+}
+
+Surface surface_of(int number)
+{
+    switch (kind_of(number)) {
+        case Kind::sphere:
+            return Sphere{Vec3(number, 0.5, 3.0), 0.25};
+        case Kind::capped:
+            return capped_cylinder();
+        default:
+            return Plane{};
+    }
+}
+
+Scene many_objects()
+{
+    Scene scene;
+    for (int number = 0; number < object_count; ++number) {
+        Object& object = scene.objects.emplace_back();
+        object.name = "object " + std::to_string(number);
+        object.surface = surface_of(number);
+        object.material.color = color_of(number);
+        if (kind_of(number) == Kind::checkered)
+            object.material.checker = Checker{Rgb(number * 1e-6), 1.0 + number};
+    }
+    return scene;
+}
+
+LoweredScene lower_on(int threads, const Scene& scene)
+{
+    tbb::task_arena arena(threads);
+    return arena.execute([&] { return lower(scene); });
+}
+
+template <class T>
+bool same_bytes(const std::vector<T>& a, const std::vector<T>& b)
+{
+    return a.size() == b.size() && std::memcmp(a.data(), b.data(), a.size() * sizeof(T)) == 0;
+}
+
+template <class Object>
+std::vector<std::int32_t> surfaces_of(const std::vector<Object>& objects)
+{
+    std::vector<std::int32_t> surfaces;
+    for (const Object& object : objects)
+        surfaces.push_back(object.surface);
+    return surfaces;
+}
+
+}  // namespace
+
+TEST_CASE("every surface of a large scene has its own object's material", "[lowering]")
+{
+    const Scene scene = many_objects();
+    const LoweredScene lowered = lower(scene);
+    std::size_t surface = 0;
+    int wrong = 0;
+    for (int number = 0; number < object_count; ++number) {
+        const Kind kind = kind_of(number);
+        for (int piece = 0; piece < (kind == Kind::capped ? 3 : 1); ++piece, ++surface) {
+            const abi::MaterialIndex index = lowered.material_index.at(surface);
+            const auto first = static_cast<std::size_t>(index.first);
+            wrong += index.object != number;
+            wrong += lowered.materials.at(first).diffuse != color_of(number);
+            wrong += (index.checker >= 0) != (kind == Kind::checkered);
+            if (index.checker < 0)
+                continue;
+            const auto checker = static_cast<std::size_t>(index.checker);
+            wrong += lowered.materials.at(first + 1).diffuse != Rgb(number * 1e-6);
+            wrong += lowered.checkers.at(checker).u.x != 1.0 / (1.0 + number);
+        }
+    }
+    CHECK(wrong == 0);
+    CHECK(surface == lowered.material_index.size());
+    CHECK(lowered.faces_viewer.size() == surface);
+}
+
+TEST_CASE("surfaces are numbered in the order of objects, whatever their kinds", "[lowering]")
+{
+    const LoweredScene lowered = lower(many_objects());
+    std::vector<std::int32_t> spheres, planes, quadrics;
+    std::int32_t surface = 0;
+    for (int number = 0; number < object_count; ++number) {
+        const Kind kind = kind_of(number);
+        (kind == Kind::sphere   ? spheres
+         : kind == Kind::capped ? quadrics
+                                : planes)
+            .push_back(surface);
+        surface += kind == Kind::capped ? 3 : 1;
+    }
+    CHECK(surfaces_of(lowered.spheres) == spheres);
+    CHECK(surfaces_of(lowered.planes) == planes);
+    CHECK(surfaces_of(lowered.quadrics) == quadrics);
+    CHECK(lowered.spheres.back().center.x ==
+          lowered.material_index[static_cast<std::size_t>(spheres.back())].object);
+}
+
+TEST_CASE("what a scene lowers to does not depend on the number of threads", "[lowering]")
+{
+    const Scene scene = many_objects();
+    const LoweredScene one = lower_on(1, scene);
+    const LoweredScene two = lower_on(2, scene);
+    CHECK(same_bytes(one.material_index, two.material_index));
+    CHECK(same_bytes(one.materials, two.materials));
+    CHECK(same_bytes(one.checkers, two.checkers));
+    CHECK(same_bytes(one.faces_viewer, two.faces_viewer));
+    CHECK(same_bytes(one.finished, two.finished));
+    CHECK(surfaces_of(one.spheres) == surfaces_of(two.spheres));
+}
+
+TEST_CASE("of several objects without a surface the first is named", "[lowering]")
+{
+    Scene scene = many_objects();
+    for (const std::size_t number : {69'000u, 30'000u, 29'000u, 20'000u}) {
+        Quadric nothing;
+        nothing.coefficients = {1, 1, 1, 0, 0, 0, 0, 0, 0, 1};
+        scene.objects[number].surface = nothing;
+    }
+    CHECK_THROWS_WITH(lower(scene), test::ContainsSubstring("'object 20000'"));
+}
+
+TEST_CASE("objects of one material share its record", "[lowering]")
+{
+    const LoweredScene lowered = lower(generate_random_spheres({.count = 10'000}));
+    CHECK(lowered.materials.size() == 1);
+}
+
+TEST_CASE("a sphere among many costs a hundred bytes at most", "[lowering]")
+{
+    constexpr int count = 50'000;
+    // Small ones far from the origin are solved again in double, large ones are not.
+    for (const double radius : {0.001, 0.01})
+        for (const Accuracy accuracy : {Accuracy::automatic, Accuracy::robust}) {
+            RenderOptions options;
+            options.accuracy = accuracy;
+            const Renderer<float> renderer(
+                generate_random_spheres({.count = count, .radius = radius}), options);
+            INFO("radius " << radius);
+            CHECK(static_cast<double>(renderer.scene_bytes()) / count < 100.0);
+            CHECK(static_cast<double>(renderer.scene_bytes()) / count > 50.0);
+        }
+}
+
+/// A picture of `count` spheres and a plane, the later spheres where the first hundred are.
+template <class Real>
+Image<Real> picture_of(std::size_t count, const RenderOptions& options)
+{
+    Scene scene = generate_random_spheres({.count = 900, .radius = 0.05, .reflective = 0.4});
+    scene.width = scene.height = 64;
+    Object& floor = scene.objects.emplace_back(scene.objects.front());
+    floor.surface = Plane{Vec3(0.0, -0.1, 0.0)};
+    while (scene.objects.size() < count + 1)
+        scene.objects.push_back(scene.objects[scene.objects.size() % 100]);
+    Image<Real> image;
+    Renderer<Real>(scene, options).render(image);
+    return image;
+}
+
+TEMPLATE_TEST_CASE("many spheres look as few do, to the bit", "[lowering]", float, double)
+{
+    for (const Accuracy accuracy : {Accuracy::fast, Accuracy::automatic, Accuracy::robust})
+        for (const SelfHits self_hits : {SelfHits::note, SelfHits::exact}) {
+            RenderOptions options;
+            options.accuracy = accuracy;
+            options.self_hits = self_hits;
+            const auto few = picture_of<TestType>(1000, options);
+            const auto many = picture_of<TestType>(1100, options);
+            CHECK(same_bytes(few.rgb, many.rgb));
+            CHECK(*std::max_element(few.rgb.begin(), few.rgb.end()) > TestType(0.1));
+        }
+}
+
+TEST_CASE("spheres of every size are told huge or not as one by one", "[lowering]")
+{
+    Scene scene;
+    scene.camera.position = Vec3(0.0, 0.0, -1.0);
+    const double radii[] = {3000.0, 1.0, 200.0, 1.0, 3000.0, 0.5, 1e6};
+    for (const double radius : radii) {
+        Object& object = scene.objects.emplace_back();
+        object.surface = Sphere{Vec3(0.0, -radius, 0.0), radius};
+    }
+    const LoweredScene lowered = lower(scene);
+    // 200 stands out of a scene of 1 and 0.5, all others out of that.
+    CHECK(surfaces_of(lowered.huge_spheres) == std::vector<std::int32_t>{0, 2, 4, 6});
+    CHECK(surfaces_of(lowered.spheres) == std::vector<std::int32_t>{1, 3, 5});
+    for (const LoweredHugeSphere& sphere : lowered.huge_spheres)
+        CHECK(sphere.anchor.y == Approx(0.0).margin(3.0));
+}
+
+}  // namespace packtrace
