@@ -1,6 +1,7 @@
 #pragma once
 
 #include "kernels/material.hpp"
+#include "kernels/observe.hpp"
 #include "kernels/occluded.hpp"
 #include "kernels/power.hpp"
 #include "kernels/surface.hpp"
@@ -56,6 +57,8 @@ inline Vec3v<Real> lit_color(const abi::LightRecord<Real>& light, const LightPac
     Vec3v<Real> sum = scale<Real>(packet.diffuse, material.diffuse);
     const std::uint32_t shiny = packet.has_highlight & lit;
     if (shiny != 0) {
+        const PartScope part(abi::Part::highlight);
+        count_packet<Real>(abi::PacketWork::highlight, shiny);
         const vreal<Real> power =
             select(from_bits<Real>(shiny),
                    highlight_power<Real>(packet.highlight, material.shininess), zero);

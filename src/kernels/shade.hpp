@@ -16,6 +16,7 @@ inline Vec3v<Real> light_color(const ShadeContext<F, Real>& context, int number,
                                int first)
 {
     const abi::LightRecord<Real>& light = context.scene->lights.data[number];
+    const PartScope part(abi::Part::diffuse);
     const LightPacket<Real> packet = light_at(light, surface, material, active);
     if constexpr (F.glass) {
         if (context.scene->transparent_shadows && packet.wanted != 0) {
@@ -60,6 +61,7 @@ inline void spawn_children(const ShadeContext<F, Real>& context, const Children<
                            const PathPacket<Real>& path, const GlassPacket<Real>& inside,
                            std::uint32_t active)
 {
+    const PartScope part(abi::Part::children);
     Vec3v<Real> reflect = material.reflect;
     if constexpr (F.glass) {
         const std::uint32_t glass = active & any_channel(material.transmit);
@@ -82,6 +84,7 @@ inline void shade_packet(const ShadeContext<F, Real>& context, const HitStream<F
                          const Children<F, Real>& children)
 {
     const std::uint32_t active = first_lanes<Real>(hits.count - first);
+    count_packet<Real>(abi::PacketWork::shade, active);
     const PathPacket<Real> path{load3(hits.weight, first), load(hits.pixel + first),
                                 load_path(hits, first)};
     const PacketProbe<F.probe, Real> probe = packet_probe(hits, path, active);
@@ -99,6 +102,7 @@ inline void shade_packet(const ShadeContext<F, Real>& context, const HitStream<F
         probe.last_hit(surface, color, share, limit);
         color = madd<Real>(share, limit, color);
     }
+    const PartScope part(abi::Part::film);
     write_colors<Write>(pixels, path.pixel, path.weight * color, active);
 }
 

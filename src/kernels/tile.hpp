@@ -44,10 +44,12 @@ inline RayStream<F, Real>* shade_chunk(const TileRun<F, Real>& run, int depth)
     const HitStream<F, Real>& hits = run.work.memory->hits;
     if (hits.count == 0)
         return nullptr;
+    begin_span(abi::Span::shadows, depth, abi::Part::beams);
     find_blockers(run.scene, hits, run.work.blockers);
     if (run.work.shadows != nullptr && run.scene.shadows)
         for (int light = 0; light < run.scene.lights.count; ++light)
             find_shadows(context, hits, light, *run.work.group, run.work.shadows[light]);
+    begin_span(abi::Span::shade, depth, abi::Part::surface);
     RayStream<F, Real>* next = context.spawns() ? run.work.streams + depth : nullptr;
     if (next != nullptr)
         next->count = 0;
@@ -59,10 +61,20 @@ inline RayStream<F, Real>* shade_chunk(const TileRun<F, Real>& run, int depth)
         return nullptr;
     run.counts.reflected += static_cast<unsigned>(next->count);
     if constexpr (F.glass) {
+        begin_span(abi::Span::children, depth, abi::Part::children);
+        if constexpr (F.probe)
+            next->mirrored = next->count;
         run.counts.refracted += static_cast<unsigned>(run.work.refracted->count);
         append_stream(*next, *run.work.refracted);
     }
     return next;
+}
+
+/// How many rays of a chunk are refracted; they stand behind the mirrored ones.
+template <abi::Features F, class Real>
+inline int refracted_rays(const RayStream<F, Real>& rays, int begin, int end)
+{
+    return rays.mirrored < begin ? end - begin : rays.mirrored < end ? end - rays.mirrored : 0;
 }
 
 /// Traces a generation chunk by chunk, each with all its descendants before the next: memory
@@ -72,6 +84,9 @@ void trace_generation(const TileRun<F, Real>& run, const RayStream<F, Real>& ray
 {
     for (int begin = 0; begin < rays.count; begin += chunk_rays) {
         const int end = begin + chunk_rays < rays.count ? begin + chunk_rays : rays.count;
+        begin_span(abi::Span::trace, depth, abi::Part::ray_generation);
+        if constexpr (F.probe)
+            tell_chunk(refracted_rays(rays, begin, end), end - begin);
         if (run.scene.tree.empty())
             trace_secondary(run.scene, rays, begin, end, *run.work.memory);
         else
@@ -104,6 +119,8 @@ inline abi::RayCounts render_tile(const abi::TileJob<Real>& job)
     counts.camera =
         static_cast<unsigned>(job.samples != nullptr ? job.samples->count : job.width * job.height);
 
+    if constexpr (F.probe)
+        begin_observation(job.observation);
     // Camera rays, against what the tile's beam may meet; a hit's first light replaces the
     // background.
     find_objects<F>(work.visible, camera_beam(job), scene);
@@ -111,15 +128,20 @@ inline abi::RayCounts render_tile(const abi::TileJob<Real>& job)
     memory.hits.count = 0;
     if constexpr (F.probe)
         memory.hits.probe = job.probe;
+    begin_span(abi::Span::trace, 0, abi::Part::ray_generation);
     if (!scene.tree.empty())
         trace_camera_group(job, work.visible, *work.group, memory);
-    else if (F.probe || !work.visible.empty() || scene.visible_lights)
+    else if (is_probed<F>(job) || !work.visible.empty() || scene.visible_lights)
         trace_camera(job, work.visible, memory);
+    else
+        tell_untraced(counts.camera);
 
     const TileRun<F, Real> run{scene, work, counts};
     if (const auto* next = shade_chunk<PixelWrite::set>(run, 0))
         trace_generation(run, *next, 1);
+    begin_span(abi::Span::film, 0, abi::Part::film);
     write_tile(job, memory.color);
+    end_observation();
     return counts;
 }
 
