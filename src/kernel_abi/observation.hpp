@@ -94,8 +94,7 @@ struct Observation {
     SpanLaps* spans = nullptr;
     PartLaps* parts = nullptr;
     WorkCounts* counts = nullptr;
-    std::uint64_t begin = 0;  ///< the clock as the tile began
-    std::uint64_t end = 0;    ///< and ended
+    std::uint64_t end = 0;      ///< the clock as the last tile ended
     std::uint64_t reading = 0;  ///< ticks that a reading of the clock takes
 };
 

@@ -24,8 +24,7 @@ struct Observer {
     double refracted_share = 0;        ///< of the chunk that is traced
 };
 
-// Found without a call in position-independent code, too.
-[[gnu::tls_model("initial-exec")]] thread_local Observer observer;
+thread_local Observer observer;
 
 template <class Index>
 inline int index(Index at)
@@ -94,7 +93,7 @@ inline void begin_observation(abi::Observation* observation)
     if (!clocked())
         return;
     observation->reading = time_of_reading(observer.parts != nullptr);
-    observation->begin = observer.last = ticks();
+    observer.last = ticks();
 }
 
 inline void end_observation()
