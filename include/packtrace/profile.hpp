@@ -87,12 +87,11 @@ struct TestUse {
 /// The inside of a frame, on one thread, by kernels that observe themselves: those with every
 /// feature, and hooks that other kernels are compiled without.
 struct KernelProfile {
-    double plain = 0.0;     ///< seconds of the frame by the kernels that render it
+    // Seconds of a frame's tiles, each by the median of its times.
+    double plain = 0.0;     ///< by the kernels that render the scene
     double observed = 0.0;  ///< by those that can observe, with the clock at rest
-    double clocked = 0.0;   ///< while they clock one tile in `stride`
-    double clock = 0.0;     ///< what that adds: the median of differences between frames in turn
-    int stride = 0;
-    std::vector<KernelStage> stages;  ///< they sum to `observed`, but for what is between tiles
+    double clocked = 0.0;   ///< by the same with the clock
+    std::vector<KernelStage> stages;
     std::vector<RayTime> rays;
     std::vector<LaneUse> lanes;
     std::vector<TestUse> tests;

@@ -27,10 +27,10 @@ struct Variant {
     std::string name;  ///< "packets single avx2, 2 threads"
     Study study = Study::arithmetic;
     Kernel kernel = Kernel::packet;
-    std::string precision = "single";  ///< or "double"
-    std::string isa;                   ///< packets only
+    std::string precision = "single";         ///< or "double"
+    std::string isa;                          ///< packets only
     Accuracy accuracy = Accuracy::automatic;  ///< packets of floats only
-    int lanes = 1;                     ///< rays in a packet
+    int lanes = 1;                            ///< rays in a packet
     int threads = 1;
     int depth = 0;    ///< Scene::max_depth
     int samples = 1;  ///< as RenderOptions has them

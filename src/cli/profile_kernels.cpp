@@ -100,8 +100,8 @@ void print_stages(std::ostream& to, const KernelProfile& kernels)
 
 void print_rays(std::ostream& to, const KernelProfile& kernels)
 {
-    TextTable table(2, {"generation", "rays to their hits", "number", "ms", "share", "ns/ray",
-                        "Mrays/s"});
+    TextTable table(
+        2, {"generation", "rays to their hits", "number", "ms", "share", "ns/ray", "Mrays/s"});
     for (const RayTime& row : kernels.rays) {
         const auto count = static_cast<double>(row.count);
         table.add({"depth " + std::to_string(row.depth), row.rays, std::to_string(row.count),
@@ -151,8 +151,8 @@ void print_kernels(std::ostream& to, const Profile& profile)
     const KernelProfile& kernels = profile.kernels;
     to << "inside the kernels, on one thread: frame " << milliseconds(kernels.plain)
        << " ms; by kernels that observe themselves " << milliseconds(kernels.observed)
-       << " ms; with the clock in one tile of " << kernels.stride << " "
-       << percent(kernels.clock, kernels.observed) << " more\n\n";
+       << " ms; with the clock, which gives the stages, " << milliseconds(kernels.clocked)
+       << " ms (" << percent(kernels.clocked - kernels.observed, kernels.observed) << " more)\n\n";
     print_stages(to, kernels);
     to << '\n';
     print_rays(to, kernels);
@@ -167,8 +167,6 @@ nlohmann::ordered_json kernels_json(const KernelProfile& kernels)
     nlohmann::ordered_json json{{"plain_s", kernels.plain},
                                 {"observed_s", kernels.observed},
                                 {"clocked_s", kernels.clocked},
-                                {"clock_adds_s", kernels.clock},
-                                {"clocked_one_tile_in", kernels.stride},
                                 {"stages_sum_s", sum_of(kernels.stages)},
                                 {"stages", nlohmann::ordered_json::array()},
                                 {"rays", nlohmann::ordered_json::array()},
@@ -185,13 +183,12 @@ nlohmann::ordered_json kernels_json(const KernelProfile& kernels)
                                 {"count", row.count},
                                 {"seconds", row.seconds}});
     for (const LaneUse& row : kernels.lanes)
-        json["lanes"].push_back(
-            {{"depth", row.depth},
-             {"work", row.work},
-             {"packets", row.packets},
-             {"live", row.live},
-             {"coherent",
-              row.coherent ? nlohmann::ordered_json(*row.coherent) : nlohmann::ordered_json()}});
+        json["lanes"].push_back({{"depth", row.depth},
+                                 {"work", row.work},
+                                 {"packets", row.packets},
+                                 {"live", row.live},
+                                 {"coherent", row.coherent ? nlohmann::ordered_json(*row.coherent)
+                                                           : nlohmann::ordered_json()}});
     for (const TestUse& row : kernels.tests)
         json["tests"].push_back({{"depth", row.depth},
                                  {"rays", row.rays},

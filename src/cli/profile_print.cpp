@@ -45,9 +45,8 @@ void print_stages(std::ostream& to, const Profile& profile)
 
 void print_generations(std::ostream& to, const Profile& profile)
 {
-    TextTable table(
-        1, {"generation", "camera", "shadow", "reflected", "refracted", "ms", "share", "ns/ray",
-            "lanes filled"});
+    TextTable table(1, {"generation", "camera", "shadow", "reflected", "refracted", "ms", "share",
+                        "ns/ray", "lanes filled"});
     for (const ProfileGeneration& generation : profile.generations) {
         const FrameCounts& rays = generation.rays;
         table.add({"depth " + std::to_string(generation.depth), std::to_string(rays.camera),

@@ -40,18 +40,18 @@ inline constexpr int part_count = 14;
 enum class Role : std::int32_t { own, shadow };
 inline constexpr int role_count = 2;
 
+/// The clock at the borders of a generation's spans.
+struct SpanLaps {
+    std::uint64_t span[span_count] = {};  ///< ticks
+    double refracted = 0;  ///< ticks of Span::trace for refracted rays, by their share of a chunk
+};
+
 struct Lap {
     std::uint64_t ticks = 0;
     std::uint64_t reads = 0;  ///< of the clock, whose own time is in `ticks`
 };
 
-/// The clock at the borders of a generation's spans.
-struct SpanLaps {
-    Lap span[span_count];
-    double refracted = 0;  ///< ticks of Span::trace for refracted rays, by their share of a chunk
-};
-
-/// The clock wherever parts begin and end, after all that was begun before has finished.
+/// The clock wherever parts begin and end, read after all that was begun before has finished.
 struct PartLaps {
     Lap part[span_count][role_count][part_count];
 };
@@ -83,8 +83,8 @@ struct WorkCounts {
     TestCounts tests[role_count][primitive_count];
     std::uint64_t group_nodes[role_count] = {};  ///< nodes met by beams of rays
     std::uint64_t ray_nodes[role_count] = {};    ///< nodes met by single rays
-    std::uint64_t untraced = 0;   ///< camera rays of tiles that can meet nothing
-    std::uint64_t refracted = 0;  ///< of the rays traced
+    std::uint64_t untraced = 0;                  ///< camera rays of tiles that can meet nothing
+    std::uint64_t refracted = 0;                 ///< of the rays traced
 };
 
 /// What to record, added to what is there: any of three arrays of `generations` elements, the last
@@ -95,7 +95,7 @@ struct Observation {
     PartLaps* parts = nullptr;
     WorkCounts* counts = nullptr;
     std::uint64_t end = 0;      ///< the clock as the last tile ended
-    std::uint64_t reading = 0;  ///< ticks that a reading of the clock takes
+    std::uint64_t reading = 0;  ///< ticks that a reading of the clock takes between parts
 };
 
 }  // namespace packtrace::abi

@@ -13,15 +13,15 @@ namespace {
 /// Where a thread's tile is at.
 struct Observer {
     abi::Observation* to = nullptr;
-    abi::SpanLaps* spans = nullptr;    ///< of the generation at hand, where they are clocked
-    abi::PartLaps* parts = nullptr;    ///< likewise
-    abi::WorkCounts* counts = nullptr; ///< likewise, where it is counted
-    std::uint64_t last = 0;            ///< reading of the clock
+    abi::SpanLaps* spans = nullptr;     ///< of the generation at hand, where they are clocked
+    abi::PartLaps* parts = nullptr;     ///< likewise
+    abi::WorkCounts* counts = nullptr;  ///< likewise, where it is counted
+    std::uint64_t last = 0;             ///< reading of the clock
     abi::Span span = abi::Span::setup;
     abi::Role role = abi::Role::own;
     abi::Part part = abi::Part::beams;
-    std::uint32_t live = 0;            ///< rays in the packet that objects are tested against
-    double refracted_share = 0;        ///< of the chunk that is traced
+    std::uint32_t live = 0;      ///< rays in the packet that objects are tested against
+    double refracted_share = 0;  ///< of the chunk that is traced
 };
 
 thread_local Observer observer;
@@ -37,12 +37,6 @@ inline std::uint64_t popcount(std::uint32_t bits)
     return static_cast<unsigned>(__builtin_popcount(bits));
 }
 
-inline void add_lap(abi::Lap& lap, std::uint64_t time)
-{
-    lap.ticks += time;
-    ++lap.reads;
-}
-
 /// Gives the time since the last reading to where the tile was at.
 [[gnu::noinline]] void take_lap()
 {
@@ -50,9 +44,13 @@ inline void add_lap(abi::Lap& lap, std::uint64_t time)
     const std::uint64_t now = at.parts != nullptr ? fenced_ticks() : ticks();
     const std::uint64_t time = now - at.last;
     at.last = now;
-    if (at.parts != nullptr)
-        return add_lap(at.parts->part[index(at.span)][index(at.role)][index(at.part)], time);
-    add_lap(at.spans->span[index(at.span)], time);
+    if (at.parts != nullptr) {
+        abi::Lap& lap = at.parts->part[index(at.span)][index(at.role)][index(at.part)];
+        lap.ticks += time;
+        ++lap.reads;
+        return;
+    }
+    at.spans->span[index(at.span)] += time;
     if (at.span == abi::Span::trace)
         at.spans->refracted += at.refracted_share * static_cast<double>(time);
 }
@@ -71,13 +69,13 @@ inline void go_to_generation(int generation)
     observer.counts = to.counts != nullptr ? to.counts + known : nullptr;
 }
 
-/// What a reading takes, the least of a few.
-inline std::uint64_t time_of_reading(bool fenced)
+/// What a reading between parts takes, the least of a few.
+inline std::uint64_t time_of_reading()
 {
     std::uint64_t least = ~std::uint64_t{0};
     for (int i = 0; i < 4; ++i) {
-        const std::uint64_t from = fenced ? fenced_ticks() : ticks();
-        const std::uint64_t time = (fenced ? fenced_ticks() : ticks()) - from;
+        const std::uint64_t from = fenced_ticks();
+        const std::uint64_t time = fenced_ticks() - from;
         least = time < least ? time : least;
     }
     return least;
@@ -92,7 +90,8 @@ inline void begin_observation(abi::Observation* observation)
     go_to_generation(0);
     if (!clocked())
         return;
-    observation->reading = time_of_reading(observer.parts != nullptr);
+    if (observer.parts != nullptr)
+        observation->reading = time_of_reading();
     observer.last = ticks();
 }
 

@@ -72,9 +72,9 @@ struct PacketProbe<true, Real> {
         : probe(probe_), path(path_)
     {
         if (probe != nullptr)
-            probed = active & bits(int_equal(
-                                  path.pixel,
-                                  vint<Real>(static_cast<lane_int<Real>>(probe->pixel))));
+            probed =
+                active &
+                bits(int_equal(path.pixel, vint<Real>(static_cast<lane_int<Real>>(probe->pixel))));
     }
 
     /// Calls `tell(lane, path)` for each of the rays.

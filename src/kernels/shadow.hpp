@@ -89,10 +89,12 @@ inline std::uint32_t unshadowed(const ShadeContext<F, Real>& context, int light,
         return count_lit<Real>(wanted, wanted & context.shadows[light].lit_lanes(first));
     const ShadowScope shadow(abi::Part::ray_generation);
     tell_live(wanted);
-    return count_lit<Real>(wanted, wanted & ~with_shadow_rays(context, light, packet, surface,
-                                      [&](const auto& end, const auto& objects, const auto& rays) {
-                                          return occluded<F>(end, objects, rays, wanted);
-                                      }));
+    return count_lit<Real>(
+        wanted,
+        wanted & ~with_shadow_rays(context, light, packet, surface,
+                                   [&](const auto& end, const auto& objects, const auto& rays) {
+                                       return occluded<F>(end, objects, rays, wanted);
+                                   }));
 }
 
 /// Lanes in which any channel is above 0.

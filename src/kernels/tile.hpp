@@ -119,8 +119,7 @@ inline abi::RayCounts render_tile(const abi::TileJob<Real>& job)
     counts.camera =
         static_cast<unsigned>(job.samples != nullptr ? job.samples->count : job.width * job.height);
 
-    if constexpr (F.probe)
-        begin_observation(job.observation);
+    begin_observation(job.observation);
     // Camera rays, against what the tile's beam may meet; a hit's first light replaces the
     // background.
     find_objects<F>(work.visible, camera_beam(job), scene);

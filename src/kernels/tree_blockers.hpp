@@ -125,9 +125,10 @@ private:
     {
         const PartScope part(abi::Part::spheres);
         visit_spheres(bounds_, block, cells, [&](int slot, int cell) {
-            object(abi::Primitive::sphere, cell, block.surface[slot], [&](const End& end, const RayPacket<Real>& rays) {
-                return bits(end.blocked_by(quadratic_of(block, slot, rays), rays));
-            });
+            object(abi::Primitive::sphere, cell, block.surface[slot],
+                   [&](const End& end, const RayPacket<Real>& rays) {
+                       return bits(end.blocked_by(quadratic_of(block, slot, rays), rays));
+                   });
         });
         join_t_max(bounds_);
     }
@@ -207,8 +208,7 @@ inline void blockers_of_lone_cells(const abi::BvhView<Real>& tree, Regrouped<Rea
     CellBounds bounds;
     SlabRays slabs;
     bound_cells(bounds, sorted.rays, tree, Cells::all);
-    const BlockersInTree<F, End, Real, Blocker> blockers(tree, sorted.rays, bounds, slabs,
-                                                         blocker);
+    const BlockersInTree<F, End, Real, Blocker> blockers(tree, sorted.rays, bounds, slabs, blocker);
     for (int cell = 0; cell < sorted.cells; ++cell) {
         bounds.t_max[cell] = furthest(sorted.rays, cell);
         walk_cells(tree, bounds, 1u << cell, blockers);
@@ -230,8 +230,8 @@ inline void visit_blockers_in_order(const abi::BvhView<Real>& tree, RayGroup<Rea
 
 /// Meets the active rays of a group with what blocks them in the hierarchy.
 template <abi::Features F, class End, class Real, class Blocker>
-[[gnu::noinline]] void visit_blockers_in_tree(const abi::BvhView<Real>& tree,
-                                              RayGroup<Real>& group, const Blocker& blocker)
+[[gnu::noinline]] void visit_blockers_in_tree(const abi::BvhView<Real>& tree, RayGroup<Real>& group,
+                                              const Blocker& blocker)
 {
     const PartScope part(abi::Part::boxes);
     visit_blockers_in_order<F, End>(tree, group, blocker);
@@ -239,8 +239,8 @@ template <abi::Features F, class End, class Real, class Blocker>
 
 /// The same where a blocker ends the rays: those that do not run together are sorted first.
 template <abi::Features F, class End, class Real>
-[[gnu::noinline]] void visit_blockers_in_tree(const abi::BvhView<Real>& tree,
-                                              RayGroup<Real>& group, const EndsRays& blocker)
+[[gnu::noinline]] void visit_blockers_in_tree(const abi::BvhView<Real>& tree, RayGroup<Real>& group,
+                                              const EndsRays& blocker)
 {
     const PartScope part(abi::Part::boxes);
     CellBounds bounds;

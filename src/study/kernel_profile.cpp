@@ -1,67 +1,47 @@
 #include "study/kernel_profile.hpp"
 
 #include <algorithm>
-#include <chrono>
 
 #include "dispatch/kernels.hpp"
 #include "study/observed_frame.hpp"
+#include "study/piece_times.hpp"
 #include "study/profile_subjects.hpp"
 #include "study/span_times.hpp"
 #include "study/stage_seconds.hpp"
-#include "study/statistics.hpp"
 #include "study/work_rows.hpp"
 
 namespace packtrace {
 namespace {
 
-// A frame has the clock in one piece in so many, and so many frames clock each piece once: where
-// pieces are short, the dozens of readings in one are not little beside it.
-int stride_for(double frame, int pieces)
-{
-    constexpr double short_piece = 20e-6;
-    return frame / pieces < short_piece ? 8 : 1;
-}
-
-// Frames of each kind; the clock's rate is told by a piece that is clocked twice.
-int frames_for(const ProfileOptions& options, int stride)
-{
-    return std::max(2, stride > 1 ? (options.repetitions + 2) / 3 : options.repetitions) * stride;
-}
+// Nothing is recorded.
+constexpr auto unobserved = [](int) { return nullptr; };
 
 template <class Real>
-double seconds_of(ObservedFrame<Real>& frame)
+void time_pieces(ObservedFrame<Real>& frame, PieceTimes& times)
 {
-    const auto start = std::chrono::steady_clock::now();
-    frame.render();
-    return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+    frame.render(unobserved, [&](int piece, double seconds) { times.add(piece, seconds); });
 }
 
-// Plain frames, observable ones, and those with the clock in some pieces, in turns.
+// Plain frames, observable ones, and those with the clock, in turns.
 template <class Real>
 void clock_spans(ObservedFrame<Real>& plain, ObservedFrame<Real>& observed,
                  const ProfileOptions& options, SpanTimes& spans, KernelProfile& profile)
 {
-    const int stride = stride_for(seconds_of(observed), observed.pieces());
-    int phase = 0;
-    const auto clocked = [&](int piece) { return (piece + phase) % stride == 0; };
-    std::vector<ProfileRun> runs{
-        {"plain", [&] { return plain.render(); }, {}, {}},
-        {"observed", [&] { return observed.render(); }, {}, {}},
-        {"clocked", [&] {
-             ++phase;
-             return observed.render(
-                 [&](int piece) { return clocked(piece) ? spans.begin() : nullptr; },
-                 [&](int piece) {
-                     if (clocked(piece))
-                         spans.end(piece);
-                 });
-         }, {}, {}}};
-    take_times(runs, frames_for(options, stride));
-    profile.stride = stride;
-    profile.plain = median_of(runs[0].seconds);
-    profile.observed = median_of(runs[1].seconds);
-    profile.clocked = median_of(runs[2].seconds);
-    profile.clock = median_difference(runs[2].seconds, runs[1].seconds);
+    const int pieces = observed.pieces();
+    PieceTimes plain_times(pieces), observed_times(pieces), clocked_times(pieces);
+    // The clock's rate is told by a piece that is clocked twice.
+    for (int turn = 0; turn < std::max(2, options.repetitions); ++turn) {
+        time_pieces(plain, plain_times);
+        time_pieces(observed, observed_times);
+        observed.render([&](int) { return spans.begin(); },
+                        [&](int piece, double seconds) {
+                            spans.end(piece);
+                            clocked_times.add(piece, seconds);
+                        });
+    }
+    profile.plain = plain_times.frame();
+    profile.observed = observed_times.frame();
+    profile.clocked = clocked_times.frame();
 }
 
 // One frame that clocks the parts of all pieces, for their shares alone.
@@ -79,7 +59,7 @@ std::vector<KernelStage> divide_spans(ObservedFrame<Real>& observed, const SpanT
             std::fill(parts.begin(), parts.end(), abi::PartLaps{});
             return &observation;
         },
-        [&](int piece) { seconds.add(spans.seconds(piece), parts, observation.reading); });
+        [&](int piece, double) { seconds.add(spans.seconds(piece), parts, observation.reading); });
     return seconds.stages();
 }
 
@@ -110,7 +90,7 @@ ObservedKernels observe_kernels(const Scene& scene, const ProfileOptions& option
     abi::Observation counting;
     counting.generations = generations;
     counting.counts = result.counts.data();
-    result.rays = observed.render([&](int) { return &counting; }, [](int) {});
+    result.rays = observed.render([&](int) { return &counting; }, [](int, double) {});
     result.profile.rays = ray_rows(result.counts, result.profile.stages);
     result.profile.lanes = lane_rows(result.counts);
     result.profile.tests = test_rows(result.counts);

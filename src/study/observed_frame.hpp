@@ -1,6 +1,6 @@
 #pragma once
 
-#include <vector>
+#include <chrono>
 
 #include <packtrace/render.hpp>
 
@@ -35,7 +35,8 @@ public:
         return TileGrid(width_, height_).count * (options_.adaptive ? 2 : 1);
     }
 
-    /// `before(piece)` returns what to record into, or null, and `after(piece)` sees it done.
+    /// `before(piece)` returns what to record into, or null; `after(piece, seconds)` is told what
+    /// it took.
     template <class Before, class After>
     FrameCounts render(const Before& before, const After& after)
     {
@@ -45,9 +46,11 @@ public:
             const TileGrid grid(width_, height_);
             for (int tile = 0; tile < grid.count; ++tile, ++piece) {
                 tiles_.observe(before(piece));
+                const auto start = std::chrono::steady_clock::now();
                 sum += render_tile(tile % grid.columns * abi::tile_size,
                                    tile / grid.columns * abi::tile_size);
-                after(piece);
+                const std::chrono::duration<double> time = std::chrono::steady_clock::now() - start;
+                after(piece, time.count());
             }
         };
         if (options_.adaptive) {
@@ -63,11 +66,6 @@ public:
             });
         }
         return {sum.camera, sum.shadow, sum.reflected, sum.refracted};
-    }
-
-    FrameCounts render()
-    {
-        return render([](int) { return nullptr; }, [](int) {});
     }
 
     [[nodiscard]] const Image<Real>& image() const

@@ -124,8 +124,8 @@ Profile profile(const std::string& text, const Scene& scene, const ProfileOption
     const ObservedKernels observed = observe_kernels<Real>(scene, options);
     result.kernels = observed.profile;
     for (ProfileGeneration& generation : result.generations)
-        generation.lanes_filled = lanes_filled(
-            observed.counts[static_cast<std::size_t>(generation.depth)], result.lanes);
+        generation.lanes_filled =
+            lanes_filled(observed.counts[static_cast<std::size_t>(generation.depth)], result.lanes);
     for (std::size_t i = static_cast<std::size_t>(scene.max_depth) + 1; i < runs.size(); ++i)
         result.what_if.push_back({runs[i].name, median_of(runs[i].seconds),
                                   median_difference(runs.front().seconds, runs[i].seconds),

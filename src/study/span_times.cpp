@@ -6,6 +6,16 @@
 namespace packtrace {
 namespace {
 
+SpanTicks span_ticks(const abi::SpanLaps& laps)
+{
+    SpanTicks result;
+    for (int i = 0; i < abi::span_count; ++i)
+        result.span[static_cast<std::size_t>(i)] = static_cast<double>(laps.span[i]);
+    const double traced = result.span[static_cast<std::size_t>(abi::Span::trace)];
+    result.refracted = traced > 0.0 ? laps.refracted / traced : 0.0;
+    return result;
+}
+
 double total_of(const std::vector<SpanTicks>& generations)
 {
     double sum = 0.0;
@@ -19,21 +29,6 @@ double total_of(const std::vector<SpanTicks>& generations)
 double SpanTicks::total() const
 {
     return std::accumulate(span.begin(), span.end(), 0.0);
-}
-
-double without_readings(const abi::Lap& lap, std::uint64_t reading)
-{
-    return std::max(0.0, static_cast<double>(lap.ticks) - static_cast<double>(lap.reads * reading));
-}
-
-SpanTicks span_ticks(const abi::SpanLaps& laps, std::uint64_t reading)
-{
-    SpanTicks result;
-    for (int i = 0; i < abi::span_count; ++i)
-        result.span[static_cast<std::size_t>(i)] = without_readings(laps.span[i], reading);
-    const std::uint64_t traced = laps.span[static_cast<int>(abi::Span::trace)].ticks;
-    result.refracted = traced > 0 ? laps.refracted / static_cast<double>(traced) : 0.0;
-    return result;
 }
 
 SpanTimes::SpanTimes(int pieces, int generations)
@@ -60,7 +55,7 @@ void SpanTimes::end(int piece)
     }
     std::vector<SpanTicks> generations;
     for (const abi::SpanLaps& laps : laps_)
-        generations.push_back(span_ticks(laps, observation_.reading));
+        generations.push_back(span_ticks(laps));
     of_piece_[static_cast<std::size_t>(piece)].push_back(std::move(generations));
 }
 

@@ -8,18 +8,13 @@
 
 namespace packtrace {
 
-/// Ticks of a generation's spans without what reading the clock took.
+/// Ticks of a generation's spans.
 struct SpanTicks {
     std::array<double, abi::span_count> span{};
     double refracted = 0.0;  ///< share of Span::trace that is for refracted rays, in [0, 1]
 
     [[nodiscard]] double total() const;
 };
-
-[[nodiscard]] SpanTicks span_ticks(const abi::SpanLaps& laps, std::uint64_t reading);
-
-/// Ticks of one reading of the clock taken off for each.
-[[nodiscard]] double without_readings(const abi::Lap& lap, std::uint64_t reading);
 
 /// The spans of a frame's pieces (ObservedFrame), each clocked several times.
 class SpanTimes {

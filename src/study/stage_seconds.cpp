@@ -1,5 +1,6 @@
 #include "study/stage_seconds.hpp"
 
+#include <algorithm>
 #include <cstddef>
 
 namespace packtrace {
@@ -34,6 +35,12 @@ Rays rays_of(abi::Span span, abi::Role role)
     if (role == abi::Role::shadow || span == abi::Span::shadows)
         return shadow;
     return span == abi::Span::setup || span == abi::Span::trace ? camera : hits;
+}
+
+// Ticks of a reading of the clock taken off for each: it waits, so that all of them are its own.
+double without_readings(const abi::Lap& lap, std::uint64_t reading)
+{
+    return std::max(0.0, static_cast<double>(lap.ticks) - static_cast<double>(lap.reads * reading));
 }
 
 double total_of(const abi::PartLaps& laps, int span, std::uint64_t reading)
