@@ -242,7 +242,7 @@ TEST_CASE("a path of 28 bounces in floats keeps its number", "[explain]")
     CHECK(rays == 29);
 }
 
-TEST_CASE("no scene gets the kernels with the probe but for explain", "[explain]")
+TEST_CASE("no scene gets the kernels with the probe unless it asks for them", "[explain]")
 {
     for (const abi::KernelTable* table : all_kernels())
         for (const bool quadrics : {false, true})

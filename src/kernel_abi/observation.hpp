@@ -8,12 +8,12 @@ namespace packtrace::abi {
 
 /// Spans follow each other through a tile without a gap; each generation has its own.
 enum class Span : std::int32_t {
-    setup,     ///< what the tile's beam may meet, the background into the pixels
+    setup,     ///< what the tile's beam may meet
     trace,     ///< rays to their closest hits
     shadows,   ///< what may stand between the hits and lights; with a hierarchy the shadow rays
     shade,     ///< local light, child rays; without a hierarchy shadow rays, packet by packet
     children,  ///< refracted rays put behind mirrored ones
-    film       ///< the pixels into the picture
+    film       ///< the background into the pixels, and these into the picture
 };
 inline constexpr int span_count = 6;
 

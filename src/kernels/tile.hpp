@@ -123,6 +123,7 @@ inline abi::RayCounts render_tile(const abi::TileJob<Real>& job)
     // Camera rays, against what the tile's beam may meet; a hit's first light replaces the
     // background.
     find_objects<F>(work.visible, camera_beam(job), scene);
+    begin_span(abi::Span::film, 0, abi::Part::film);
     fill_pixels(memory.color, scene.background);
     memory.hits.count = 0;
     if constexpr (F.probe)
