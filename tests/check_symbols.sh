@@ -10,7 +10,7 @@ set -u
 nm=$1
 namespace=$2
 shift 2
-allowed_undefined='memcpy|memmove|memset|memcmp|_GLOBAL_OFFSET_TABLE_'
+allowed_undefined='memcpy|memmove|memset|memcmp|__tls_get_addr|_GLOBAL_OFFSET_TABLE_'
 # Names as the compiler writes them: _ZN9packtrace4avx2…, statics within functions _ZZN….
 ours="^_Z(Z|GVZ?|T[VISH])*N[KVr]*9packtrace${#namespace}${namespace}"
 

@@ -242,7 +242,7 @@ TEST_CASE("a path of 28 bounces in floats keeps its number", "[explain]")
     CHECK(rays == 29);
 }
 
-TEST_CASE("no scene gets the kernels with the probe but for explain", "[explain]")
+TEST_CASE("no scene gets the kernels with the probe unless it asks for them", "[explain]")
 {
     for (const abi::KernelTable* table : all_kernels())
         for (const bool quadrics : {false, true})
@@ -250,9 +250,9 @@ TEST_CASE("no scene gets the kernels with the probe but for explain", "[explain]
                 const abi::Features needed{.quadrics = quadrics, .glass = glass};
                 abi::Features probed = needed;
                 probed.probe = true;
-                CHECK_FALSE(kernels_for(table->single_precision, needed).features.probe);
-                CHECK_FALSE(kernels_for(table->double_precision, needed).features.probe);
-                CHECK(kernels_for(table->single_precision, probed).features.probe);
+                CHECK_FALSE(kernels_for(table->single_precision, needed).set.features.probe);
+                CHECK_FALSE(kernels_for(table->double_precision, needed).set.features.probe);
+                CHECK(kernels_for(table->single_precision, probed).set.features.probe);
             }
 }
 

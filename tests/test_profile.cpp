@@ -133,7 +133,11 @@ TEST_CASE("lanes are filled by all rays of whole tiles, and by fewer after each 
     ProfileOptions once;
     once.repetitions = 1;
     const std::string text = read_text(PACKTRACE_SOURCE_DIR "/scenes/nested_glass.scene");
-    CHECK_FALSE(profile<float>(text, glass, once).generations[0].lanes_filled.has_value());
+    for (const ProfileGeneration& generation : profile<float>(text, glass, once).generations) {
+        CHECK((generation.rays.total() == 0) == !generation.lanes_filled.has_value());
+        CHECK(generation.lanes_filled.value_or(1.0) > 0.0);
+        CHECK(generation.lanes_filled.value_or(1.0) <= 1.0);
+    }
 }
 
 TEST_CASE("the median difference is of pairs", "[profile]")
@@ -211,8 +215,11 @@ TEST_CASE("profile prints tables and JSON, and writes a heat map and a trace",
     const ProgramResult text = run_packtrace(more);
     CAPTURE(text.err);
     REQUIRE(text.exit_code == 0);
-    for (const char* part : {"64 x 48, ", "scene load", "lowering", "encoding as PNG", "depth 3",
-                             "without highlights", "without shadows", "ns/ray"})
+    for (const char* part :
+         {"64 x 48, ", "scene load", "lowering", "encoding as PNG", "depth 3", "without highlights",
+          "without shadows", "ns/ray", "lanes filled", "inside the kernels, on one thread",
+          "stage in the kernels", "highlight powers", "rays to their hits", "Mrays/s", "live lanes",
+          "coherent", "single/ray", "objects tested in double"})
         CHECK_THAT(text.out, ContainsSubstring(part));
     CHECK(std::filesystem::file_size(map) > 100);
     const auto events = nlohmann::json::parse(read_text(trace))["traceEvents"];
@@ -227,6 +234,18 @@ TEST_CASE("profile prints tables and JSON, and writes a heat map and a trace",
     CHECK(json["generations"].size() == 2);
     CHECK(json["rays"]["camera"] == 64 * 48);
     CHECK(json["lanes"] == choose_isa().lanes_double);
+    const auto& kernels = json["kernels"];
+    CHECK(kernels["observed_s"] > 0.0);
+    CHECK(kernels["clocked_s"] > 0.0);
+    double sum = 0.0;
+    for (const auto& stage : kernels["stages"])
+        sum += stage["seconds"].get<double>();
+    CHECK(std::abs(sum - kernels["stages_sum_s"].get<double>()) < 1e-9);
+    CHECK(kernels["rays"][0]["rays"] == "camera");
+    CHECK(kernels["rays"][0]["count"] == 64 * 48);
+    CHECK(kernels["lanes"][0]["work"] == "closest hits");
+    CHECK(kernels["lanes"][0]["live"] <= 64 * 48);
+    CHECK(kernels["tests"].size() >= 2);
 }
 
 TEST_CASE("profile refuses what it can't do", "[profile][profile_cli]")

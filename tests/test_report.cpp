@@ -85,6 +85,9 @@ TEST_CASE("a report runs every kernel, precision, instruction set and number of 
                              "spp 64", "adaptive 16 at 0.01"})
         CHECK(names.count(name) == 1);
     CHECK(names.count("depth 4") == 0);
+    for (const char* mode : {"fast", "robust"})
+        CHECK(names.count("packets " + supported_isas().back() + " single " + mode +
+                          ", 1 thread") == 1);
 }
 
 TEST_CASE("a report's errors are those of the pictures against the truth", "[report]")
@@ -101,6 +104,7 @@ TEST_CASE("a report's errors are those of the pictures against the truth", "[rep
         if (run.variant.kernel == Kernel::packet && run.variant.precision == "single") {
             RenderOptions options;
             options.isa = run.variant.isa;
+            options.accuracy = run.variant.accuracy;
             const auto picture = convert<double>(render<float>(scene.scene, options));
             CHECK(run.error.rmse == compare(picture, truth).rmse);
             CHECK((arithmetic.pictures[run.picture].image.rgb == picture.rgb));
@@ -292,6 +296,10 @@ TEST_CASE("the JSON says what was run, how, and what came of it", "[report]")
             CHECK(run["seconds"].size() == 2);
             CHECK(run["error"]["pixels"] == 48 * 40);
             CHECK(run["isa"].is_null() == (run["kernel"] == "scalar"));
+            CHECK(run["accuracy"].is_null() ==
+                  (run["kernel"] == "scalar" || run["precision"] == "double"));
+            CHECK((run["accuracy"] == "robust") ==
+                  (run["name"].get<std::string>().find("robust") != std::string::npos));
             CHECK(run["adaptive"].is_null() ==
                   (run["name"].get<std::string>().find("adaptive") == std::string::npos));
             for (const auto& kind : run["error"]["classes"])

@@ -33,8 +33,7 @@ struct ProfileGeneration {
     int depth = 0;  ///< reflections and refractions before
     FrameCounts rays;
     double seconds = 0.0;
-    /// Share of lanes with a ray in the packets that its rays are traced in, at one sample a pixel;
-    /// none for scenes with glass.
+    /// Share of lanes with a ray in the packets that its rays are traced in; none without rays.
     std::optional<double> lanes_filled = {};
 };
 
@@ -44,6 +43,58 @@ struct ProfileWhatIf {
     double seconds = 0.0;  ///< of the frame without it
     double saves = 0.0;    ///< seconds, the median of the differences between frames in turn
     FrameCounts rays;      ///< of the frame without it
+};
+
+/// A part of the kernels' work for the rays of one generation.
+struct KernelStage {
+    int depth = 0;
+    /// Whose work it is: "camera", "shadow", "reflected", "refracted", or "hits" for what is done
+    /// where rays hit: local light, child rays, pixels.
+    std::string rays;
+    std::string name;  ///< "spheres"
+    double seconds = 0.0;
+};
+
+/// All that is done for the rays of one kind and generation, from their making to their hits.
+struct RayTime {
+    int depth = 0;
+    std::string rays;  ///< "camera", "shadow", "reflected", "refracted"
+    std::uint64_t count = 0;
+    double seconds = 0.0;
+};
+
+/// How packets of a generation are filled as they do one thing.
+struct LaneUse {
+    int depth = 0;
+    std::string work;           ///< "closest hits"
+    std::uint64_t packets = 0;  ///< that do it for at least one ray
+    std::uint64_t live = 0;     ///< rays they do it for
+    /// Packets with a ray in every lane that all come to the same: one surface hit, or all lit,
+    /// or all in shadow. None for work without such a result.
+    std::optional<std::uint64_t> coherent = {};
+};
+
+/// Tests of boxes and objects for the rays of a generation.
+struct TestUse {
+    int depth = 0;
+    std::string rays;         ///< "closest" or "shadow"
+    std::string tested;       ///< "nodes", or a kind of object: "spheres"
+    std::uint64_t tests = 0;  ///< of packets against one object; nodes by beams of several rays
+    /// Objects: pairs of a live ray and an object in them. Nodes: met by single rays.
+    std::uint64_t single = 0;
+};
+
+/// The inside of a frame, on one thread, by kernels that observe themselves: those with every
+/// feature, and hooks that other kernels are compiled without.
+struct KernelProfile {
+    // Seconds of a frame's tiles, each by the median of its times.
+    double plain = 0.0;     ///< by the kernels that render the scene
+    double observed = 0.0;  ///< by those that can observe, with the clock at rest
+    double clocked = 0.0;   ///< by the same with the clock
+    std::vector<KernelStage> stages;
+    std::vector<RayTime> rays;
+    std::vector<LaneUse> lanes;
+    std::vector<TestUse> tests;
 };
 
 struct Profile {
@@ -59,6 +110,7 @@ struct Profile {
     std::vector<ProfileStage> stages;
     std::vector<ProfileGeneration> generations;
     std::vector<ProfileWhatIf> what_if;
+    KernelProfile kernels;
 };
 
 /// `text` is read as a scene for the stages' sake, then changed as `scene` says: size, depth.

@@ -27,14 +27,22 @@ struct Variant {
     std::string name;  ///< "packets single avx2, 2 threads"
     Study study = Study::arithmetic;
     Kernel kernel = Kernel::packet;
-    std::string precision = "single";  ///< or "double"
-    std::string isa;                   ///< packets only
-    int lanes = 1;                     ///< rays in a packet
+    std::string precision = "single";         ///< or "double"
+    std::string isa;                          ///< packets only
+    Accuracy accuracy = Accuracy::automatic;  ///< packets of floats only
+    bool general = false;                     ///< RenderOptions::force_general
+    int lanes = 1;                            ///< rays in a packet
     int threads = 1;
     int depth = 0;    ///< Scene::max_depth
     int samples = 1;  ///< as RenderOptions has them
     std::optional<double> adaptive = {};
 };
+
+/// Whether the accuracy mode makes a difference.
+[[nodiscard]] inline bool has_accuracy(const Variant& variant)
+{
+    return variant.kernel == Kernel::packet && variant.precision == "single";
+}
 
 /// A scene, and the bytes that tell it from others in the cache of truths.
 struct ReportScene {

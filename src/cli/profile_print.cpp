@@ -2,6 +2,7 @@
 
 #include <ostream>
 
+#include "cli/profile_kernels.hpp"
 #include "cli/text_table.hpp"
 
 namespace packtrace::cli {
@@ -44,8 +45,8 @@ void print_stages(std::ostream& to, const Profile& profile)
 
 void print_generations(std::ostream& to, const Profile& profile)
 {
-    TextTable table(
-        1, {"generation", "camera", "shadow", "reflected", "refracted", "ms", "share", "ns/ray"});
+    TextTable table(1, {"generation", "camera", "shadow", "reflected", "refracted", "ms", "share",
+                        "ns/ray", "lanes filled"});
     for (const ProfileGeneration& generation : profile.generations) {
         const FrameCounts& rays = generation.rays;
         table.add({"depth " + std::to_string(generation.depth), std::to_string(rays.camera),
@@ -90,6 +91,8 @@ void print_profile(std::ostream& to, const std::string& scene, const Profile& pr
     to << '\n';
     print_generations(to, profile);
     to << '\n';
+    print_kernels(to, profile);
+    to << '\n';
     print_what_if(to, profile);
 }
 
@@ -124,6 +127,7 @@ nlohmann::ordered_json profile_json(const std::string& scene, const Profile& pro
                                    {"seconds", row.seconds},
                                    {"saves", row.saves},
                                    {"rays", rays_json(row.rays)}});
+    json["kernels"] = kernels_json(profile.kernels);
     return json;
 }
 

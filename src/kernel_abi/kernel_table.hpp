@@ -4,6 +4,7 @@
 #include <cstdint>
 
 #include "kernel_abi/features.hpp"
+#include "kernel_abi/observation.hpp"
 #include "kernel_abi/onedim.hpp"
 #include "kernel_abi/probe.hpp"
 #include "kernel_abi/ray_streams.hpp"
@@ -44,8 +45,9 @@ struct TileJob {
     /// Null: one ray a pixel. Else the colour of sample i goes to rgb[3 i], and `width`, `height`
     /// and `row_stride` are not looked at. closest_tile takes none.
     const TileSamples<Real>* samples = nullptr;
-    /// Must be set for kernels of Features::probe, and is not looked at by others.
+    /// What kernels of Features::probe tell of, where set; not looked at by others.
     const Probe<Real>* probe = nullptr;
+    Observation* observation = nullptr;
 };
 
 /// Closest hits of a tile's camera rays, without shading. Rays are numbered along the tile's

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "kernels/object_lists.hpp"
+#include "kernels/observe.hpp"
 
 // Closest hits of a packet among lists of objects.
 namespace packtrace::PACKTRACE_ISA {
@@ -36,7 +37,9 @@ template <class Stiff, class Real>
 [[gnu::noinline]] void keep_stiff(HitPacket<Real>& hit, const Stiff& list,
                                   const RayPacket<Real>& rays)
 {
+    const PartScope part(abi::Part::stiff);
     for_each_stiff(list, [&](const auto& stiff) {
+        count_tests(abi::Primitive::stiff, 1);
         visit_stiff(stiff, rays, [&](vmask<Real> valid, const vreal<Real>& t, int piece) {
             keep_closer<Real>(hit, valid & (t > rays.t_min), t, surface_of(stiff) + piece);
         });
@@ -50,13 +53,18 @@ inline void closest_hit(HitPacket<Real>& hit, const Objects& objects, const RayP
 {
     const ObjectLists<Real, Objects> lists{objects};
     const auto& spheres = lists.spheres();
+    const TestScope at;
+    at.test(abi::Primitive::sphere, spheres.count);
     for (int i = 0; i < spheres.count; ++i)
         keep_quadratic(hit, quadratic_of(spheres, i, rays), rays,
                        static_cast<std::int32_t>(spheres.surface[i]));
+    at.test(abi::Primitive::huge_sphere, lists.huge_count());
     for (int i = 0; i < lists.huge_count(); ++i)
         keep_quadratic(hit, quadratic_of(lists.huge(i), rays), rays, lists.huge(i).surface);
+    at.test(abi::Primitive::plane, lists.plane_count());
     for (int i = 0; i < lists.plane_count(); ++i)
         keep_plane(hit, lists.plane(i), rays);
+    at.test(abi::Primitive::quadric, lists.quadric_count());
     if constexpr (F.quadrics)
         for (int i = 0; i < lists.quadric_count(); ++i)
             keep_quadric(hit, lists.quadric(i), rays);

@@ -66,7 +66,9 @@ template <class Real>
 inline void closest_of_block(RayGroup<Real>& group, int ray, const RayPacket<Real>& rays,
                              const abi::SphereBlock<Real>& block)
 {
+    const PartScope part(abi::Part::spheres);
     for (int first = 0; first < abi::node_width; first += lanes<Real>) {
+        count_block_tests(block, first);
         const Quadratic<Real> quadratic = quadratics_of(block, first, rays);
         const auto active = may_hit(quadratic) & from_bits<Real>(block_lanes<Real>);
         if (none(active))
@@ -86,6 +88,9 @@ template <class Real>
 inline void closest_of_quadrics(RayGroup<Real>& group, int ray, const RayPacket<Real>& rays,
                                 const abi::QuadricRecord<Real>* quadrics, int count)
 {
+    const PartScope part(abi::Part::quadrics);
+    tell_live(1);
+    count_tests(abi::Primitive::quadric, count);
     HitPacket<Real> hit{vreal<Real>(group.t[ray]), vint<Real>(group.surface[ray])};
     for (int i = 0; i < count; ++i)
         keep_quadric(hit, quadrics[i], rays);

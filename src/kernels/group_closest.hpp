@@ -43,6 +43,7 @@ template <abi::Features F, class Real>
 template <abi::Features F, class Real>
 [[gnu::noinline]] void closest_in_tree(const abi::BvhView<Real>& tree, RayGroup<Real>& group)
 {
+    const PartScope part(abi::Part::boxes);
     CellBounds bounds;
     bound_cells(bounds, group, tree);
     if (bounds.coherent != 0) {
@@ -68,6 +69,7 @@ inline void closest_of_group(const abi::SceneView<Real>& scene, const Objects& l
     for (int first = 0; first < group_rays; first += lanes<Real>) {
         if (active_lanes(group, first) == 0)
             continue;
+        tell_live(active_lanes(group, first));
         HitPacket<Real> hit = load_hits(group, first);
         closest_hit<F>(hit, lists, load_rays(group, first));
         store_hits(group, first, hit);

@@ -2,6 +2,7 @@
 
 #include "kernel_abi/kernel_table.hpp"
 #include "kernels/material.hpp"
+#include "kernels/observe.hpp"
 #include "kernels/occluded.hpp"
 #include "kernels/power.hpp"
 #include "kernels/surface.hpp"
@@ -62,6 +63,8 @@ inline Vec3v<Real> lit_color(const abi::LightRecord<Real>& light, const LightPac
     Vec3v<Real> sum = scale<Real>(packet.diffuse, material.diffuse);
     const std::uint32_t shiny = packet.has_highlight & lit;
     if (F.highlights && shiny != 0) {
+        const PartScope part(abi::Part::highlight);
+        count_packet<Real>(abi::PacketWork::highlight, shiny);
         counts.stages |= abi::stage_powers;
         const vreal<Real> power =
             select(from_bits<Real>(shiny),

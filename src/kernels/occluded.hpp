@@ -1,6 +1,7 @@
 #pragma once
 
 #include "kernels/object_lists.hpp"
+#include "kernels/observe.hpp"
 
 // Which rays of a packet meet any object on the way to a light.
 namespace packtrace::PACKTRACE_ISA {
@@ -83,24 +84,34 @@ inline void visit_blockers(const End& end, const Objects& objects, const RayPack
 {
     const ObjectLists<Real, Objects> lists{objects};
     const auto& spheres = lists.spheres();
-    for (int i = 0; i < spheres.count; ++i)
+    const TestScope at;
+    for (int i = 0; i < spheres.count; ++i) {
+        at.test(abi::Primitive::sphere);
         if (!blocker(static_cast<std::int32_t>(spheres.surface[i]),
                      bits(end.blocked_by(quadratic_of(spheres, i, rays), rays))))
             return;
-    for (int i = 0; i < lists.huge_count(); ++i)
+    }
+    for (int i = 0; i < lists.huge_count(); ++i) {
+        at.test(abi::Primitive::huge_sphere);
         if (!blocker(lists.huge(i).surface,
                      bits(end.blocked_by(quadratic_of(lists.huge(i), rays), rays))))
             return;
-    for (int i = 0; i < lists.plane_count(); ++i)
+    }
+    for (int i = 0; i < lists.plane_count(); ++i) {
+        at.test(abi::Primitive::plane);
         if (!blocker(lists.plane(i).surface,
                      bits(end.blocked_at(plane_t(lists.plane(i), rays), rays))))
             return;
+    }
     if constexpr (F.quadrics)
-        for (int i = 0; i < lists.quadric_count(); ++i)
+        for (int i = 0; i < lists.quadric_count(); ++i) {
+            at.test(abi::Primitive::quadric);
             if (!blocker(record_of<Real>(lists.quadric(i)).surface,
                          quadric_blocks(end, lists.quadric(i), rays)))
                 return;
+        }
     for_each_stiff(lists.stiff(), [&](const auto& stiff) {
+        at.test(abi::Primitive::stiff);
         return blocker(surface_of(stiff), stiff_blocks(end, stiff, rays));
     });
 }

@@ -64,16 +64,17 @@ struct PacketProbe {
 
 template <class Real>
 struct PacketProbe<true, Real> {
-    const abi::Probe<Real>& probe;
+    const abi::Probe<Real>* probe;  ///< null: there is no such pixel
     const PathPacket<Real>& path;
-    std::uint32_t probed;  ///< lanes of the pixel
+    std::uint32_t probed = 0;  ///< lanes of the pixel
 
-    PacketProbe(const abi::Probe<Real>& probe_, const PathPacket<Real>& path_, std::uint32_t active)
-        : probe(probe_),
-          path(path_),
-          probed(active & bits(int_equal(path_.pixel,
-                                         vint<Real>(static_cast<lane_int<Real>>(probe_.pixel)))))
+    PacketProbe(const abi::Probe<Real>* probe_, const PathPacket<Real>& path_, std::uint32_t active)
+        : probe(probe_), path(path_)
     {
+        if (probe != nullptr)
+            probed =
+                active &
+                bits(int_equal(path.pixel, vint<Real>(static_cast<lane_int<Real>>(probe->pixel))));
     }
 
     /// Calls `tell(lane, path)` for each of the rays.
@@ -90,6 +91,8 @@ struct PacketProbe<true, Real> {
     void ray(const abi::SceneView<Real>& scene, const RayPacket<Real>& rays,
              const HitPacket<Real>& hit, const Vec3v<Real>& seen) const
     {
+        if (probed == 0)
+            return;
         const LaneVectors<Real> org(rays.org), dir(rays.dir), weight(path.weight), missed(seen);
         const LaneVectors<Real> t({hit.t, hit.t, hit.t});
         const LaneIntegers<Real> surface(hit.surface);
@@ -104,7 +107,7 @@ struct PacketProbe<true, Real> {
             told.object = number < 0 ? -1 : scene.material_index[number].object;
             if (number < 0)
                 missed.copy(lane, told.seen);
-            probe.ray(probe.context, told);
+            probe->ray(probe->context, told);
         });
     }
 
@@ -119,6 +122,8 @@ struct PacketProbe<true, Real> {
     void light(int number, std::uint32_t can_add, const Vec3v<Real>& share,
                const Vec3v<Real>& color) const
     {
+        if (probed == 0)
+            return;
         const LaneVectors<Real> shares(share), colors(color);
         each([&](int lane, abi::PathId id) {
             abi::ProbedLight<Real> told{};
@@ -128,7 +133,7 @@ struct PacketProbe<true, Real> {
             if (told.can_add != 0)
                 shares.copy(lane, told.share);
             colors.copy(lane, told.color);
-            probe.light(probe.context, told);
+            probe->light(probe->context, told);
         });
     }
 
@@ -142,6 +147,8 @@ struct PacketProbe<true, Real> {
     void last_hit(const SurfacePacket<Real>& surface, const Vec3v<Real>& local,
                   const Vec3v<Real>& share, const Vec3v<Real>& limit) const
     {
+        if (probed == 0)
+            return;
         const LaneVectors<Real> points(surface.point), normals(surface.normal), locals(local),
             limits(share * limit);
         each([&](int lane, abi::PathId id) {
@@ -151,17 +158,24 @@ struct PacketProbe<true, Real> {
             normals.copy(lane, told.normal);
             locals.copy(lane, told.local);
             limits.copy(lane, told.at_limit);
-            probe.hit(probe.context, told);
+            probe->hit(probe->context, told);
         });
     }
 };
+
+/// Whether a pixel is probed.
+template <abi::Features F, class Real>
+inline bool is_probed(const abi::TileJob<Real>& job)
+{
+    return F.probe && job.probe != nullptr;
+}
 
 template <abi::Features F, class Real>
 inline PacketProbe<F.probe, Real> packet_probe(const HitStream<F, Real>& hits,
                                                const PathPacket<Real>& path, std::uint32_t active)
 {
     if constexpr (F.probe)
-        return {*hits.probe, path, active};
+        return {hits.probe, path, active};
     else
         return {};
 }

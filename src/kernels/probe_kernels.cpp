@@ -1,3 +1,6 @@
+// Before any header of the kernels.
+#define PACKTRACE_OBSERVED
+
 #include "kernels/probe_kernels.hpp"
 
 #include "kernels/tile.hpp"

@@ -16,6 +16,7 @@ inline Vec3v<Real> light_color(const ShadeContext<F, Real>& context, int number,
                                int first)
 {
     const abi::LightRecord<Real>& light = context.scene->lights.data[number];
+    const PartScope part(abi::Part::diffuse);
     const LightPacket<Real> packet = light_at<F>(light, surface, material, active);
     if constexpr (F.glass) {
         if (context.scene->transparent_shadows && light.casts_shadow && packet.wanted != 0) {
@@ -61,6 +62,7 @@ inline void spawn_children(const ShadeContext<F, Real>& context, const Children<
                            const PathPacket<Real>& path, const GlassPacket<Real>& inside,
                            std::uint32_t active)
 {
+    const PartScope part(abi::Part::children);
     Vec3v<Real> reflect = material.reflect;
     if constexpr (F.glass) {
         const std::uint32_t glass = active & any_channel(material.transmit);
@@ -83,6 +85,7 @@ inline void shade_packet(const ShadeContext<F, Real>& context, const HitStream<F
                          const Children<F, Real>& children)
 {
     const std::uint32_t active = first_lanes<Real>(hits.count - first);
+    count_packet<Real>(abi::PacketWork::shade, active);
     const PathPacket<Real> path{load_weight(hits, first), load(hits.pixel + first),
                                 load_path(hits, first)};
     const PacketProbe<F.probe, Real> probe = packet_probe(hits, path, active);
@@ -104,6 +107,7 @@ inline void shade_packet(const ShadeContext<F, Real>& context, const HitStream<F
         }
         color = path.weight * color;
     }
+    const PartScope part(abi::Part::film);
     write_colors<Write>(pixels, path.pixel, color, active);
 }
 

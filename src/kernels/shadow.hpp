@@ -92,11 +92,15 @@ inline std::uint32_t unshadowed(const ShadeContext<F, Real>& context, int light,
         return wanted;
     count_shadow_rays(*context.counts, wanted);
     if (context.shadows != nullptr)
-        return wanted & context.shadows[light].lit_lanes(first);
-    return wanted & ~with_shadow_rays(context, light, packet, surface,
-                                      [&](const auto& end, const auto& objects, const auto& rays) {
-                                          return occluded<F>(end, objects, rays, wanted);
-                                      });
+        return count_lit<Real>(wanted, wanted & context.shadows[light].lit_lanes(first));
+    const ShadowScope shadow(abi::Part::ray_generation);
+    tell_live(wanted);
+    return count_lit<Real>(
+        wanted,
+        wanted & ~with_shadow_rays(context, light, packet, surface,
+                                   [&](const auto& end, const auto& objects, const auto& rays) {
+                                       return occluded<F>(end, objects, rays, wanted);
+                                   }));
 }
 
 /// Lanes in which any channel is above 0.
@@ -119,8 +123,11 @@ inline Vec3v<Real> transmitted(const ShadeContext<F, Real>& context, int light,
     Vec3v<Real> share{one, one, one};
     count_shadow_rays(*context.counts, wanted);
     context.counts->stages |= abi::stage_glass_shadows;
+    count_packet<Real>(abi::PacketWork::shadow, wanted);
     if (context.shadows != nullptr)
         return context.shadows[light].shares(first);
+    const ShadowScope shadow(abi::Part::ray_generation);
+    tell_live(wanted);
     const auto pass_on = [&](std::int32_t blocker, std::uint32_t blocked) {
         if ((blocked & wanted) == 0)
             return true;

@@ -57,6 +57,7 @@ template <abi::Features F, class Real>
 inline void find_shadows(const ShadeContext<F, Real>& context, const HitStream<F, Real>& hits,
                          int light, RayGroup<Real>& group, LightShadows<F, Real>& shadows)
 {
+    const ShadowScope shadow(abi::Part::ray_generation);
     gather_shadow_rays(context, hits, light, group);
     if constexpr (F.glass) {
         if (context.scene->transparent_shadows) {

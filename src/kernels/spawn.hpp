@@ -58,6 +58,7 @@ inline void spawn_mirrored(RayStream<F, Real>& next, const SurfacePacket<Real>& 
 {
     if (active == 0)
         return;
+    count_packet<Real>(abi::PacketWork::children, active);
     append_ray(next, start_point(surface, ~surface.leaving), mirrored(surface),
                path.weight * reflect, path.pixel, active);
     append_glass(next, inside, active);
@@ -72,6 +73,7 @@ inline void spawn_refracted(RayStream<F, Real>& next, const SurfacePacket<Real>&
 {
     if (active == 0)
         return;
+    count_packet<Real>(abi::PacketWork::children, active);
     append_ray(next, start_point(surface, surface.leaving), refracted.dir, path.weight * transmit,
                path.pixel, active);
     append_glass(next, refracted.inside, active);

@@ -49,12 +49,15 @@ inline void find_shadows(const TileRun<F, Real>& run, const ShadeContext<F, Real
 
 /// Counts a chunk's children and puts them into one stream, mirrored rays first.
 template <abi::Features F, class Real>
-inline void join_children(const TileRun<F, Real>& run, RayStream<F, Real>& next)
+inline void join_children(const TileRun<F, Real>& run, RayStream<F, Real>& next, int depth)
 {
     run.counts.reflected += static_cast<unsigned>(next.count);
     if (next.count > 0)
         run.counts.stages |= abi::stage_mirrored;
     if constexpr (F.glass) {
+        begin_span(abi::Span::children, depth, abi::Part::children);
+        if constexpr (F.probe)
+            next.mirrored = next.count;
         const RayStream<F, Real>& refracted = *run.work.refracted;
         run.counts.refracted += static_cast<unsigned>(refracted.count);
         if (refracted.count > 0)
@@ -76,9 +79,11 @@ inline RayStream<F, Real>* shade_chunk(const TileRun<F, Real>& run, int depth)
     run.counts.stages |= abi::stage_normals;
     if (run.scene.finish != nullptr)
         run.counts.stages |= abi::stage_solved_again;
+    begin_span(abi::Span::shadows, depth, abi::Part::beams);
     find_blockers(run);
     if (run.work.shadows != nullptr)
         find_shadows(run, context);
+    begin_span(abi::Span::shade, depth, abi::Part::surface);
     RayStream<F, Real>* next = F.bounces && context.spawns() ? run.work.streams + depth : nullptr;
     if (next != nullptr)
         next->count = 0;
@@ -87,8 +92,15 @@ inline RayStream<F, Real>* shade_chunk(const TileRun<F, Real>& run, int depth)
     shade_stream<Write>(context, hits, run.work.memory->color,
                         Children<F, Real>{next, run.work.refracted});
     if (next != nullptr)
-        join_children(run, *next);
+        join_children(run, *next, depth);
     return next;
+}
+
+/// How many rays of a chunk are refracted; they stand behind the mirrored ones.
+template <abi::Features F, class Real>
+inline int refracted_rays(const RayStream<F, Real>& rays, int begin, int end)
+{
+    return rays.mirrored < begin ? end - begin : rays.mirrored < end ? end - rays.mirrored : 0;
 }
 
 /// Traces a generation chunk by chunk, each with all its descendants before the next: memory
@@ -98,6 +110,9 @@ void trace_generation(const TileRun<F, Real>& run, const RayStream<F, Real>& ray
 {
     for (int begin = 0; begin < rays.count; begin += chunk_rays) {
         const int end = begin + chunk_rays < rays.count ? begin + chunk_rays : rays.count;
+        begin_span(abi::Span::trace, depth, abi::Part::ray_generation);
+        if constexpr (F.probe)
+            tell_chunk(refracted_rays(rays, begin, end), end - begin);
         if (run.scene.tree.empty())
             trace_secondary(run.scene, rays, begin, end, *run.work.memory);
         else
@@ -144,22 +159,29 @@ inline abi::RayCounts render_tile(const abi::TileJob<Real>& job)
     counts.camera =
         static_cast<unsigned>(job.samples != nullptr ? job.samples->count : job.width * job.height);
 
+    begin_observation(job.observation);
     // Camera rays, against what the tile's beam may meet; a hit's first light replaces the
     // background.
     find_objects<F>(work.visible, camera_beam(job), scene);
+    begin_span(abi::Span::film, 0, abi::Part::film);
     fill_pixels(memory.color, scene.background);
     memory.hits.count = 0;
     if constexpr (F.probe)
         memory.hits.probe = job.probe;
+    begin_span(abi::Span::trace, 0, abi::Part::ray_generation);
     if (!scene.tree.empty()) {
         counts.stages |= abi::stage_hierarchy;
         trace_camera_group(job, work.visible, *work.group, memory);
-    } else if (F.probe || !work.visible.empty() || scene.visible_lights) {
+    } else if (is_probed<F>(job) || !work.visible.empty() || scene.visible_lights) {
         trace_camera(job, work.visible, memory);
+    } else {
+        tell_untraced(counts.camera);
     }
 
     shade_camera(TileRun<F, Real>{scene, work, counts});
+    begin_span(abi::Span::film, 0, abi::Part::film);
     write_tile(job, memory.color);
+    end_observation();
     return counts;
 }
 

@@ -35,7 +35,8 @@ struct PathArrays {
 template <abi::Features F, class Real>
 struct PathArrays<true, F, Real> {
     StreamArray<F, lane_int<Real>> path;
-    const abi::Probe<Real>* probe;  ///< set in hits
+    const abi::Probe<Real>* probe;  ///< set in hits; null where nobody is told
+    int mirrored;                   ///< set in rays: how many come before the refracted ones
 };
 
 /// The weight of each ray's path so far: a number a channel, one for all, or none where it is 1.

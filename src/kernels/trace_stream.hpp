@@ -40,6 +40,7 @@ inline void append_hits(const abi::SceneView<Real>& scene, HitStream<F, Real>& h
 {
     if (active == 0)
         return;
+    const PartScope part(abi::Part::compaction);
     append_places(scene, hits, from.rays, hit, active);
     append_weight(hits, active, from.path.weight);
     compress_store(hits.pixel + hits.count, active, from.path.pixel);
@@ -106,7 +107,9 @@ inline void report_rays(const HitStream<F, Real>& hits, const abi::SceneView<Rea
                         std::uint32_t active)
 {
     if constexpr (F.probe)
-        packet_probe(hits, from.path, active).ray(scene, from.rays, hit, escaped(scene, from.rays));
+        if (hits.probe != nullptr)
+            packet_probe(hits, from.path, active)
+                .ray(scene, from.rays, hit, escaped(scene, from.rays));
 }
 
 /// A packet of camera rays and what it hit; the pixels hold the background already.
@@ -116,8 +119,10 @@ inline void take_camera_hits(const abi::SceneView<Real>& scene, TileMemory<F, Re
                              std::uint32_t pixels)
 {
     const std::uint32_t hits = hit_lanes(hit) & pixels;
+    count_traced<Real>(pixels, hit.surface);
     append_hits(scene, memory.hits, from, hit, hits);
     report_rays(memory.hits, scene, from, hit, pixels);
+    const PartScope part(abi::Part::film);
     if (scene.visible_lights)
         write_colors<PixelWrite::set>(memory.color, from.path.pixel, escaped(scene, from.rays),
                                       pixels & ~hits);
@@ -144,6 +149,7 @@ inline void trace_camera(const abi::TileJob<Real>& job, const SharedOriginObject
             continue;
         const RayPacket<Real> rays = camera_rays(camera, first, job.scene->units);
         HitPacket<Real> hit = no_hit<Real>(static_cast<Real>(__builtin_inf()));
+        tell_live(pixels);
         closest_hit<F>(hit, visible, rays);
         take_camera_hits(*job.scene, memory, {rays, camera_path<Real>(first), inside}, hit, pixels);
     }
@@ -196,8 +202,10 @@ inline void take_secondary_hits(const abi::SceneView<Real>& scene, TileMemory<F,
                                 std::uint32_t active)
 {
     const std::uint32_t hits = hit_lanes(hit) & active;
+    count_traced<Real>(active, hit.surface);
     append_hits(scene, memory.hits, from, hit, hits);
     report_rays(memory.hits, scene, from, hit, active);
+    const PartScope part(abi::Part::film);
     write_colors<PixelWrite::add>(memory.color, from.path.pixel,
                                   from.path.weight * escaped(scene, from.rays), active & ~hits);
 }
@@ -211,6 +219,7 @@ inline void trace_secondary(const abi::SceneView<Real>& scene, const RayStream<F
     for (int first = begin; first < end; first += lanes<Real>) {
         const TracedRays<Real> from = load_stream(scene, stream, first);
         HitPacket<Real> hit = no_hit<Real>(static_cast<Real>(__builtin_inf()));
+        tell_live(first_lanes<Real>(end - first));
         closest_hit<F>(hit, scene, from.rays);
         take_secondary_hits(scene, memory, from, hit, first_lanes<Real>(end - first));
     }

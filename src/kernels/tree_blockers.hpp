@@ -60,14 +60,20 @@ inline void blockers_of_ray(const abi::BvhView<Real>& tree, const SlabRays& slab
     };
     walk_ray(tree, child, slab, [&](std::uint32_t leaf) {
         if (F.quadrics && abi::is_quadric_leaf(leaf)) {
+            const PartScope part(abi::Part::quadrics);
+            tell_live(1);
             const abi::QuadricRecord<Real>* quadric = tree.quadrics + abi::first_quadric(leaf);
-            for (int i = 0; i < abi::quadric_count(leaf); ++i)
+            for (int i = 0; i < abi::quadric_count(leaf); ++i) {
+                count_tests(abi::Primitive::quadric, 1);
                 if (quadric_blocks(end, quadric[i], rays) != 0 && !blocked_by(quadric[i].surface))
                     return false;
+            }
             return true;
         }
+        const PartScope part(abi::Part::spheres);
         const abi::SphereBlock<Real>& block = tree.blocks[leaf & abi::block_mask];
         for (int from = 0; from < abi::node_width; from += lanes<Real>) {
+            count_block_tests(block, from);
             std::uint32_t blocking =
                 bits(end.blocked_by(quadratics_of(block, from, rays), rays)) & block_lanes<Real>;
             for (; blocking != 0; blocking &= blocking - 1)
@@ -117,20 +123,23 @@ public:
 private:
     void spheres(const abi::SphereBlock<Real>& block, std::uint32_t cells) const
     {
+        const PartScope part(abi::Part::spheres);
         visit_spheres(bounds_, block, cells, [&](int slot, int cell) {
-            object(cell, block.surface[slot], [&](const End& end, const RayPacket<Real>& rays) {
-                return bits(end.blocked_by(quadratic_of(block, slot, rays), rays));
-            });
+            object(abi::Primitive::sphere, cell, block.surface[slot],
+                   [&](const End& end, const RayPacket<Real>& rays) {
+                       return bits(end.blocked_by(quadratic_of(block, slot, rays), rays));
+                   });
         });
         join_t_max(bounds_);
     }
 
     void quadrics(std::uint32_t child, std::uint32_t cells) const
     {
+        const PartScope part(abi::Part::quadrics);
         const abi::QuadricRecord<Real>* quadric = tree_.quadrics + abi::first_quadric(child);
         for (int i = 0; i < abi::quadric_count(child); ++i)
             for (std::uint32_t left = cells; left != 0; left &= left - 1)
-                object(__builtin_ctz(left), quadric[i].surface,
+                object(abi::Primitive::quadric, __builtin_ctz(left), quadric[i].surface,
                        [&](const End& end, const RayPacket<Real>& rays) {
                            return quadric_blocks(end, quadric[i], rays);
                        });
@@ -139,12 +148,14 @@ private:
 
     /// `blocks(end, rays)` tells the lanes of a packet that one object blocks.
     template <class Blocks>
-    void object(int cell, lane_int<Real> surface, const Blocks& blocks) const
+    void object(abi::Primitive kind, int cell, lane_int<Real> surface, const Blocks& blocks) const
     {
         for (int first = cell * cell_rays; first < (cell + 1) * cell_rays; first += lanes<Real>) {
             const std::uint32_t active = active_lanes(group_, first);
             if (active == 0)
                 continue;
+            tell_live(active);
+            count_tests(kind, 1);
             End end;
             set_end(end, load(group_.t + first));
             const std::uint32_t blocked = blocks(end, load_rays(group_, first)) & active;
@@ -197,8 +208,7 @@ inline void blockers_of_lone_cells(const abi::BvhView<Real>& tree, Regrouped<Rea
     CellBounds bounds;
     SlabRays slabs;
     bound_cells(bounds, sorted.rays, tree, Cells::all);
-    const BlockersInTree<F, End, Real, Blocker> blockers(tree, sorted.rays, bounds, slabs,
-                                                         blocker);
+    const BlockersInTree<F, End, Real, Blocker> blockers(tree, sorted.rays, bounds, slabs, blocker);
     for (int cell = 0; cell < sorted.cells; ++cell) {
         bounds.t_max[cell] = furthest(sorted.rays, cell);
         walk_cells(tree, bounds, 1u << cell, blockers);
@@ -220,17 +230,19 @@ inline void visit_blockers_in_order(const abi::BvhView<Real>& tree, RayGroup<Rea
 
 /// Meets the active rays of a group with what blocks them in the hierarchy.
 template <abi::Features F, class End, class Real, class Blocker>
-[[gnu::noinline]] void visit_blockers_in_tree(const abi::BvhView<Real>& tree,
-                                              RayGroup<Real>& group, const Blocker& blocker)
+[[gnu::noinline]] void visit_blockers_in_tree(const abi::BvhView<Real>& tree, RayGroup<Real>& group,
+                                              const Blocker& blocker)
 {
+    const PartScope part(abi::Part::boxes);
     visit_blockers_in_order<F, End>(tree, group, blocker);
 }
 
 /// The same where a blocker ends the rays: those that do not run together are sorted first.
 template <abi::Features F, class End, class Real>
-[[gnu::noinline]] void visit_blockers_in_tree(const abi::BvhView<Real>& tree,
-                                              RayGroup<Real>& group, const EndsRays& blocker)
+[[gnu::noinline]] void visit_blockers_in_tree(const abi::BvhView<Real>& tree, RayGroup<Real>& group,
+                                              const EndsRays& blocker)
 {
+    const PartScope part(abi::Part::boxes);
     CellBounds bounds;
     SlabRays slabs;
     bound_cells(bounds, group, tree);
@@ -262,6 +274,7 @@ inline void visit_blockers_of_group(const abi::SceneView<Real>& scene, const Obj
     for (int first = 0; first < group_rays; first += lanes<Real>) {
         if (active_lanes(group, first) == 0)
             continue;
+        tell_live(active_lanes(group, first));
         End end;
         set_end(end, load(group.t + first));
         visit_blockers<F>(end, lists, load_rays(group, first),

@@ -93,6 +93,7 @@ public:
 private:
     void spheres(const abi::SphereBlock<Real>& block, std::uint32_t cells) const
     {
+        const PartScope part(abi::Part::spheres);
         bool closer = false;
         visit_spheres(bounds_, block, cells,
                       [&](int slot, int cell) { closer |= sphere(block, slot, cell); });
@@ -104,6 +105,8 @@ private:
     {
         bool any_closer = false;
         for (int first = cell * cell_rays; first < (cell + 1) * cell_rays; first += lanes<Real>) {
+            tell_live(active_lanes(group_, first));
+            count_tests(abi::Primitive::sphere, 1);
             const RayPacket<Real> rays = load_rays(group_, first);
             const Quadratic<Real> quadratic = quadratic_of(block, slot, rays);
             const auto active = may_hit(quadratic);
@@ -122,6 +125,7 @@ private:
 
     void quadrics(std::uint32_t child, std::uint32_t cells) const
     {
+        const PartScope part(abi::Part::quadrics);
         const abi::QuadricRecord<Real>* quadric = tree_.quadrics + abi::first_quadric(child);
         for (int i = 0; i < abi::quadric_count(child); ++i)
             for (std::uint32_t left = cells; left != 0; left &= left - 1)
@@ -132,6 +136,8 @@ private:
     void keep_quadric_of(const abi::QuadricRecord<Real>& quadric, int cell) const
     {
         for (int first = cell * cell_rays; first < (cell + 1) * cell_rays; first += lanes<Real>) {
+            tell_live(active_lanes(group_, first));
+            count_tests(abi::Primitive::quadric, 1);
             HitPacket<Real> hit = load_hits(group_, first);
             keep_quadric(hit, quadric, load_rays(group_, first));
             store_hits(group_, first, hit);

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "kernels/observe.hpp"
 #include "kernels/slab.hpp"
 
 // A group of rays goes through the hierarchy as one beam. Each node on the way is met by the
@@ -64,6 +65,7 @@ template <class Real>
 inline void push_children(WalkStack& stack, const abi::BvhView<Real>& tree, std::uint32_t index,
                           const CellBounds& bounds, std::uint32_t cells)
 {
+    count_group_node();
     const abi::BvhNode& node = tree.nodes[index];
     const SlabHits slabs = meet_boxes(bounds, beam_of(cells), boxes_of(node));
     if (slabs.hits == 0)

@@ -82,6 +82,7 @@ template <class Fetch>
 inline bool enter_node(const abi::BvhNode& node, const SlabRay& ray, const Fetch& fetch,
                        RayStack& stack, std::uint32_t& child)
 {
+    count_ray_node();
     const SlabHits slabs = meet_boxes(ray, node);
     std::uint32_t left = slabs.hits;
     if (left == 0)

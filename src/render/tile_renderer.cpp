@@ -56,6 +56,7 @@ abi::TileJob<Real> TileRenderer<Real>::job_at(const abi::CameraView<Real>& camer
     job.width = std::min(abi::tile_size, width_ - x);
     job.height = std::min(abi::tile_size, height_ - y);
     job.scratch = scratch_.local().data();
+    job.observation = observation_;
     return job;
 }
 

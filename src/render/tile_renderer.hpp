@@ -23,6 +23,13 @@ public:
     TileRenderer(const TileRenderer&) = delete;
     TileRenderer& operator=(const TileRenderer&) = delete;
 
+    /// What kernels of Features::probe record of the tiles that follow; null for nothing. For one
+    /// thread alone.
+    void observe(abi::Observation* observation)
+    {
+        observation_ = observation;
+    }
+
     /// Fills the tile whose first pixel is (x, y) with one sample a pixel: the scene's own, or of
     /// several the centre.
     abi::RayCounts render_once(Image<Real>& image, int x, int y) const;
@@ -62,6 +69,7 @@ private:
     std::vector<Vec2> pattern_;
     abi::CameraView<Real> once_;    // one sample a pixel
     abi::CameraView<Real> corner_;  // through the upper left corner of each pixel
+    abi::Observation* observation_ = nullptr;
     std::size_t scratch_bytes_;
     mutable tbb::enumerable_thread_specific<AlignedArray<std::byte>> scratch_;
 };

@@ -7,9 +7,10 @@
 #include "dispatch/kernels.hpp"
 #include "image/png.hpp"
 #include "lower/packed_scene.hpp"
-#include "study/filled_lanes.hpp"
+#include "study/kernel_profile.hpp"
 #include "study/profile_subjects.hpp"
 #include "study/statistics.hpp"
+#include "study/work_rows.hpp"
 
 namespace packtrace {
 namespace {
@@ -55,13 +56,8 @@ std::vector<ProfileStage> stages_once(const std::string& text, const Scene& scen
         const PackedScene<Real> packed(lowered);
     }
     const std::chrono::duration<double> packing = Clock::now() - packed_start;
-    RenderOptions render_options;
-    render_options.isa = options.isa;
-    render_options.threads = options.threads;
-    render_options.samples = options.samples;
-    render_options.adaptive = options.adaptive;
     const auto renderer_start = Clock::now();
-    const Renderer<Real> renderer(read, render_options);
+    const Renderer<Real> renderer(read, render_options(options));
     const std::chrono::duration<double> extra = Clock::now() - renderer_start;
     clock.stages.push_back({"packing, hierarchy of boxes", packing.count()});
     Image<Real> image;
@@ -125,9 +121,11 @@ Profile profile(const std::string& text, const Scene& scene, const ProfileOption
     result.frame = median_of(runs.front().seconds);
     result.frame_spread = relative_spread(runs.front().seconds);
     add_generations(runs, scene.max_depth, result);
-    if (const auto filled = filled_lanes<Real>(scene, lower(scene), kernels_of(isa.name)))
-        for (ProfileGeneration& generation : result.generations)
-            generation.lanes_filled = (*filled)[static_cast<std::size_t>(generation.depth)];
+    const ObservedKernels observed = observe_kernels<Real>(scene, options);
+    result.kernels = observed.profile;
+    for (ProfileGeneration& generation : result.generations)
+        generation.lanes_filled =
+            lanes_filled(observed.counts[static_cast<std::size_t>(generation.depth)], result.lanes);
     for (std::size_t i = static_cast<std::size_t>(scene.max_depth) + 1; i < runs.size(); ++i)
         result.what_if.push_back({runs[i].name, median_of(runs[i].seconds),
                                   median_difference(runs.front().seconds, runs[i].seconds),

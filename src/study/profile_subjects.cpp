@@ -13,15 +13,6 @@
 namespace packtrace {
 namespace {
 
-RenderOptions render_options(const ProfileOptions& options)
-{
-    RenderOptions result;
-    result.threads = options.threads;
-    result.samples = options.samples;
-    result.adaptive = options.adaptive;
-    return result;
-}
-
 template <class Real>
 ProfileRun frame_run(const std::string& name, const Scene& scene, const LoweredScene& lowered,
                      const abi::KernelTable& table, const RenderOptions& options)
@@ -106,6 +97,16 @@ LoweredScene ended_at(LoweredScene lowered, int depth)
 
 }  // namespace
 
+RenderOptions render_options(const ProfileOptions& options)
+{
+    RenderOptions result;
+    result.isa = options.isa;
+    result.threads = options.threads;
+    result.samples = options.samples;
+    result.adaptive = options.adaptive;
+    return result;
+}
+
 void take_times(std::vector<ProfileRun>& runs, int repetitions)
 {
     for (int repetition = -1; repetition < repetitions; ++repetition)
@@ -121,9 +122,9 @@ void take_times(std::vector<ProfileRun>& runs, int repetitions)
 template <class Real>
 std::vector<ProfileRun> profile_runs(const Scene& scene, const ProfileOptions& options)
 {
-    const LoweredScene lowered = lower(scene);
-    const auto& table = kernels_of(choose_isa(options.isa).name);
     const RenderOptions sampling = render_options(options);
+    const LoweredScene lowered = lower(scene, accuracy_in<Real>(sampling));
+    const auto& table = kernels_of(choose_isa(options.isa).name);
     std::vector<ProfileRun> runs;
     const auto add = [&](const std::string& name, const LoweredScene& changed) {
         runs.push_back(frame_run<Real>(name, scene, changed, table, sampling));
@@ -142,6 +143,9 @@ std::vector<ProfileRun> profile_runs(const Scene& scene, const ProfileOptions& o
         once.adaptive.reset();
         runs.push_back(frame_run<Real>("without anti-aliasing", scene, lowered, table, once));
     }
+    RenderOptions general = sampling;
+    general.force_general = true;
+    runs.push_back(frame_run<Real>("with all that was left out", scene, lowered, table, general));
     if (options.threads == 1 && options.samples == 1)
         runs.push_back(camera_run<Real>(scene, lowered, table));
     return runs;

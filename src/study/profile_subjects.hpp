@@ -16,6 +16,8 @@ struct ProfileRun {
     std::vector<double> seconds;  ///< by repetition
 };
 
+[[nodiscard]] RenderOptions render_options(const ProfileOptions& options);
+
 /// Renders all in turns, once more than asked: first frames pay for memory.
 void take_times(std::vector<ProfileRun>& runs, int repetitions);
 

@@ -1,5 +1,6 @@
 #include <sstream>
 
+#include "study/accuracy_name.hpp"
 #include "study/report_text.hpp"
 
 namespace packtrace {
@@ -26,13 +27,13 @@ void write_row(std::ostream& to, const SceneReport& scene, const StudyReport& st
     to << quoted(scene.name) << ',' << scene.width << ',' << scene.height << ','
        << name_of(study.study) << ',' << quoted(variant.name) << ','
        << (variant.kernel == Kernel::scalar ? "scalar" : "packet") << ',' << variant.precision
-       << ',' << variant.isa << ',' << variant.lanes << ',' << variant.threads << ','
-       << variant.depth << ',' << variant.samples << ','
-       << (variant.adaptive ? exact(*variant.adaptive) : "") << ',' << exact(run.median) << ','
-       << exact(run.spread) << ',' << run.rays << ',' << exact(run.error.rmse) << ','
-       << exact(run.error.max_abs) << ',' << exact(run.error.psnr) << ',' << run.error.pixels << ','
-       << run.error.pixels_off << ',' << (run.pareto ? 1 : 0) << ',' << quoted(shares_text(run))
-       << '\n';
+       << ',' << variant.isa << ',' << (has_accuracy(variant) ? name_of(variant.accuracy) : "")
+       << ',' << variant.lanes << ',' << variant.threads << ',' << variant.depth << ','
+       << variant.samples << ',' << (variant.adaptive ? exact(*variant.adaptive) : "") << ','
+       << exact(run.median) << ',' << exact(run.spread) << ',' << run.rays << ','
+       << exact(run.error.rmse) << ',' << exact(run.error.max_abs) << ',' << exact(run.error.psnr)
+       << ',' << run.error.pixels << ',' << run.error.pixels_off << ',' << (run.pareto ? 1 : 0)
+       << ',' << quoted(shares_text(run)) << '\n';
 }
 
 }  // namespace
@@ -40,7 +41,8 @@ void write_row(std::ostream& to, const SceneReport& scene, const StudyReport& st
 std::string report_csv(const std::vector<SceneReport>& scenes)
 {
     std::ostringstream csv;
-    csv << "scene,width,height,study,run,kernel,precision,isa,lanes,threads,depth,samples,adaptive,"
+    csv << "scene,width,height,study,run,kernel,precision,isa,accuracy,lanes,threads,depth,samples,"
+           "adaptive,"
            "median_s,spread,rays,rmse,max_abs,psnr,pixels,pixels_off,pareto,errors\n";
     for (const SceneReport& scene : scenes)
         for (const StudyReport& study : scene.studies)

@@ -2,6 +2,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "study/accuracy_name.hpp"
 #include "study/report_text.hpp"
 
 namespace packtrace {
@@ -38,6 +39,7 @@ Json run_json(const SceneReport& scene, const StudyReport& study, const ReportRu
             {"kernel", packet ? "packet" : "scalar"},
             {"precision", variant.precision},
             {"isa", packet ? Json(variant.isa) : Json()},
+            {"accuracy", has_accuracy(variant) ? Json(name_of(variant.accuracy)) : Json()},
             {"lanes", variant.lanes},
             {"threads", variant.threads},
             {"depth", variant.depth},

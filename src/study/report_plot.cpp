@@ -1,5 +1,6 @@
 #include <algorithm>
 
+#include "study/accuracy_name.hpp"
 #include "study/plot.hpp"
 #include "study/report_text.hpp"
 
@@ -23,7 +24,9 @@ std::string point_label(const Variant& variant)
     if (variant.study != Study::arithmetic)
         return variant.name;
     const std::string isa = variant.kernel == Kernel::scalar ? "" : variant.isa + " ";
-    return isa + "x" + std::to_string(variant.threads);
+    const bool usual = variant.accuracy == Accuracy::automatic;
+    return isa + (usual ? "" : std::string(name_of(variant.accuracy)) + " ") + "x" +
+           std::to_string(variant.threads);
 }
 
 PlotPoint point_of(const ReportRun& run, const std::string& label)

@@ -15,6 +15,8 @@ RenderOptions options_of(const Variant& variant)
     options.kernel = variant.kernel;
     if (variant.kernel == Kernel::packet)
         options.isa = variant.isa;
+    options.accuracy = variant.accuracy;
+    options.force_general = variant.general;
     options.threads = variant.threads;
     options.samples = variant.samples;
     options.adaptive = variant.adaptive;
@@ -52,7 +54,8 @@ Subject subject_in(const Scene& given, const Variant& variant)
     const Scene scene = scene_of(given, variant);
     if (variant.kernel == Kernel::scalar)
         return scalar_subject<Real>(scene, variant);
-    return packet_subject<Real>(scene, lower(scene), kernels_of(variant.isa), variant);
+    const LoweredScene lowered = lower(scene, accuracy_in<Real>(options_of(variant)));
+    return packet_subject<Real>(scene, lowered, kernels_of(variant.isa), variant);
 }
 
 }  // namespace

@@ -4,6 +4,8 @@
 #include <packtrace/isa.hpp>
 #include <packtrace/report.hpp>
 
+#include "study/accuracy_name.hpp"
+
 namespace packtrace {
 namespace {
 
@@ -24,6 +26,11 @@ std::vector<IsaInfo> wanted_isas(const ReportOptions& options)
     return isas;
 }
 
+std::string threads_text(int threads)
+{
+    return std::to_string(threads) + (threads == 1 ? " thread" : " threads");
+}
+
 Variant packets(const IsaInfo& isa, const std::string& precision, int depth)
 {
     Variant variant;
@@ -31,6 +38,28 @@ Variant packets(const IsaInfo& isa, const std::string& precision, int depth)
     variant.isa = isa.name;
     variant.lanes = precision == "single" ? isa.lanes_single : isa.lanes_double;
     variant.depth = depth;
+    return variant;
+}
+
+// Packets in another accuracy mode than the usual one.
+Variant in_mode(Variant variant, Accuracy accuracy, const ReportOptions& options)
+{
+    variant.study = Study::arithmetic;
+    variant.accuracy = accuracy;
+    variant.threads = options.threads.front();
+    variant.name = "packets " + variant.isa + " single " + name_of(accuracy) + ", " +
+                   threads_text(variant.threads);
+    return variant;
+}
+
+// Packets by the kernel that knows everything.
+Variant by_general(Variant variant, const ReportOptions& options)
+{
+    variant.study = Study::arithmetic;
+    variant.general = true;
+    variant.threads = options.threads.front();
+    variant.name =
+        "packets " + variant.isa + " single general kernel, " + threads_text(variant.threads);
     return variant;
 }
 
@@ -50,8 +79,7 @@ void add_arithmetic(std::vector<Variant>& variants, Variant variant, const Repor
         variant.kernel == Kernel::scalar ? "scalar" : "packets " + variant.isa;
     for (const int threads : options.threads) {
         variant.threads = threads;
-        variant.name = kernel + " " + variant.precision + ", " + std::to_string(threads) +
-                       (threads == 1 ? " thread" : " threads");
+        variant.name = kernel + " " + variant.precision + ", " + threads_text(threads);
         variants.push_back(variant);
     }
 }
@@ -68,6 +96,9 @@ std::vector<Variant> report_variants(const Scene& scene, const ReportOptions& op
             add_arithmetic(variants, packets(isa, precision, scene.max_depth), options);
     }
     Variant widest = packets(isas.back(), "single", scene.max_depth);
+    for (const Accuracy accuracy : {Accuracy::fast, Accuracy::robust})
+        variants.push_back(in_mode(widest, accuracy, options));
+    variants.push_back(by_general(widest, options));
     widest.study = Study::depth;
     for (int depth = 0; depth <= scene.max_depth; ++depth) {
         widest.depth = depth;

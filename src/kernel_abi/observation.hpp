@@ -1,0 +1,101 @@
+#pragma once
+
+#include <cstdint>
+
+// What kernels compiled with Features::probe record of a tile's work, for the stages that
+// packtrace/profile.hpp describes.
+namespace packtrace::abi {
+
+/// Spans follow each other through a tile without a gap; each generation has its own.
+enum class Span : std::int32_t {
+    setup,     ///< what the tile's beam may meet
+    trace,     ///< rays to their closest hits
+    shadows,   ///< what may stand between the hits and lights; with a hierarchy the shadow rays
+    shade,     ///< local light, child rays; without a hierarchy shadow rays, packet by packet
+    children,  ///< refracted rays put behind mirrored ones
+    film       ///< the background into the pixels, and these into the picture
+};
+inline constexpr int span_count = 6;
+
+/// What the time of a span goes to.
+enum class Part : std::int32_t {
+    beams,           ///< the objects that a beam may meet
+    ray_generation,  ///< of camera and shadow rays; of others the loading
+    boxes,           ///< traversal: nodes of the hierarchy, beams and orders of rays
+    spheres,
+    huge_spheres,
+    planes,
+    quadrics,
+    stiff,       ///< objects tested in double
+    compaction,  ///< hits to a stream, with those that are solved again
+    surface,     ///< normals and materials at hits
+    diffuse,     ///< directions and cosines of lights, and all of local light but
+    highlight,   ///< the powers of highlights
+    children,    ///< directions and weights of child rays, and their way into streams
+    film         ///< light into pixels
+};
+inline constexpr int part_count = 14;
+
+/// Whether work is done for shadow rays, or for those they start from.
+enum class Role : std::int32_t { own, shadow };
+inline constexpr int role_count = 2;
+
+/// The clock at the borders of a generation's spans.
+struct SpanLaps {
+    std::uint64_t span[span_count] = {};  ///< ticks
+    double refracted = 0;  ///< ticks of Span::trace for refracted rays, by their share of a chunk
+};
+
+struct Lap {
+    std::uint64_t ticks = 0;
+    std::uint64_t reads = 0;  ///< of the clock, whose own time is in `ticks`
+};
+
+/// The clock wherever parts begin and end, read after all that was begun before has finished.
+struct PartLaps {
+    Lap part[span_count][role_count][part_count];
+};
+
+/// Packets that did something for at least one ray.
+struct PacketCounts {
+    std::uint64_t packets = 0;
+    std::uint64_t live = 0;      ///< lanes of them that did it for a ray
+    std::uint64_t coherent = 0;  ///< packets with a ray in every lane, all with the same result
+};
+
+/// What packets are counted at. The result of `trace` is the surface hit, and that of `shadow` to
+/// be lit or not; the others have none.
+enum class PacketWork : std::int32_t { trace, shadow, shade, highlight, children };
+inline constexpr int packet_work_count = 5;
+
+/// Tests of one kind of object.
+struct TestCounts {
+    std::uint64_t packets = 0;  ///< packets tested against one object, or objects against one ray
+    std::uint64_t pairs = 0;    ///< of a live ray and an object in them
+};
+
+enum class Primitive : std::int32_t { sphere, huge_sphere, plane, quadric, stiff };
+inline constexpr int primitive_count = 5;
+
+/// What happened in a generation.
+struct WorkCounts {
+    PacketCounts work[packet_work_count];
+    TestCounts tests[role_count][primitive_count];
+    std::uint64_t group_nodes[role_count] = {};  ///< nodes met by beams of rays
+    std::uint64_t ray_nodes[role_count] = {};    ///< nodes met by single rays
+    std::uint64_t untraced = 0;                  ///< camera rays of tiles that can meet nothing
+    std::uint64_t refracted = 0;                 ///< of the rays traced
+};
+
+/// What to record, added to what is there: any of three arrays of `generations` elements, the last
+/// of which takes all later ones too. Parts are not clocked together with spans.
+struct Observation {
+    int generations = 0;
+    SpanLaps* spans = nullptr;
+    PartLaps* parts = nullptr;
+    WorkCounts* counts = nullptr;
+    std::uint64_t end = 0;      ///< the clock as the last tile ended
+    std::uint64_t reading = 0;  ///< ticks that a reading of the clock takes between parts
+};
+
+}  // namespace packtrace::abi

@@ -1,0 +1,13 @@
+#pragma once
+
+#include <packtrace/render.hpp>
+
+namespace packtrace {
+
+/// As the command line has it.
+[[nodiscard]] inline const char* name_of(Accuracy accuracy)
+{
+    return accuracy == Accuracy::fast ? "fast" : accuracy == Accuracy::robust ? "robust" : "auto";
+}
+
+}  // namespace packtrace

@@ -1,0 +1,24 @@
+#pragma once
+
+#include <vector>
+
+#include <packtrace/profile.hpp>
+
+#include "kernel_abi/observation.hpp"
+
+namespace packtrace {
+
+// What a frame's kernels counted, by generation, as rows that name it.
+
+[[nodiscard]] std::vector<LaneUse> lane_rows(const std::vector<abi::WorkCounts>& counts);
+
+[[nodiscard]] std::vector<TestUse> test_rows(const std::vector<abi::WorkCounts>& counts);
+
+/// Rays of each kind and generation, with what the stages of their own took.
+[[nodiscard]] std::vector<RayTime> ray_rows(const std::vector<abi::WorkCounts>& counts,
+                                            const std::vector<KernelStage>& stages);
+
+/// The share of lanes with a ray in the packets that a generation is traced in; none without any.
+[[nodiscard]] std::optional<double> lanes_filled(const abi::WorkCounts& counts, int lanes);
+
+}  // namespace packtrace

@@ -1,0 +1,370 @@
+// What kernels observe of themselves: stages, rays, lanes, tests.
+#include <packtrace/profile.hpp>
+
+#include <packtrace/isa.hpp>
+#include <packtrace/read_scene.hpp>
+
+#include <algorithm>
+
+#include "catch.hpp"
+#include "dispatch/kernels.hpp"
+#include "render_scene.hpp"
+#include "run_program.hpp"
+#include "scenes.hpp"
+#include "study/observed_frame.hpp"
+#include "study/piece_times.hpp"
+#include "study/stage_seconds.hpp"
+#include "study/work_rows.hpp"
+
+namespace packtrace::test {
+namespace {
+
+// What may be recorded of a frame.
+struct Records {
+    std::vector<abi::SpanLaps> spans;
+    std::vector<abi::PartLaps> parts;
+    std::vector<abi::WorkCounts> counts;
+
+    explicit Records(const Scene& scene)
+        : spans(static_cast<std::size_t>(scene.max_depth) + 1),
+          parts(spans.size()),
+          counts(spans.size())
+    {
+    }
+    [[nodiscard]] abi::Observation into() const
+    {
+        abi::Observation observation;
+        observation.generations = static_cast<int>(spans.size());
+        return observation;
+    }
+};
+
+template <class Real>
+FrameCounts observe(ObservedFrame<Real>& frame, abi::Observation& observation)
+{
+    return frame.render([&](int) { return &observation; }, [](int, double) {});
+}
+
+template <class Real>
+ObservedFrame<Real> observed_frame(const Scene& scene, const std::string& isa,
+                                   const RenderOptions& options = {})
+{
+    return {scene, observable(lower(scene, accuracy_in<Real>(options))), kernels_of(isa), options};
+}
+
+// A frame's counts, with its rays.
+struct Counted {
+    std::vector<abi::WorkCounts> counts;
+    FrameCounts rays;
+    int lanes = 0;
+};
+
+template <class Real>
+Counted counted(const Scene& scene, const std::string& isa, const RenderOptions& options = {})
+{
+    Records records(scene);
+    abi::Observation observation = records.into();
+    observation.counts = records.counts.data();
+    auto frame = observed_frame<Real>(scene, isa, options);
+    const FrameCounts rays = observe(frame, observation);
+    return {records.counts, rays, precision<Real>(kernels_of(isa)).lanes};
+}
+
+const abi::PacketCounts& packets_of(const abi::WorkCounts& counts, abi::PacketWork work)
+{
+    return counts.work[static_cast<int>(work)];
+}
+
+std::uint64_t all_pairs(const abi::WorkCounts& counts, abi::Role role)
+{
+    std::uint64_t sum = 0;
+    for (const abi::TestCounts& tests : counts.tests[static_cast<int>(role)])
+        sum += tests.pairs;
+    return sum;
+}
+
+std::uint64_t all_nodes(const abi::WorkCounts& counts)
+{
+    std::uint64_t sum = 0;
+    for (int role = 0; role < abi::role_count; ++role)
+        sum += counts.group_nodes[role] + counts.ray_nodes[role];
+    return sum;
+}
+
+Scene sized(Scene scene, int width, int height)
+{
+    set_size(scene, width, height);
+    return scene;
+}
+
+Scene scene_file(const std::string& name)
+{
+    return sized(read_scene(PACKTRACE_SOURCE_DIR "/scenes/" + name + ".scene"), 50, 35);
+}
+
+// Lists and hierarchies, mirrors, glass, quadrics, transparent shadows.
+std::vector<Scene> all_sorts()
+{
+    Scene many = random_spheres(150, 7);
+    many.max_depth = 3;
+    return {four_spheres(50, 35), many, scene_file("quadrics"), scene_file("nested_glass"),
+            scene_file("transparent_shadows")};
+}
+
+template <class Real>
+void check_pictures(const Scene& scene, const std::string& isa)
+{
+    const RenderOptions options;
+    LoweredScene lowered = lower(scene, accuracy_in<Real>(options));
+    lowered.features = {.quadrics = true, .glass = true};
+    ObservedFrame<Real> plain(scene, lowered, kernels_of(isa), options);
+    plain.render([](int) { return nullptr; }, [](int, double) {});
+    auto frame = observed_frame<Real>(scene, isa);
+    const auto check = [&](abi::Observation* observation) {
+        frame.render([&](int) { return observation; }, [](int, double) {});
+        CHECK((frame.image().rgb == plain.image().rgb));
+    };
+    check(nullptr);
+    Records records(scene);
+    abi::Observation observation = records.into();
+    observation.spans = records.spans.data();
+    check(&observation);
+    observation.spans = nullptr;
+    observation.parts = records.parts.data();
+    check(&observation);
+    observation.counts = records.counts.data();
+    check(&observation);
+}
+
+template <class Real>
+void check_rays(const Scene& scene, const std::string& isa, const RenderOptions& options = {})
+{
+    const Counted frame = counted<Real>(scene, isa, options);
+    FrameCounts sum;
+    for (std::size_t depth = 0; depth < frame.counts.size(); ++depth) {
+        const abi::WorkCounts& at = frame.counts[depth];
+        const std::uint64_t traced = packets_of(at, abi::PacketWork::trace).live;
+        (depth == 0 ? sum.camera : sum.reflected) += traced + at.untraced - at.refracted;
+        sum.refracted += at.refracted;
+        sum.shadow += packets_of(at, abi::PacketWork::shadow).live;
+        CHECK((depth == 0 || at.untraced == 0));
+        if (depth > 0)
+            CHECK(traced == packets_of(frame.counts[depth - 1], abi::PacketWork::children).live);
+    }
+    CHECK(sum.camera == frame.rays.camera);
+    CHECK(sum.shadow == frame.rays.shadow);
+    CHECK(sum.reflected == frame.rays.reflected);
+    CHECK(sum.refracted == frame.rays.refracted);
+}
+
+abi::PartLaps laps_of(abi::Span span, abi::Role role, abi::Part part, const abi::Lap& lap)
+{
+    abi::PartLaps laps;
+    laps.part[static_cast<int>(span)][static_cast<int>(role)][static_cast<int>(part)] = lap;
+    return laps;
+}
+
+double seconds_of(const std::vector<KernelStage>& stages, const std::string& rays,
+                  const std::string& name)
+{
+    for (const KernelStage& stage : stages)
+        if (stage.rays == rays && stage.name == name)
+            return stage.seconds;
+    return 0.0;
+}
+
+}  // namespace
+
+TEST_CASE("observing changes no bit of a picture", "[kernel_profile]")
+{
+    for (const std::string& isa : supported_isas())
+        for (const Scene& scene : all_sorts()) {
+            check_pictures<float>(scene, isa);
+            check_pictures<double>(scene, isa);
+        }
+}
+
+TEST_CASE("the rays counted by generation are the frame's, each once", "[kernel_profile]")
+{
+    for (const std::string& isa : supported_isas())
+        for (const Scene& scene : all_sorts()) {
+            CAPTURE(isa);
+            check_rays<float>(scene, isa);
+            check_rays<double>(scene, isa);
+        }
+    RenderOptions several;
+    several.samples = 3;
+    check_rays<float>(four_spheres(50, 35), supported_isas().back(), several);
+    several.adaptive = 0.05;
+    check_rays<float>(four_spheres(50, 35), supported_isas().back(), several);
+}
+
+TEST_CASE("reflected rays are tested against every object of a list, each once", "[kernel_profile]")
+{
+    const Scene scene = four_spheres(50, 35);
+    for (const std::string& isa : supported_isas()) {
+        const Counted frame = counted<float>(scene, isa);
+        for (int depth = 1; depth <= scene.max_depth; ++depth) {
+            const abi::WorkCounts& at = frame.counts[static_cast<std::size_t>(depth)];
+            const abi::PacketCounts& traced = packets_of(at, abi::PacketWork::trace);
+            REQUIRE(traced.live > 0);
+            const auto& tests = at.tests[static_cast<int>(abi::Role::own)];
+            const auto of = [&](abi::Primitive kind) { return tests[static_cast<int>(kind)]; };
+            // Single precision can't hold the ground.
+            CHECK(of(abi::Primitive::sphere).pairs == 3 * traced.live);
+            CHECK(of(abi::Primitive::sphere).packets == 3 * traced.packets);
+            CHECK(of(abi::Primitive::stiff).pairs == traced.live);
+            CHECK(of(abi::Primitive::stiff).packets == traced.packets);
+            CHECK(all_pairs(at, abi::Role::own) == 4 * traced.live);
+        }
+        CHECK(all_pairs(frame.counts[0], abi::Role::own) <= 4 * frame.rays.camera);
+    }
+}
+
+TEST_CASE("tests are counted by kind, and shadow rays apart", "[kernel_profile]")
+{
+    Scene scene;
+    set_size(scene, 32, 32);
+    add_plane(scene, {0, 0, 3}, {0, 0, -1}, scratch({1, 1, 1}, -1, 0));
+    scene.lights = {{LightType::directional, Rgb(1.0), {0, 0, -1}}};
+    const Counted frame = counted<double>(scene, supported_isas().front());
+    const abi::WorkCounts& at = frame.counts[0];
+    for (int role = 0; role < abi::role_count; ++role)
+        for (int kind = 0; kind < abi::primitive_count; ++kind)
+            CHECK(at.tests[role][kind].pairs ==
+                  (kind == static_cast<int>(abi::Primitive::plane) ? 32u * 32u : 0u));
+    CHECK(frame.rays.shadow == 32u * 32u);
+    CHECK(packets_of(at, abi::PacketWork::highlight).packets == 0);
+    CHECK(packets_of(at, abi::PacketWork::children).packets == 0);
+}
+
+TEST_CASE("nodes are met only where there is a hierarchy, which saves tests", "[kernel_profile]")
+{
+    const Scene scene = random_spheres(150, 7);
+    RenderOptions list;
+    list.traversal = Traversal::list;
+    RenderOptions tree;
+    tree.traversal = Traversal::tree;
+    for (const std::string& isa : supported_isas()) {
+        const Counted in_list = counted<float>(scene, isa, list);
+        const Counted in_tree = counted<float>(scene, isa, tree);
+        for (std::size_t depth = 0; depth < in_tree.counts.size(); ++depth) {
+            const abi::WorkCounts& at = in_tree.counts[depth];
+            const abi::WorkCounts& without = in_list.counts[depth];
+            CHECK(all_nodes(without) == 0);
+            CHECK(all_nodes(at) > 0);
+            CHECK(packets_of(at, abi::PacketWork::trace).live ==
+                  packets_of(without, abi::PacketWork::trace).live);
+            // A hit was tested for; most other objects were not.
+            CHECK(all_pairs(at, abi::Role::own) >= packets_of(at, abi::PacketWork::shade).live);
+            if (depth > 0)
+                CHECK(4 * all_pairs(at, abi::Role::own) < all_pairs(without, abi::Role::own));
+        }
+    }
+}
+
+TEST_CASE("live lanes are some of each packet, and coherent packets have all", "[kernel_profile]")
+{
+    for (const std::string& isa : supported_isas())
+        for (const Scene& scene : all_sorts()) {
+            const Counted frame = counted<float>(scene, isa);
+            for (const LaneUse& row : lane_rows(frame.counts)) {
+                CAPTURE(isa, row.work, row.depth);
+                const auto lanes = static_cast<std::uint64_t>(frame.lanes);
+                CHECK(row.packets > 0);
+                CHECK(row.live >= row.packets);
+                CHECK(row.live <= row.packets * lanes);
+                CHECK(row.coherent.value_or(0) <= row.packets);
+                CHECK(row.coherent.value_or(0) * lanes <= row.live);
+                CHECK(row.coherent.has_value() ==
+                      (row.work == "closest hits" || row.work == "shadow rays"));
+            }
+        }
+}
+
+TEST_CASE("packets that see one surface are coherent, those that see nothing are not made",
+          "[kernel_profile]")
+{
+    const std::string isa = supported_isas().back();
+    Scene wall;
+    set_size(wall, 64, 64);
+    add_plane(wall, {0, 0, 3}, {0, 0, -1}, scratch({1, 1, 1}, -1, 0));
+    const Counted facing = counted<float>(wall, isa);
+    const abi::PacketCounts& traced = packets_of(facing.counts[0], abi::PacketWork::trace);
+    CHECK(traced.packets == 64u * 64u / static_cast<unsigned>(facing.lanes));
+    CHECK(traced.coherent == traced.packets);
+    CHECK(lanes_filled(facing.counts[0], facing.lanes).value() == 1.0);
+
+    Scene behind;
+    set_size(behind, 64, 64);
+    add_sphere(behind, {0, 0, -9}, 1, scratch({1, 1, 1}, -1, 0));
+    const Counted empty = counted<float>(behind, isa);
+    CHECK(empty.counts[0].untraced == 64u * 64u);
+    CHECK(packets_of(empty.counts[0], abi::PacketWork::trace).packets == 0);
+    CHECK_FALSE(lanes_filled(empty.counts[0], empty.lanes).has_value());
+}
+
+TEST_CASE("a span is divided in the shares of its parts, and for no more rays than it had",
+          "[kernel_profile]")
+{
+    SpanTicks first;
+    first.span[static_cast<std::size_t>(abi::Span::shade)] = 10.0;
+    SpanTicks second;
+    second.span[static_cast<std::size_t>(abi::Span::trace)] = 8.0;
+    second.refracted = 0.25;
+    // 100 ticks but for two readings of 10, and 60 but for one.
+    abi::PartLaps shade = laps_of(abi::Span::shade, abi::Role::own, abi::Part::diffuse, {100, 2});
+    shade.part[static_cast<int>(abi::Span::shade)][static_cast<int>(abi::Role::shadow)]
+              [static_cast<int>(abi::Part::spheres)] = {30, 1};
+    // Less than its readings: divided as it is.
+    const abi::PartLaps trace = laps_of(abi::Span::trace, abi::Role::own, abi::Part::boxes, {5, 1});
+    StageSeconds seconds(2);
+    seconds.add({first, second}, {shade, trace}, 10);
+    const std::vector<KernelStage> stages = seconds.stages();
+    CHECK(stages.size() == 4);
+    CHECK(seconds_of(stages, "hits", "diffuse light") == 8.0);
+    CHECK(seconds_of(stages, "shadow", "spheres") == 2.0);
+    CHECK(seconds_of(stages, "reflected", "traversal of boxes") == 6.0);
+    CHECK(seconds_of(stages, "refracted", "traversal of boxes") == 2.0);
+}
+
+TEST_CASE("the time of a frame is of its pieces' medians", "[kernel_profile]")
+{
+    PieceTimes times(2);
+    for (const double seconds : {1.0, 50.0, 2.0})
+        times.add(0, seconds);
+    times.add(1, 10.0);
+    CHECK(times.frame() == 12.0);
+}
+
+TEST_CASE("stages belong to rays that there are, and sum to the clocked frame", "[kernel_profile]")
+{
+    const std::string file = PACKTRACE_SOURCE_DIR "/scenes/nested_glass.scene";
+    ProfileOptions options;
+    options.repetitions = 3;
+    double best = 1.0;
+    for (int turn = 0; turn < 5 && best > 0.03; ++turn) {
+        const Profile result =
+            profile<float>(read_text(file), sized(read_scene(file), 96, 64), options);
+        const KernelProfile& kernels = result.kernels;
+        double sum = 0.0;
+        for (const KernelStage& stage : kernels.stages) {
+            CHECK(stage.seconds > 0.0);
+            CHECK((stage.rays == "hits" ||
+                   std::any_of(kernels.rays.begin(), kernels.rays.end(), [&](const RayTime& row) {
+                       return row.depth == stage.depth && row.rays == stage.rays;
+                   })));
+            sum += stage.seconds;
+        }
+        double rays = 0.0;
+        for (const RayTime& row : kernels.rays)
+            rays += row.seconds;
+        CHECK(rays > 0.0);
+        CHECK(rays < sum);
+        CHECK(kernels.plain > 0.0);
+        best = std::min(best, std::abs(sum / kernels.clocked - 1.0));
+    }
+    CHECK(best <= 0.03);
+}
+
+}  // namespace packtrace::test
