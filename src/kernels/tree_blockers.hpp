@@ -8,7 +8,8 @@
 //
 // A `Blocker` is called as blocker(surface, first, lanes) for an object and the lanes it blocks of
 // the packet at `first`, and returns those lanes that nothing further matters to; they are taken
-// out of the group's active rays. `End` is one of those of occluded.hpp.
+// out of the group's active rays. `End` is one of those of occluded.hpp. A ray's surface in the
+// group is its own, which does not block it; -1 for none.
 namespace packtrace::PACKTRACE_ISA {
 namespace {
 
@@ -54,7 +55,8 @@ inline void blockers_of_ray(const abi::BvhView<Real>& tree, const SlabRays& slab
     SlabRay slab = slab_ray(slabs, group, ray);
     const int first = ray / lanes<Real> * lanes<Real>;
     const std::uint32_t lane = 1u << (ray - first);
-    const auto blocked_by = [&](std::int32_t surface) {
+    const vint<Real> own(group.surface[ray]);
+    const auto goes_on = [&](std::int32_t surface) {
         finish_lanes(group, first, blocker(surface, first, lane));
         return (active_lanes(group, first) & lane) != 0;
     };
@@ -62,7 +64,7 @@ inline void blockers_of_ray(const abi::BvhView<Real>& tree, const SlabRays& slab
         if (F.quadrics && abi::is_quadric_leaf(leaf)) {
             const abi::QuadricRecord<Real>* quadric = tree.quadrics + abi::first_quadric(leaf);
             for (int i = 0; i < abi::quadric_count(leaf); ++i)
-                if (quadric_blocks(end, quadric[i], rays) != 0 && !blocked_by(quadric[i].surface))
+                if (quadric_blocks(end, quadric[i], rays, own) != 0 && !goes_on(quadric[i].surface))
                     return false;
             return true;
         }
@@ -70,10 +72,12 @@ inline void blockers_of_ray(const abi::BvhView<Real>& tree, const SlabRays& slab
         for (int from = 0; from < abi::node_width; from += lanes<Real>) {
             std::uint32_t blocking =
                 bits(end.blocked_by(quadratics_of(block, from, rays), rays)) & block_lanes<Real>;
-            for (; blocking != 0; blocking &= blocking - 1)
-                if (!blocked_by(
-                        static_cast<std::int32_t>(block.surface[from + __builtin_ctz(blocking)])))
+            for (; blocking != 0; blocking &= blocking - 1) {
+                const auto surface =
+                    static_cast<std::int32_t>(block.surface[from + __builtin_ctz(blocking)]);
+                if (surface != group.surface[ray] && !goes_on(surface))
                     return false;
+            }
         }
         return true;
     });
@@ -118,9 +122,13 @@ private:
     void spheres(const abi::SphereBlock<Real>& block, std::uint32_t cells) const
     {
         visit_spheres(bounds_, block, cells, [&](int slot, int cell) {
-            object(cell, block.surface[slot], [&](const End& end, const RayPacket<Real>& rays) {
-                return bits(end.blocked_by(quadratic_of(block, slot, rays), rays));
-            });
+            const auto surface = static_cast<std::int32_t>(block.surface[slot]);
+            object(cell, surface,
+                   [&](const End& end, const RayPacket<Real>& rays, const vint<Real>& own) {
+                       return but_own<Real>(
+                           bits(end.blocked_by(quadratic_of(block, slot, rays), rays)), own,
+                           surface);
+                   });
         });
         join_t_max(bounds_);
     }
@@ -131,15 +139,15 @@ private:
         for (int i = 0; i < abi::quadric_count(child); ++i)
             for (std::uint32_t left = cells; left != 0; left &= left - 1)
                 object(__builtin_ctz(left), quadric[i].surface,
-                       [&](const End& end, const RayPacket<Real>& rays) {
-                           return quadric_blocks(end, quadric[i], rays);
+                       [&](const End& end, const RayPacket<Real>& rays, const vint<Real>& own) {
+                           return quadric_blocks(end, quadric[i], rays, own);
                        });
         join_t_max(bounds_);
     }
 
-    /// `blocks(end, rays)` tells the lanes of a packet that one object blocks.
+    /// `blocks(end, rays, own)` tells the lanes of a packet that one object blocks.
     template <class Blocks>
-    void object(int cell, lane_int<Real> surface, const Blocks& blocks) const
+    void object(int cell, std::int32_t surface, const Blocks& blocks) const
     {
         for (int first = cell * cell_rays; first < (cell + 1) * cell_rays; first += lanes<Real>) {
             const std::uint32_t active = active_lanes(group_, first);
@@ -147,10 +155,10 @@ private:
                 continue;
             End end;
             set_end(end, load(group_.t + first));
-            const std::uint32_t blocked = blocks(end, load_rays(group_, first)) & active;
+            const std::uint32_t blocked =
+                blocks(end, load_rays(group_, first), load(group_.surface + first)) & active;
             if (blocked != 0)
-                finish_lanes(group_, first,
-                             blocker_(static_cast<std::int32_t>(surface), first, blocked));
+                finish_lanes(group_, first, blocker_(surface, first, blocked));
         }
         if (group_.active[cell] == 0)
             bounds_.t_max[cell] = -no_end;
@@ -197,8 +205,7 @@ inline void blockers_of_lone_cells(const abi::BvhView<Real>& tree, Regrouped<Rea
     CellBounds bounds;
     SlabRays slabs;
     bound_cells(bounds, sorted.rays, tree, Cells::all);
-    const BlockersInTree<F, End, Real, Blocker> blockers(tree, sorted.rays, bounds, slabs,
-                                                         blocker);
+    const BlockersInTree<F, End, Real, Blocker> blockers(tree, sorted.rays, bounds, slabs, blocker);
     for (int cell = 0; cell < sorted.cells; ++cell) {
         bounds.t_max[cell] = furthest(sorted.rays, cell);
         walk_cells(tree, bounds, 1u << cell, blockers);
@@ -220,16 +227,16 @@ inline void visit_blockers_in_order(const abi::BvhView<Real>& tree, RayGroup<Rea
 
 /// Meets the active rays of a group with what blocks them in the hierarchy.
 template <abi::Features F, class End, class Real, class Blocker>
-[[gnu::noinline]] void visit_blockers_in_tree(const abi::BvhView<Real>& tree,
-                                              RayGroup<Real>& group, const Blocker& blocker)
+[[gnu::noinline]] void visit_blockers_in_tree(const abi::BvhView<Real>& tree, RayGroup<Real>& group,
+                                              const Blocker& blocker)
 {
     visit_blockers_in_order<F, End>(tree, group, blocker);
 }
 
 /// The same where a blocker ends the rays: those that do not run together are sorted first.
 template <abi::Features F, class End, class Real>
-[[gnu::noinline]] void visit_blockers_in_tree(const abi::BvhView<Real>& tree,
-                                              RayGroup<Real>& group, const EndsRays& blocker)
+[[gnu::noinline]] void visit_blockers_in_tree(const abi::BvhView<Real>& tree, RayGroup<Real>& group,
+                                              const EndsRays& blocker)
 {
     CellBounds bounds;
     SlabRays slabs;
@@ -264,7 +271,7 @@ inline void visit_blockers_of_group(const abi::SceneView<Real>& scene, const Obj
             continue;
         End end;
         set_end(end, load(group.t + first));
-        visit_blockers<F>(end, lists, load_rays(group, first),
+        visit_blockers<F>(end, lists, load_rays(group, first), load(group.surface + first),
                           [&](std::int32_t surface, std::uint32_t lanes_of) {
                               const std::uint32_t blocked = lanes_of & active_lanes(group, first);
                               if (blocked != 0)

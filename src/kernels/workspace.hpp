@@ -56,6 +56,18 @@ inline SharedOriginObjects<Real> take_objects(Arena& arena, const abi::SceneView
     return objects;
 }
 
+/// Streams of rays, with room for where they start if the scene wants that.
+template <abi::Features F, class Real>
+inline RayStream<F, Real>* take_streams(Arena& arena, const abi::SceneView<Real>& scene,
+                                        std::size_t count)
+{
+    RayStream<F, Real>* const streams = arena.take<RayStream<F, Real>>(count);
+    auto* const starts = arena.take<StartArrays<F, Real>>(scene.start_error > 0 ? count : 0);
+    for (std::size_t i = 0; streams != nullptr && i < count; ++i)
+        streams[i].starts = scene.start_error > 0 ? starts + i : nullptr;
+    return streams;
+}
+
 template <abi::Features F, class Real>
 struct Workspace {
     TileMemory<F, Real>* memory = nullptr;
@@ -73,9 +85,9 @@ struct Workspace {
         const std::size_t lights = static_cast<std::size_t>(scene.lights.count);
         Arena arena(scratch);
         memory = arena.take<TileMemory<F, Real>>(1);
-        streams = arena.take<RayStream<F, Real>>(static_cast<std::size_t>(scene.max_depth));
+        streams = take_streams<F>(arena, scene, static_cast<std::size_t>(scene.max_depth));
         if constexpr (F.glass)
-            refracted = arena.take<RayStream<F, Real>>(1);
+            refracted = take_streams<F>(arena, scene, 1);
         if (!scene.tree.empty()) {
             group = arena.take<RayGroup<Real>>(1);
             shadows = arena.take<LightShadows<F, Real>>(lights);

@@ -99,6 +99,9 @@ struct LoweredScene {
     SelfHits self_hits = SelfHits::note;
     /// By surface: hits of rays in single precision are solved again in double.
     std::vector<bool> finished;
+    /// By surface: of the others, those whose hits get one more step in double.
+    std::vector<bool> sharpened;
+    bool precise_powers = false;           ///< highlights are computed in double
     double camera_t_min = 0.0;             ///< start of camera rays
     std::vector<std::int32_t> eye_inside;  ///< glass objects around the eye, innermost first
     abi::Features features;
@@ -106,7 +109,7 @@ struct LoweredScene {
 
 /// Lowers a scene. Throws SceneError for what it can't hold: a quadric without a surface.
 [[nodiscard]] LoweredScene lower(const Scene& scene, Accuracy accuracy = Accuracy::automatic,
-                                 SelfHits self_hits = SelfHits::note);
+                                 SelfHits self_hits = default_self_hits);
 
 /// The accuracy that counts for kernels of `Real`: doubles need nothing wider.
 template <class Real>

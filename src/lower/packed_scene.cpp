@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <limits>
 
+#include "lower/pack_form.hpp"
 #include "lower/pack_record.hpp"
 #include "lower/pack_stiff.hpp"
 
@@ -18,10 +19,21 @@ bool wants_tree(const LoweredScene& lowered, Traversal traversal)
            (traversal == Traversal::automatic && count_tree_objects(lowered) >= tree_objects);
 }
 
-/// Hits in single precision are solved again in double and rounded once; those in double are
-/// as the search found them. Measured in docs/numerics.md.
+bool any(const std::vector<bool>& marked)
+{
+    return std::find(marked.begin(), marked.end(), true) != marked.end();
+}
+
+/// How many roundoffs rays start off a surface by: fewer where all hits are solved again in
+/// double and rounded once. Measured in docs/numerics.md.
 template <class Real>
-constexpr Real start_roundoffs = sizeof(Real) == sizeof(float) ? Real(8) : Real(32);
+Real start_roundoffs(const LoweredScene& lowered)
+{
+    const auto& finished = lowered.finished;
+    const bool all = sizeof(Real) == sizeof(float) &&
+                     std::find(finished.begin(), finished.end(), false) == finished.end();
+    return all ? Real(8) : Real(32);
+}
 
 }  // namespace
 
@@ -38,6 +50,7 @@ PackedScene<Real>::PackedScene(const LoweredScene& lowered, Traversal traversal)
     pack_quadrics(lowered);
     pack_stiff(lowered);
     pack_finish(lowered);
+    pack_forms(lowered);
     pack_normals(lowered);
     pack_materials(lowered);
     pack_lights(lowered);
@@ -47,12 +60,14 @@ PackedScene<Real>::PackedScene(const LoweredScene& lowered, Traversal traversal)
     view_.shadows = lowered.shadows;
     view_.transparent_shadows = lowered.transparent_shadows;
     view_.visible_lights = lowered.visible_lights;
+    view_.precise_powers = sizeof(Real) == sizeof(float) && lowered.precise_powers;
     view_.units = lowered.units;
     view_.epsilon = static_cast<Real>(lowered.epsilon);
     if (lowered.self_hits == SelfHits::note)
         view_.secondary_t_min = view_.epsilon;
     else
-        view_.start_error = start_roundoffs<Real> * std::numeric_limits<Real>::epsilon() / 2;
+        view_.start_error =
+            start_roundoffs<Real>(lowered) * std::numeric_limits<Real>::epsilon() / 2;
 }
 
 template <class Real>
@@ -154,8 +169,7 @@ template <class Real>
 void PackedScene<Real>::pack_finish(const LoweredScene& lowered)
 {
     const auto& wanted = lowered.finished;
-    if (sizeof(Real) != sizeof(float) ||
-        std::find(wanted.begin(), wanted.end(), true) == wanted.end())
+    if (sizeof(Real) != sizeof(float) || !any(wanted))
         return;
     finish_ = AlignedArray<abi::StiffObject>(lowered.spheres.size() + lowered.planes.size() +
                                              lowered.quadrics.size());
@@ -176,6 +190,29 @@ void PackedScene<Real>::pack_finish(const LoweredScene& lowered)
     pack(lowered.quadrics, [](const LoweredQuadric& quadric) { return quadric.capped ? 3 : 1; });
     view_.finish = finish_.data();
     view_.finish_index = finish_index_.data();
+}
+
+/// Equations of all surfaces, where hits are sharpened or rays start from the exact place.
+template <class Real>
+void PackedScene<Real>::pack_forms(const LoweredScene& lowered)
+{
+    view_.sharpened = sizeof(Real) == sizeof(float) && any(lowered.sharpened);
+    if (!view_.sharpened && lowered.self_hits == SelfHits::note)
+        return;
+    forms_ = AlignedArray<abi::SurfaceForm>(lowered.material_index.size());
+    const auto put = [&](std::int32_t surface, const abi::SurfaceForm& form) {
+        const auto at = static_cast<std::size_t>(surface);
+        forms_[at] = form;
+        forms_[at].sharpened = lowered.sharpened[at] ? 1 : 0;
+    };
+    for (const LoweredSphere& sphere : lowered.spheres)
+        put(sphere.surface, pack_form(sphere));
+    for (const LoweredPlane& plane : lowered.planes)
+        put(plane.surface, pack_form(plane));
+    for (const LoweredQuadric& quadric : lowered.quadrics)
+        for (int piece = 0; piece < (quadric.capped ? 3 : 1); ++piece)
+            put(quadric.surface + piece, pack_form(quadric, piece));
+    view_.forms = forms_.data();
 }
 
 /// Round surfaces have their normals already; the kernels of every kind of surface take them in

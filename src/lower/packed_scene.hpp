@@ -35,6 +35,7 @@ private:
     void pack_quadrics(const LoweredScene& lowered);
     void pack_stiff(const LoweredScene& lowered);
     void pack_finish(const LoweredScene& lowered);
+    void pack_forms(const LoweredScene& lowered);
     void pack_normals(const LoweredScene& lowered);
     void pack_materials(const LoweredScene& lowered);
     void pack_lights(const LoweredScene& lowered);
@@ -48,6 +49,7 @@ private:
     AlignedArray<abi::StiffObject> stiff_;
     AlignedArray<abi::StiffObject> finish_;
     AlignedArray<std::int32_t> finish_index_;
+    AlignedArray<abi::SurfaceForm> forms_;
     AlignedArray<abi::SurfaceRecord<Real>> surfaces_;
     AlignedArray<abi::CurvedSurfaceRecord<Real>> curved_surfaces_;
     AlignedArray<abi::MaterialIndex> material_index_;

@@ -87,19 +87,21 @@ void mark_stiff(Accuracy accuracy, LoweredScene& lowered)
     mark(accuracy, lowered.quadrics);
 }
 
-void mark_finished(Accuracy accuracy, SelfHits self_hits, LoweredScene& lowered)
+void mark_finished(Accuracy accuracy, LoweredScene& lowered)
 {
-    const bool all = accuracy == Accuracy::robust || self_hits == SelfHits::exact;
+    const bool all = accuracy == Accuracy::robust;
     lowered.finished.assign(lowered.material_index.size(), all);
-    if (all || accuracy == Accuracy::fast)
+    lowered.sharpened.assign(lowered.material_index.size(), false);
+    if (accuracy != Accuracy::automatic)
         return;
     for (const LoweredSphere& sphere : lowered.spheres)
         if (!sphere.huge && is_stiff(sphere))
             lowered.finished[static_cast<std::size_t>(sphere.surface)] = true;
     for (const LoweredQuadric& quadric : lowered.quadrics)
-        for (int piece = 0; piece < (quadric.capped ? 3 : 1); ++piece)
-            if (is_stiff(quadric))
-                lowered.finished[static_cast<std::size_t>(quadric.surface + piece)] = true;
+        for (int piece = 0; piece < (quadric.capped ? 3 : 1); ++piece) {
+            auto& marked = is_stiff(quadric) ? lowered.finished : lowered.sharpened;
+            marked[static_cast<std::size_t>(quadric.surface + piece)] = true;
+        }
 }
 
 }  // namespace packtrace
