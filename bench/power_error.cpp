@@ -18,15 +18,20 @@ void append_errors(nlohmann::ordered_json& errors)
     for (const test::ExponentDecade& decade : test::exponent_decades) {
         const auto samples = test::power_samples<Real>(decade, 1e-4, 4000);
         for (const std::string& isa : supported_isas()) {
-            const auto error =
-                test::power_error(samples, test::highlight_powers(kernels_of(isa), samples));
-            errors.push_back({{"isa", isa},
-                              {"precision", precision_name<Real>()},
-                              {"exponents", {decade.first, decade.last}},
-                              {"max_ulp", error.max_ulp},
-                              {"p99_ulp", error.p99_ulp},
-                              {"max_abs", error.max_abs},
-                              {"samples", error.counted}});
+            const auto& kernels = kernels_of(isa);
+            for (const bool robust : {false, true}) {
+                const auto error =
+                    test::power_error(samples, robust ? test::precise_powers(kernels, samples)
+                                                      : test::highlight_powers(kernels, samples));
+                errors.push_back({{"isa", isa},
+                                  {"precision", precision_name<Real>()},
+                                  {"mode", robust ? "robust" : "fast, auto"},
+                                  {"exponents", {decade.first, decade.last}},
+                                  {"max_ulp", error.max_ulp},
+                                  {"p99_ulp", error.p99_ulp},
+                                  {"max_abs", error.max_abs},
+                                  {"samples", error.counted}});
+            }
         }
     }
 }

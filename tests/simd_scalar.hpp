@@ -51,6 +51,11 @@ template <class Real>
         {nmadd, "nmadd", everything,
          [](In in, Rounding rounding) { return scalar_madd(-in.a, in.b, in.c, rounding); }},
         {neg, "negated", everything, [](In in, Rounding) { return -in.a; }},
+        {halves, "halves in double", everything,
+         [](In in, Rounding) {
+             return static_cast<Real>(static_cast<double>(in.a) * static_cast<double>(in.b) -
+                                      static_cast<double>(in.c));
+         }},
         {abs, "abs", everything, [](In in, Rounding) { return std::abs(in.a); }},
         {sqrt, "sqrt", everything, [](In in, Rounding) { return std::sqrt(in.a); }},
         {floor, "floor", everything, [](In in, Rounding) { return std::floor(in.a); }},

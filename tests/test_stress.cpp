@@ -175,7 +175,7 @@ TEST_CASE("the stress command prints rows, JSON and its families", "[stress]")
     CHECK(run_packtrace({"stress", "--rays", "0"}).exit_code == 2);
 }
 
-TEST_CASE("accuracy and self-hits are refused where they mean nothing", "[stress]")
+TEST_CASE("accuracy is refused where it means nothing", "[stress]")
 {
     const std::string scene = PACKTRACE_SOURCE_DIR "/scenes/four_spheres.scene";
     const auto render_with = [&](std::vector<std::string> more) {
@@ -187,9 +187,6 @@ TEST_CASE("accuracy and self-hits are refused where they mean nothing", "[stress
     CHECK(scalar.err.find("--accuracy") != std::string::npos);
     const ProgramResult doubles = render_with({"--precision", "double", "--accuracy", "fast"});
     CHECK(doubles.exit_code == 2);
-    const ProgramResult note = render_with({"--kernel", "scalar", "--self-hits", "exact"});
-    CHECK(note.exit_code == 2);
-    CHECK(note.err.find("--self-hits") != std::string::npos);
 }
 
 }  // namespace packtrace::test

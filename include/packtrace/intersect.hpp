@@ -3,6 +3,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <functional>
+#include <limits>
 #include <memory>
 #include <span>
 
@@ -41,7 +42,21 @@ struct HitsView {
     /// Wanted only together with normals; the scalar kernel does not fill them.
     Real* outer_start[3] = {};
     Real* inner_start[3] = {};
+    Real* point[3] = {};              ///< the hit's own point, likewise
+    std::int32_t* surface = nullptr;  ///< a number for StartsView, likewise
 };
+
+/// What rays that leave earlier hits start on, `count` elements each: with SelfHits::exact they
+/// meet that surface again only where they truly do, however shallow below it they go. `point` and
+/// `surface` are what HitsView got; for rays that leave on the inner side of the surface, the
+/// complement ~surface. `no_start` is a ray from elsewhere; other numbers must not be given.
+template <class Real>
+struct StartsView {
+    const Real* point[3] = {};
+    const std::int32_t* surface = nullptr;
+};
+
+inline constexpr std::int32_t no_start = std::numeric_limits<std::int32_t>::min();
 
 /// One meeting of a ray with a surface.
 template <class Real>
@@ -57,8 +72,9 @@ struct SurfaceHit {
 template <class Real>
 class RayScene {
 public:
-    /// Of the options `kernel`, `isa` and `width` count. Throws SceneError for a scene that
-    /// cannot be held, std::invalid_argument for impossible options.
+    /// Of the options `kernel`, `isa`, `width`, `accuracy`, `self_hits` and `traversal` count.
+    /// Throws SceneError for a scene that cannot be held, std::invalid_argument for impossible
+    /// options.
     explicit RayScene(const Scene& scene, const RenderOptions& options = {});
     ~RayScene();
     RayScene(RayScene&&) noexcept;
@@ -66,6 +82,11 @@ public:
 
     /// The first hit of each ray; at equal t that of the lower object number.
     void closest_hits(const RaysView<Real>& rays, const HitsView<Real>& hits) const;
+
+    /// The same of rays that leave earlier hits, from HitsView's outer_start or inner_start. With
+    /// SelfHits::note, and the scalar kernel, `starts` changes nothing.
+    void closest_hits(const RaysView<Real>& rays, const StartsView<Real>& starts,
+                      const HitsView<Real>& hits) const;
 
     /// mask[i] becomes 1 where ray i hits anything, else 0.
     void occluded(const RaysView<Real>& rays, std::uint8_t* mask) const;

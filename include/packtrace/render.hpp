@@ -23,15 +23,19 @@ enum class Accuracy {
 /// How secondary and shadow rays keep from meeting the place they start at.
 enum class SelfHits {
     note,  ///< they start 0.001 along their direction, as the notes have it
-    exact  ///< they start off the surface by what rounding can do there, and count from 0
+    exact  ///< their own surface is solved as one they are on; they meet others, from t = 0 on,
+           ///< from as far off it as rounding can do
 };
+
+/// What counts where nothing is said, in packets and the scalar reference alike.
+inline constexpr SelfHits default_self_hits = SelfHits::note;
 
 struct RenderOptions {
     Kernel kernel = Kernel::packet;
     std::string isa = "auto";  ///< packet kernel: see choose_isa
     Accuracy accuracy = Accuracy::automatic;
-    SelfHits self_hits = SelfHits::note;  ///< packets
-    int width = 0;                        ///< packet kernel: float lanes 4, 8 or 16; 0 is any
+    SelfHits self_hits = default_self_hits;
+    int width = 0;  ///< packet kernel: float lanes 4, 8 or 16; 0 is any
     Traversal traversal = Traversal::automatic;  ///< packet kernel
     /// Packet kernel: run the one that knows everything, and leave nothing out of the scene. The
     /// picture is the same, bit for bit.

@@ -133,7 +133,9 @@ void add_kernel_options(CLI::App& command, KernelArguments& arguments)
     command
         .add_option("--self-hits", arguments.self_hits,
                     "How rays keep off the place they start at: 0.001 along their way, as the "
-                    "notes have it (note, default), or by what rounding can do there (exact)")
+                    "notes have it (note), or (exact) by solving their own surface as one they are "
+                    "on, and others from as far off as rounding can do (default " +
+                        std::string(default_self_hits == SelfHits::note ? "note" : "exact") + ")")
         ->check(one_of({"note", "exact"}))
         ->type_name("note|exact");
     command.add_flag("--force-general", arguments.force_general,
@@ -158,7 +160,6 @@ std::string packet_option(const KernelArguments& arguments)
     return arguments.isa.isa         ? "--isa"
            : arguments.isa.width     ? "--width"
            : arguments.traversal     ? "--traversal"
-           : arguments.self_hits     ? "--self-hits"
            : arguments.force_general ? "--force-general"
                                      : "";
 }
@@ -203,6 +204,8 @@ RenderOptions render_options(const KernelArguments& arguments)
             "--accuracy: only packets of floats have a choice; leave it out or use "
             "--kernel packet --precision single");
     options.accuracy = accuracy_of(arguments.accuracy.value_or("auto"));
+    if (arguments.self_hits)
+        options.self_hits = arguments.self_hits == "exact" ? SelfHits::exact : SelfHits::note;
     if (arguments.kernel == "scalar") {
         options.kernel = Kernel::scalar;
         if (const std::string option = packet_option(arguments); !option.empty())
@@ -214,8 +217,6 @@ RenderOptions render_options(const KernelArguments& arguments)
     if (arguments.precision == "extended")
         throw CLI::ValidationError(
             "--precision: packets are single or double; extended needs --kernel scalar");
-    if (arguments.self_hits == "exact")
-        options.self_hits = SelfHits::exact;
     options.isa = chosen_isa(arguments.isa).name;
     options.traversal = traversal_named(arguments.traversal.value_or("auto"));
     options.force_general = arguments.force_general;

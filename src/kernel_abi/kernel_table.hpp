@@ -102,6 +102,8 @@ struct PrecisionTable {
                      const HitSink<Real>& sink) = nullptr;
     /// y[i] = x[i]^n[i] as highlights use it: x in [0, 1 + 1e-6], n > 0.
     void (*highlight_power)(const Real* x, const Real* n, Real* y, int count) = nullptr;
+    /// The same as scenes with SceneView::precise_powers have it.
+    void (*precise_power)(const Real* x, const Real* n, Real* y, int count) = nullptr;
     /// Runs one operation of simd.hpp over whole packets; see self_test.hpp.
     void (*self_test)(const SelfTestJob<Real>& job) = nullptr;
 };

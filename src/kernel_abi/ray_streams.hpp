@@ -12,7 +12,14 @@ struct RaysView {
     const Real* t_min = nullptr;  ///< >= 0
     const Real* t_max = nullptr;
     int count = 0;
+    // Where rays start that leave hits found before, which the closest hit alone asks for: the
+    // hit's point, and its surface, or where they start on the inner side of it the complement;
+    // `no_start` for a ray from elsewhere. Null where none starts so.
+    const Real* start_point[3] = {};
+    const std::int32_t* start_surface = nullptr;
 };
+
+inline constexpr std::int32_t no_start = INT32_MIN;
 
 /// Results of closest hits; `object` is -1 and `t` the ray's t_max for a miss.
 template <class Real>
@@ -23,6 +30,8 @@ struct HitsView {
     // Where rays may start from the hit on either side of the surface; null where not wanted.
     Real* outer_start[3] = {};
     Real* inner_start[3] = {};
+    Real* point[3] = {};              ///< the hit's own, likewise
+    std::int32_t* surface = nullptr;  ///< likewise
 };
 
 /// Takes the hits of all rays one by one, those of a ray in no order.

@@ -4,6 +4,7 @@
 #include "kernel_abi/lists.hpp"
 #include "kernel_abi/shading.hpp"
 #include "kernel_abi/stiff.hpp"
+#include "kernel_abi/surface_form.hpp"
 
 namespace packtrace::abi {
 
@@ -39,6 +40,10 @@ struct SceneView {
     /// place in `finish`, or -1. Null where no hit is solved again, not even on spheres.
     const std::int32_t* finish_index = nullptr;
     const StiffObject* finish = nullptr;
+    /// By surface; null where no hit is sharpened and no start is exact.
+    const SurfaceForm* forms = nullptr;
+    bool sharpened = false;       ///< some hits are, by `forms`
+    bool precise_powers = false;  ///< highlights in double, for rays in single precision
 
     const MaterialIndex* material_index = nullptr;  ///< by surface
     const MaterialRecord<Real>* materials = nullptr;
@@ -61,7 +66,8 @@ struct SceneView {
     Real epsilon = 0;
     /// Secondary and shadow rays start this far along their direction.
     Real secondary_t_min = 0;
-    /// Roundoffs by which they start off the surface, of the coordinates there; 0 for none.
+    /// Roundoffs by which they start off the surface, of the coordinates there; 0 for none. If
+    /// any, their own surface is solved by `forms`, as one they are on.
     Real start_error = 0;
 };
 

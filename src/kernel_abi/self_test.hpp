@@ -48,6 +48,7 @@ enum class SimdOp : std::int32_t {
     exponent_of,
     mantissa_of,
     scale_by_power,
+    halves,
     compress,
     compress_store_real,
     compress_store_int,
@@ -61,7 +62,7 @@ inline constexpr int simd_op_count = static_cast<int>(SimdOp::all) + 1;
 
 /// One packet of operands in, one packet of results out. Masks come in as a < b (a second one as
 /// b < c), and go out as 1 and 0 in `reals`; a truth value or bit pattern fills `integers`. Shifts
-/// are by the mantissa's bits.
+/// are by the mantissa's bits. `halves` is a b - c in double, rounded once, for floats.
 template <class Real>
 struct SelfTestJob {
     SimdOp op = SimdOp::add;

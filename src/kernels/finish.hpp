@@ -3,6 +3,7 @@
 #include "kernels/records.hpp"
 #include "kernels/stiff.hpp"
 #include "kernels/surface.hpp"
+#include "kernels/surface_form.hpp"
 
 // Hits of rays in single precision, solved again in double: the search says which surface a ray
 // meets, this where exactly, once a ray.
@@ -132,6 +133,35 @@ inline abi::StiffSphere stiff_sphere(const abi::SphereShape& sphere)
     return {{sphere.center[0], sphere.center[1], sphere.center[2]}, sphere.radius * sphere.radius};
 }
 
+/// One step of Newton's method for the lanes of `same`: what cancels, the equation's value at
+/// the hit, is computed in double. It squares the error, which single precision left small.
+inline void sharpen_surface(FinishedHits<float>& hits, const abi::SurfaceForm& form,
+                            const RayPacket<float>& rays, const RayPacket<double>& low,
+                            const RayPacket<double>& high, const vmask<float>& same)
+{
+    const FormAlong<double> a = along(form, at(low, low_half(hits.t)), low.dir);
+    const FormAlong<double> b = along(form, at(high, high_half(hits.t)), high.dir);
+    const vreal<float> slope = joined(a.slope, b.slope);
+    const vreal<float> step = joined(a.constant, b.constant) / (slope + slope);
+    const auto use = same & (abs(step) <= abs(hits.t) * vreal<float>(0.0625f));
+    hits.t = select(use, hits.t - step, hits.t);
+    hits.point = select(use, madd<float>(hits.t, rays.dir, rays.org), hits.point);
+}
+
+/// Sharpens all hits of `active` on surfaces that ask for it.
+[[gnu::noinline]] inline void sharpen_hits(FinishedHits<float>& hits,
+                                           const abi::SceneView<float>& scene,
+                                           const RayPacket<float>& rays, const vint<float>& surface,
+                                           std::uint32_t active)
+{
+    const RayPacket<double> low = low_half(rays);
+    const RayPacket<double> high = high_half(rays);
+    for_each_distinct<float>(surface, active, [&](std::int32_t number, const vmask<float>& same) {
+        if (scene.forms[number].sharpened)
+            sharpen_surface(hits, scene.forms[number], rays, low, high, same);
+    });
+}
+
 /// Solves all hits of `active` again whose surface has a record for it.
 [[gnu::noinline]] inline void finish_hits(FinishedHits<float>& hits,
                                           const abi::SceneView<float>& scene,
@@ -171,6 +201,8 @@ inline FinishedHits<Real> finished(const abi::SceneView<Real>& scene, const RayP
     hits.t = t;
     hits.point = madd<Real>(t, rays.dir, rays.org);
     if constexpr (sizeof(Real) == sizeof(float)) {
+        if (scene.sharpened)
+            sharpen_hits(hits, scene, rays, surface, active);
         if (scene.finish != nullptr) {
             hits.gradient = unit<Real>(gradient_at<F>(scene, hits.point, surface, active).gradient);
             finish_hits(hits, scene, rays, surface, active);

@@ -54,35 +54,58 @@ struct NoEnd {
     }
 };
 
+/// `blocked` without the lanes whose own surface is what blocks them: whether that is in the way
+/// is known without looking (second_meeting.hpp).
+template <class Real>
+inline std::uint32_t but_own(std::uint32_t blocked, const vint<Real>& own, std::int32_t surface)
+{
+    if (blocked == 0)
+        return 0;
+    return blocked & ~bits(int_equal(own, vint<Real>(static_cast<lane_int<Real>>(surface))));
+}
+
+/// No ray's own surface.
+template <class Real>
+inline vint<Real> no_surface()
+{
+    return vint<Real>(lane_int<Real>(-1));
+}
+
+/// Lanes that any piece of a quadric blocks, but for their own.
 template <class End, class Quadric, class Real>
 inline std::uint32_t quadric_blocks(const End& end, const Quadric& quadric,
-                                    const RayPacket<Real>& rays)
+                                    const RayPacket<Real>& rays, const vint<Real>& own)
 {
+    const std::int32_t surface = record_of<Real>(quadric).surface;
     std::uint32_t blocked = 0;
-    visit_crossings(quadric, rays, [&](vmask<Real> valid, const vreal<Real>& t, int) {
-        blocked |= bits(valid & end.blocked_at(t, rays));
+    visit_crossings(quadric, rays, [&](vmask<Real> valid, const vreal<Real>& t, int piece) {
+        blocked |= but_own<Real>(bits(valid & end.blocked_at(t, rays)), own, surface + piece);
     });
     return blocked;
 }
 
 template <class End, class Stiff, class Real>
 [[gnu::noinline]] std::uint32_t stiff_blocks(const End& end, const Stiff& stiff,
-                                             const RayPacket<Real>& rays)
+                                             const RayPacket<Real>& rays, const vint<Real>& own)
 {
     std::uint32_t blocked = 0;
-    visit_stiff(stiff, rays, [&](vmask<Real> valid, const vreal<Real>& t, int) {
-        blocked |= bits(valid & end.blocked_at(t, rays));
+    visit_stiff(stiff, rays, [&](vmask<Real> valid, const vreal<Real>& t, int piece) {
+        blocked |=
+            but_own<Real>(bits(valid & end.blocked_at(t, rays)), own, surface_of(stiff) + piece);
     });
     return blocked;
 }
 
 /// Calls `blocker(surface, lanes)` for each object with the lanes it blocks, until that returns
-/// false.
+/// false. What a lane's `own` surface blocks does not count.
 template <abi::Features F, class End, class Objects, class Real, class Blocker>
 inline void visit_blockers(const End& end, const Objects& objects, const RayPacket<Real>& rays,
-                           const Blocker& blocker)
+                           const vint<Real>& own, const Blocker& but_for_own)
 {
     const ObjectLists<Real, Objects> lists{objects};
+    const auto blocker = [&](std::int32_t surface, std::uint32_t blocked) {
+        return but_for_own(surface, but_own<Real>(blocked, own, surface));
+    };
     const auto& spheres = lists.spheres();
     const TestScope at;
     for (int i = 0; i < spheres.count; ++i) {
@@ -106,23 +129,23 @@ inline void visit_blockers(const End& end, const Objects& objects, const RayPack
     if constexpr (F.quadrics)
         for (int i = 0; i < lists.quadric_count(); ++i) {
             at.test(abi::Primitive::quadric);
-            if (!blocker(record_of<Real>(lists.quadric(i)).surface,
-                         quadric_blocks(end, lists.quadric(i), rays)))
+            if (!but_for_own(record_of<Real>(lists.quadric(i)).surface,
+                             quadric_blocks(end, lists.quadric(i), rays, own)))
                 return;
         }
     for_each_stiff(lists.stiff(), [&](const auto& stiff) {
         at.test(abi::Primitive::stiff);
-        return blocker(surface_of(stiff), stiff_blocks(end, stiff, rays));
+        return but_for_own(surface_of(stiff), stiff_blocks(end, stiff, rays, own));
     });
 }
 
-/// The lanes of `wanted` that are blocked by anything.
+/// The lanes of `wanted` that are blocked by anything but their own surface.
 template <abi::Features F, class End, class Objects, class Real>
 inline std::uint32_t occluded(const End& end, const Objects& objects, const RayPacket<Real>& rays,
-                              std::uint32_t wanted)
+                              const vint<Real>& own, std::uint32_t wanted)
 {
     std::uint32_t open = wanted;
-    visit_blockers<F>(end, objects, rays, [&](std::int32_t, std::uint32_t blocked) {
+    visit_blockers<F>(end, objects, rays, own, [&](std::int32_t, std::uint32_t blocked) {
         open &= ~blocked;
         return open != 0;
     });

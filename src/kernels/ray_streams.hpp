@@ -3,6 +3,8 @@
 #include "kernel_abi/ray_streams.hpp"
 #include "kernels/finish.hpp"
 #include "kernels/group_closest.hpp"
+#include "kernels/second_meeting.hpp"
+#include "kernels/settle_start.hpp"
 #include "kernels/surface.hpp"
 #include "kernels/tree_blockers.hpp"
 #include "kernels/tree_crossings.hpp"
@@ -156,6 +158,39 @@ inline void store_packet_hits(const abi::SceneView<Real>& scene, const RayPacket
     store_some3(hits.normal, at, surface.normal, live);
     store_some3(hits.outer_start, at, surface.point + surface.lift, live);
     store_some3(hits.inner_start, at, surface.point - surface.lift, live);
+    store_some3(hits.point, at, surface.point, live);
+    if (hits.surface != nullptr)
+        store_some(hits.surface + at, hit.surface, live);
+}
+
+/// Up to a packet of numbers; lanes beyond `count` repeat the first.
+template <class Real>
+inline vint<Real> load_numbers(const std::int32_t* from, int count)
+{
+    alignas(64) lane_int<Real> values[lanes<Real>];
+    for (int lane = 0; lane < lanes<Real>; ++lane)
+        values[lane] = from[lane < count ? lane : 0];
+    return load(values);
+}
+
+/// Puts right what a packet of a stream hit, if it is told where its rays start.
+template <abi::Features F, class Real>
+inline void settle_starts(const abi::SceneView<Real>& scene, const abi::RaysView<Real>& view,
+                          int first, RayPacket<Real>& rays, HitPacket<Real>& hit)
+{
+    if (view.start_surface == nullptr || !(scene.start_error > 0))
+        return;
+    const int count = view.count - first;
+    const vint<Real> code = load_numbers<Real>(view.start_surface + first, count);
+    const vint<Real> zero(lane_int<Real>(0));
+    const vint<Real> none(lane_int<Real>(-1));
+    const auto inner = int_less(code, zero);
+    const auto elsewhere = int_equal(code, vint<Real>(lane_int<Real>{abi::no_start}));
+    const vint<Real> number = select(elsewhere, none, select(inner, none - code, code));
+    const std::uint32_t active = first_lanes<Real>(count) & ~bits(elsewhere);
+    StartPacket<Real> start{load_some3(view.start_point, first, count), number, hit.t};
+    start.second = second_meeting<Real>(scene, number, start.point, rays.dir, ~bits(inner), active);
+    settle_start<F>(scene, rays, hit, start, load_some(view.t_max + first, count), active);
 }
 
 /// Where the scene has no hierarchy: packet by packet, without a group in between.
@@ -164,9 +199,10 @@ inline void closest_hits_in_lists(const abi::SceneView<Real>& scene,
                                   const abi::RaysView<Real>& view, const abi::HitsView<Real>& hits)
 {
     for (int first = 0; first < view.count; first += lanes<Real>) {
-        const StreamPacket<Real> packet(view, first);
+        StreamPacket<Real> packet(view, first);
         HitPacket<Real> hit{packet.t_max, vint<Real>(lane_int<Real>(-1))};
         closest_hit<F>(hit, scene, packet.rays);
+        settle_starts<F>(scene, view, first, packet.rays, hit);
         store_packet_hits<F>(scene, packet.rays, hit, packet.t_max, hits, first, packet.count);
     }
 }
@@ -181,10 +217,14 @@ inline void closest_hits(const abi::SceneView<Real>& scene, const abi::RaysView<
     for (int begin = 0; begin < view.count; begin += group_rays) {
         const int count = gather_stream(view, begin, group);
         closest_of_group<F>(scene, scene, group);
-        for (int first = 0; first < count; first += lanes<Real>)
-            store_packet_hits<F>(scene, load_rays(group, first), load_hits(group, first),
+        for (int first = 0; first < count; first += lanes<Real>) {
+            RayPacket<Real> rays = load_rays(group, first);
+            HitPacket<Real> hit = load_hits(group, first);
+            settle_starts<F>(scene, view, begin + first, rays, hit);
+            store_packet_hits<F>(scene, rays, hit,
                                  load_some(view.t_max + begin + first, count - first), hits,
                                  begin + first, count - first);
+        }
     }
 }
 
@@ -204,7 +244,8 @@ inline void occluded_in_lists(const abi::SceneView<Real>& scene, const abi::Rays
         const StreamPacket<Real> packet(view, first);
         const std::uint32_t wanted = first_lanes<Real>(packet.count);
         store_mask<Real>(mask + first,
-                         occluded<F>(StreamRange<Real>{packet.t_max}, scene, packet.rays, wanted),
+                         occluded<F>(StreamRange<Real>{packet.t_max}, scene, packet.rays,
+                                     no_surface<Real>(), wanted),
                          packet.count);
     }
 }

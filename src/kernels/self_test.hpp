@@ -2,6 +2,7 @@
 
 #include "kernel_abi/self_test.hpp"
 #include "kernels/float_bits.hpp"
+#include "kernels/halves.hpp"
 
 // Runs single operations for the tests that hold each against plain scalar code.
 namespace packtrace::PACKTRACE_ISA {
@@ -46,6 +47,17 @@ inline Packet compressed(const Packet& x, std::uint32_t pattern)
     alignas(64) typename Packet::value_type by_lane[Packet::size];
     compress_store(by_lane, pattern, x);
     return load(by_lane);
+}
+
+/// a b - c by way of the two halves in double, where there are any.
+inline vreal<float> by_halves(const SelfTestOperands<float>& in)
+{
+    return joined(low_half(in.a) * low_half(in.b) - low_half(in.c),
+                  high_half(in.a) * high_half(in.b) - high_half(in.c));
+}
+inline vreal<double> by_halves(const SelfTestOperands<double>& in)
+{
+    return in.a * in.b - in.c;
 }
 
 /// Operations whose result is a packet of reals or a mask.
@@ -119,6 +131,8 @@ inline vreal<Real> real_result(const abi::SelfTestJob<Real>& job, const SelfTest
             return mantissa_of(in.a);
         case SimdOp::scale_by_power:
             return scale_by_power<Real>(in.a, in.i);
+        case SimdOp::halves:
+            return by_halves(in);
         case SimdOp::compress:
             return compress(job.mask, in.a);
         case SimdOp::compress_store_real:

@@ -23,14 +23,15 @@ inline Vec3v<Real> light_color(const ShadeContext<F, Real>& context, int number,
             const Vec3v<Real> share =
                 transmitted<F>(context, number, packet, surface, packet.wanted, first);
             const Vec3v<Real> color =
-                share * lit_color<F>(light, packet, material, packet.wanted & any_channel(share),
-                                     *context.counts);
+                share * lit_color<F>(*context.scene, light, packet, material,
+                                     packet.wanted & any_channel(share), *context.counts);
             probe.light(number, packet.wanted, share, color);
             return color;
         }
     }
     const std::uint32_t lit = unshadowed<F>(context, number, packet, surface, packet.wanted, first);
-    const Vec3v<Real> color = lit_color<F>(light, packet, material, lit, *context.counts);
+    const Vec3v<Real> color =
+        lit_color<F>(*context.scene, light, packet, material, lit, *context.counts);
     probe.light(number, packet.wanted, lit, color);
     return color;
 }
@@ -71,11 +72,11 @@ inline void spawn_children(const ShadeContext<F, Real>& context, const Children<
             // Total internal reflection: the transmitted share is mirrored too.
             reflect =
                 select(from_bits<Real>(refracted.total), reflect + material.transmit, reflect);
-            spawn_refracted(*children.refracted, surface, path, material.transmit, refracted,
-                            glass & ~refracted.total);
+            spawn_refracted(*children.refracted, *context.scene, surface, path, material.transmit,
+                            refracted, glass & ~refracted.total);
         }
     }
-    spawn_mirrored(*children.mirrored, surface, path, reflect, inside,
+    spawn_mirrored(*children.mirrored, *context.scene, surface, path, reflect, inside,
                    active & any_channel(reflect));
 }
 

@@ -2,6 +2,7 @@
 
 #include "kernels/lighting.hpp"
 #include "kernels/occluded.hpp"
+#include "kernels/second_meeting.hpp"
 #include "kernels/shade_context.hpp"
 
 // Shadow rays of a packet. Those of a point light are traced from it, where they share their
@@ -37,6 +38,31 @@ inline Vec3v<Real> lit_point(const abi::SceneView<Real>& scene, const SurfacePac
         lift = madd<Real>(select(turned, negated(more), more), surface.normal, lift);
     }
     return select(inside, surface.point - lift, surface.point + lift);
+}
+
+/// The surface that shadow rays from a place on it don't meet by looking: its own with
+/// SelfHits::exact, else none.
+template <class Real>
+inline vint<Real> own_of(const abi::SceneView<Real>& scene, const SurfacePacket<Real>& surface)
+{
+    return scene.start_error > 0 ? surface.number : no_surface<Real>();
+}
+
+/// Lanes of `wanted` that their own surface keeps from a light, by SelfHits::exact.
+template <class Real>
+inline std::uint32_t own_shadow(const abi::SceneView<Real>& scene,
+                                const abi::LightRecord<Real>& light,
+                                const LightPacket<Real>& packet, const SurfacePacket<Real>& surface,
+                                std::uint32_t wanted)
+{
+    if (!(scene.start_error > 0))
+        return 0;
+    const std::uint32_t outside = ~bits(dot(surface.lift, packet.to_light) < vreal<Real>(Real(0)));
+    const vreal<Real> again = second_meeting<Real>(casters_of(scene), surface.number, surface.point,
+                                                   packet.to_light, outside, wanted);
+    const Real end =
+        light.kind == abi::LightKind::directional ? static_cast<Real>(__builtin_inf()) : Real(1);
+    return bits(again < vreal<Real>(end)) & wanted;
 }
 
 /// Calls `trace(t_end, rays)` for the shadow rays of one light; those along a directional one
@@ -95,12 +121,15 @@ inline std::uint32_t unshadowed(const ShadeContext<F, Real>& context, int light,
         return count_lit<Real>(wanted, wanted & context.shadows[light].lit_lanes(first));
     const ShadowScope shadow(abi::Part::ray_generation);
     tell_live(wanted);
+    const abi::SceneView<Real>& scene = *context.scene;
+    const std::uint32_t open =
+        wanted & ~own_shadow(scene, scene.lights.data[light], packet, surface, wanted);
     return count_lit<Real>(
-        wanted,
-        wanted & ~with_shadow_rays(context, light, packet, surface,
-                                   [&](const auto& end, const auto& objects, const auto& rays) {
-                                       return occluded<F>(end, objects, rays, wanted);
-                                   }));
+        wanted, open & ~with_shadow_rays(
+                           context, light, packet, surface,
+                           [&](const auto& end, const auto& objects, const auto& rays) {
+                               return occluded<F>(end, objects, rays, own_of(scene, surface), open);
+                           }));
 }
 
 /// Lanes in which any channel is above 0.
@@ -135,9 +164,20 @@ inline Vec3v<Real> transmitted(const ShadeContext<F, Real>& context, int light,
         share = select(from_bits<Real>(blocked), share * broadcast(material.transmit), share);
         return (any_channel(share) & wanted) != 0;
     };
+    const std::uint32_t by_own =
+        own_shadow(scene, scene.lights.data[light], packet, surface, wanted);
+    for_each_distinct<Real>(surface.number, by_own, [&](lane_int<Real> number, vmask<Real> same) {
+        pass_on(static_cast<std::int32_t>(number), bits(same) & by_own);
+    });
+    // An object takes its share once, also where its other pieces are in the way.
+    const auto pass_on_once = [&](std::int32_t blocker, std::uint32_t blocked) {
+        const vint<Real> object(lane_int<Real>{scene.material_index[blocker].object});
+        return pass_on(blocker, blocked & ~(by_own & bits(int_equal(surface.object, object))));
+    };
     with_shadow_rays(context, light, packet, surface,
                      [&](const auto& end, const auto& objects, const auto& rays) {
-                         visit_blockers<F>(end, objects, rays, pass_on);
+                         visit_blockers<F>(end, objects, rays, own_of(scene, surface),
+                                           pass_on_once);
                          return 0;
                      });
     return share;

@@ -8,10 +8,12 @@
 namespace packtrace::PACKTRACE_ISA {
 namespace {
 
-/// Fills a group with the rays between the hits and one light that can add anything to them.
-template <abi::Features F, class Real>
+/// Fills a group with the rays between the hits and one light that can add anything to them, and
+/// calls `keeps_own(first, lanes)` for those of each packet that their own surface is in the way
+/// of; it returns the lanes that nothing further matters to.
+template <abi::Features F, class Real, class KeepsOwn>
 inline void gather_shadow_rays(const ShadeContext<F, Real>& context, const HitStream<F, Real>& hits,
-                               int light, RayGroup<Real>& group)
+                               int light, RayGroup<Real>& group, const KeepsOwn& keeps_own)
 {
     const abi::SceneView<Real>& scene = *context.scene;
     const abi::LightRecord<Real>& record = scene.lights.data[light];
@@ -25,6 +27,10 @@ inline void gather_shadow_rays(const ShadeContext<F, Real>& context, const HitSt
                             store_rays(group, first, rays);
                             start_rays(group, first, t_end, packet.wanted);
                         });
+        store(group.surface + first, own_of(scene, surface));
+        const std::uint32_t by_own = own_shadow(scene, record, packet, surface, packet.wanted);
+        if (by_own != 0)
+            finish_lanes(group, first, keeps_own(first, by_own));
     }
     end_group(group, hits.count);
 }
@@ -52,26 +58,62 @@ inline void copy_active(const RayGroup<Real>& group, std::uint16_t (&to)[group_c
         to[cell] = group.active[cell];
 }
 
+/// The lanes whose own surface is a piece of object number `object`.
+template <class Real>
+inline std::uint32_t own_pieces(const abi::SceneView<Real>& scene, const RayGroup<Real>& group,
+                                int first, std::uint32_t active, std::int32_t object)
+{
+    std::uint32_t own = 0;
+    for (; active != 0; active &= active - 1) {
+        const int lane = __builtin_ctz(active);
+        const bool same = scene.material_index[group.surface[first + lane]].object == object;
+        own |= std::uint32_t{same} << lane;
+    }
+    return own;
+}
+
+/// Fills the shadows of one light where blockers pass on a share of it.
+template <abi::Features F, class Real>
+inline void find_shares(const ShadeContext<F, Real>& context, const HitStream<F, Real>& hits,
+                        int light, RayGroup<Real>& group, LightShadows<F, Real>& shadows)
+{
+    const abi::SceneView<Real>& scene = *context.scene;
+    for (Real(&channel)[group_rays] : shadows.share)
+        for (Real& share : channel)
+            share = Real(1);
+    std::uint32_t by_own[group_rays / lanes<Real>] = {};
+    gather_shadow_rays(context, hits, light, group, [&](int first, std::uint32_t own) {
+        std::uint32_t dark = 0;
+        by_own[first / lanes<Real>] = own;
+        for_each_distinct<Real>(
+            load(group.surface + first), own, [&](lane_int<Real> surface, vmask<Real> same) {
+                dark |=
+                    shadows.dim(scene, static_cast<std::int32_t>(surface), first, bits(same) & own);
+            });
+        return dark;
+    });
+    // An object takes its share once, also where its other pieces are in the way.
+    const auto pass_on = [&](std::int32_t surface, int first, std::uint32_t blocked) {
+        const std::uint32_t again = blocked & by_own[first / lanes<Real>];
+        if (again != 0)
+            blocked &=
+                ~own_pieces(scene, group, first, again, scene.material_index[surface].object);
+        return shadows.dim(scene, surface, first, blocked);
+    };
+    visit_shadow_blockers<F>(context, light, group, pass_on);
+    copy_active(group, shadows.lit);
+}
+
 /// Fills the shadows of one light: which hits see it, and through how much.
 template <abi::Features F, class Real>
 inline void find_shadows(const ShadeContext<F, Real>& context, const HitStream<F, Real>& hits,
                          int light, RayGroup<Real>& group, LightShadows<F, Real>& shadows)
 {
     const ShadowScope shadow(abi::Part::ray_generation);
-    gather_shadow_rays(context, hits, light, group);
-    if constexpr (F.glass) {
-        if (context.scene->transparent_shadows) {
-            for (Real(&channel)[group_rays] : shadows.share)
-                for (Real& share : channel)
-                    share = Real(1);
-            const auto pass_on = [&](std::int32_t surface, int first, std::uint32_t blocked) {
-                return shadows.dim(*context.scene, surface, first, blocked);
-            };
-            visit_shadow_blockers<F>(context, light, group, pass_on);
-            copy_active(group, shadows.lit);
-            return;
-        }
-    }
+    if constexpr (F.glass)
+        if (context.scene->transparent_shadows)
+            return find_shares(context, hits, light, group, shadows);
+    gather_shadow_rays(context, hits, light, group, [](int, std::uint32_t own) { return own; });
     visit_shadow_blockers<F>(context, light, group, EndsRays{});
     copy_active(group, shadows.lit);
 }

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "kernels/probe.hpp"
+#include "kernels/second_meeting.hpp"
 
 // Children of a packet of hits: mirrored and refracted rays, appended to streams.
 namespace packtrace::PACKTRACE_ISA {
@@ -44,6 +45,21 @@ inline Vec3v<Real> start_point(const SurfacePacket<Real>& surface, std::uint32_t
                   surface.point - surface.lift);
 }
 
+/// What rays that leave a surface in the direction `dir` are told of it.
+template <abi::Features F, class Real>
+inline void append_start(RayStream<F, Real>& next, const abi::SceneView<Real>& scene,
+                         const SurfacePacket<Real>& surface, const Vec3v<Real>& dir,
+                         std::uint32_t outside, std::uint32_t active)
+{
+    if (next.starts == nullptr)
+        return;
+    append3(next.starts->point, next.count, active, surface.point);
+    compress_store(next.starts->surface + next.count, active, surface.number);
+    compress_store(
+        next.starts->second + next.count, active,
+        second_meeting<Real>(scene, surface.number, surface.point, dir, outside, active));
+}
+
 template <class Real>
 inline Vec3v<Real> mirrored(const SurfacePacket<Real>& surface)
 {
@@ -52,30 +68,35 @@ inline Vec3v<Real> mirrored(const SurfacePacket<Real>& surface)
 }
 
 template <abi::Features F, class Real>
-inline void spawn_mirrored(RayStream<F, Real>& next, const SurfacePacket<Real>& surface,
-                           const PathPacket<Real>& path, const Vec3v<Real>& reflect,
-                           const GlassPacket<Real>& inside, std::uint32_t active)
+inline void spawn_mirrored(RayStream<F, Real>& next, const abi::SceneView<Real>& scene,
+                           const SurfacePacket<Real>& surface, const PathPacket<Real>& path,
+                           const Vec3v<Real>& reflect, const GlassPacket<Real>& inside,
+                           std::uint32_t active)
 {
     if (active == 0)
         return;
     count_packet<Real>(abi::PacketWork::children, active);
-    append_ray(next, start_point(surface, ~surface.leaving), mirrored(surface),
-               path.weight * reflect, path.pixel, active);
+    const Vec3v<Real> dir = mirrored(surface);
+    append_ray(next, start_point(surface, ~surface.leaving), dir, path.weight * reflect, path.pixel,
+               active);
+    append_start(next, scene, surface, dir, ~surface.leaving, active);
     append_glass(next, inside, active);
     append_path(next, path.id, 0, active);
     next.count += __builtin_popcount(active);
 }
 
 template <abi::Features F, class Real>
-inline void spawn_refracted(RayStream<F, Real>& next, const SurfacePacket<Real>& surface,
-                            const PathPacket<Real>& path, const Vec3v<Real>& transmit,
-                            const RefractedPacket<Real>& refracted, std::uint32_t active)
+inline void spawn_refracted(RayStream<F, Real>& next, const abi::SceneView<Real>& scene,
+                            const SurfacePacket<Real>& surface, const PathPacket<Real>& path,
+                            const Vec3v<Real>& transmit, const RefractedPacket<Real>& refracted,
+                            std::uint32_t active)
 {
     if (active == 0)
         return;
     count_packet<Real>(abi::PacketWork::children, active);
     append_ray(next, start_point(surface, surface.leaving), refracted.dir, path.weight * transmit,
                path.pixel, active);
+    append_start(next, scene, surface, refracted.dir, surface.leaving, active);
     append_glass(next, refracted.inside, active);
     append_path(next, path.id, 1, active);
     next.count += __builtin_popcount(active);

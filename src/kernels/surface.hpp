@@ -14,6 +14,7 @@ struct SurfacePacket {
     Vec3v<Real> normal;          ///< unit; turned against the ray where the model says so
     Vec3v<Real> dir;             ///< of the ray that came here
     vreal<Real> inverse_length;  ///< 1 / |dir|
+    vint<Real> number;
     vint<Real> material;
     vint<Real> object;
     Vec3v<Real> lift;       ///< outwards, to where rounding has no part in which side a point is on
@@ -195,6 +196,7 @@ inline SurfacePacket<Real> surface_at(const abi::SceneView<Real>& scene, const V
     SurfacePacket<Real> surface;
     surface.point = point;
     surface.dir = dir;
+    surface.number = number;
     GradientPacket<Real> gradient = gradient_at<F>(scene, point, number, active);
     if (finished != nullptr)
         gradient.gradient = *finished;

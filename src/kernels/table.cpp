@@ -10,7 +10,21 @@
 namespace packtrace::PACKTRACE_ISA {
 namespace {
 
-template <class Real>
+/// Which of the highlights' powers: that of scenes in general, or of those with precise_powers.
+enum class Power { usual, precise };
+
+template <Power P>
+inline vreal<float> power_of(const vreal<float>& x, const vreal<float>& n)
+{
+    return P == Power::precise ? precise_power(x, n) : highlight_power<float>(x, n);
+}
+template <Power P>
+inline vreal<double> power_of(const vreal<double>& x, const vreal<double>& n)
+{
+    return highlight_power<double>(x, n);
+}
+
+template <class Real, Power P>
 void power_of_arrays(const Real* x, const Real* n, Real* y, int count)
 {
     alignas(64) Real in[2][lanes<Real>] = {};
@@ -21,7 +35,7 @@ void power_of_arrays(const Real* x, const Real* n, Real* y, int count)
             in[0][lane] = x[first + lane];
             in[1][lane] = n[first + lane];
         }
-        store(out, highlight_power<Real>(load(in[0]), load(in[1])));
+        store(out, power_of<P>(load(in[0]), load(in[1])));
         for (int lane = 0; lane < live; ++lane)
             y[first + lane] = out[lane];
     }
@@ -53,7 +67,8 @@ constexpr abi::PrecisionTable<Real> precision_table()
     table.closest_hits = closest_hits<any_surface, Real>;
     table.occluded = occluded_rays<any_surface, Real>;
     table.all_hits = all_hits<any_surface, Real>;
-    table.highlight_power = power_of_arrays<Real>;
+    table.highlight_power = power_of_arrays<Real, Power::usual>;
+    table.precise_power = power_of_arrays<Real, Power::precise>;
     table.self_test = self_test<Real>;
     return table;
 }

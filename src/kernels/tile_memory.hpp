@@ -57,6 +57,14 @@ struct GradientArrays<F, float> {
     StreamArray<F, float> gradient[3];
 };
 
+/// Where rays started that leave a surface, for SelfHits::exact.
+template <abi::Features F, class Real>
+struct StartArrays {
+    StreamArray<F, Real> point[3];
+    StreamArray<F, lane_int<Real>> surface;
+    StreamArray<F, Real> second;  ///< t at which they meet it again, from `point`
+};
+
 /// Rays of one generation, in an order that does not depend on the packet width.
 template <abi::Features F, class Real>
 struct alignas(64) RayStream : GlassArrays<F.glass, F, Real>,
@@ -65,6 +73,7 @@ struct alignas(64) RayStream : GlassArrays<F.glass, F, Real>,
     StreamArray<F, Real> org[3];
     StreamArray<F, Real> dir[3];
     StreamArray<F, lane_int<Real>> pixel;  ///< number in the tile, along its Z-order curve
+    StartArrays<F, Real>* starts;          ///< null where only the notes' rule is asked for
     int count = 0;
 };
 
@@ -191,6 +200,12 @@ inline void append_stream(RayStream<F, Real>& to, const RayStream<F, Real>& from
             copy(to.inside[i] + to.count, from.inside[i], from.count);
     if constexpr (F.probe)
         copy(to.path + to.count, from.path, from.count);
+    if (to.starts != nullptr) {
+        for (int axis = 0; axis < 3; ++axis)
+            copy(to.starts->point[axis] + to.count, from.starts->point[axis], from.count);
+        copy(to.starts->surface + to.count, from.starts->surface, from.count);
+        copy(to.starts->second + to.count, from.starts->second, from.count);
+    }
     to.count += from.count;
 }
 

@@ -2,7 +2,7 @@
 
 #include "kernels/camera.hpp"
 #include "kernels/finish.hpp"
-#include "kernels/group_closest.hpp"
+#include "kernels/settle_start.hpp"
 #include "kernels/shade.hpp"
 
 // From rays to hit points, one generation at a time.
@@ -210,6 +210,18 @@ inline void take_secondary_hits(const abi::SceneView<Real>& scene, TileMemory<F,
                                   from.path.weight * escaped(scene, from.rays), active & ~hits);
 }
 
+/// What the packet at `first` of a stream hit, and where from, by SelfHits::exact if it is asked
+/// for.
+template <abi::Features F, class Real>
+inline void settle_secondary(const abi::SceneView<Real>& scene, const RayStream<F, Real>& stream,
+                             int first, int end, TracedRays<Real>& from, HitPacket<Real>& hit)
+{
+    if (stream.starts != nullptr)
+        settle_start<F>(scene, from.rays, hit, load_start(*stream.starts, first),
+                        vreal<Real>(static_cast<Real>(__builtin_inf())),
+                        first_lanes<Real>(end - first));
+}
+
 /// A chunk of a stream of secondary rays.
 template <abi::Features F, class Real>
 inline void trace_secondary(const abi::SceneView<Real>& scene, const RayStream<F, Real>& stream,
@@ -217,10 +229,11 @@ inline void trace_secondary(const abi::SceneView<Real>& scene, const RayStream<F
 {
     memory.hits.count = 0;
     for (int first = begin; first < end; first += lanes<Real>) {
-        const TracedRays<Real> from = load_stream(scene, stream, first);
+        TracedRays<Real> from = load_stream(scene, stream, first);
         HitPacket<Real> hit = no_hit<Real>(static_cast<Real>(__builtin_inf()));
         tell_live(first_lanes<Real>(end - first));
         closest_hit<F>(hit, scene, from.rays);
+        settle_secondary<F>(scene, stream, first, end, from, hit);
         take_secondary_hits(scene, memory, from, hit, first_lanes<Real>(end - first));
     }
 }
@@ -239,9 +252,12 @@ inline void trace_secondary_group(const abi::SceneView<Real>& scene,
     }
     end_group(group, end - begin);
     closest_of_group<F>(scene, scene, group);
-    for (int first = begin; first < end; first += lanes<Real>)
-        take_secondary_hits(scene, memory, load_stream(scene, stream, first),
-                            load_hits(group, first - begin), first_lanes<Real>(end - first));
+    for (int first = begin; first < end; first += lanes<Real>) {
+        TracedRays<Real> from = load_stream(scene, stream, first);
+        HitPacket<Real> hit = load_hits(group, first - begin);
+        settle_secondary<F>(scene, stream, first, end, from, hit);
+        take_secondary_hits(scene, memory, from, hit, first_lanes<Real>(end - first));
+    }
 }
 
 }  // namespace

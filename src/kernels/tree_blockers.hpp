@@ -8,7 +8,8 @@
 //
 // A `Blocker` is called as blocker(surface, first, lanes) for an object and the lanes it blocks of
 // the packet at `first`, and returns those lanes that nothing further matters to; they are taken
-// out of the group's active rays. `End` is one of those of occluded.hpp.
+// out of the group's active rays. `End` is one of those of occluded.hpp. A ray's surface in the
+// group is its own, which does not block it; -1 for none.
 namespace packtrace::PACKTRACE_ISA {
 namespace {
 
@@ -54,7 +55,8 @@ inline void blockers_of_ray(const abi::BvhView<Real>& tree, const SlabRays& slab
     SlabRay slab = slab_ray(slabs, group, ray);
     const int first = ray / lanes<Real> * lanes<Real>;
     const std::uint32_t lane = 1u << (ray - first);
-    const auto blocked_by = [&](std::int32_t surface) {
+    const vint<Real> own(group.surface[ray]);
+    const auto goes_on = [&](std::int32_t surface) {
         finish_lanes(group, first, blocker(surface, first, lane));
         return (active_lanes(group, first) & lane) != 0;
     };
@@ -65,7 +67,7 @@ inline void blockers_of_ray(const abi::BvhView<Real>& tree, const SlabRays& slab
             const abi::QuadricRecord<Real>* quadric = tree.quadrics + abi::first_quadric(leaf);
             for (int i = 0; i < abi::quadric_count(leaf); ++i) {
                 count_tests(abi::Primitive::quadric, 1);
-                if (quadric_blocks(end, quadric[i], rays) != 0 && !blocked_by(quadric[i].surface))
+                if (quadric_blocks(end, quadric[i], rays, own) != 0 && !goes_on(quadric[i].surface))
                     return false;
             }
             return true;
@@ -76,10 +78,12 @@ inline void blockers_of_ray(const abi::BvhView<Real>& tree, const SlabRays& slab
             count_block_tests(block, from);
             std::uint32_t blocking =
                 bits(end.blocked_by(quadratics_of(block, from, rays), rays)) & block_lanes<Real>;
-            for (; blocking != 0; blocking &= blocking - 1)
-                if (!blocked_by(
-                        static_cast<std::int32_t>(block.surface[from + __builtin_ctz(blocking)])))
+            for (; blocking != 0; blocking &= blocking - 1) {
+                const auto surface =
+                    static_cast<std::int32_t>(block.surface[from + __builtin_ctz(blocking)]);
+                if (surface != group.surface[ray] && !goes_on(surface))
                     return false;
+            }
         }
         return true;
     });
@@ -125,9 +129,12 @@ private:
     {
         const PartScope part(abi::Part::spheres);
         visit_spheres(bounds_, block, cells, [&](int slot, int cell) {
-            object(abi::Primitive::sphere, cell, block.surface[slot],
-                   [&](const End& end, const RayPacket<Real>& rays) {
-                       return bits(end.blocked_by(quadratic_of(block, slot, rays), rays));
+            const auto surface = static_cast<std::int32_t>(block.surface[slot]);
+            object(abi::Primitive::sphere, cell, surface,
+                   [&](const End& end, const RayPacket<Real>& rays, const vint<Real>& own) {
+                       return but_own<Real>(
+                           bits(end.blocked_by(quadratic_of(block, slot, rays), rays)), own,
+                           surface);
                    });
         });
         join_t_max(bounds_);
@@ -140,15 +147,15 @@ private:
         for (int i = 0; i < abi::quadric_count(child); ++i)
             for (std::uint32_t left = cells; left != 0; left &= left - 1)
                 object(abi::Primitive::quadric, __builtin_ctz(left), quadric[i].surface,
-                       [&](const End& end, const RayPacket<Real>& rays) {
-                           return quadric_blocks(end, quadric[i], rays);
+                       [&](const End& end, const RayPacket<Real>& rays, const vint<Real>& own) {
+                           return quadric_blocks(end, quadric[i], rays, own);
                        });
         join_t_max(bounds_);
     }
 
-    /// `blocks(end, rays)` tells the lanes of a packet that one object blocks.
+    /// `blocks(end, rays, own)` tells the lanes of a packet that one object blocks.
     template <class Blocks>
-    void object(abi::Primitive kind, int cell, lane_int<Real> surface, const Blocks& blocks) const
+    void object(abi::Primitive kind, int cell, std::int32_t surface, const Blocks& blocks) const
     {
         for (int first = cell * cell_rays; first < (cell + 1) * cell_rays; first += lanes<Real>) {
             const std::uint32_t active = active_lanes(group_, first);
@@ -158,10 +165,10 @@ private:
             count_tests(kind, 1);
             End end;
             set_end(end, load(group_.t + first));
-            const std::uint32_t blocked = blocks(end, load_rays(group_, first)) & active;
+            const std::uint32_t blocked =
+                blocks(end, load_rays(group_, first), load(group_.surface + first)) & active;
             if (blocked != 0)
-                finish_lanes(group_, first,
-                             blocker_(static_cast<std::int32_t>(surface), first, blocked));
+                finish_lanes(group_, first, blocker_(surface, first, blocked));
         }
         if (group_.active[cell] == 0)
             bounds_.t_max[cell] = -no_end;
@@ -277,7 +284,7 @@ inline void visit_blockers_of_group(const abi::SceneView<Real>& scene, const Obj
         tell_live(active_lanes(group, first));
         End end;
         set_end(end, load(group.t + first));
-        visit_blockers<F>(end, lists, load_rays(group, first),
+        visit_blockers<F>(end, lists, load_rays(group, first), load(group.surface + first),
                           [&](std::int32_t surface, std::uint32_t lanes_of) {
                               const std::uint32_t blocked = lanes_of & active_lanes(group, first);
                               if (blocked != 0)

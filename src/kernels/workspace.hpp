@@ -66,6 +66,18 @@ inline std::size_t count_shadowed(const abi::SceneView<Real>& scene)
     return count;
 }
 
+/// Streams of rays, with room for where they start if the scene wants that.
+template <abi::Features F, class Real>
+inline RayStream<F, Real>* take_streams(Arena& arena, const abi::SceneView<Real>& scene,
+                                        std::size_t count)
+{
+    RayStream<F, Real>* const streams = arena.take<RayStream<F, Real>>(count);
+    auto* const starts = arena.take<StartArrays<F, Real>>(scene.start_error > 0 ? count : 0);
+    for (std::size_t i = 0; streams != nullptr && i < count; ++i)
+        streams[i].starts = scene.start_error > 0 ? starts + i : nullptr;
+    return streams;
+}
+
 /// Of what a scene does not need there is none.
 template <abi::Features F, class Real>
 struct Workspace {
@@ -85,9 +97,9 @@ struct Workspace {
         Arena arena(scratch);
         memory = arena.take<TileMemory<F, Real>>(1);
         if constexpr (F.bounces)
-            streams = arena.take<RayStream<F, Real>>(static_cast<std::size_t>(scene.max_depth));
+            streams = take_streams<F>(arena, scene, static_cast<std::size_t>(scene.max_depth));
         if constexpr (F.glass)
-            refracted = arena.take<RayStream<F, Real>>(1);
+            refracted = take_streams<F>(arena, scene, 1);
         const std::size_t shadowed = count_shadowed(scene);
         if (!scene.tree.empty())
             group = arena.take<RayGroup<Real>>(1);

@@ -59,8 +59,10 @@ void narrow_shadows(LoweredScene& lowered)
 void narrow_hits(LoweredScene& lowered)
 {
     lowered.flat = lowered.lights.empty() && !lowered.features.bounces;
-    if (lowered.flat && lowered.checkers.empty())
+    if (lowered.flat && lowered.checkers.empty()) {
         std::fill(lowered.finished.begin(), lowered.finished.end(), std::uint8_t{0});
+        lowered.sharpened.clear();
+    }
 }
 
 }  // namespace

@@ -107,6 +107,9 @@ struct LoweredScene {
     SelfHits self_hits = SelfHits::note;
     /// By surface: hits of rays in single precision are solved again in double.
     std::vector<std::uint8_t> finished;
+    /// By surface: of the others, those whose hits get one more step in double; none: no surface.
+    std::vector<std::uint8_t> sharpened;
+    bool precise_powers = false;           ///< highlights are computed in double
     double camera_t_min = 0.0;             ///< start of camera rays
     std::vector<std::int32_t> eye_inside;  ///< glass objects around the eye, innermost first
     abi::Features features;
@@ -118,7 +121,7 @@ struct LoweredScene {
 /// Lowers a scene on the threads of the TBB arena the call runs in; the result does not depend on
 /// their number. Throws SceneError for what it can't hold: a quadric without a surface.
 [[nodiscard]] LoweredScene lower(const Scene& scene, Accuracy accuracy = Accuracy::automatic,
-                                 SelfHits self_hits = SelfHits::note);
+                                 SelfHits self_hits = default_self_hits);
 
 /// The accuracy that counts for kernels of `Real`: doubles need nothing wider.
 template <class Real>

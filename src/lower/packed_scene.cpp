@@ -4,6 +4,7 @@
 #include <limits>
 
 #include "lower/in_parallel.hpp"
+#include "lower/pack_form.hpp"
 #include "lower/pack_record.hpp"
 
 namespace packtrace {
@@ -16,10 +17,21 @@ constexpr std::size_t tree_objects = 32;
 /// more then than the few operations, which slow a frame of four spheres by 4 %.
 constexpr std::size_t many_spheres = 1024;
 
-/// Hits in single precision are solved again in double and rounded once; those in double are
-/// as the search found them. Measured in docs/numerics.md.
+bool any(const std::vector<std::uint8_t>& marked)
+{
+    return std::find(marked.begin(), marked.end(), 1) != marked.end();
+}
+
+/// How many roundoffs rays start off a surface by: fewer where all hits are solved again in
+/// double and rounded once. Measured in docs/numerics.md.
 template <class Real>
-constexpr Real start_roundoffs = sizeof(Real) == sizeof(float) ? Real(8) : Real(32);
+Real start_roundoffs(const LoweredScene& lowered)
+{
+    const auto& finished = lowered.finished;
+    const bool all = sizeof(Real) == sizeof(float) &&
+                     std::find(finished.begin(), finished.end(), 0) == finished.end();
+    return all ? Real(8) : Real(32);
+}
 
 template <class Real>
 PackedTree<Real> pack_tree(const LoweredScene& lowered, Traversal traversal)
@@ -44,6 +56,7 @@ PackedScene<Real>::PackedScene(const LoweredScene& lowered, Traversal traversal)
     view_.tree = tree_.view();
     lists_.show(view_);
     shapes_.show(view_);
+    pack_forms(lowered);
     pack_materials(lowered);
     pack_ior(lowered);
     pack_lights(lowered);
@@ -54,12 +67,39 @@ PackedScene<Real>::PackedScene(const LoweredScene& lowered, Traversal traversal)
     view_.flat = lowered.flat;
     view_.transparent_shadows = lowered.transparent_shadows;
     view_.visible_lights = lowered.visible_lights;
+    view_.precise_powers = sizeof(Real) == sizeof(float) && lowered.precise_powers;
     view_.units = lowered.units;
     view_.epsilon = static_cast<Real>(lowered.epsilon);
     if (lowered.self_hits == SelfHits::note)
         view_.secondary_t_min = view_.epsilon;
     else
-        view_.start_error = start_roundoffs<Real> * std::numeric_limits<Real>::epsilon() / 2;
+        view_.start_error =
+            start_roundoffs<Real>(lowered) * std::numeric_limits<Real>::epsilon() / 2;
+}
+
+/// Equations of all surfaces, where hits are sharpened or rays start from the exact place.
+template <class Real>
+void PackedScene<Real>::pack_forms(const LoweredScene& lowered)
+{
+    view_.sharpened = sizeof(Real) == sizeof(float) && any(lowered.sharpened);
+    if (!view_.sharpened && lowered.self_hits == SelfHits::note)
+        return;
+    forms_ = AlignedArray<abi::SurfaceForm>(lowered.material_index.size());
+    const auto put = [&](std::int32_t surface, const abi::SurfaceForm& form) {
+        const auto at = static_cast<std::size_t>(surface);
+        forms_[at] = form;
+        forms_[at].sharpened = !lowered.sharpened.empty() && lowered.sharpened[at] ? 1 : 0;
+    };
+    for (const LoweredSphere& sphere : lowered.spheres)
+        put(sphere.surface, pack_form(sphere));
+    for (const LoweredHugeSphere& sphere : lowered.huge_spheres)
+        put(sphere.surface, pack_form(sphere));
+    for (const LoweredPlane& plane : lowered.planes)
+        put(plane.surface, pack_form(plane));
+    for (const LoweredQuadric& quadric : lowered.quadrics)
+        for (int piece = 0; piece < (quadric.capped ? 3 : 1); ++piece)
+            put(quadric.surface + piece, pack_form(quadric, piece));
+    view_.forms = forms_.data();
 }
 
 template <class Real>

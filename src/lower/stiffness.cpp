@@ -100,19 +100,21 @@ void mark_stiff(Accuracy accuracy, LoweredScene& lowered)
     mark(accuracy, lowered.quadrics);
 }
 
-void mark_finished(Accuracy accuracy, SelfHits self_hits, LoweredScene& lowered)
+void mark_finished(Accuracy accuracy, LoweredScene& lowered)
 {
-    const bool all = accuracy == Accuracy::robust || self_hits == SelfHits::exact;
+    const bool all = accuracy == Accuracy::robust;
     lowered.finished.assign(lowered.material_index.size(), all ? 1 : 0);
-    if (all || accuracy == Accuracy::fast)
+    if (accuracy != Accuracy::automatic)
         return;
+    if (!lowered.quadrics.empty())
+        lowered.sharpened.assign(lowered.material_index.size(), 0);
     for_each_in_parallel(lowered.spheres, [&](const LoweredSphere& sphere) {
         if (is_stiff(sphere))
             lowered.finished[static_cast<std::size_t>(sphere.surface)] = 1;
     });
     for_each_in_parallel(lowered.quadrics, [&](const LoweredQuadric& quadric) {
-        if (is_stiff(quadric))
-            std::fill_n(lowered.finished.begin() + quadric.surface, quadric.capped ? 3 : 1, 1);
+        auto& marked = is_stiff(quadric) ? lowered.finished : lowered.sharpened;
+        std::fill_n(marked.begin() + quadric.surface, quadric.capped ? 3 : 1, std::uint8_t{1});
     });
 }
 

@@ -7,8 +7,8 @@ namespace packtrace {
 /// Marks the surfaces that rays in single precision shall be tested against in double.
 void mark_stiff(Accuracy accuracy, LoweredScene& lowered);
 
-/// Marks the surfaces whose hits shall be solved again in double: all of them in robust mode and
-/// where rays start from the exact place, else those whose normals need it.
-void mark_finished(Accuracy accuracy, SelfHits self_hits, LoweredScene& lowered);
+/// Marks the surfaces whose hits shall be solved again in double: all of them in robust mode, in
+/// automatic mode those whose normals need it; there other quadrics' hits are sharpened.
+void mark_finished(Accuracy accuracy, LoweredScene& lowered);
 
 }  // namespace packtrace

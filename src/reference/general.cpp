@@ -65,7 +65,7 @@ Color<Real> General<Real, Recorder>::local(const Coefficients& k, const SurfaceP
         if (light.type == LightType::ambient)
             continue;
         const WayToLight<Real> way = way_to_light(light, at.P);
-        const Color<Real> s = record_.share(light.number, light_share(world_, glass_, at.P, way));
+        const Color<Real> s = record_.share(light.number, light_share(world_, glass_, at, way));
         if (!any_positive(s))
             continue;
         const Real n_dot_l = std::max(dot(at.N, way.L), Real(0));

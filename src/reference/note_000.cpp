@@ -92,7 +92,7 @@ Color<Real> Note000<Real, Recorder>::dull(const Factors& k, const Color<Real>& c
             continue;
         // Check for shadow
         const WayToLight<Real> way = way_to_light(lsou, at.P);
-        const Color<Real> lit = record_.share(lsou.number, light_share(world_, glass_, at.P, way));
+        const Color<Real> lit = record_.share(lsou.number, light_share(world_, glass_, at, way));
         if (!any_positive(lit))
             continue;
         // Neither cosine may take light away, which the note leaves unsaid.

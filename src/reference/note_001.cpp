@@ -1,6 +1,5 @@
 #include "reference/note_001.hpp"
 
-#include "reference/epsilon.hpp"
 #include "reference/model_of.hpp"
 #include "reference/tree_recorder.hpp"
 
@@ -22,7 +21,8 @@ Note001<Real, Recorder>::Note001(const Scene& scene, const World<Real>& world, R
 
 template <class Real, class Recorder>
 Color<Real> Note001<Real, Recorder>::compute_lighting(const Vec3<Real>& P, const Vec3<Real>& N,
-                                                      const Vec3<Real>& V, Real s) const
+                                                      const Vec3<Real>& V, Real s,
+                                                      const Hit<Real>& on) const
 {
     Color<Real> i(0, 0, 0);
     for (const LightSource<Real>& light : world_.lights) {
@@ -35,7 +35,7 @@ Color<Real> Note001<Real, Recorder>::compute_lighting(const Vec3<Real>& P, const
         const Real t_max = is_point ? Real(1) : infinity<Real>;
 
         // The listing kept only the `continue` of its shadow check.
-        if (record_.blocked(light.number, light.casts_shadow && in_shadow(P, L, t_max)))
+        if (record_.blocked(light.number, light.casts_shadow && in_shadow(on, P, L, t_max)))
             continue;
 
         // Diffuse
@@ -55,11 +55,12 @@ Color<Real> Note001<Real, Recorder>::compute_lighting(const Vec3<Real>& P, const
 }
 
 template <class Real, class Recorder>
-bool Note001<Real, Recorder>::in_shadow(const Vec3<Real>& P, const Vec3<Real>& L, Real t_max) const
+bool Note001<Real, Recorder>::in_shadow(const Hit<Real>& on, const Vec3<Real>& P,
+                                        const Vec3<Real>& L, Real t_max) const
 {
     if (world_.shadows == ShadowKind::none)
         return false;
-    const auto shadow_sphere = closest_intersection(world_.blockers, P, L, epsilon<Real>, t_max);
+    const auto shadow_sphere = closest_from(world_.blockers, start_at(world_, on, P, L), L, t_max);
     return static_cast<bool>(shadow_sphere);
 }
 
@@ -77,18 +78,26 @@ template <class Real, class Recorder>
 Color<Real> Note001<Real, Recorder>::trace_ray(const Vec3<Real>& O, const Vec3<Real>& D, Real t_min,
                                                Real t_max, int depth) const
 {
-    const auto traced = record_.ray(O, D);
-    const Hit<Real> closest = closest_intersection(world_.bodies, O, D, t_min, t_max);
+    return trace_ray(Start<Real>{O, O, t_min}, D, t_max, depth);
+}
+
+template <class Real, class Recorder>
+Color<Real> Note001<Real, Recorder>::trace_ray(const Start<Real>& start, const Vec3<Real>& D,
+                                               Real t_max, int depth) const
+{
+    const auto traced = record_.ray(start.on, D);
+    const Hit<Real> closest = closest_from(world_.bodies, start, D, t_max);
     if (!closest)
         return record_.miss(world_.background);
 
     // Compute local color
     const auto object = static_cast<std::size_t>(closest.object);
-    const Vec3<Real> P = O + closest.t * D;
+    const Vec3<Real> P = point_of(closest, start, D);
     const Vec3<Real> N = normal(closest, P, D);
     record_.hit(closest.t, closest.object, P, N);
     const Color<Real> color = color_at(world_.paints[object], world_.bodies, closest.object, P);
-    const Color<Real> local_color = color * compute_lighting(P, N, -D, shadings_[object].specular);
+    const Color<Real> local_color =
+        color * compute_lighting(P, N, -D, shadings_[object].specular, closest);
     record_.tint(color);
 
     // If we hit the recursion limit or the object is not reflective, we're done
@@ -99,7 +108,8 @@ Color<Real> Note001<Real, Recorder>::trace_ray(const Vec3<Real>& O, const Vec3<R
     // Compute the reflected color
     const Vec3<Real> R = reflect_ray(-D, N);
     record_.mirrored(Color<Real>(r, r, r));
-    const Color<Real> reflected_color = trace_ray(P, R, epsilon<Real>, infinity<Real>, depth - 1);
+    const Color<Real> reflected_color =
+        trace_ray(start_at(world_, closest, P, R), R, infinity<Real>, depth - 1);
 
     return record_.local(local_color * (1 - r)) + reflected_color * r;
 }

@@ -1,7 +1,7 @@
 #pragma once
 
 #include "reference/no_recorder.hpp"
-#include "reference/world.hpp"
+#include "reference/start.hpp"
 
 #include <vector>
 
@@ -28,12 +28,19 @@ public:
     [[nodiscard]] Color<Real> trace_ray(const Vec3<Real>& O, const Vec3<Real>& D, Real t_min,
                                         Real t_max, int depth) const;
 
-    /// The light that reaches `P`, per channel. `V` points to where the ray came from.
+    /// The same from where a ray starts by the scene's rule.
+    [[nodiscard]] Color<Real> trace_ray(const Start<Real>& start, const Vec3<Real>& D, Real t_max,
+                                        int depth) const;
+
+    /// The light that reaches `P`, per channel. `V` points to where the ray came from; `on` is the
+    /// hit there, which only SelfHits::exact looks at.
     [[nodiscard]] Color<Real> compute_lighting(const Vec3<Real>& P, const Vec3<Real>& N,
-                                               const Vec3<Real>& V, Real s) const;
+                                               const Vec3<Real>& V, Real s,
+                                               const Hit<Real>& on = {}) const;
 
 private:
-    [[nodiscard]] bool in_shadow(const Vec3<Real>& P, const Vec3<Real>& L, Real t_max) const;
+    [[nodiscard]] bool in_shadow(const Hit<Real>& on, const Vec3<Real>& P, const Vec3<Real>& L,
+                                 Real t_max) const;
     [[nodiscard]] Vec3<Real> normal(const Hit<Real>& closest, const Vec3<Real>& P,
                                     const Vec3<Real>& D) const;
 

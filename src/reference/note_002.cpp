@@ -69,8 +69,7 @@ Color<Real> Note002<Real, Recorder>::lights(const Constants& k, const Color<Real
         if (light.type == LightType::ambient)
             continue;
         const WayToLight<Real> way = way_to_light(light, at.P);
-        const Color<Real> seen =
-            record_.share(light.number, light_share(world_, glass_, at.P, way));
+        const Color<Real> seen = record_.share(light.number, light_share(world_, glass_, at, way));
         if (!any_positive(seen))
             continue;
         const Vec3<Real> Lj = way.L;

@@ -1,7 +1,7 @@
 #include "reference/note_004.hpp"
 
-#include "reference/epsilon.hpp"
 #include "reference/model_of.hpp"
+#include "reference/start.hpp"
 #include "reference/tree_recorder.hpp"
 
 #include <algorithm>
@@ -104,7 +104,10 @@ Color<Real> Note004<Real, Recorder>::shader(const Tuple& intersection, const Vec
     const Real Id = std::max(dot(N, S), Real(0));
     const Real Is = std::max(dot(R, V), Real(0));
     Real f = r[0];
-    if (!record_.blocked(light.number, light.casts_shadow && shadowed(object, I, S, distance)))
+    const bool blocked = light.casts_shadow && (world_.self_hits == SelfHits::exact
+                                                    ? shadowed_exactly(object, part, I, S, distance)
+                                                    : shadowed(object, I, S, distance));
+    if (!record_.blocked(light.number, blocked))
         f = r[0] + r[1] * Id + r[2] * std::pow(Is, r[3]);
     // r0 is ambient light, which nothing keeps off.
     (void)record_.adds((f - r[0]) * (c * Li));
@@ -130,6 +133,24 @@ bool Note004<Real, Recorder>::shadowed(const PlacedBody<Real>& shaded, const Vec
             return true;
     }
     return false;
+}
+
+template <class Real, class Recorder>
+bool Note004<Real, Recorder>::shadowed_exactly(const PlacedBody<Real>& shaded, Part part,
+                                               const Vec3<Real>& own_I, const Vec3<Real>& own_S,
+                                               Real distance) const
+{
+    if (world_.shadows == ShadowKind::none)
+        return false;
+    const Vec3<Real> S = shaded.placement.vector_to_world(own_S);
+    const Hit<Real> on{0, shaded.object, part};
+    const Start<Real> start = start_at(world_, on, shaded.placement.point_to_world(own_I), S);
+    return std::any_of(blockers_.begin(), blockers_.end(), [&](const auto& object) {
+        const Roots<Real> roots = roots_from(object, start, S);
+        return std::any_of(roots.begin(), roots.end(), [&](const auto& root) {
+            return root.t >= start.t_min && root.t <= distance;
+        });
+    });
 }
 
 // The note has one light source; here the colours of all are summed.

@@ -42,6 +42,12 @@ public:
     [[nodiscard]] bool shadowed(const PlacedBody<Real>& object, const Vec3<Real>& I,
                                 const Vec3<Real>& S, Real distance) const;
 
+    /// The same by SelfHits::exact: nothing is moved by an epsilon, and the piece of `object` that
+    /// I is on is not found by looking.
+    [[nodiscard]] bool shadowed_exactly(const PlacedBody<Real>& object, Part part,
+                                        const Vec3<Real>& I, const Vec3<Real>& S,
+                                        Real distance) const;
+
 private:
     struct Material {
         Real r[4];

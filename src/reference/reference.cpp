@@ -24,8 +24,8 @@ typename Reference<Real, Recorder>::Note Reference<Real, Recorder>::choose_note(
 }
 
 template <class Real, class Recorder>
-Reference<Real, Recorder>::Reference(const Scene& scene, Recorder record)
-    : world_(scene), note_(choose_note(scene, world_, record))
+Reference<Real, Recorder>::Reference(const Scene& scene, Recorder record, SelfHits self_hits)
+    : world_(scene, self_hits), note_(choose_note(scene, world_, record))
 {
 }
 

@@ -21,7 +21,8 @@ template <class Real, class Recorder = NoRecorder>
 class Reference {
 public:
     /// Throws std::invalid_argument for a material of another model than the scene's.
-    explicit Reference(const Scene& scene, Recorder record = {});
+    explicit Reference(const Scene& scene, Recorder record = {},
+                       SelfHits self_hits = default_self_hits);
     Reference(const Reference&) = delete;
     Reference& operator=(const Reference&) = delete;
 

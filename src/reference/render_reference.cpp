@@ -81,7 +81,7 @@ template <class Real>
 Image<Real> render_reference(const Scene& scene, const RenderOptions& options)
 {
     Image<Real> image(scene.width, scene.height);
-    const reference::Reference<Real> reference(scene);
+    const reference::Reference<Real> reference(scene, {}, options.self_hits);
     RowCounter counter(options.adaptive ? 2 * image.height : image.height, options.progress);
     const auto each_row = [&](const auto& work) {
         tbb::parallel_for(

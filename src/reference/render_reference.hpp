@@ -6,8 +6,9 @@
 
 namespace packtrace {
 
-/// Renders a scene with the scalar reference, in float, double or long double. Threads, sampling
-/// and progress count of the options, the latter called with the share of rows done, never falling.
+/// Renders a scene with the scalar reference, in float, double or long double. Threads, sampling,
+/// self-hits and progress count of the options, the latter called with the share of rows done,
+/// never falling.
 template <class Real>
 [[nodiscard]] Image<Real> render_reference(const Scene& scene, const RenderOptions& options = {});
 

@@ -1,6 +1,5 @@
 #pragma once
 
-#include "reference/epsilon.hpp"
 #include "reference/glass.hpp"
 #include "reference/way_to_light.hpp"
 #include "reference/world.hpp"
@@ -16,18 +15,19 @@ template <class Real>
     return false;
 }
 
-/// The share of a light that reaches `P`: one where nothing is in the way, nothing behind an
-/// opaque blocker; with transparent shadows the product of what each blocking object passes
-/// on, once however often the way crosses it.
+/// The share of a light that reaches the point of a hit: one where nothing is in the way, nothing
+/// behind an opaque blocker; with transparent shadows the product of what each blocking object
+/// passes on, once however often the way crosses it.
 template <class Real>
 [[nodiscard]] Color<Real> light_share(const World<Real>& world, const Glass<Real>& glass,
-                                      const Vec3<Real>& P, const WayToLight<Real>& way)
+                                      const SurfacePoint<Real>& at, const WayToLight<Real>& way)
 {
     Color<Real> share(1, 1, 1);
     if (world.shadows == ShadowKind::none || !way.light_casts_shadow)
         return share;
+    const Start<Real> start = start_at(world, at.hit(), at.P, way.L);
     visit_bodies(world.blockers, [&](const auto& body) {
-        if (!any_within(roots_of(body, P, way.L), epsilon<Real>, way.distance))
+        if (!any_within(roots_from(body, start, way.L), start.t_min, way.distance))
             return true;
         const bool opaque = world.shadows == ShadowKind::opaque;
         share = opaque ? Color<Real>()

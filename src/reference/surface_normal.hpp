@@ -22,6 +22,23 @@ template <class Real>
     return normalize(normal_at(bodies.placed[index], P, hit.part));
 }
 
+/// The place that a surface's coordinates are off from: a sphere's centre, a plane's point, where
+/// a matrix takes the own origin.
+template <class Real>
+[[nodiscard]] Vec3<Real> place_of(const Bodies<Real>& bodies, int object)
+{
+    const auto [kind, index] = bodies.places[static_cast<std::size_t>(object)];
+    switch (kind) {
+        case BodyKind::sphere:
+            return bodies.spheres[index].center;
+        case BodyKind::plane:
+            return bodies.planes[index].point;
+        case BodyKind::placed:
+            break;
+    }
+    return bodies.placed[index].placement.point_to_world({});
+}
+
 /// The normal's side from which the ray with direction `D` comes.
 template <class Real>
 [[nodiscard]] Vec3<Real> turned_against(const Vec3<Real>& N, const Vec3<Real>& D)

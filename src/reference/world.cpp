@@ -3,13 +3,14 @@
 namespace packtrace::reference {
 
 template <class Real>
-World<Real>::World(const Scene& scene)
+World<Real>::World(const Scene& scene, SelfHits rule)
     : bodies(scene),
       blockers(scene, [](const Object& object) { return object.casts_shadow; }),
       background(scene.background),
       shadows(scene.shadows),
       max_depth(scene.max_depth),
-      canvas(scene)
+      canvas(scene),
+      self_hits(rule)
 {
     for (const Object& object : scene.objects)
         paints.push_back(make_paint<Real>(object));

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <packtrace/render.hpp>
 #include <packtrace/scene.hpp>
 #include "reference/bodies.hpp"
 #include "reference/canvas.hpp"
@@ -35,8 +36,9 @@ struct World {
     ShadowKind shadows;
     int max_depth;
     Canvas<Real> canvas;
+    SelfHits self_hits;
 
-    explicit World(const Scene& scene);
+    explicit World(const Scene& scene, SelfHits self_hits = default_self_hits);
 };
 
 }  // namespace packtrace::reference

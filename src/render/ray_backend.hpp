@@ -11,7 +11,9 @@ template <class Real>
 class RayBackend {
 public:
     virtual ~RayBackend() = default;
-    virtual void closest_hits(const RaysView<Real>& rays, const HitsView<Real>& hits) const = 0;
+    /// `starts` is null for rays from anywhere.
+    virtual void closest_hits(const RaysView<Real>& rays, const StartsView<Real>* starts,
+                              const HitsView<Real>& hits) const = 0;
     virtual void occluded(const RaysView<Real>& rays, std::uint8_t* mask) const = 0;
     virtual void all_hits(const RaysView<Real>& rays,
                           const typename RayScene<Real>::TakeHits& take) const = 0;

@@ -36,17 +36,32 @@ abi::RaysView<Real> piece_of(const RaysView<Real>& rays, std::size_t first, std:
 template <class Real>
 abi::HitsView<Real> piece_of(const HitsView<Real>& hits, std::size_t first)
 {
-    abi::HitsView<Real> piece{hits.t + first, hits.object + first, {}, {}, {}};
+    abi::HitsView<Real> piece{};
+    piece.t = hits.t + first;
+    piece.object = hits.object + first;
     for (int axis = 0; axis < 3 && hits.outer_start[0] != nullptr; ++axis) {
         piece.outer_start[axis] = hits.outer_start[axis] + first;
         piece.inner_start[axis] = hits.inner_start[axis] + first;
     }
+    for (int axis = 0; axis < 3 && hits.point[0] != nullptr; ++axis)
+        piece.point[axis] = hits.point[axis] + first;
+    if (hits.surface != nullptr)
+        piece.surface = hits.surface + first;
     if (hits.normal_x != nullptr) {
         piece.normal[0] = hits.normal_x + first;
         piece.normal[1] = hits.normal_y + first;
         piece.normal[2] = hits.normal_z + first;
     }
     return piece;
+}
+
+template <class Real>
+void add_starts(abi::RaysView<Real>& piece, const StartsView<Real>& starts, std::size_t first)
+{
+    static_assert(no_start == abi::no_start);
+    for (int axis = 0; axis < 3; ++axis)
+        piece.start_point[axis] = starts.point[axis] + first;
+    piece.start_surface = starts.surface + first;
 }
 
 template <class Real>
@@ -68,11 +83,15 @@ public:
     {
     }
 
-    void closest_hits(const RaysView<Real>& rays, const HitsView<Real>& hits) const override
+    void closest_hits(const RaysView<Real>& rays, const StartsView<Real>* starts,
+                      const HitsView<Real>& hits) const override
     {
-        for (std::size_t first = 0; first < rays.count; first += longest_stream)
-            kernels_.closest_hits(packed_.view(), piece_of(rays, first, longest_stream),
-                                  piece_of(hits, first));
+        for (std::size_t first = 0; first < rays.count; first += longest_stream) {
+            auto piece = piece_of(rays, first, longest_stream);
+            if (starts != nullptr)
+                add_starts(piece, *starts, first);
+            kernels_.closest_hits(packed_.view(), piece, piece_of(hits, first));
+        }
     }
 
     void occluded(const RaysView<Real>& rays, std::uint8_t* mask) const override

@@ -34,7 +34,8 @@ public:
     {
     }
 
-    void closest_hits(const RaysView<Real>& rays, const HitsView<Real>& hits) const override
+    void closest_hits(const RaysView<Real>& rays, const StartsView<Real>*,
+                      const HitsView<Real>& hits) const override
     {
         for (std::size_t i = 0; i < rays.count; ++i) {
             const ScalarRay<Real> ray(rays, i);

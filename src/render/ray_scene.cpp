@@ -27,7 +27,14 @@ RayScene<Real>& RayScene<Real>::operator=(RayScene&&) noexcept = default;
 template <class Real>
 void RayScene<Real>::closest_hits(const RaysView<Real>& rays, const HitsView<Real>& hits) const
 {
-    state_->backend->closest_hits(rays, hits);
+    state_->backend->closest_hits(rays, nullptr, hits);
+}
+
+template <class Real>
+void RayScene<Real>::closest_hits(const RaysView<Real>& rays, const StartsView<Real>& starts,
+                                  const HitsView<Real>& hits) const
+{
+    state_->backend->closest_hits(rays, &starts, hits);
 }
 
 template <class Real>

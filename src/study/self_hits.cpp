@@ -19,15 +19,26 @@ using reference::dot;
 template <class Real>
 struct Stream {
     std::array<std::vector<Real>, 8> rays;
-    std::array<std::vector<Real>, 4> hits;  ///< t, normal
-    std::array<std::vector<Real>, 6> starts;
+    std::array<std::vector<Real>, 4> hits;    ///< t, normal
+    std::array<std::vector<Real>, 9> starts;  ///< outer, inner, the hit point itself
     std::vector<std::int32_t> object;
+    std::vector<std::int32_t> surface;
+    // Where these rays themselves start, of rays that leave hits.
+    std::array<std::vector<Real>, 3> own_point;
+    std::vector<std::int32_t> own_surface;
 
     void add(const Vec3& org, const Vec3& dir, double t_min, double t_max)
     {
         const double values[8] = {org.x, org.y, org.z, dir.x, dir.y, dir.z, t_min, t_max};
         for (std::size_t i = 0; i < 8; ++i)
             rays[i].push_back(static_cast<Real>(values[i]));
+    }
+
+    void add_start(const Vec3& point, std::int32_t own)
+    {
+        for (int axis = 0; axis < 3; ++axis)
+            own_point[static_cast<std::size_t>(axis)].push_back(static_cast<Real>(point[axis]));
+        own_surface.push_back(own);
     }
 
     void trace(const RayScene<Real>& scene)
@@ -38,22 +49,31 @@ struct Stream {
         for (auto& column : starts)
             column.resize(n);
         object.resize(n);
+        surface.resize(n);
         const auto& r = rays;
         auto& s = starts;
-        scene.closest_hits({r[0].data(), r[1].data(), r[2].data(), r[3].data(), r[4].data(),
-                            r[5].data(), r[6].data(), r[7].data(), n},
-                           {hits[0].data(),
-                            object.data(),
-                            hits[1].data(),
-                            hits[2].data(),
-                            hits[3].data(),
-                            {s[0].data(), s[1].data(), s[2].data()},
-                            {s[3].data(), s[4].data(), s[5].data()}});
+        const RaysView<Real> in{r[0].data(), r[1].data(), r[2].data(),
+                                r[3].data(), r[4].data(), r[5].data(),
+                                r[6].data(), r[7].data(), n};
+        const HitsView<Real> out{hits[0].data(),
+                                 object.data(),
+                                 hits[1].data(),
+                                 hits[2].data(),
+                                 hits[3].data(),
+                                 {s[0].data(), s[1].data(), s[2].data()},
+                                 {s[3].data(), s[4].data(), s[5].data()},
+                                 {s[6].data(), s[7].data(), s[8].data()},
+                                 surface.data()};
+        if (own_surface.empty())
+            return scene.closest_hits(in, out);
+        const auto& p = own_point;
+        scene.closest_hits(in, {{p[0].data(), p[1].data(), p[2].data()}, own_surface.data()}, out);
     }
 
-    [[nodiscard]] Vec3 start(std::size_t i, bool outside) const
+    /// Of hit i: 0 the outer start, 1 the inner one, 2 the hit point.
+    [[nodiscard]] Vec3 start(std::size_t i, std::size_t which) const
     {
-        const std::size_t first = outside ? 0 : 3;
+        const std::size_t first = 3 * which;
         return {starts[first][i], starts[first + 1][i], starts[first + 2][i]};
     }
 };
@@ -90,7 +110,7 @@ double second_meeting(const WideSurface& surface, const WideVec& P, const WideVe
 }
 
 /// t of a second meeting, 0 for none, and whether the way there is less deep below the surface
-/// than four times what the start was moved by: then nothing is expected.
+/// than four times what the hit point is off by: then nothing is expected.
 struct Expected {
     double t;
     bool shallow;
@@ -135,8 +155,11 @@ void add_secondary(const StressGroup& group, const Stream<Real>& primary, std::s
     for (int axis = 0; axis < 3; ++axis)
         dir[axis] = static_cast<double>(static_cast<Real>(dir[axis]));
     const WideVec P = wide(group.rays[i].org) + meeting->t * wide(group.rays[i].dir);
-    const Vec3 start = primary.start(i, dot(wide(dir), meeting->normal) > 0);
-    secondary.add(start, dir, t_min, std::numeric_limits<double>::infinity());
+    const bool outside = dot(wide(dir), meeting->normal) > 0;
+    secondary.add(primary.start(i, outside ? 0 : 1), dir, t_min,
+                  std::numeric_limits<double>::infinity());
+    const Vec3 start = primary.start(i, 2);
+    secondary.add_start(start, outside ? primary.surface[i] : ~primary.surface[i]);
     const double second = second_meeting(group.surfaces[0], P, wide(dir));
     const double moved = glm::length(narrow(wide(start) - P));
     expected.push_back({second, second * std::abs(glm::dot(dir, normal)) / 4.0 < 4.0 * moved});

@@ -12,7 +12,7 @@ struct SelfHitCounts {
     std::uint64_t rays = 0;
     std::uint64_t taken = 0;  ///< hits of the own surface where there is none
     std::uint64_t lost = 0;   ///< second meetings not found, or found a tenth or more off
-                              ///< though four times deeper than the start was moved
+                              ///< though four times deeper than the hit point is off
 
     void add(const SelfHitCounts& other);
 };

@@ -9,6 +9,7 @@
 
 #include "study/self_hits.hpp"
 #include "study/stress_bounds.hpp"
+#include "study/stress_measure.hpp"
 #include "study/stress_subject.hpp"
 
 namespace packtrace::study {
@@ -92,16 +93,10 @@ Errors judge_runs(const std::vector<StressGroup>& groups, const std::vector<Stre
     return sum;
 }
 
-template <class Real>
-StressRow row_of(const StressSubject& subject, const std::vector<StressGroup>& groups,
-                 const std::vector<StressRun>& runs)
+StressRow row_of(const StressSubject& subject, const char* precision, Errors errors, double seconds)
 {
-    Errors errors = judge_runs<Real>(groups, runs);
-    double seconds = 0.0;
-    for (const StressRun& run : runs)
-        seconds += run.seconds;
     StressRow row;
-    row.precision = sizeof(Real) == sizeof(float) ? "single" : "double";
+    row.precision = precision;
     row.kernel = subject.kernel;
     row.mode = subject.mode;
     row.isa = subject.isa;
@@ -147,6 +142,17 @@ void add_self_hits(StressRow& row, const StressSubject& subject,
     row.note_lost = note.lost;
     row.exact_taken = exact.taken;
     row.exact_lost = exact.lost;
+}
+
+template <class Real>
+StressRow row_of(const StressSubject& subject, const std::vector<StressGroup>& groups,
+                 const std::vector<StressRun>& runs)
+{
+    double seconds = 0.0;
+    for (const StressRun& run : runs)
+        seconds += run.seconds;
+    return row_of(subject, sizeof(Real) == sizeof(float) ? "single" : "double",
+                  judge_runs<Real>(groups, runs), seconds);
 }
 
 /// Whether `runs` are, bit for bit, those of the last row of the same kernel and mode.
@@ -205,6 +211,34 @@ void mark_pareto(std::vector<StressRow>& rows)
         });
 }
 
+/// The rows of one measure in one precision; instruction sets with the same answers share one.
+void add_measured(const StressMeasure& measure, const char* precision,
+                  const StressMeasure::Ask& ask, const std::vector<StressSubject>& subjects,
+                  std::vector<StressRow>& rows)
+{
+    const bool doubles = precision[0] == 'd';
+    std::vector<std::pair<std::size_t, std::vector<double>>> answered;
+    for (const StressSubject& subject : subjects) {
+        if (subject.kernel != "packet" || (doubles && subject.mode != subjects.back().mode))
+            continue;
+        MeasureRun run = ask(subject);
+        const auto twin = std::find_if(answered.begin(), answered.end(), [&](const auto& other) {
+            return (rows[other.first].mode == subject.mode || doubles) &&
+                   other.second == run.answers;
+        });
+        if (twin != answered.end()) {
+            rows[twin->first].isa += " " + subject.isa;
+            continue;
+        }
+        rows.push_back(row_of(subject, precision, std::move(run.errors), run.seconds));
+        rows.back().family = measure.name;
+        if (doubles)
+            rows.back().mode = "any";
+        rows.back().broken = broken_bounds(rows.back());
+        answered.emplace_back(rows.size() - 1, std::move(run.answers));
+    }
+}
+
 bool wanted(const std::vector<std::string>& names, const std::string& name)
 {
     return names.empty() || std::find(names.begin(), names.end(), name) != names.end();
@@ -212,12 +246,11 @@ bool wanted(const std::vector<std::string>& names, const std::string& name)
 
 void check_families(const StressOptions& options)
 {
-    for (const std::string& name : options.families) {
-        const auto& families = stress_families();
+    const auto families = list_stress_families();
+    for (const std::string& name : options.families)
         if (std::none_of(families.begin(), families.end(),
-                         [&](const StressFamily& family) { return family.name == name; }))
+                         [&](const StressFamilyInfo& family) { return family.name == name; }))
             throw std::invalid_argument("no family is called '" + name + "'");
-    }
 }
 
 }  // namespace
@@ -238,6 +271,26 @@ void run_stress(const StressOptions& options,
         mark_pareto(rows);
         take(rows);
     }
+    for (const StressMeasure& measure : stress_measures()) {
+        if (!wanted(options.families, measure.name))
+            continue;
+        std::vector<StressRow> rows;
+        if (wanted(options.precisions, "single"))
+            add_measured(measure, "single", measure.in_single(options), subjects, rows);
+        if (wanted(options.precisions, "double"))
+            add_measured(measure, "double", measure.in_double(options), subjects, rows);
+        mark_pareto(rows);
+        take(rows);
+    }
+}
+
+std::vector<StressMeasure> stress_measures()
+{
+    std::vector<StressMeasure> all = power_measures();
+    all.push_back(glass_measure());
+    for (StressMeasure& measure : tree_measures())
+        all.push_back(std::move(measure));
+    return all;
 }
 
 std::vector<StressFamilyInfo> list_stress_families()
@@ -245,6 +298,8 @@ std::vector<StressFamilyInfo> list_stress_families()
     std::vector<StressFamilyInfo> list;
     for (const StressFamily& family : stress_families())
         list.push_back({family.name, family.what});
+    for (const StressMeasure& measure : stress_measures())
+        list.push_back({measure.name, measure.what});
     return list;
 }
 

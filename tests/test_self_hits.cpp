@@ -1,0 +1,164 @@
+// SelfHits::exact: packets against the scalar reference, both by that rule, and rays that leave a
+// surface they are on.
+#include <cmath>
+
+#include <packtrace/compare.hpp>
+#include <packtrace/intersect.hpp>
+
+#include "catch.hpp"
+#include "packet_scenes.hpp"
+#include "reference/render_reference.hpp"
+#include "reference_scenes.hpp"
+#include "render_scene.hpp"
+#include "study/error_class.hpp"
+#include "study/ray_trees.hpp"
+#include "study/stress_family.hpp"
+
+namespace packtrace::test {
+namespace {
+
+RenderOptions exact_options(const std::string& isa = "auto")
+{
+    RenderOptions options;
+    options.isa = isa;
+    options.self_hits = SelfHits::exact;
+    return options;
+}
+
+template <class Real>
+Image<Real> scalar_exact(const Scene& scene)
+{
+    return render_reference<Real>(scene, exact_options());
+}
+
+/// A glass ball in a glass ball over a checkered floor: rays start on either side of surfaces.
+Scene glass_balls(ShadowKind shadows)
+{
+    Scene scene;
+    set_size(scene, 61, 47);
+    scene.illumination = Illumination::whitted;
+    scene.shadows = shadows;
+    scene.max_depth = 6;
+    WhittedMaterial glass;
+    glass.transmissive = Rgb(0.8);
+    glass.specular = Rgb(0.2);
+    glass.ior = 1.5;
+    WhittedMaterial stone;
+    stone.diffuse = Rgb(0.7);
+    stone.specular = Rgb(0.1);
+    for (const double radius : {1.0, 0.6})
+        scene.objects.push_back(study::sphere_object({0.1, 0.0, 4.0}, radius));
+    scene.objects.push_back(study::sphere_object({0.0, -501.0, 4.0}, 500.0));
+    for (Object& object : scene.objects)
+        object.material.model = glass;
+    scene.objects[2].material.model = stone;
+    scene.lights = {ambient(0.2), point_light({3, 5, -2}, 0.7), directional({-1, 2, -1}, 0.3)};
+    return scene;
+}
+
+/// One ray from a point of the unit ball's surface; `side` is what StartsView takes.
+struct Leaving {
+    float t = 0.0f;
+    std::int32_t object = -2;
+};
+
+Leaving leave_ball(const RayScene<float>& scene, const glm::vec3& org, const glm::vec3& point,
+                   const glm::vec3& dir, std::int32_t side)
+{
+    const float zero = 0.0f;
+    const float far = 1e9f;
+    Leaving found;
+    scene.closest_hits({&org.x, &org.y, &org.z, &dir.x, &dir.y, &dir.z, &zero, &far, 1},
+                       {{&point.x, &point.y, &point.z}, &side}, {&found.t, &found.object});
+    return found;
+}
+
+}  // namespace
+
+TEST_CASE("by the exact rule packets of doubles give the double reference's picture", "[self_hits]")
+{
+    for (const NamedScene& named : packet_scenes()) {
+        const Image<double> expected = scalar_exact<double>(named.scene);
+        for (const std::string& isa : supported_isas()) {
+            CAPTURE(named.name, isa);
+            const auto picture = render<double>(named.scene, exact_options(isa));
+            CHECK(compare(picture, expected).max_abs <= 1e-9);
+        }
+    }
+}
+
+TEST_CASE("the exact rule is the same for rays in glass, in packets and in the reference",
+          "[self_hits]")
+{
+    for (const ShadowKind shadows : {ShadowKind::none, ShadowKind::opaque, ShadowKind::transparent})
+        for (const Traversal traversal : {Traversal::list, Traversal::tree}) {
+            const Scene scene = glass_balls(shadows);
+            const Image<double> expected = scalar_exact<double>(scene);
+            for (const std::string& isa : supported_isas()) {
+                CAPTURE(static_cast<int>(shadows), static_cast<int>(traversal), isa);
+                RenderOptions options = exact_options(isa);
+                options.traversal = traversal;
+                CHECK(compare(render<double>(scene, options), expected).max_abs <= 1e-9);
+            }
+        }
+}
+
+TEST_CASE("four spheres differ from long double at edges alone, by the exact rule", "[self_hits]")
+{
+    const Scene scene = four_spheres(192, 192);
+    const Image<long double> wide = scalar_exact<long double>(scene);
+    Image<double> truth(scene.width, scene.height);
+    std::copy(wide.rgb.begin(), wide.rgb.end(), truth.rgb.begin());
+    for (const std::string& isa : supported_isas()) {
+        CAPTURE(isa);
+        const auto picture = convert<double>(render<float>(scene, exact_options(isa)));
+        CHECK(compare(picture, truth).pixels_off <= 2);
+    }
+}
+
+TEST_CASE("a ray that leaves a ball meets it again only from inside, however shallow",
+          "[self_hits]")
+{
+    Scene scene;
+    scene.objects = {study::sphere_object({0, 0, 0}, 1.0)};
+    const RayScene<float> balls(scene, exact_options());
+    const glm::vec3 top{0, 1, 0};
+    for (const float fall : {0.5f, 1e-2f, 1e-4f, 1e-6f}) {
+        CAPTURE(fall);
+        const glm::vec3 down{std::sqrt(1.0f - fall * fall), -fall, 0};
+        const glm::vec3 up{down.x, fall, 0};
+        // The start itself is no hit even where it is not lifted off the surface.
+        const Leaving inside = leave_ball(balls, top, top, down, ~0);
+        CHECK(inside.object == 0);
+        CHECK(inside.t == Approx(2.0f * fall));
+        CHECK(leave_ball(balls, top, top, up, 0).object == -1);
+        // A little outside or inside by rounding, in any direction: the side decides.
+        const glm::vec3 off{0, 1.0000002f, 0};
+        CHECK(leave_ball(balls, off, off, down, 0).object == -1);
+        CHECK(leave_ball(balls, off, off, up, ~0).object == 0);
+    }
+    CHECK(leave_ball(balls, {0, 3, 0}, {0, 0, 0}, {0, -1, 0}, no_start).t == 2.0f);
+}
+
+TEST_CASE("a saddle is met again from where it bends away", "[self_hits]")
+{
+    Scene scene;
+    Object saddle;
+    Quadric quadric;
+    quadric.kind = QuadricKind::saddle;
+    quadric.coefficients = {1, -1, 0, 0, 0, 0, 0, 0, -1, 0};
+    saddle.surface = quadric;
+    scene.objects = {saddle};
+    const RayScene<float> scenes(scene, exact_options());
+    // z = x² - y²: from (1, 0, 1) along -x + 0.5 z: x = 1 - t, z = 1 + t/2, t² - 2.5 t = 0.
+    const glm::vec3 start{1, 0, 1};
+    for (const std::int32_t side : {0, ~0}) {
+        const Leaving found = leave_ball(scenes, start, start, {-1, 0, 0.5f}, side);
+        // Only one side is the one the ray goes to; z above x² - y² is inside.
+        CHECK(found.object == (side == 0 ? -1 : 0));
+        if (side != 0)
+            CHECK(found.t == Approx(2.5f));
+    }
+}
+
+}  // namespace packtrace::test
