@@ -67,9 +67,10 @@ private:
     {
         const std::size_t wanted = size * sizeof(T);
         const std::size_t boundary = wanted < huge_page ? alignment : huge_page;
-        const std::size_t bytes = (wanted + boundary) / boundary * boundary;
-        void* memory = std::aligned_alloc(boundary, bytes);
-        if (memory == nullptr)
+        // Not up to the next huge page: what is left over is taken in small ones.
+        const std::size_t bytes = (wanted + alignment) / alignment * alignment;
+        void* memory = nullptr;
+        if (posix_memalign(&memory, boundary, bytes) != 0)
             throw std::bad_alloc();
 #if defined(MADV_HUGEPAGE)
         // Rays walk large arrays in no order; a refusal costs time only.
