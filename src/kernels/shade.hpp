@@ -22,8 +22,9 @@ inline Vec3v<Real> light_color(const ShadeContext<F, Real>& context, int number,
         if (context.scene->transparent_shadows && packet.wanted != 0) {
             const Vec3v<Real> share =
                 transmitted<F>(context, number, packet, surface, packet.wanted, first);
-            const Vec3v<Real> color =
-                share * lit_color(light, packet, material, packet.wanted & any_channel(share));
+            const std::uint32_t lit =
+                count_lit<Real>(packet.wanted, packet.wanted & any_channel(share));
+            const Vec3v<Real> color = share * lit_color(light, packet, material, lit);
             probe.light(number, packet.wanted, share, color);
             return color;
         }

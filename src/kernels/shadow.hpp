@@ -116,7 +116,6 @@ inline Vec3v<Real> transmitted(const ShadeContext<F, Real>& context, int light,
     const vreal<Real> one(Real(1));
     Vec3v<Real> share{one, one, one};
     context.counts->shadow += static_cast<unsigned>(__builtin_popcount(wanted));
-    count_packet<Real>(abi::PacketWork::shadow, wanted);
     if (context.shadows != nullptr)
         return context.shadows[light].shares(first);
     const ShadowScope shadow(abi::Part::ray_generation);
