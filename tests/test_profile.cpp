@@ -110,7 +110,7 @@ TEST_CASE("lanes are filled by all rays of whole tiles, and by fewer after each 
         options.repetitions = 1;
         for (const auto& generation :
              profile<float>(read_text(four_spheres_file), scene, options).generations)
-            shares.push_back(generation.lanes_filled.value());
+            shares.push_back(generation.lanes_filled.value_or(0.0));
         return shares;
     };
     const Scene whole = four_spheres(64, 64);
@@ -126,7 +126,10 @@ TEST_CASE("lanes are filled by all rays of whole tiles, and by fewer after each 
             CHECK(share <= 1.0);
         }
         // A single pixel is one lane of a packet.
-        CHECK(filled(four_spheres(1, 1), isa.name)[0] == 1.0 / isa.lanes_single);
+        Scene wall;
+        set_size(wall, 1, 1);
+        add_plane(wall, {0, 0, 3}, {0, 0, -1}, scratch({1, 1, 1}, -1, 0));
+        CHECK(filled(wall, isa.name)[0] == 1.0 / isa.lanes_single);
     }
     Scene glass = read_scene(PACKTRACE_SOURCE_DIR "/scenes/nested_glass.scene");
     set_size(glass, 16, 16);

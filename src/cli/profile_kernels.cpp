@@ -2,8 +2,8 @@
 
 #include <algorithm>
 #include <ostream>
-#include <utility>
 
+#include "cli/deep_rows.hpp"
 #include "cli/text_table.hpp"
 
 namespace packtrace::cli {
@@ -24,67 +24,48 @@ std::string ratio(std::uint64_t part, std::uint64_t whole)
     return whole > 0 ? fixed(static_cast<double>(part) / static_cast<double>(whole), 2) : "-";
 }
 
-double sum_of(const std::vector<KernelStage>& stages)
-{
-    double sum = 0.0;
-    for (const KernelStage& stage : stages)
-        sum += stage.seconds;
-    return sum;
-}
+// Whose work the rows of the table of stages are, in their order.
+constexpr const char* ray_kinds[] = {"camera", "reflected", "refracted", "shadow", "hits"};
 
-int last_depth(const std::vector<KernelStage>& stages)
-{
-    int depth = 0;
-    for (const KernelStage& stage : stages)
-        depth = std::max(depth, stage.depth);
-    return depth;
-}
+// A stage of one kind of ray in all generations.
+struct StageRow {
+    std::string rays;
+    std::string name;
+    double seconds = 0.0;
+    double by_depth[depths_shown] = {};
+};
 
-// Each stage of each kind of ray once, in the order of their first generation.
-std::vector<std::pair<std::string, std::string>> stages_of(const std::vector<KernelStage>& stages)
+std::vector<StageRow> stage_rows(const std::vector<KernelStage>& stages)
 {
-    std::vector<std::pair<std::string, std::string>> names;
-    for (const char* rays : {"camera", "reflected", "refracted", "shadow", "hits"})
-        for (const KernelStage& stage : stages)
-            if (std::pair name(stage.rays, stage.name);
-                stage.rays == rays && std::find(names.begin(), names.end(), name) == names.end())
-                names.push_back(std::move(name));
-    return names;
+    std::vector<StageRow> rows;
+    for (const char* rays : ray_kinds)
+        for (const KernelStage& stage : stages) {
+            if (stage.rays != rays)
+                continue;
+            auto row = std::find_if(rows.begin(), rows.end(), [&](const StageRow& other) {
+                return other.rays == stage.rays && other.name == stage.name;
+            });
+            if (row == rows.end())
+                row = rows.insert(row, {stage.rays, stage.name});
+            row->seconds += stage.seconds;
+            row->by_depth[std::min(stage.depth, depths_shown - 1)] += stage.seconds;
+        }
+    return rows;
 }
-
-double seconds_of(const KernelProfile& kernels, const std::pair<std::string, std::string>& name,
-                  int depth)
-{
-    for (const KernelStage& stage : kernels.stages)
-        if (stage.depth == depth && stage.rays == name.first && stage.name == name.second)
-            return stage.seconds;
-    return 0.0;
-}
-
-// The generations' columns: so many that lines stay short, the last with all further ones.
-constexpr int depth_columns = 5;
 
 void print_stages(std::ostream& to, const KernelProfile& kernels)
 {
-    const int depths = last_depth(kernels.stages) + 1;
-    const int columns = std::min(depths, depth_columns);
+    const int deepest = deepest_of(kernels.stages);
+    const int columns = std::min(deepest + 1, depths_shown);
     std::vector<std::string> head{"rays", "stage in the kernels", "ms", "share"};
     for (int depth = 0; depth < columns; ++depth)
-        head.push_back("depth " + std::to_string(depth) +
-                       (depth == columns - 1 && columns < depths ? " on" : ""));
+        head.push_back(depth_name(depth, deepest));
     TextTable table(2, head);
-    for (const auto& name : stages_of(kernels.stages)) {
-        double sum = 0.0;
-        std::vector<double> by_depth(static_cast<std::size_t>(columns));
-        for (int depth = 0; depth < depths; ++depth) {
-            const double seconds = seconds_of(kernels, name, depth);
-            by_depth[static_cast<std::size_t>(std::min(depth, columns - 1))] += seconds;
-            sum += seconds;
-        }
-        std::vector<std::string> row{name.first, name.second, milliseconds(sum),
-                                     percent(sum, kernels.observed)};
-        for (const double seconds : by_depth)
-            row.push_back(seconds > 0.0 ? milliseconds(seconds) : "-");
+    for (const StageRow& stage : stage_rows(kernels.stages)) {
+        std::vector<std::string> row{stage.rays, stage.name, milliseconds(stage.seconds),
+                                     percent(stage.seconds, kernels.observed)};
+        for (int depth = 0; depth < columns; ++depth)
+            row.push_back(stage.by_depth[depth] > 0.0 ? milliseconds(stage.by_depth[depth]) : "-");
         table.add(row);
     }
     const auto total = [&](const std::string& name, double seconds) {
@@ -102,11 +83,17 @@ void print_rays(std::ostream& to, const KernelProfile& kernels)
 {
     TextTable table(
         2, {"generation", "rays to their hits", "number", "ms", "share", "ns/ray", "Mrays/s"});
-    for (const RayTime& row : kernels.rays) {
+    const auto rows = with_deep_ones_joined(
+        kernels.rays, [](const RayTime& a, const RayTime& b) { return a.rays == b.rays; },
+        [](RayTime& sum, const RayTime& row) {
+            sum.count += row.count;
+            sum.seconds += row.seconds;
+        });
+    for (const RayTime& row : rows) {
         const auto count = static_cast<double>(row.count);
-        table.add({"depth " + std::to_string(row.depth), row.rays, std::to_string(row.count),
-                   milliseconds(row.seconds), percent(row.seconds, kernels.observed),
-                   fixed(1e9 * row.seconds / count, 2),
+        table.add({depth_name(row.depth, deepest_of(kernels.rays)), row.rays,
+                   std::to_string(row.count), milliseconds(row.seconds),
+                   percent(row.seconds, kernels.observed), fixed(1e9 * row.seconds / count, 2),
                    row.seconds > 0.0 ? fixed(1e-6 * count / row.seconds, 1) : "-"});
     }
     table.print(to);
@@ -114,22 +101,32 @@ void print_rays(std::ostream& to, const KernelProfile& kernels)
 
 void print_lanes(std::ostream& to, const Profile& profile)
 {
+    const std::vector<LaneUse>& lanes = profile.kernels.lanes;
     TextTable table(2, {"generation", "work of packets", "packets", "live lanes", "coherent"});
-    for (const LaneUse& row : profile.kernels.lanes) {
+    const auto rows = with_deep_ones_joined(
+        lanes, [](const LaneUse& a, const LaneUse& b) { return a.work == b.work; },
+        [](LaneUse& sum, const LaneUse& row) {
+            sum.packets += row.packets;
+            sum.live += row.live;
+            if (sum.coherent && row.coherent)
+                *sum.coherent += *row.coherent;
+        });
+    for (const LaneUse& row : rows) {
         const auto packets = static_cast<double>(row.packets);
-        table.add({"depth " + std::to_string(row.depth), row.work, std::to_string(row.packets),
+        table.add({depth_name(row.depth, deepest_of(lanes)), row.work, std::to_string(row.packets),
                    percent(static_cast<double>(row.live), packets * profile.lanes),
                    row.coherent ? percent(static_cast<double>(*row.coherent), packets) : "-"});
     }
     table.print(to);
 }
 
-// Rays that tests are made for.
+// Rays that the tests of a row are made for.
 std::uint64_t rays_tested(const KernelProfile& kernels, const TestUse& test)
 {
     std::uint64_t rays = 0;
     for (const RayTime& row : kernels.rays)
-        if (row.depth == test.depth && (row.rays == "shadow") == (test.rays == "shadow"))
+        if (std::min(row.depth, depths_shown - 1) == test.depth &&
+            (row.rays == "shadow") == (test.rays == "shadow"))
             rays += row.count;
     return rays;
 }
@@ -137,8 +134,15 @@ std::uint64_t rays_tested(const KernelProfile& kernels, const TestUse& test)
 void print_tests(std::ostream& to, const KernelProfile& kernels)
 {
     TextTable table(3, {"generation", "rays", "tested", "together", "single", "single/ray"});
-    for (const TestUse& row : kernels.tests)
-        table.add({"depth " + std::to_string(row.depth), row.rays, row.tested,
+    const auto rows = with_deep_ones_joined(
+        kernels.tests,
+        [](const TestUse& a, const TestUse& b) { return a.rays == b.rays && a.tested == b.tested; },
+        [](TestUse& sum, const TestUse& row) {
+            sum.tests += row.tests;
+            sum.single += row.single;
+        });
+    for (const TestUse& row : rows)
+        table.add({depth_name(row.depth, deepest_of(kernels.tests)), row.rays, row.tested,
                    std::to_string(row.tests), std::to_string(row.single),
                    ratio(row.single, rays_tested(kernels, row))});
     table.print(to);
@@ -150,9 +154,10 @@ void print_kernels(std::ostream& to, const Profile& profile)
 {
     const KernelProfile& kernels = profile.kernels;
     to << "inside the kernels, on one thread: frame " << milliseconds(kernels.plain)
-       << " ms; by kernels that observe themselves " << milliseconds(kernels.observed)
-       << " ms; with the clock, which gives the stages, " << milliseconds(kernels.clocked)
-       << " ms (" << percent(kernels.clocked - kernels.observed, kernels.observed) << " more)\n\n";
+       << " ms; by kernels that observe themselves " << milliseconds(kernels.observed) << " ms,\n"
+       << "with the clock that gives the stages " << milliseconds(kernels.clocked)
+       << " ms, which is " << percent(kernels.clocked - kernels.observed, kernels.observed)
+       << " more\n\n";
     print_stages(to, kernels);
     to << '\n';
     print_rays(to, kernels);
@@ -160,42 +165,6 @@ void print_kernels(std::ostream& to, const Profile& profile)
     print_lanes(to, profile);
     to << '\n';
     print_tests(to, kernels);
-}
-
-nlohmann::ordered_json kernels_json(const KernelProfile& kernels)
-{
-    nlohmann::ordered_json json{{"plain_s", kernels.plain},
-                                {"observed_s", kernels.observed},
-                                {"clocked_s", kernels.clocked},
-                                {"stages_sum_s", sum_of(kernels.stages)},
-                                {"stages", nlohmann::ordered_json::array()},
-                                {"rays", nlohmann::ordered_json::array()},
-                                {"lanes", nlohmann::ordered_json::array()},
-                                {"tests", nlohmann::ordered_json::array()}};
-    for (const KernelStage& row : kernels.stages)
-        json["stages"].push_back({{"depth", row.depth},
-                                  {"rays", row.rays},
-                                  {"name", row.name},
-                                  {"seconds", row.seconds}});
-    for (const RayTime& row : kernels.rays)
-        json["rays"].push_back({{"depth", row.depth},
-                                {"rays", row.rays},
-                                {"count", row.count},
-                                {"seconds", row.seconds}});
-    for (const LaneUse& row : kernels.lanes)
-        json["lanes"].push_back({{"depth", row.depth},
-                                 {"work", row.work},
-                                 {"packets", row.packets},
-                                 {"live", row.live},
-                                 {"coherent", row.coherent ? nlohmann::ordered_json(*row.coherent)
-                                                           : nlohmann::ordered_json()}});
-    for (const TestUse& row : kernels.tests)
-        json["tests"].push_back({{"depth", row.depth},
-                                 {"rays", row.rays},
-                                 {"tested", row.tested},
-                                 {"together", row.tests},
-                                 {"single", row.single}});
-    return json;
 }
 
 }  // namespace packtrace::cli

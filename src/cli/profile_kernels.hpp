@@ -8,6 +8,8 @@
 
 namespace packtrace::cli {
 
+[[nodiscard]] double sum_of(const std::vector<KernelStage>& stages);
+
 /// The inside of a frame: stages, rays, lanes and tests.
 void print_kernels(std::ostream& to, const Profile& profile);
 

@@ -22,9 +22,10 @@ inline Vec3v<Real> light_color(const ShadeContext<F, Real>& context, int number,
         if (context.scene->transparent_shadows && light.casts_shadow && packet.wanted != 0) {
             const Vec3v<Real> share =
                 transmitted<F>(context, number, packet, surface, packet.wanted, first);
+            const std::uint32_t lit =
+                count_lit<Real>(packet.wanted, packet.wanted & any_channel(share));
             const Vec3v<Real> color =
-                share * lit_color<F>(*context.scene, light, packet, material,
-                                     packet.wanted & any_channel(share), *context.counts);
+                share * lit_color<F>(*context.scene, light, packet, material, lit, *context.counts);
             probe.light(number, packet.wanted, share, color);
             return color;
         }

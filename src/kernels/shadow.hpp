@@ -152,7 +152,6 @@ inline Vec3v<Real> transmitted(const ShadeContext<F, Real>& context, int light,
     Vec3v<Real> share{one, one, one};
     count_shadow_rays(*context.counts, wanted);
     context.counts->stages |= abi::stage_glass_shadows;
-    count_packet<Real>(abi::PacketWork::shadow, wanted);
     if (context.shadows != nullptr)
         return context.shadows[light].shares(first);
     const ShadowScope shadow(abi::Part::ray_generation);
