@@ -1,7 +1,9 @@
 #!/usr/bin/env bash
-# Regenerates the figures of this folder with a program: results/regenerate.sh build/release/packtrace
+# Regenerates the figures of this folder with the programs of a build:
+# results/regenerate.sh build/release
 set -euo pipefail
-program=$(readlink -f "$1")
+program=$(readlink -f "$1/packtrace")
+features=$(readlink -f "$1/bench/features/packtrace_features")
 cd "$(dirname "$(readlink -f "${BASH_SOURCE[0]}")")/.."
 
 scenes=()
@@ -30,6 +32,10 @@ for scene in "${scenes[@]}"; do
         >"results/profile/$name.txt.part"
     mv "results/profile/$name.txt.part" "results/profile/$name.txt"
 done
+
+echo "+ packtrace_features"
+"$features" bench/features/scenes/*.scene "${scenes[@]}" scenes/nested_glass.scene \
+    --json results/features.json
 
 echo "+ packtrace bench"
 "$program" bench "${scenes[@]}" --repetitions 5 -o results/baseline.json

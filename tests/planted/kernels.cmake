@@ -2,8 +2,7 @@
 # the same sources, behind headers of this folder.
 list(GET PACKTRACE_KERNELS 0 planted_isa)
 get_target_property(planted_options packtrace_kernels_${planted_isa} COMPILE_OPTIONS)
-add_library(packtrace_planted OBJECT ${PROJECT_SOURCE_DIR}/src/kernels/table.cpp
-            ${PROJECT_SOURCE_DIR}/src/kernels/probe_kernels.cpp)
+add_library(packtrace_planted OBJECT ${CMAKE_CURRENT_LIST_DIR}/planted_table.cpp)
 target_compile_definitions(packtrace_planted PRIVATE PACKTRACE_ISA=planted PACKTRACE_LANES=4)
 # Built quickly rather than to be quick; its bits are the same.
 target_compile_options(packtrace_planted PRIVATE ${planted_options} -O1)
