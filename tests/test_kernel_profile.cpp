@@ -276,6 +276,27 @@ TEST_CASE("nodes are met only where there is a hierarchy, which saves tests", "[
     }
 }
 
+TEST_CASE("cells without a ray are not tested against anything", "[kernel_profile]")
+{
+    // One tile, whose mirrored rays fill few of their group's cells.
+    Scene scene = sized(random_spheres(400, 7), 16, 16);
+    for (Object& object : scene.objects)
+        object.material = scratch({1, 1, 1}, -1, 0);
+    add_sphere(scene, {0, 0, 2}, 0.3, scratch({1, 1, 1}, -1, 0.5));
+    for (const std::string& isa : supported_isas()) {
+        const Counted frame = counted<float>(scene, isa);
+        REQUIRE(packets_of(frame.counts[1], abi::PacketWork::trace).live > 0);
+        REQUIRE(packets_of(frame.counts[1], abi::PacketWork::trace).live < 64);
+        for (const abi::WorkCounts& at : frame.counts)
+            for (const auto& role : at.tests)
+                for (const abi::TestCounts& tests : role) {
+                    CAPTURE(isa, tests.packets, tests.pairs);
+                    // A cell has up to four packets, some perhaps without a ray.
+                    CHECK(tests.packets <= 4 * tests.pairs);
+                }
+    }
+}
+
 TEST_CASE("live lanes are some of each packet, and coherent packets have all", "[kernel_profile]")
 {
     for (const std::string& isa : supported_isas())

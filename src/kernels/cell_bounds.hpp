@@ -159,7 +159,7 @@ inline std::uint32_t active_cells(const RayGroup<Real>& group)
     return cells;
 }
 
-/// Those whose directions differ little.
+/// Those whose directions differ little; and those without rays, whose bounds are inside out.
 inline std::uint32_t coherent_cells(const CellRange (&dir)[3], float largest_spread)
 {
     std::uint32_t coherent = 0;
@@ -172,9 +172,8 @@ inline std::uint32_t coherent_cells(const CellRange (&dir)[3], float largest_spr
             length = max8(length, size8(low, high));
             spread = max8(spread, high - low);
         }
-        // A cell without rays has infinite bounds, inside out.
-        const std::uint32_t used = less_equal8(length, Eight(largest_coordinate));
-        coherent |= (used & less_equal8(spread, Eight(largest_spread) * length)) << first;
+        const std::uint32_t reckoned = less_equal8(length, Eight(largest_coordinate));
+        coherent |= (reckoned & less_equal8(spread, Eight(largest_spread) * length)) << first;
     }
     return coherent;
 }
@@ -198,7 +197,9 @@ inline void bound_cells(CellBounds& bounds, const RayGroup<Real>& group,
     CellRange dir[3];
     for (int axis = 0; axis < 3; ++axis)
         find_cells(dir[axis], group.dir[axis], group);
-    bounds.coherent = wanted == Cells::all ? active_cells(group) : coherent_cells(dir, tree.spread);
+    bounds.coherent = active_cells(group);
+    if (wanted == Cells::coherent)
+        bounds.coherent &= coherent_cells(dir, tree.spread);
     if (bounds.coherent == 0)
         return;
     const std::uint32_t others = ~bounds.coherent & ((1u << group_cells) - 1u);

@@ -63,29 +63,32 @@ void StageSeconds::add(const std::vector<SpanTicks>& spans, const std::vector<ab
 {
     for (std::size_t depth = 0; depth < generations_.size(); ++depth)
         for (int span = 0; span < abi::span_count; ++span) {
-            const double seconds = spans[depth].span[static_cast<std::size_t>(span)];
             // A span too short for its clock is divided as it was read.
             const bool is_clocked = total_of(parts[depth], span, reading) > 0.0;
             const std::uint64_t taken_off = is_clocked ? reading : 0;
             const double total = total_of(parts[depth], span, taken_off);
             if (total <= 0.0)
                 continue;
+            const double scale = spans[depth].span[static_cast<std::size_t>(span)] / total;
             for (int role = 0; role < abi::role_count; ++role)
-                for (int part = 0; part < abi::part_count; ++part) {
-                    const double share =
-                        without_readings(parts[depth].part[span][role][part], taken_off) / total;
-                    const auto at = static_cast<std::size_t>(part);
-                    const Rays rays =
-                        rays_of(static_cast<abi::Span>(span), static_cast<abi::Role>(role));
-                    if (rays == camera && depth > 0) {
-                        const double bent = spans[depth].refracted;
-                        generations_[depth][refracted][at] += seconds * share * bent;
-                        generations_[depth][reflected][at] += seconds * share * (1.0 - bent);
-                    } else {
-                        generations_[depth][rays][at] += seconds * share;
-                    }
-                }
+                for (int part = 0; part < abi::part_count; ++part)
+                    add_part(
+                        depth, rays_of(static_cast<abi::Span>(span), static_cast<abi::Role>(role)),
+                        static_cast<std::size_t>(part), spans[depth].refracted,
+                        scale * without_readings(parts[depth].part[span][role][part], taken_off));
         }
+}
+
+// Tracing after the first generation is for reflected and refracted rays.
+void StageSeconds::add_part(std::size_t depth, std::size_t rays, std::size_t part,
+                            double refracted_share, double seconds)
+{
+    if (rays != camera || depth == 0) {
+        generations_[depth][rays][part] += seconds;
+        return;
+    }
+    generations_[depth][refracted][part] += seconds * refracted_share;
+    generations_[depth][reflected][part] += seconds * (1.0 - refracted_share);
 }
 
 std::vector<KernelStage> StageSeconds::stages() const

@@ -25,6 +25,9 @@ private:
     // Of a generation, by kind of ray as StageSeconds::stages() has them.
     using Generation = std::array<std::array<double, abi::part_count>, 5>;
 
+    void add_part(std::size_t depth, std::size_t rays, std::size_t part, double refracted_share,
+                  double seconds);
+
     std::vector<Generation> generations_;
 };
 
