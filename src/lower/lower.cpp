@@ -40,7 +40,7 @@ LoweredScene lower(const Scene& scene, Accuracy accuracy, SelfHits self_hits)
     lower_objects(scene, lowered);
     mark_huge_spheres(scene.camera.position, lowered);
     mark_stiff(accuracy, lowered);
-    mark_finished(accuracy, lowered);
+    mark_finished(accuracy, self_hits, lowered);
     lowered.precise_powers = accuracy == Accuracy::robust;
     lowered.self_hits = self_hits;
 

@@ -99,7 +99,7 @@ struct LoweredScene {
     SelfHits self_hits = SelfHits::note;
     /// By surface: hits of rays in single precision are solved again in double.
     std::vector<bool> finished;
-    /// By surface: of the others, those whose hits get one more step in double.
+    /// By surface: those whose hits get one more step in double, unless they are finished.
     std::vector<bool> sharpened;
     bool precise_powers = false;           ///< highlights are computed in double
     double camera_t_min = 0.0;             ///< start of camera rays

@@ -87,11 +87,11 @@ void mark_stiff(Accuracy accuracy, LoweredScene& lowered)
     mark(accuracy, lowered.quadrics);
 }
 
-void mark_finished(Accuracy accuracy, LoweredScene& lowered)
+void mark_finished(Accuracy accuracy, SelfHits self_hits, LoweredScene& lowered)
 {
     const bool all = accuracy == Accuracy::robust;
     lowered.finished.assign(lowered.material_index.size(), all);
-    lowered.sharpened.assign(lowered.material_index.size(), false);
+    lowered.sharpened.assign(lowered.material_index.size(), self_hits == SelfHits::exact);
     if (accuracy != Accuracy::automatic)
         return;
     for (const LoweredSphere& sphere : lowered.spheres)
