@@ -31,5 +31,8 @@ for scene in "${scenes[@]}"; do
     mv "results/profile/$name.txt.part" "results/profile/$name.txt"
 done
 
+echo "+ packtrace stress"
+results/stress.py "$program"
+
 echo "+ packtrace bench"
 "$program" bench "${scenes[@]}" --repetitions 5 -o results/baseline.json
