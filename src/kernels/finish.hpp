@@ -136,16 +136,18 @@ inline abi::StiffSphere stiff_sphere(const abi::SphereShape& sphere)
 /// One step of Newton's method for the lanes of `same`: what cancels, the equation's value at
 /// the hit, is computed in double. It squares the error, which single precision left small.
 inline void sharpen_surface(FinishedHits<float>& hits, const abi::SurfaceForm& form,
-                            const RayPacket<float>& rays, const RayPacket<double>& low,
-                            const RayPacket<double>& high, const vmask<float>& same)
+                            const RayPacket<double>& low, const RayPacket<double>& high,
+                            const vmask<float>& same)
 {
     const FormAlong<double> a = along(form, at(low, low_half(hits.t)), low.dir);
     const FormAlong<double> b = along(form, at(high, high_half(hits.t)), high.dir);
     const vreal<float> slope = joined(a.slope, b.slope);
     const vreal<float> step = joined(a.constant, b.constant) / (slope + slope);
+    const Vec3v<float> point = joined(at(low, low_half(hits.t) - low_half(step)),
+                                      at(high, high_half(hits.t) - high_half(step)));
     const auto use = same & (abs(step) <= abs(hits.t) * vreal<float>(0.0625f));
     hits.t = select(use, hits.t - step, hits.t);
-    hits.point = select(use, madd<float>(hits.t, rays.dir, rays.org), hits.point);
+    hits.point = select(use, point, hits.point);
 }
 
 /// Sharpens all hits of `active` on surfaces that ask for it.
@@ -158,7 +160,7 @@ inline void sharpen_surface(FinishedHits<float>& hits, const abi::SurfaceForm& f
     const RayPacket<double> high = high_half(rays);
     for_each_distinct<float>(surface, active, [&](std::int32_t number, const vmask<float>& same) {
         if (scene.forms[number].sharpened)
-            sharpen_surface(hits, scene.forms[number], rays, low, high, same);
+            sharpen_surface(hits, scene.forms[number], low, high, same);
     });
 }
 

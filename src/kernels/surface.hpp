@@ -110,14 +110,20 @@ inline vreal<Real> magnitude_dot(const Vec3v<Real>& a, const Vec3v<Real>& b)
     return madd(abs(a.x), abs(b.x), madd(abs(a.y), abs(b.y), abs(a.z) * abs(b.z)));
 }
 
+/// How much of a point's size counts in its lift where its coordinate across the surface is near
+/// 0: points that are solved in double for floats are off by double's roundoffs then.
+template <class Real>
+inline constexpr Real size_share = sizeof(Real) == sizeof(float) ? Real(0x1p-20) : Real(1);
+
 /// Fills `lift`: along the outward normal by what rounding can do to a point there and to the
 /// surface's equation, after Pharr, Jakob and Humphreys, Physically Based Rendering, section 6.8.
 template <class Real>
 inline void set_lift(SurfacePacket<Real>& surface, const abi::SceneView<Real>& scene,
                      const Vec3v<Real>& outward, const Vec3v<Real>& from_anchor)
 {
-    const vreal<Real> size =
-        magnitude_dot(outward, surface.point) + magnitude_dot(outward, from_anchor);
+    const Vec3v<Real>& p = surface.point;
+    const vreal<Real> size = madd(vreal<Real>(size_share<Real>), abs(p.x) + abs(p.y) + abs(p.z),
+                                  magnitude_dot(outward, p) + magnitude_dot(outward, from_anchor));
     surface.lift = scale<Real>(vreal<Real>(scene.start_error) * size, outward);
 }
 

@@ -91,7 +91,7 @@ LoweredScene lower(const Scene& scene, Accuracy accuracy, SelfHits self_hits)
     lower_objects(scene, lowered);
     part_huge_spheres(scene.camera.position, lowered);
     mark_stiff(accuracy, lowered);
-    mark_finished(accuracy, lowered);
+    mark_finished(accuracy, self_hits, lowered);
     lowered.precise_powers = accuracy == Accuracy::robust;
     lowered.self_hits = self_hits;
     lowered.casts_shadow = shadow_casters(scene, lowered);

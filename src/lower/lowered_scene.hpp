@@ -107,7 +107,8 @@ struct LoweredScene {
     SelfHits self_hits = SelfHits::note;
     /// By surface: hits of rays in single precision are solved again in double.
     std::vector<std::uint8_t> finished;
-    /// By surface: of the others, those whose hits get one more step in double; none: no surface.
+    /// By surface: those whose hits get one more step in double, unless they are finished; none: no
+    /// surface.
     std::vector<std::uint8_t> sharpened;
     bool precise_powers = false;           ///< highlights are computed in double
     double camera_t_min = 0.0;             ///< start of camera rays

@@ -22,16 +22,11 @@ bool any(const std::vector<std::uint8_t>& marked)
     return std::find(marked.begin(), marked.end(), 1) != marked.end();
 }
 
-/// How many roundoffs rays start off a surface by: fewer where all hits are solved again in
-/// double and rounded once. Measured in docs/numerics.md.
+/// How many roundoffs rays start off a surface by. Hits in single precision are solved again or
+/// sharpened in double and rounded once; those in double are as the search found them. Measured in
+/// docs/numerics.md.
 template <class Real>
-Real start_roundoffs(const LoweredScene& lowered)
-{
-    const auto& finished = lowered.finished;
-    const bool all = sizeof(Real) == sizeof(float) &&
-                     std::find(finished.begin(), finished.end(), 0) == finished.end();
-    return all ? Real(8) : Real(32);
-}
+constexpr Real start_roundoffs = sizeof(Real) == sizeof(float) ? Real(8) : Real(32);
 
 template <class Real>
 PackedTree<Real> pack_tree(const LoweredScene& lowered, Traversal traversal)
@@ -73,22 +68,24 @@ PackedScene<Real>::PackedScene(const LoweredScene& lowered, Traversal traversal)
     if (lowered.self_hits == SelfHits::note)
         view_.secondary_t_min = view_.epsilon;
     else
-        view_.start_error =
-            start_roundoffs<Real>(lowered) * std::numeric_limits<Real>::epsilon() / 2;
+        view_.start_error = start_roundoffs<Real> * std::numeric_limits<Real>::epsilon() / 2;
 }
 
 /// Equations of all surfaces, where hits are sharpened or rays start from the exact place.
 template <class Real>
 void PackedScene<Real>::pack_forms(const LoweredScene& lowered)
 {
-    view_.sharpened = sizeof(Real) == sizeof(float) && any(lowered.sharpened);
-    if (!view_.sharpened && lowered.self_hits == SelfHits::note)
+    const bool single = sizeof(Real) == sizeof(float);
+    if (!(single && any(lowered.sharpened)) && lowered.self_hits == SelfHits::note)
         return;
     forms_ = AlignedArray<abi::SurfaceForm>(lowered.material_index.size());
     const auto put = [&](std::int32_t surface, const abi::SurfaceForm& form) {
         const auto at = static_cast<std::size_t>(surface);
         forms_[at] = form;
-        forms_[at].sharpened = !lowered.sharpened.empty() && lowered.sharpened[at] ? 1 : 0;
+        const bool sharpened = single && !lowered.sharpened.empty() && lowered.sharpened[at] != 0 &&
+                               lowered.finished[at] == 0;
+        forms_[at].sharpened = sharpened ? 1 : 0;
+        view_.sharpened = view_.sharpened || sharpened;
     };
     for (const LoweredSphere& sphere : lowered.spheres)
         put(sphere.surface, pack_form(sphere));

@@ -100,14 +100,16 @@ void mark_stiff(Accuracy accuracy, LoweredScene& lowered)
     mark(accuracy, lowered.quadrics);
 }
 
-void mark_finished(Accuracy accuracy, LoweredScene& lowered)
+void mark_finished(Accuracy accuracy, SelfHits self_hits, LoweredScene& lowered)
 {
     const bool all = accuracy == Accuracy::robust;
     lowered.finished.assign(lowered.material_index.size(), all ? 1 : 0);
+    if (self_hits == SelfHits::exact)
+        lowered.sharpened.assign(lowered.material_index.size(), 1);
     if (accuracy != Accuracy::automatic)
         return;
     if (!lowered.quadrics.empty())
-        lowered.sharpened.assign(lowered.material_index.size(), 0);
+        lowered.sharpened.resize(lowered.material_index.size(), 0);
     for_each_in_parallel(lowered.spheres, [&](const LoweredSphere& sphere) {
         if (is_stiff(sphere))
             lowered.finished[static_cast<std::size_t>(sphere.surface)] = 1;

@@ -8,7 +8,8 @@ namespace packtrace {
 void mark_stiff(Accuracy accuracy, LoweredScene& lowered);
 
 /// Marks the surfaces whose hits shall be solved again in double: all of them in robust mode, in
-/// automatic mode those whose normals need it; there other quadrics' hits are sharpened.
-void mark_finished(Accuracy accuracy, LoweredScene& lowered);
+/// automatic mode those whose normals need it; there other quadrics' hits are sharpened, and where
+/// rays start from the exact place all others too.
+void mark_finished(Accuracy accuracy, SelfHits self_hits, LoweredScene& lowered);
 
 }  // namespace packtrace
