@@ -29,10 +29,10 @@ inline const std::string two_balls =
 {
     const std::string floor =
         "plane { point = (0, -1, 0) normal = (0, 1, 0) checker = (255, 255, 255), (0, 0, 0), 1 }\n";
-    const std::string shiny = "sphere { center = (0, 1, 5) radius = 1 specular = 40 }\n";
-    const std::string mirror = "sphere { center = (0, 1, 5) radius = 1 reflective = 0.4 }\n";
+    const std::string shiny = "sphere { center = (0.1, 1.07, 5) radius = 1 specular = 40 }\n";
+    const std::string mirror = "sphere { center = (0.1, 1.07, 5) radius = 1 reflective = 0.4 }\n";
     const std::string pipe =
-        "cylinder { scale = (0.3, 0.3, 1) rotate = (90, 0, 0) translate = (0, 0, 4)\n"
+        "cylinder { scale = (0.3, 0.3, 1) rotate = (1, 0, 0, 90) translate = (0, 0, 4)\n"
         "           z_range = (-1, 1) capped = true color = (90, 200, 90) }\n";
     const std::string general = "illumination = general\nmax_depth = 4\nshadows = transparent\n";
     const std::string tinted =

@@ -115,8 +115,8 @@ TEST_CASE("each scene gets the narrowest kernel", "[features]")
 TEST_CASE("what is left out does not run", "[features]")
 {
     const auto stages = [](const Scene& scene) { return work_of(scene).counts.stages; };
-    CHECK(stages(matt_scene()) == (abi::stage_hits | abi::stage_normals | abi::stage_blockers |
-                                   abi::stage_shadow_rays));
+    CHECK(stages(matt_scene()) ==
+          (abi::stage_hits | abi::stage_normals | abi::stage_blockers | abi::stage_shadow_rays));
     CHECK(stages(scene_named("ambient light alone")) == abi::stage_hits);
     CHECK(stages(scene_named("ambient light on a quadric")) == abi::stage_hits);
     CHECK(stages(scene_named("no shadows")) == (abi::stage_hits | abi::stage_normals));

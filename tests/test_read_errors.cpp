@@ -174,7 +174,7 @@ TEST_CASE("an unknown key is refused with the nearest known one", "[read_errors]
           "x.scene:2:9: unknown key 'typ' in light; did you mean 'type'?");
     CHECK(error_of_line("light { color = (1, 1, 1) }") ==
           "x.scene:2:9: unknown key 'color' in light; use one of: type, intensity, position, "
-          "direction");
+          "direction, casts_shadow");
     CHECK(error_of_line("spheer { }") ==
           "x.scene:2:1: unknown key 'spheer' in the scene; did you mean 'sphere'?");
 }

@@ -158,14 +158,15 @@ TEST_CASE("a z_range that is no range, and a cap without one, are refused", "[re
           "x.scene:1:8: 'capped' closes the ends of a z_range, and there is none; add for example "
           "z_range = (-1, 1) or remove it");
     CHECK(error_of("cone { capped = maybe z_range = (0, 1) }") ==
-          "x.scene:1:17: unknown capped 'maybe'; use one of: false, true");
+          "x.scene:1:17: unknown capped 'maybe'; use one of: false, true, no, yes");
 }
 
 TEST_CASE("a key of another surface is refused", "[read_surface]")
 {
     CHECK(error_of("cone { radius = 1 }") ==
           "x.scene:1:8: unknown key 'radius' in cone; use one of: z_range, capped, color, "
-          "specular, reflective, name, material, checker, scale, rotate, translate, matrix");
+          "specular, reflective, name, material, checker, casts_shadow, scale, rotate, translate, "
+          "matrix");
     CHECK(error_of_line("sphere { centre = (0, 0, 3) radius = 1 }") ==
           "x.scene:2:10: unknown key 'centre' in sphere; did you mean 'center'?");
     CHECK(error_of_line("quadric { coefficients = (1, 2, 3) }") ==

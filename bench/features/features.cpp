@@ -124,12 +124,9 @@ void print(const Json& row)
 int run(const Arguments& arguments)
 {
     const std::string isa = choose_isa(arguments.isa).name;
-    Json report{{"machine", processor_name()},
-                {"compiler", compiler_name()},
-                {"commit", commit_name()},
-                {"isa", isa},
-                {"size", arguments.size},
-                {"repetitions", arguments.repetitions},
+    Json report{{"machine", processor_name()}, {"compiler", compiler_name()},
+                {"commit", commit_name()},     {"isa", isa},
+                {"size", arguments.size},      {"repetitions", arguments.repetitions},
                 {"scenes", Json::array()}};
     std::printf("%-22s %-9s %9s %9s %7s %7s\n", "scene", "kernel", "special", "general", "ratio",
                 "spread");

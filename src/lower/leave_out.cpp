@@ -72,7 +72,9 @@ std::vector<LeftOut> leave_out(LoweredScene& lowered)
     std::vector<LeftOut> left_out;
     add(left_out, remove_dark_lights(lowered), "light", "of no intensity");
     add(left_out, remove_duplicates(lowered), "surface", "in the very place of an earlier one");
+    const bool probe = lowered.features.probe;
     lowered.features = features_of(lowered);
+    lowered.features.probe = probe;
     lowered.features.highlights &= !lowered.lights.empty();
     narrow_shadows(lowered);
     narrow_bounces(lowered);

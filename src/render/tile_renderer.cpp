@@ -20,10 +20,10 @@ Vec2 only_sample(const Scene& scene, const RenderOptions& options)
 /// Leaves out what the picture does not need, or puts in all there is.
 const LoweredScene& fitted(LoweredScene& lowered, const RenderOptions& options)
 {
-    if (options.force_general)
-        lowered.features = abi::feature_sets[abi::general_set].features;
-    else
+    if (!options.force_general)
         leave_out(lowered);
+    else if (!lowered.features.probe)
+        lowered.features = abi::feature_sets[abi::general_set].features;
     return lowered;
 }
 

@@ -40,7 +40,8 @@ std::vector<Variant> variants_of(const ReportScene& scene, const BenchOptions& o
 {
     std::vector<Variant> variants;
     for (const Variant& variant : report_variants(scene.scene, one_thread(options)))
-        if (variant.study == Study::arithmetic && variant.accuracy == Accuracy::automatic)
+        if (variant.study == Study::arithmetic && variant.accuracy == Accuracy::automatic &&
+            !variant.general)
             variants.push_back(variant);
     return variants;
 }
