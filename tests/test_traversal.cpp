@@ -61,10 +61,9 @@ Scene mixed_scene(int count, unsigned seed)
         const double radius = std::pow(10.0, -0.5 + 0.8 * unit(random));
         if (i % 4 == 3) {
             add_object(scene, quadric_of(i / 4), material);
-            scene.objects.back().transform =
-                glm::scale(glm::rotate(glm::translate(Mat4(1.0), center), 3.0 * unit(random),
-                                       Vec3(1, 2, 3)),
-                           Vec3(radius, 0.5 * radius, 2.0 * radius));
+            scene.objects.back().transform = glm::scale(
+                glm::rotate(glm::translate(Mat4(1.0), center), 3.0 * unit(random), Vec3(1, 2, 3)),
+                Vec3(radius, 0.5 * radius, 2.0 * radius));
         } else {
             add_sphere(scene, i % 7 == 0 ? Vec3(0, 0, 6) : center, i % 7 == 0 ? 0.5 : radius,
                        material);

@@ -15,7 +15,7 @@ using Scene = std::shared_ptr<const EmbreeScene>;
 // Packets are marked inactive by their rays' limits, so that all lanes are valid.
 // Embree loads a packet of them at once.
 alignas(64) constexpr std::array<int, 16> all_valid = {-1, -1, -1, -1, -1, -1, -1, -1,
-                                           -1, -1, -1, -1, -1, -1, -1, -1};
+                                                       -1, -1, -1, -1, -1, -1, -1, -1};
 
 RTCIntersectContext context_of(RTCIntersectContextFlags flags)
 {

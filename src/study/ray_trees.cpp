@@ -74,8 +74,7 @@ struct ReferenceTrees {
     reference::TreeRecorder::Growth growth;
     reference::Reference<Real, reference::TreeRecorder> reference;
 
-    explicit ReferenceTrees(const Scene& scene)
-        : reference(scene, reference::TreeRecorder(growth))
+    explicit ReferenceTrees(const Scene& scene) : reference(scene, reference::TreeRecorder(growth))
     {
     }
     template <class Trace>
@@ -112,9 +111,8 @@ TreesOfPixel reference_sample_trees(const Scene& scene, const std::vector<Vec2>&
     return [trees, places](int x, int y) {
         std::vector<RayNode> grown;
         for (const Vec2& place : places)
-            grown.push_back(trees->grow([&](const auto& reference) {
-                return reference.trace_samples(x, y, {place});
-            }));
+            grown.push_back(trees->grow(
+                [&](const auto& reference) { return reference.trace_samples(x, y, {place}); }));
         return grown;
     };
 }
