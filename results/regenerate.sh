@@ -37,8 +37,5 @@ echo "+ packtrace_features"
 "$features" bench/features/scenes/*.scene "${scenes[@]}" scenes/nested_glass.scene \
     --json results/features.json
 
-echo "+ packtrace stress"
-results/stress.py "$program"
-
 echo "+ packtrace bench"
 "$program" bench "${scenes[@]}" --repetitions 5 -o results/baseline.json
