@@ -15,7 +15,7 @@ std::vector<std::string> used_features(const LoweredScene& lowered)
         if (used)
             uses.emplace_back(what);
     };
-    add(wants_tree(lowered, Traversal::automatic), "hierarchy");
+    add(frame_traversal(lowered, Traversal::automatic) == Traversal::tree, "hierarchy");
     add(!lowered.spheres.empty(), "spheres");
     add(!lowered.huge_spheres.empty(), "huge spheres");
     add(!lowered.planes.empty(), "planes");

@@ -107,7 +107,8 @@ std::vector<LeftOut> unused_features(const LoweredScene& lowered)
         if (!used)
             unused.push_back({what, why});
     };
-    unless(wants_tree(lowered, Traversal::automatic), "hierarchy", "lists are quicker for so few");
+    unless(frame_traversal(lowered, Traversal::automatic) == Traversal::tree, "hierarchy",
+           "lists are quicker for so few");
     unless(uses.quadrics, "quadrics", "all surfaces are spheres and planes");
     unless(any_stiff(lowered), "tests in double", "single precision holds every surface well");
     unless(!lowered.checkers.empty(), "checkers", "no plane has one");

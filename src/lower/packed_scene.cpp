@@ -10,8 +10,11 @@
 namespace packtrace {
 namespace {
 
-/// Below this number objects stay in a list. A round number: where the two cross is not measured.
-constexpr std::size_t tree_objects = 32;
+/// From these numbers of objects on a hierarchy is quicker than lists (results/crossover.json): for
+/// streams of camera and shadow rays from 12, of bounced ones from 100; for frames, whose tiles
+/// pick from lists what their beams meet, from 128 to 500.
+constexpr std::size_t stream_tree_objects = 32;
+constexpr std::size_t frame_tree_objects = 128;
 
 /// From this round number on a sphere's record is made of its shape when it is hit: memory counts
 /// more then than the few operations, which slow a frame of four spheres by 4 %.
@@ -28,18 +31,26 @@ bool any(const std::vector<std::uint8_t>& marked)
 template <class Real>
 constexpr Real start_roundoffs = sizeof(Real) == sizeof(float) ? Real(8) : Real(32);
 
+Traversal chosen(Traversal traversal, const LoweredScene& lowered, std::size_t tree_objects)
+{
+    if (traversal != Traversal::automatic)
+        return traversal;
+    return count_tree_objects(lowered) >= tree_objects ? Traversal::tree : Traversal::list;
+}
+
 template <class Real>
 PackedTree<Real> pack_tree(const LoweredScene& lowered, Traversal traversal)
 {
-    return wants_tree(lowered, traversal) ? PackedTree<Real>(lowered) : PackedTree<Real>();
+    return chosen(traversal, lowered, stream_tree_objects) == Traversal::tree
+               ? PackedTree<Real>(lowered)
+               : PackedTree<Real>();
 }
 
 }  // namespace
 
-bool wants_tree(const LoweredScene& lowered, Traversal traversal)
+Traversal frame_traversal(const LoweredScene& lowered, Traversal traversal)
 {
-    return traversal == Traversal::tree ||
-           (traversal == Traversal::automatic && count_tree_objects(lowered) >= tree_objects);
+    return chosen(traversal, lowered, frame_tree_objects);
 }
 
 template <class Real>

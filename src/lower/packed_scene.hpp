@@ -13,8 +13,8 @@
 
 namespace packtrace {
 
-/// Whether a scene gets a hierarchy rather than lists alone.
-[[nodiscard]] bool wants_tree(const LoweredScene& lowered, Traversal traversal);
+/// What Traversal::automatic comes to for pictures. PackedScene's own choice is for streams of rays.
+[[nodiscard]] Traversal frame_traversal(const LoweredScene& lowered, Traversal traversal);
 
 /// A lowered scene in the arrays and the precision the kernels read. Values are rounded once,
 /// from double, here.
