@@ -34,5 +34,5 @@ if("sse42" IN_LIST PACKTRACE_KERNELS)
     # Tests of the command line start it outside the emulation. Those of extreme rays and of the
     # clocks in kernels take minutes within it.
     packtrace_script_test(without_avx.slow slow ${without_avx}
-                          "~[slow]~[unchecked_avx]~[cli]~[compare]~[explain_cli]~[frames]~[intersect_cli]~[intersect_errors]~[onedim_cli]~[sampling_cli]~[report_cli]~[bench_cli]~[report_page]~[profile_cli]~[stress]~[kernel_profile]")
+                          "~[slow]~[unchecked_avx]~[cli]~[compare]~[explain_cli]~[frames]~[intersect_cli]~[intersect_errors]~[onedim_cli]~[sampling_cli]~[report_cli]~[bench_cli]~[report_page]~[profile_cli]~[stress]~[kernel_profile]~[profile]")
 endif()
