@@ -31,8 +31,8 @@ if("sse42" IN_LIST PACKTRACE_KERNELS)
     set(without_avx check_without_avx.sh "${PACKTRACE_QEMU}" $<TARGET_FILE:packtrace_tests>
         $<TARGET_FILE:packtrace_cli> ${PROJECT_SOURCE_DIR}/scenes/four_spheres.scene)
     packtrace_script_test(without_avx fast ${without_avx} "[without_avx],[isa]")
-    # Tests of the command line start it outside the emulation. Those of extreme rays and of the
+    # Tests of the command line start it outside the emulation. Those of extreme rays, ray trees, samples and the
     # clocks in kernels take minutes within it.
     packtrace_script_test(without_avx.slow slow ${without_avx}
-                          "~[slow]~[unchecked_avx]~[cli]~[compare]~[explain_cli]~[frames]~[intersect_cli]~[intersect_errors]~[onedim_cli]~[sampling_cli]~[report_cli]~[bench_cli]~[report_page]~[profile_cli]~[stress]~[kernel_profile]~[profile]")
+                          "~[slow]~[unchecked_avx]~[cli]~[compare]~[explain_cli]~[frames]~[intersect_cli]~[intersect_errors]~[onedim_cli]~[sampling_cli]~[report_cli]~[bench_cli]~[report_page]~[profile_cli]~[stress]~[kernel_profile]~[profile]~[explain]~[sampling]")
 endif()
