@@ -1,4 +1,3 @@
-#include <algorithm>
 #include <iostream>
 #include <memory>
 #include <optional>
@@ -6,7 +5,6 @@
 
 #include <packtrace/isa.hpp>
 #include <packtrace/read_scene.hpp>
-#include <packtrace/renderer.hpp>
 
 #include <nlohmann/json.hpp>
 
@@ -15,7 +13,6 @@
 #include "cli/scene_features.hpp"
 #include "cli/scene_summary.hpp"
 #include "cli/text_table.hpp"
-#include "lower/lowered_scene.hpp"
 
 namespace packtrace::cli {
 namespace {
@@ -46,43 +43,23 @@ std::string listed(const Census& census)
     return std::to_string(total) + text + (text.empty() ? "" : ")");
 }
 
-/// Objects that --accuracy auto tests in double.
-std::size_t count_stiff(const Scene& scene)
+void print_memory(std::size_t bytes, std::size_t objects)
 {
-    const LoweredScene lowered = lower(scene, Accuracy::automatic);
-    const auto stiff = [](const auto& surfaces) {
-        return static_cast<std::size_t>(
-            std::count_if(surfaces.begin(), surfaces.end(), [](const auto& s) { return s.stiff; }));
-    };
-    return stiff(lowered.spheres) + stiff(lowered.huge_spheres) + stiff(lowered.planes) +
-           stiff(lowered.quadrics);
-}
-
-/// Held while it is rendered in single precision.
-std::size_t scene_bytes(const Scene& scene)
-{
-    return Renderer<float>(scene).scene_bytes();
-}
-
-void print_memory(const Scene& scene)
-{
-    const std::size_t bytes = scene_bytes(scene);
     std::cout << "memory   " << (bytes + 1023) / 1024 << " KiB in single precision";
-    if (!scene.objects.empty())
-        std::cout << ", " << bytes / scene.objects.size() << " bytes an object";
+    if (objects > 0)
+        std::cout << ", " << bytes / objects << " bytes an object";
     std::cout << '\n';
 }
 
-void print_scene(const std::string& file, const Scene& scene)
+void print_scene(const std::string& file, const Scene& scene, const SceneFeatures& features)
 {
     std::cout << "\nscene    " << file << "\nsize     " << scene.width << " x " << scene.height
               << "\nobjects  " << listed(count_objects(scene)) << "\nlights   "
               << listed(count_lights(scene)) << "\nmodel    " << name_of(scene.illumination)
               << "\ndepth    " << scene.max_depth << "\nshadows  " << name_of(scene.shadows)
-              << "\nstiff    " << count_stiff(scene)
-              << (count_stiff(scene) == 1 ? " object" : " objects")
+              << "\nstiff    " << features.stiff << (features.stiff == 1 ? " object" : " objects")
               << ", tested in double with --accuracy auto\n";
-    print_memory(scene);
+    print_memory(features.bytes, scene.objects.size());
 }
 
 std::string joined(const std::vector<std::string>& words)
@@ -120,7 +97,8 @@ nlohmann::ordered_json counted(const Census& census)
     return json;
 }
 
-nlohmann::ordered_json scene_json(const std::string& file, const Scene& scene)
+nlohmann::ordered_json scene_json(const std::string& file, const Scene& scene,
+                                  const SceneFeatures& features)
 {
     return {{"file", file},
             {"width", scene.width},
@@ -130,8 +108,8 @@ nlohmann::ordered_json scene_json(const std::string& file, const Scene& scene)
             {"model", name_of(scene.illumination)},
             {"depth", scene.max_depth},
             {"shadows", name_of(scene.shadows)},
-            {"stiff_objects", count_stiff(scene)},
-            {"memory_bytes", scene_bytes(scene)}};
+            {"stiff_objects", features.stiff},
+            {"memory_bytes", features.bytes}};
 }
 
 void print_json(const IsaInfo& chosen, const std::string& file, const std::optional<Scene>& scene)
@@ -146,8 +124,9 @@ void print_json(const IsaInfo& chosen, const std::string& file, const std::optio
                                 {"supported", isa.supported}});
     json["chosen"] = chosen.name;
     if (scene) {
-        json["scene"] = scene_json(file, *scene);
-        json["scene"]["features"] = features_json(scene_features(*scene, chosen));
+        const SceneFeatures features = scene_features(*scene, chosen);
+        json["scene"] = scene_json(file, *scene, features);
+        json["scene"]["features"] = features_json(features);
     }
     std::cout << json.dump(2, ' ', false, nlohmann::json::error_handler_t::replace) << '\n';
 }
@@ -163,8 +142,9 @@ void run_info(const InfoArguments& arguments)
     std::cout << "packtrace " PACKTRACE_VERSION "\n\n";
     print_isas(chosen);
     if (scene) {
-        print_scene(arguments.scene, *scene);
-        print_features(scene_features(*scene, chosen), chosen);
+        const SceneFeatures features = scene_features(*scene, chosen);
+        print_scene(arguments.scene, *scene, features);
+        print_features(features, chosen);
     }
 }
 

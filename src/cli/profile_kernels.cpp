@@ -9,16 +9,6 @@
 namespace packtrace::cli {
 namespace {
 
-std::string milliseconds(double seconds)
-{
-    return fixed(1e3 * seconds, 3);
-}
-
-std::string percent(double part, double whole)
-{
-    return fixed(100.0 * part / whole, 1) + " %";
-}
-
 std::string ratio(std::uint64_t part, std::uint64_t whole)
 {
     return whole > 0 ? fixed(static_cast<double>(part) / static_cast<double>(whole), 2) : "-";

@@ -8,16 +8,6 @@
 namespace packtrace::cli {
 namespace {
 
-std::string milliseconds(double seconds)
-{
-    return fixed(1e3 * seconds, 3);
-}
-
-std::string percent(double part, double whole)
-{
-    return fixed(100.0 * part / whole, 1) + " %";
-}
-
 // Nothing where there are no rays.
 std::string nanoseconds_per_ray(double seconds, std::uint64_t rays)
 {

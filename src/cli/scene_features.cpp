@@ -4,6 +4,7 @@
 
 #include "dispatch/kernels.hpp"
 #include "lower/packed_scene.hpp"
+#include "lower/stiffness.hpp"
 
 namespace packtrace::cli {
 namespace {
@@ -39,12 +40,15 @@ SceneFeatures scene_features(const Scene& scene, const IsaInfo& isa)
 {
     LoweredScene lowered = lower(scene);
     SceneFeatures features;
+    features.stiff = count_stiff(lowered);
     features.left_out = leave_out(lowered);
     for (LeftOut& unused : unused_features(lowered))
         features.left_out.push_back(std::move(unused));
     features.uses = used_features(lowered);
     features.kernel =
         kernels_for(precision<float>(kernels_of(isa.name)), lowered.features).set.name;
+    features.bytes =
+        PackedScene<float>(lowered, frame_traversal(lowered, Traversal::automatic)).bytes();
     return features;
 }
 

@@ -49,6 +49,16 @@ std::string fixed(double value, int decimals)
     return printed("%.*f", decimals, value);
 }
 
+std::string milliseconds(double seconds)
+{
+    return fixed(1e3 * seconds, 3);
+}
+
+std::string percent(double part, double whole)
+{
+    return fixed(100.0 * part / whole, 1) + " %";
+}
+
 std::string brief(double value)
 {
     return printed("%.*g", 2, value);

@@ -23,6 +23,9 @@ private:
 
 /// A number with a fixed count of decimals.
 [[nodiscard]] std::string fixed(double value, int decimals);
+[[nodiscard]] std::string milliseconds(double seconds);
+/// The share of `part` in `whole`, with one decimal and its sign.
+[[nodiscard]] std::string percent(double part, double whole);
 /// A number with two digits and an exponent where it needs one.
 [[nodiscard]] std::string brief(double value);
 

@@ -4,6 +4,7 @@
 
 #include "lower/duplicates.hpp"
 #include "lower/packed_scene.hpp"
+#include "lower/stiffness.hpp"
 
 namespace packtrace {
 namespace {
@@ -82,23 +83,6 @@ std::vector<LeftOut> leave_out(LoweredScene& lowered)
     return left_out;
 }
 
-namespace {
-
-template <class Object>
-bool any_stiff(const std::vector<Object>& objects)
-{
-    return std::any_of(objects.begin(), objects.end(),
-                       [](const Object& object) { return object.stiff; });
-}
-
-bool any_stiff(const LoweredScene& lowered)
-{
-    return any_stiff(lowered.spheres) || any_stiff(lowered.huge_spheres) ||
-           any_stiff(lowered.planes) || any_stiff(lowered.quadrics);
-}
-
-}  // namespace
-
 std::vector<LeftOut> unused_features(const LoweredScene& lowered)
 {
     const abi::Features& uses = lowered.features;
@@ -110,7 +94,8 @@ std::vector<LeftOut> unused_features(const LoweredScene& lowered)
     unless(frame_traversal(lowered, Traversal::automatic) == Traversal::tree, "hierarchy",
            "lists are quicker for so few");
     unless(uses.quadrics, "quadrics", "all surfaces are spheres and planes");
-    unless(any_stiff(lowered), "tests in double", "single precision holds every surface well");
+    unless(count_stiff(lowered) > 0, "tests in double",
+           "single precision holds every surface well");
     unless(!lowered.checkers.empty(), "checkers", "no plane has one");
     unless(!lowered.lights.empty(), "lights", "none shines from a place or a direction");
     unless(!lowered.flat, "normals", "no light and no mirror asks for them");

@@ -100,6 +100,16 @@ void mark_stiff(Accuracy accuracy, LoweredScene& lowered)
     mark(accuracy, lowered.quadrics);
 }
 
+std::size_t count_stiff(const LoweredScene& lowered)
+{
+    const auto stiff = [](const auto& surfaces) {
+        return static_cast<std::size_t>(
+            std::count_if(surfaces.begin(), surfaces.end(), [](const auto& s) { return s.stiff; }));
+    };
+    return stiff(lowered.spheres) + stiff(lowered.huge_spheres) + stiff(lowered.planes) +
+           stiff(lowered.quadrics);
+}
+
 void mark_finished(Accuracy accuracy, SelfHits self_hits, LoweredScene& lowered)
 {
     const bool all = accuracy == Accuracy::robust;

@@ -47,12 +47,6 @@ public:
         return scratch_bytes_;
     }
 
-    /// The kernels that run.
-    [[nodiscard]] const abi::FeatureSet& feature_set() const
-    {
-        return kernels_.set;
-    }
-
     [[nodiscard]] std::size_t scene_bytes() const
     {
         return packed_.bytes();

@@ -111,17 +111,6 @@ StressCase scaled_sphere(StressRandom& random, double scale)
     return result;
 }
 
-Object plane_object(const Vec3& point, const Vec3& normal)
-{
-    Plane plane;
-    plane.point = point;
-    plane.normal = normal;
-    plane_axes(plane);
-    Object object;
-    object.surface = plane;
-    return object;
-}
-
 /// A plane, and rays that meet it at angles of a sine from `least` to `most`.
 StressCase plane_at(StressRandom& random, double far, double least, double most)
 {

@@ -33,12 +33,6 @@ bool finite(const Answer& answer)
     return std::isfinite(answer.t + answer.normal.x + answer.normal.y + answer.normal.z);
 }
 
-double largest(const WideVec& v)
-{
-    const WideVec size = magnitudes(v);
-    return static_cast<double>(std::max({size.x, size.y, size.z}));
-}
-
 }  // namespace
 
 void Errors::add(const Errors& other)

@@ -80,12 +80,6 @@ Bend bend_at(const Sphere& sphere, double ior, const RayNode& ray)
     return bend;
 }
 
-double largest(const WideVec& v)
-{
-    const WideVec size = magnitudes(v);
-    return static_cast<double>(std::max({size.x, size.y, size.z}));
-}
-
 template <class Real>
 void judge_tree(const Scene& scene, const RayNode& tree, MeasureRun& run)
 {

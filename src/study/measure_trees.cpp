@@ -28,13 +28,7 @@ Object mirror(Object object)
 
 Object wall(const Vec3& point, const Vec3& normal)
 {
-    Plane plane;
-    plane.point = point;
-    plane.normal = normal;
-    plane_axes(plane);
-    Object object;
-    object.surface = plane;
-    return mirror(object);
+    return mirror(plane_object(point, normal));
 }
 
 template <class Real>
@@ -135,12 +129,6 @@ bool bounce(const Scene& scene, Path& path, double roundoff)
     path.dir = path.dir - 2 * slope * normal;
     path.left = object;
     return told && object >= 0 && path.place_error * roundoff < 1e-2;
-}
-
-double largest(const WideVec& v)
-{
-    const WideVec size = magnitudes(v);
-    return static_cast<double>(std::max({size.x, size.y, size.z}));
 }
 
 /// A tree's rays one by one, as far as which mirror they meet can be told; returns how far off

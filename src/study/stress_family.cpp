@@ -65,6 +65,17 @@ Object sphere_object(const Vec3& center, double radius)
     return object;
 }
 
+Object plane_object(const Vec3& point, const Vec3& normal)
+{
+    Plane plane;
+    plane.point = point;
+    plane.normal = normal;
+    plane_axes(plane);
+    Object object;
+    object.surface = plane;
+    return object;
+}
+
 Vec3 across(StressRandom& random, const Vec3& v)
 {
     return glm::normalize(glm::cross(v, random.unit() + 1e-3 * Vec3(v.y, v.z, v.x)));

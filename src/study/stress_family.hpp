@@ -32,6 +32,7 @@ struct StressFamily {
 
 [[nodiscard]] StressRay ray_towards(const Vec3& org, const Vec3& target);
 [[nodiscard]] Object sphere_object(const Vec3& center, double radius);
+[[nodiscard]] Object plane_object(const Vec3& point, const Vec3& normal);
 
 /// Any unit vector across `v`.
 [[nodiscard]] Vec3 across(StressRandom& random, const Vec3& v);

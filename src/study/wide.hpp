@@ -1,5 +1,7 @@
 #pragma once
 
+#include <algorithm>
+
 #include <boost/multiprecision/cpp_bin_float.hpp>
 
 #include "reference/vec3.hpp"
@@ -14,6 +16,13 @@ using WideVec = reference::Vec3<Wide>;
 {
     using boost::multiprecision::abs;
     return {abs(v.x), abs(v.y), abs(v.z)};
+}
+
+/// The largest magnitude.
+[[nodiscard]] inline double largest(const WideVec& v)
+{
+    const WideVec size = magnitudes(v);
+    return static_cast<double>(std::max({size.x, size.y, size.z}));
 }
 
 [[nodiscard]] inline WideVec wide(const Vec3& v)
