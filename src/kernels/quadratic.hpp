@@ -59,7 +59,7 @@ inline void visit_roots(const Quadratic<Real>& quadratic, const Visit& visit)
 
 /// Lanes with a root between t_min and t_max, from the signs of the quadratic F at both ends:
 /// either they differ, or both are positive and F dips below zero between them. No square
-/// root, no division.
+/// root, no division. At an infinite t_max F is positive, as a > 0.
 template <class Real>
 inline vmask<Real> root_between(const Quadratic<Real>& q, const vreal<Real>& t_min,
                                 const vreal<Real>& t_max)
@@ -74,16 +74,6 @@ inline vmask<Real> root_between(const Quadratic<Real>& q, const vreal<Real>& t_m
     const auto dips = (near >= zero) & (far >= zero) & (q.discriminant >= zero) &
                       (slope_near < zero) & (slope_far > zero);
     return enters | leaves | dips;
-}
-
-/// The same for a segment without end, where F is positive (a > 0).
-template <class Real>
-inline vmask<Real> root_beyond(const Quadratic<Real>& q, const vreal<Real>& t_min)
-{
-    const vreal<Real> zero(Real(0));
-    const vreal<Real> slope = madd(q.a, t_min, q.b);
-    const vreal<Real> near = madd(slope + q.b, t_min, q.c);
-    return (near < zero) | ((q.discriminant >= zero) & (slope < zero));
 }
 
 }  // namespace

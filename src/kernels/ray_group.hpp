@@ -12,9 +12,6 @@ inline constexpr int group_rays = abi::tile_pixels;
 inline constexpr int cell_rays = 16;
 inline constexpr int group_cells = group_rays / cell_rays;
 
-template <class Real>
-inline constexpr int cell_packets = cell_rays / lanes<Real>;
-
 /// Rays that are not active have a `t` of minus infinity, and are like their neighbours.
 template <class Real>
 struct alignas(64) RayGroup {

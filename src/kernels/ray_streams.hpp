@@ -244,7 +244,7 @@ inline void occluded_in_lists(const abi::SceneView<Real>& scene, const abi::Rays
         const StreamPacket<Real> packet(view, first);
         const std::uint32_t wanted = first_lanes<Real>(packet.count);
         store_mask<Real>(mask + first,
-                         occluded<F>(StreamRange<Real>{packet.t_max}, scene, packet.rays,
+                         occluded<F>(Reach<Real>{packet.t_max, false}, scene, packet.rays,
                                      no_surface<Real>(), wanted),
                          packet.count);
     }
@@ -262,7 +262,7 @@ inline void occluded_rays(const abi::SceneView<Real>& scene, const abi::RaysView
         std::uint16_t wanted[group_cells];
         for (int cell = 0; cell < group_cells; ++cell)
             wanted[cell] = group.active[cell];
-        visit_blockers_of_group<F, StreamRange<Real>>(scene, scene, group, EndsRays{});
+        visit_blockers_of_group<F>(scene, scene, group, false, EndsRays{});
         for (int first = 0; first < count; first += lanes<Real>) {
             const std::uint32_t before = wanted[first / cell_rays] >> first % cell_rays;
             store_mask<Real>(mask + begin + first, before & ~active_lanes(group, first),

@@ -84,7 +84,14 @@ inline auto with_shadow_ray(const ShadeContext<F, Real>& context, int light,
                  make_rays<Real>(broadcast(record.vector), away, Real(0)));
 }
 
-/// Calls `trace(end, objects, rays)` for the shadow rays of one light.
+/// Whether the reach of shadow rays is closed (occluded.hpp).
+template <class Real>
+inline bool has_closed_reach(const abi::SceneView<Real>& scene, int light)
+{
+    return scene.lights.data[light].kind == abi::LightKind::directional || !(scene.start_error > 0);
+}
+
+/// Calls `trace(reach, objects, rays)` for the shadow rays of one light.
 template <abi::Features F, class Real, class Trace>
 inline auto with_shadow_rays(const ShadeContext<F, Real>& context, int light,
                              const LightPacket<Real>& packet, const SurfacePacket<Real>& surface,
@@ -93,12 +100,10 @@ inline auto with_shadow_rays(const ShadeContext<F, Real>& context, int light,
     const abi::SceneView<Real>& scene = *context.scene;
     return with_shadow_ray(context, light, packet, surface,
                            [&](const vreal<Real>& t_end, const RayPacket<Real>& rays) {
+                               const Reach<Real> reach{t_end, has_closed_reach(scene, light)};
                                if (scene.lights.data[light].kind == abi::LightKind::directional)
-                                   return trace(NoEnd<Real>{}, casters_of(scene), rays);
-                               if (scene.start_error > 0)
-                                   return trace(StreamRange<Real>{t_end}, context.blockers[light],
-                                                rays);
-                               return trace(SegmentEnd<Real>{t_end}, context.blockers[light], rays);
+                                   return trace(reach, casters_of(scene), rays);
+                               return trace(reach, context.blockers[light], rays);
                            });
 }
 
@@ -125,11 +130,12 @@ inline std::uint32_t unshadowed(const ShadeContext<F, Real>& context, int light,
     const std::uint32_t open =
         wanted & ~own_shadow(scene, scene.lights.data[light], packet, surface, wanted);
     return count_lit<Real>(
-        wanted, open & ~with_shadow_rays(
-                           context, light, packet, surface,
-                           [&](const auto& end, const auto& objects, const auto& rays) {
-                               return occluded<F>(end, objects, rays, own_of(scene, surface), open);
-                           }));
+        wanted,
+        open & ~with_shadow_rays(context, light, packet, surface,
+                                 [&](const auto& reach, const auto& objects, const auto& rays) {
+                                     return occluded<F>(reach, objects, rays,
+                                                        own_of(scene, surface), open);
+                                 }));
 }
 
 /// Lanes in which any channel is above 0.
@@ -174,8 +180,8 @@ inline Vec3v<Real> transmitted(const ShadeContext<F, Real>& context, int light,
         return pass_on(blocker, blocked & ~(by_own & bits(int_equal(surface.object, object))));
     };
     with_shadow_rays(context, light, packet, surface,
-                     [&](const auto& end, const auto& objects, const auto& rays) {
-                         visit_blockers<F>(end, objects, rays, own_of(scene, surface),
+                     [&](const auto& reach, const auto& objects, const auto& rays) {
+                         visit_blockers<F>(reach, objects, rays, own_of(scene, surface),
                                            pass_on_once);
                          return 0;
                      });

@@ -41,14 +41,11 @@ inline void visit_shadow_blockers(const ShadeContext<F, Real>& context, int ligh
 {
     const abi::SceneView<Real>& scene = *context.scene;
     const abi::SceneView<Real>& casters = casters_of(scene);
+    const bool closed = has_closed_reach(scene, light);
     if (scene.lights.data[light].kind == abi::LightKind::directional)
-        visit_blockers_of_group<F, NoEnd<Real>>(casters, casters, group, blocker);
-    else if (scene.start_error > 0)
-        visit_blockers_of_group<F, StreamRange<Real>>(casters, context.blockers[light], group,
-                                                      blocker);
+        visit_blockers_of_group<F>(casters, casters, group, closed, blocker);
     else
-        visit_blockers_of_group<F, SegmentEnd<Real>>(casters, context.blockers[light], group,
-                                                     blocker);
+        visit_blockers_of_group<F>(casters, context.blockers[light], group, closed, blocker);
 }
 
 template <class Real>

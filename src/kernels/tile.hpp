@@ -23,6 +23,9 @@ struct TileRun {
 template <abi::Features F, class Real>
 inline void find_blockers(const TileRun<F, Real>& run)
 {
+    // Where no light has shadows there is no room for their blockers either.
+    if (run.work.blockers == nullptr)
+        return;
     const abi::SceneView<Real>& scene = run.scene;
     const HitStream<F, Real>& hits = run.work.memory->hits;
     const Box<Real> box = box_of(hits.point, hits.count);

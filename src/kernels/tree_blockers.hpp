@@ -8,8 +8,8 @@
 //
 // A `Blocker` is called as blocker(surface, first, lanes) for an object and the lanes it blocks of
 // the packet at `first`, and returns those lanes that nothing further matters to; they are taken
-// out of the group's active rays. `End` is one of those of occluded.hpp. A ray's surface in the
-// group is its own, which does not block it; -1 for none.
+// out of the group's active rays. The rays' reach ends at the group's `t`, and is `closed` or not
+// (occluded.hpp). A ray's surface in the group is its own, which does not block it; -1 for none.
 namespace packtrace::PACKTRACE_ISA {
 namespace {
 
@@ -21,21 +21,6 @@ struct EndsRays {
     }
 };
 
-template <class Real>
-inline void set_end(SegmentEnd<Real>& end, const vreal<Real>& t)
-{
-    end.t_end = t;
-}
-template <class Real>
-inline void set_end(StreamRange<Real>& end, const vreal<Real>& t)
-{
-    end.t_max = t;
-}
-template <class Real>
-inline void set_end(NoEnd<Real>&, const vreal<Real>&)
-{
-}
-
 /// Takes lanes of a packet out of the active ones.
 template <class Real>
 inline void finish_lanes(RayGroup<Real>& group, int first, std::uint32_t done)
@@ -44,14 +29,13 @@ inline void finish_lanes(RayGroup<Real>& group, int first, std::uint32_t done)
 }
 
 /// One ray against all below `child`.
-template <abi::Features F, class End, class Real, class Blocker>
+template <abi::Features F, class Real, class Blocker>
 inline void blockers_of_ray(const abi::BvhView<Real>& tree, const SlabRays& slabs,
-                            RayGroup<Real>& group, int ray, std::uint32_t child,
+                            RayGroup<Real>& group, int ray, std::uint32_t child, bool closed,
                             const Blocker& blocker)
 {
     const RayPacket<Real> rays = broadcast_ray(group, ray);
-    End end;
-    set_end(end, vreal<Real>(group.t[ray]));
+    const Reach<Real> reach{vreal<Real>(group.t[ray]), closed};
     SlabRay slab = slab_ray(slabs, group, ray);
     const int first = ray / lanes<Real> * lanes<Real>;
     const std::uint32_t lane = 1u << (ray - first);
@@ -67,7 +51,8 @@ inline void blockers_of_ray(const abi::BvhView<Real>& tree, const SlabRays& slab
             const abi::QuadricRecord<Real>* quadric = tree.quadrics + abi::first_quadric(leaf);
             for (int i = 0; i < abi::quadric_count(leaf); ++i) {
                 count_tests(abi::Primitive::quadric, 1);
-                if (quadric_blocks(end, quadric[i], rays, own) != 0 && !goes_on(quadric[i].surface))
+                if (quadric_blocks(reach, quadric[i], rays, own) != 0 &&
+                    !goes_on(quadric[i].surface))
                     return false;
             }
             return true;
@@ -77,7 +62,7 @@ inline void blockers_of_ray(const abi::BvhView<Real>& tree, const SlabRays& slab
         for (int from = 0; from < abi::node_width; from += lanes<Real>) {
             count_block_tests(block, from);
             std::uint32_t blocking =
-                bits(end.blocked_by(quadratics_of(block, from, rays), rays)) & block_lanes<Real>;
+                bits(reach.blocked_by(quadratics_of(block, from, rays), rays)) & block_lanes<Real>;
             for (; blocking != 0; blocking &= blocking - 1) {
                 const auto surface =
                     static_cast<std::int32_t>(block.surface[from + __builtin_ctz(blocking)]);
@@ -90,12 +75,17 @@ inline void blockers_of_ray(const abi::BvhView<Real>& tree, const SlabRays& slab
 }
 
 /// The cells of a group.
-template <abi::Features F, class End, class Real, class Blocker>
+template <abi::Features F, class Real, class Blocker>
 class BlockersInTree {
 public:
     BlockersInTree(const abi::BvhView<Real>& tree, RayGroup<Real>& group, CellBounds& bounds,
-                   SlabRays& slabs, const Blocker& blocker)
-        : tree_(tree), group_(group), bounds_(bounds), slabs_(slabs), blocker_(blocker)
+                   SlabRays& slabs, bool closed, const Blocker& blocker)
+        : tree_(tree),
+          group_(group),
+          bounds_(bounds),
+          slabs_(slabs),
+          closed_(closed),
+          blocker_(blocker)
     {
     }
 
@@ -110,8 +100,8 @@ public:
     void few_rays(std::uint32_t child, int cell, std::uint32_t rays) const
     {
         for (; rays != 0; rays &= rays - 1)
-            blockers_of_ray<F, End>(tree_, slabs_, group_, cell * cell_rays + __builtin_ctz(rays),
-                                    child, blocker_);
+            blockers_of_ray<F>(tree_, slabs_, group_, cell * cell_rays + __builtin_ctz(rays), child,
+                               closed_, blocker_);
         if (group_.active[cell] == 0) {
             bounds_.t_max[cell] = -no_end;
             join_t_max(bounds_);
@@ -130,12 +120,13 @@ private:
         const PartScope part(abi::Part::spheres);
         visit_spheres(bounds_, block, cells, [&](int slot, int cell) {
             const auto surface = static_cast<std::int32_t>(block.surface[slot]);
-            object(abi::Primitive::sphere, cell, surface,
-                   [&](const End& end, const RayPacket<Real>& rays, const vint<Real>& own) {
-                       return but_own<Real>(
-                           bits(end.blocked_by(quadratic_of(block, slot, rays), rays)), own,
-                           surface);
-                   });
+            object(
+                abi::Primitive::sphere, cell, surface,
+                [&](const Reach<Real>& reach, const RayPacket<Real>& rays, const vint<Real>& own) {
+                    return but_own<Real>(
+                        bits(reach.blocked_by(quadratic_of(block, slot, rays), rays)), own,
+                        surface);
+                });
         });
         join_t_max(bounds_);
     }
@@ -147,13 +138,14 @@ private:
         for (int i = 0; i < abi::quadric_count(child); ++i)
             for (std::uint32_t left = cells; left != 0; left &= left - 1)
                 object(abi::Primitive::quadric, __builtin_ctz(left), quadric[i].surface,
-                       [&](const End& end, const RayPacket<Real>& rays, const vint<Real>& own) {
-                           return quadric_blocks(end, quadric[i], rays, own);
+                       [&](const Reach<Real>& reach, const RayPacket<Real>& rays,
+                           const vint<Real>& own) {
+                           return quadric_blocks(reach, quadric[i], rays, own);
                        });
         join_t_max(bounds_);
     }
 
-    /// `blocks(end, rays, own)` tells the lanes of a packet that one object blocks.
+    /// `blocks(reach, rays, own)` tells the lanes of a packet that one object blocks.
     template <class Blocks>
     void object(abi::Primitive kind, int cell, std::int32_t surface, const Blocks& blocks) const
     {
@@ -163,10 +155,9 @@ private:
                 continue;
             tell_live(active);
             count_tests(kind, 1);
-            End end;
-            set_end(end, load(group_.t + first));
+            const Reach<Real> reach{load(group_.t + first), closed_};
             const std::uint32_t blocked =
-                blocks(end, load_rays(group_, first), load(group_.surface + first)) & active;
+                blocks(reach, load_rays(group_, first), load(group_.surface + first)) & active;
             if (blocked != 0)
                 finish_lanes(group_, first, blocker_(surface, first, blocked));
         }
@@ -178,76 +169,71 @@ private:
     RayGroup<Real>& group_;
     CellBounds& bounds_;
     SlabRays& slabs_;
+    bool closed_;
     const Blocker& blocker_;
 };
 
 /// Takes the coherent cells of a group as beams.
-template <abi::Features F, class End, class Real, class Blocker>
+template <abi::Features F, class Real, class Blocker>
 inline void blockers_of_cells(const abi::BvhView<Real>& tree, RayGroup<Real>& group,
-                              CellBounds& bounds, SlabRays& slabs, const Blocker& blocker)
+                              CellBounds& bounds, SlabRays& slabs, bool closed,
+                              const Blocker& blocker)
 {
-    for (int cell = 0; cell < group_cells; ++cell)
-        bounds.t_max[cell] = bounds.coherent >> cell & 1u ? furthest(group, cell) : -no_end;
-    join_t_max(bounds);
+    start_coherent(bounds, group);
     walk_cells(tree, bounds, bounds.coherent,
-               BlockersInTree<F, End, Real, Blocker>(tree, group, bounds, slabs, blocker));
+               BlockersInTree<F, Real, Blocker>(tree, group, bounds, slabs, closed, blocker));
 }
 
 /// Takes the active rays of `cells` one by one.
-template <abi::Features F, class End, class Real, class Blocker>
+template <abi::Features F, class Real, class Blocker>
 inline void blockers_of_rays(const abi::BvhView<Real>& tree, RayGroup<Real>& group,
-                             std::uint32_t cells, SlabRays& slabs, const Blocker& blocker)
+                             std::uint32_t cells, SlabRays& slabs, bool closed,
+                             const Blocker& blocker)
 {
     for (; cells != 0; cells &= cells - 1) {
         const int cell = __builtin_ctz(cells);
         fill_cell(slabs, group, cell, tree.extent, tree.slack);
         for (std::uint32_t left = group.active[cell]; left != 0; left &= left - 1)
-            blockers_of_ray<F, End>(tree, slabs, group, cell * cell_rays + __builtin_ctz(left), 0,
-                                    blocker);
+            blockers_of_ray<F>(tree, slabs, group, cell * cell_rays + __builtin_ctz(left), 0,
+                               closed, blocker);
     }
 }
 
 /// Takes cells each on its own way.
-template <abi::Features F, class End, class Real, class Blocker>
+template <abi::Features F, class Real, class Blocker>
 inline void blockers_of_lone_cells(const abi::BvhView<Real>& tree, Regrouped<Real>& sorted,
-                                   const Blocker& blocker)
+                                   bool closed, const Blocker& blocker)
 {
     CellBounds bounds;
     SlabRays slabs;
     bound_cells(bounds, sorted.rays, tree, Cells::all);
-    const BlockersInTree<F, End, Real, Blocker> blockers(tree, sorted.rays, bounds, slabs, blocker);
+    const BlockersInTree<F, Real, Blocker> blockers(tree, sorted.rays, bounds, slabs, closed,
+                                                    blocker);
     for (int cell = 0; cell < sorted.cells; ++cell) {
         bounds.t_max[cell] = furthest(sorted.rays, cell);
         walk_cells(tree, bounds, 1u << cell, blockers);
     }
 }
 
-/// Meets the active rays of a group, as they are, with what blocks them in the hierarchy.
-template <abi::Features F, class End, class Real, class Blocker>
-inline void visit_blockers_in_order(const abi::BvhView<Real>& tree, RayGroup<Real>& group,
-                                    const Blocker& blocker)
+/// Meets the active rays of a group with what blocks them in the hierarchy.
+template <abi::Features F, class Real, class Blocker>
+[[gnu::noinline]] void visit_blockers_in_tree(const abi::BvhView<Real>& tree, RayGroup<Real>& group,
+                                              bool closed, const Blocker& blocker)
 {
+    const PartScope part(abi::Part::boxes);
     CellBounds bounds;
     SlabRays slabs;
     bound_cells(bounds, group, tree);
-    blockers_of_rays<F, End>(tree, group, active_cells(group) & ~bounds.coherent, slabs, blocker);
+    blockers_of_rays<F>(tree, group, active_cells(group) & ~bounds.coherent, slabs, closed,
+                        blocker);
     if (bounds.coherent != 0)
-        blockers_of_cells<F, End>(tree, group, bounds, slabs, blocker);
-}
-
-/// Meets the active rays of a group with what blocks them in the hierarchy.
-template <abi::Features F, class End, class Real, class Blocker>
-[[gnu::noinline]] void visit_blockers_in_tree(const abi::BvhView<Real>& tree, RayGroup<Real>& group,
-                                              const Blocker& blocker)
-{
-    const PartScope part(abi::Part::boxes);
-    visit_blockers_in_order<F, End>(tree, group, blocker);
+        blockers_of_cells<F>(tree, group, bounds, slabs, closed, blocker);
 }
 
 /// The same where a blocker ends the rays: those that do not run together are sorted first.
-template <abi::Features F, class End, class Real>
+template <abi::Features F, class Real>
 [[gnu::noinline]] void visit_blockers_in_tree(const abi::BvhView<Real>& tree, RayGroup<Real>& group,
-                                              const EndsRays& blocker)
+                                              bool closed, const EndsRays& blocker)
 {
     const PartScope part(abi::Part::boxes);
     CellBounds bounds;
@@ -255,7 +241,7 @@ template <abi::Features F, class End, class Real>
     bound_cells(bounds, group, tree);
     const std::uint32_t others = active_cells(group) & ~bounds.coherent;
     if (bounds.coherent != 0)
-        blockers_of_cells<F, End>(tree, group, bounds, slabs, blocker);
+        blockers_of_cells<F>(tree, group, bounds, slabs, closed, blocker);
     if (others == 0)
         return;
     Regrouped<Real> sorted;
@@ -263,7 +249,7 @@ template <abi::Features F, class End, class Real>
     std::uint16_t before[group_cells];
     for (int cell = 0; cell < group_cells; ++cell)
         before[cell] = sorted.rays.active[cell];
-    blockers_of_lone_cells<F, End>(tree, sorted, blocker);
+    blockers_of_lone_cells<F>(tree, sorted, closed, blocker);
     for (int cell = 0; cell < sorted.cells; ++cell)
         for (std::uint32_t ended = before[cell] & ~unsigned{sorted.rays.active[cell]}; ended != 0;
              ended &= ended - 1) {
@@ -273,18 +259,17 @@ template <abi::Features F, class End, class Real>
 }
 
 /// The same among all objects of a scene, lists first.
-template <abi::Features F, class End, class Objects, class Real, class Blocker>
+template <abi::Features F, class Objects, class Real, class Blocker>
 inline void visit_blockers_of_group(const abi::SceneView<Real>& scene, const Objects& lists,
-                                    RayGroup<Real>& group, const Blocker& blocker)
+                                    RayGroup<Real>& group, bool closed, const Blocker& blocker)
 {
     std::uint32_t left = 0;
     for (int first = 0; first < group_rays; first += lanes<Real>) {
         if (active_lanes(group, first) == 0)
             continue;
         tell_live(active_lanes(group, first));
-        End end;
-        set_end(end, load(group.t + first));
-        visit_blockers<F>(end, lists, load_rays(group, first), load(group.surface + first),
+        const Reach<Real> reach{load(group.t + first), closed};
+        visit_blockers<F>(reach, lists, load_rays(group, first), load(group.surface + first),
                           [&](std::int32_t surface, std::uint32_t lanes_of) {
                               const std::uint32_t blocked = lanes_of & active_lanes(group, first);
                               if (blocked != 0)
@@ -294,7 +279,7 @@ inline void visit_blockers_of_group(const abi::SceneView<Real>& scene, const Obj
         left |= active_lanes(group, first);
     }
     if (left != 0 && !scene.tree.empty())
-        visit_blockers_in_tree<abi::tree_features(F), End>(scene.tree, group, blocker);
+        visit_blockers_in_tree<abi::tree_features(F)>(scene.tree, group, closed, blocker);
 }
 
 }  // namespace

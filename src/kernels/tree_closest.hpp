@@ -27,6 +27,15 @@ inline float furthest(const RayGroup<Real>& group, int cell)
     return sizeof(Real) == sizeof(float) ? most : most * 1.000001f;
 }
 
+/// The coherent cells' rays go as far as the group says; the others nowhere.
+template <class Real>
+inline void start_coherent(CellBounds& bounds, const RayGroup<Real>& group)
+{
+    for (int cell = 0; cell < group_cells; ++cell)
+        bounds.t_max[cell] = bounds.coherent >> cell & 1u ? furthest(group, cell) : -no_end;
+    join_t_max(bounds);
+}
+
 /// Calls `visit(slot, cell)` for the spheres of a block and the cells of `cells` that may meet
 /// them.
 template <class Real, class Visit>
@@ -156,9 +165,7 @@ template <abi::Features F, class Real>
 inline void closest_of_cells(const abi::BvhView<Real>& tree, RayGroup<Real>& group,
                              CellBounds& bounds, SlabRays& slabs)
 {
-    for (int cell = 0; cell < group_cells; ++cell)
-        bounds.t_max[cell] = bounds.coherent >> cell & 1u ? furthest(group, cell) : -no_end;
-    join_t_max(bounds);
+    start_coherent(bounds, group);
     walk_cells(tree, bounds, bounds.coherent, ClosestInTree<F, Real>(tree, group, bounds, slabs));
 }
 

@@ -79,9 +79,7 @@ inline void visit_crossings_in_tree(const abi::BvhView<Real>& tree, const RayGro
 {
     CellBounds bounds;
     bound_cells(bounds, group, tree, Cells::all);
-    for (int cell = 0; cell < group_cells; ++cell)
-        bounds.t_max[cell] = group.active[cell] != 0 ? furthest(group, cell) : -no_end;
-    join_t_max(bounds);
+    start_coherent(bounds, group);
     walk_cells(tree, bounds, bounds.coherent,
                CrossingsInTree<F, Real, Visit>(tree, group, bounds, visit));
 }
