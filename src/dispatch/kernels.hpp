@@ -29,7 +29,7 @@ template <class Real>
                                                            abi::Features needed)
 {
     for (const auto& kernels : table.kernels)
-        if (abi::covers(kernels.set.features, needed))
+        if (kernels.render_tile != nullptr && abi::covers(kernels.set.features, needed))
             return kernels;
     throw std::logic_error("no kernels know all that the scene uses");
 }

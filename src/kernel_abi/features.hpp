@@ -19,8 +19,8 @@ struct FeatureSet {
     Features features;
 };
 
-/// A scene runs the first that covers it. Which features have a set of their own is measured:
-/// results/features.json.
+/// A scene runs the first compiled in that covers it. Which features have a set of their own is
+/// measured: results/features.json.
 inline constexpr FeatureSet feature_sets[] = {
     {"matt", {}},
     {"mirrors", {.highlights = true, .bounces = true}},

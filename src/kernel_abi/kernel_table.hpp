@@ -77,7 +77,7 @@ struct RayCounts {
     }
 };
 
-/// The kernels of one precision for one feature set.
+/// The kernels of one precision for one feature set; all null where they are not compiled in.
 template <class Real>
 struct FeatureKernels {
     FeatureSet set;

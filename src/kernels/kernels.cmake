@@ -13,6 +13,11 @@ set(PACKTRACE_ISAS "all" CACHE STRING
     "Instruction sets to compile kernels for: all, or a list such as sse42;avx2")
 set(PACKTRACE_KERNELS "" CACHE INTERNAL "Instruction sets compiled in")
 
+# Those that frames are rendered by where time counts have kernels for sets of features
+# (kernel_abi/features.hpp); the others, fallbacks for old processors and for comparison, have the
+# general ones only: each set costs seconds to build and a quarter of a megabyte.
+set(with_feature_sets avx2 avx512 neon64)
+
 # Unless PACKTRACE_ISAS leaves it out.
 function(packtrace_kernel isa lanes)
     if(NOT PACKTRACE_ISAS STREQUAL "all" AND NOT isa IN_LIST PACKTRACE_ISAS)
@@ -20,8 +25,12 @@ function(packtrace_kernel isa lanes)
     endif()
     file(GLOB kernel_sources CONFIGURE_DEPENDS ${CMAKE_CURRENT_SOURCE_DIR}/kernels/*.cpp)
     add_library(packtrace_kernels_${isa} OBJECT ${kernel_sources})
+    set(feature_sets 0)
+    if(isa IN_LIST with_feature_sets)
+        set(feature_sets 1)
+    endif()
     target_compile_definitions(packtrace_kernels_${isa} PRIVATE
-        PACKTRACE_ISA=${isa} PACKTRACE_LANES=${lanes})
+        PACKTRACE_ISA=${isa} PACKTRACE_LANES=${lanes} PACKTRACE_FEATURE_SETS=${feature_sets})
     target_include_directories(packtrace_kernels_${isa} PRIVATE ${CMAKE_CURRENT_SOURCE_DIR})
     target_compile_options(packtrace_kernels_${isa} PRIVATE ${ARGN} -fvisibility=hidden -fno-exceptions
         $<$<CXX_COMPILER_ID:GNU>:-Wno-maybe-uninitialized$<SEMICOLON>-Wno-uninitialized>
@@ -30,7 +39,8 @@ function(packtrace_kernel isa lanes)
         $<$<CXX_COMPILER_ID:GNU>:--param=inline-unit-growth=1000>
         $<$<CXX_COMPILER_ID:GNU>:--param=large-function-growth=10000>)
     target_link_libraries(packtrace_kernels_${isa} PRIVATE packtrace_flags packtrace_xsimd)
-    set_target_properties(packtrace_kernels_${isa} PROPERTIES INTERPROCEDURAL_OPTIMIZATION OFF)
+    set_target_properties(packtrace_kernels_${isa} PROPERTIES INTERPROCEDURAL_OPTIMIZATION OFF
+                          UNITY_BUILD OFF)
     target_sources(packtrace PRIVATE $<TARGET_OBJECTS:packtrace_kernels_${isa}>)
     set(PACKTRACE_KERNELS ${PACKTRACE_KERNELS} ${isa} CACHE INTERNAL "")
 endfunction()

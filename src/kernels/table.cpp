@@ -41,12 +41,21 @@ void power_of_arrays(const Real* x, const Real* n, Real* y, int count)
     }
 }
 
+/// Double renders truths to compare with, and does without special kernels.
+template <class Real>
+constexpr bool is_compiled(int set)
+{
+    return (PACKTRACE_FEATURE_SETS && sizeof(Real) == sizeof(float)) || set >= abi::general_set;
+}
+
 template <int Set, class Real>
 constexpr abi::FeatureKernels<Real> feature_kernels()
 {
     constexpr abi::FeatureSet set = abi::feature_sets[Set];
     constexpr abi::Features F = set.features;
-    if constexpr (F.probe)
+    if constexpr (!is_compiled<Real>(Set))
+        return {};
+    else if constexpr (F.probe)
         return {set, probe_scratch_bytes, probe_tile, nullptr};
     else
         return {set, scratch_bytes<F, Real>, render_tile<F, Real>,
