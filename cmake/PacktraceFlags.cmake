@@ -5,12 +5,14 @@
 #   -fno-trapping-math      nothing reads the floating-point exception flags
 # -fno-tree-vectorize is GCC's; clang contracts only what it is told to.
 # -Wno-restrict: GCC 12 warns of "literal" + std::string without cause (its bug 105651).
+# -Wno-subobject-linkage: in unity builds it takes sources for headers.
 add_library(packtrace_flags INTERFACE)
 target_compile_options(packtrace_flags INTERFACE
     -ffp-contract=off -fno-math-errno -fno-trapping-math
     $<$<CXX_COMPILER_ID:GNU>:-fno-tree-vectorize>
     -Wall -Wextra -Wpedantic -Wshadow -Wconversion -Wsign-conversion
-    $<$<CXX_COMPILER_ID:GNU>:-Wno-restrict>)
+    $<$<CXX_COMPILER_ID:GNU>:-Wno-restrict>
+    $<$<AND:$<CXX_COMPILER_ID:GNU>,$<BOOL:${CMAKE_UNITY_BUILD}>>:-Wno-subobject-linkage>)
 if(PACKTRACE_WERROR)
     target_compile_options(packtrace_flags INTERFACE -Werror)
 endif()

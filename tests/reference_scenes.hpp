@@ -82,6 +82,12 @@ inline reference::Vec3<double> trace(const Scene& scene, const reference::Vec3<d
     return reference::Reference<double>(scene).trace_ray(org, dir);
 }
 
+/// What a ray sees that meets the floor y = 0 at the origin.
+inline reference::Vec3<double> seen(const Scene& scene)
+{
+    return trace(scene, {-3, 4, 0}, {3, -4, 0});
+}
+
 template <class Real>
 void check_color(const reference::Color<Real>& got, const Rgb& expected, double margin = 1e-12)
 {

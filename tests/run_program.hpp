@@ -11,6 +11,8 @@
 
 namespace packtrace::test {
 
+inline const std::string four_spheres_file = PACKTRACE_SOURCE_DIR "/scenes/four_spheres.scene";
+
 struct ProgramResult {
     int exit_code = -1;  ///< -1 when it was killed
     std::string out;

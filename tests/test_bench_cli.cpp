@@ -13,8 +13,6 @@ namespace {
 
 using nlohmann::json;
 
-const std::string four_spheres_file = PACKTRACE_SOURCE_DIR "/scenes/four_spheres.scene";
-
 ProgramResult run_bench(const std::vector<std::string>& more)
 {
     std::vector<std::string> words{"bench", four_spheres_file, "--size",        "64x64",

@@ -18,8 +18,6 @@
 namespace packtrace::test {
 namespace {
 
-const std::string four_spheres_file = PACKTRACE_SOURCE_DIR "/scenes/four_spheres.scene";
-
 ProgramResult explain(const std::vector<std::string>& more)
 {
     std::vector<std::string> words{"explain", four_spheres_file, "--size", "40x30"};

@@ -13,7 +13,7 @@
 namespace packtrace::test {
 namespace {
 
-std::vector<IsaInfo> supported_isas()
+std::vector<IsaInfo> runnable_isas()
 {
     std::vector<IsaInfo> isas;
     for (const IsaInfo& isa : list_isas())
@@ -25,7 +25,7 @@ std::vector<IsaInfo> supported_isas()
 std::string supported_text()
 {
     std::string text;
-    for (const IsaInfo& isa : supported_isas())
+    for (const IsaInfo& isa : runnable_isas())
         text += " " + isa.name;
     return text;
 }
@@ -51,13 +51,13 @@ TEST_CASE("instruction sets are listed narrowest first, doubles with half the la
         CHECK(isas[i].lanes_double * 2 == isas[i].lanes_single);
         CHECK((i == 0 || isas[i - 1].lanes_single <= isas[i].lanes_single));
     }
-    CHECK_FALSE(supported_isas().empty());
+    CHECK_FALSE(runnable_isas().empty());
 }
 
 TEST_CASE("a forced instruction set is the one that runs", "[isa]")
 {
     const ScopedVariable unset(variable, std::nullopt);
-    for (const IsaInfo& isa : supported_isas()) {
+    for (const IsaInfo& isa : runnable_isas()) {
         CHECK(choose_isa(isa.name).name == isa.name);
         CHECK(choose_isa(isa.name, isa.lanes_single).name == isa.name);
         CHECK(kernels_of(isa.name).isa == isa.name);
@@ -71,8 +71,8 @@ TEST_CASE("a forced instruction set is the one that runs", "[isa]")
 TEST_CASE("auto takes the widest there is, or of the width asked for", "[isa]")
 {
     const ScopedVariable unset(variable, std::nullopt);
-    CHECK(choose_isa().name == supported_isas().back().name);
-    for (const IsaInfo& isa : supported_isas())
+    CHECK(choose_isa().name == runnable_isas().back().name);
+    for (const IsaInfo& isa : runnable_isas())
         CHECK(choose_isa("auto", isa.lanes_single).lanes_single == isa.lanes_single);
 }
 
@@ -80,7 +80,7 @@ TEST_CASE("of two instruction sets of one width, auto takes the better one", "[i
 {
     const ScopedVariable unset(variable, std::nullopt);
     std::string best;
-    for (const IsaInfo& isa : supported_isas())
+    for (const IsaInfo& isa : runnable_isas())
         if (isa.lanes_single == 4)
             best = isa.name;
     CHECK(choose_isa("auto", 4).name == best);
@@ -88,10 +88,10 @@ TEST_CASE("of two instruction sets of one width, auto takes the better one", "[i
 
 TEST_CASE("PACKTRACE_ISA decides for auto, and for nothing else", "[isa]")
 {
-    for (const IsaInfo& isa : supported_isas()) {
+    for (const IsaInfo& isa : runnable_isas()) {
         const ScopedVariable set(variable, isa.name);
         CHECK(choose_isa().name == isa.name);
-        for (const IsaInfo& other : supported_isas())
+        for (const IsaInfo& other : runnable_isas())
             CHECK(choose_isa(other.name).name == other.name);
     }
 }
@@ -100,7 +100,7 @@ TEST_CASE("an empty or auto PACKTRACE_ISA counts as none", "[isa]")
 {
     for (const char* value : {"", "auto"}) {
         const ScopedVariable set(variable, value);
-        CHECK(choose_isa().name == supported_isas().back().name);
+        CHECK(choose_isa().name == runnable_isas().back().name);
     }
 }
 
@@ -132,7 +132,7 @@ TEST_CASE("an instruction set the machine lacks is refused with what it has", "[
 
 TEST_CASE("a width that contradicts the instruction set is refused", "[isa]")
 {
-    const IsaInfo isa = supported_isas().front();
+    const IsaInfo isa = runnable_isas().front();
     const std::string lanes = std::to_string(isa.lanes_single);
     const std::string rest =
         "'" + isa.name + "' has " + lanes + " lanes, not 5; leave out one of the two";

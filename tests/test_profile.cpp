@@ -17,8 +17,6 @@
 namespace packtrace::test {
 namespace {
 
-const std::string four_spheres_file = PACKTRACE_SOURCE_DIR "/scenes/four_spheres.scene";
-
 Profile small_profile(ProfileOptions options = {})
 {
     options.repetitions = 3;

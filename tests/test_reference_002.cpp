@@ -17,7 +17,7 @@ WhittedMaterial clear(const Rgb& transmissive)
 }
 
 // The floor y = 0 seen from (-3, 4, 0), hit at the origin with V = (-0.6, 0.8, 0).
-Scene floor_scene()
+Scene whitted_floor()
 {
     WhittedMaterial model;
     model.ambient = Rgb(0.5);
@@ -31,23 +31,18 @@ Scene floor_scene()
     return scene;
 }
 
-V seen(const Scene& scene)
-{
-    return trace(scene, {-3, 4, 0}, {3, -4, 0});
-}
-
 }  // namespace
 
 TEST_CASE("the formula with one light overhead", "[reference_002]")
 {
     // Ia = 0.1 and kd N.L = 0.4, times the colour; Rj = (0, 1, 0), ks (Rj.V)^3 = 0.3 * 0.512.
-    check_color(seen(floor_scene()), Rgb(0.5 + 0.1536, 0.25 + 0.1536, 0.1536));
+    check_color(seen(whitted_floor()), Rgb(0.5 + 0.1536, 0.25 + 0.1536, 0.1536));
 }
 
 TEST_CASE("lights add up, each by its own angle", "[reference_002]")
 {
     // The second: N.L = 0.8, Rj.V = (-0.6, 0.8, 0).(-0.6, 0.8, 0) = 1.
-    Scene scene = floor_scene();
+    Scene scene = whitted_floor();
     scene.lights.push_back(directional({3, 4, 0}, 0.5));
     const double second = 0.5 * 0.4 * 0.8;
     check_color(seen(scene), Rgb(0.6536 + second + 0.15, 0.4036 + second / 2 + 0.15, 0.3036));
@@ -55,7 +50,7 @@ TEST_CASE("lights add up, each by its own angle", "[reference_002]")
 
 TEST_CASE("R comes in with ks, T with kt, both white", "[reference_002]")
 {
-    Scene scene = floor_scene();
+    Scene scene = whitted_floor();
     scene.background = Rgb(0, 1, 0);
     check_color(seen(scene), Rgb(0.6536, 0.4036 + 0.3, 0.1536));
     // Without bending the transmitted ray goes on to a floor below, which has ambient light.
@@ -69,7 +64,7 @@ TEST_CASE("R comes in with ks, T with kt, both white", "[reference_002]")
 
 TEST_CASE("where the ray tree ends R and T are left out", "[reference_002]")
 {
-    Scene scene = floor_scene();
+    Scene scene = whitted_floor();
     scene.background = Rgb(0, 1, 0);
     scene.max_depth = 0;
     check_color(seen(scene), Rgb(0.6536, 0.4036, 0.1536));
@@ -77,7 +72,7 @@ TEST_CASE("where the ray tree ends R and T are left out", "[reference_002]")
 
 TEST_CASE("a transparent blocker scales the light by its transparency", "[reference_002]")
 {
-    Scene scene = floor_scene();
+    Scene scene = whitted_floor();
     scene.objects.push_back(sphere({0, 2, 0}, 0.25, shaded(clear(Rgb(0.5, 0.25, 1)))));
     // Opaque shadows: only Ia is left.
     check_color(seen(scene), Rgb(0.1, 0.05, 0));
@@ -99,7 +94,7 @@ TEST_CASE("a transparent blocker scales the light by its transparency", "[refere
 TEST_CASE("the normal faces the viewer from below too", "[reference_002]")
 {
     // The light above no longer counts, one below does as the other did.
-    Scene scene = floor_scene();
+    Scene scene = whitted_floor();
     const V org(-3, -4, 0);
     const V dir(3, 4, 0);
     check_color(trace(scene, org, dir), Rgb(0.1, 0.05, 0));

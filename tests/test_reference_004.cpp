@@ -35,23 +35,18 @@ void scale(Object& object, double x, double y, double z)
 
 // The floor y = 0 hit at the origin with V = (-0.6, 0.8, 0) and the light straight above:
 // Id = 1, R = (0, 1, 0), Is = 0.8.
-Scene floor_scene(const Rgb& color = Rgb(1))
+Scene shader_floor(const Rgb& color = Rgb(1))
 {
     return shader_scene({plane({0, 0, 0}, {0, 1, 0}, reflecting(0.1, 0.4, 0.5, 2, color))},
                         {point_light({0, 4, 0}, 1)});
-}
-
-V seen(const Scene& scene)
-{
-    return trace(scene, {-3, 4, 0}, {3, -4, 0});
 }
 
 }  // namespace
 
 TEST_CASE("f is r0 + r1 Id + r2 Is^r3 times colour and light", "[reference_004]")
 {
-    check_color(seen(floor_scene()), Rgb(0.1 + 0.4 + 0.5 * 0.64));
-    Scene scene = floor_scene(Rgb(1, 0.5, 0));
+    check_color(seen(shader_floor()), Rgb(0.1 + 0.4 + 0.5 * 0.64));
+    Scene scene = shader_floor(Rgb(1, 0.5, 0));
     scene.lights[0].intensity = Rgb(0.5, 1, 1);
     check_color(seen(scene), Rgb(0.41, 0.41, 0));
 }
@@ -59,7 +54,7 @@ TEST_CASE("f is r0 + r1 Id + r2 Is^r3 times colour and light", "[reference_004]"
 TEST_CASE("several lights add up, an ambient one gives r0", "[reference_004]")
 {
     // Directional (3, 4, 0): Id = 0.8, R = (-0.6, 0.8, 0) = V, Is = 1.
-    Scene scene = floor_scene();
+    Scene scene = shader_floor();
     scene.lights.push_back(ambient(0.3));
     scene.lights.push_back(directional({3, 4, 0}, 0.5));
     check_color(seen(scene), Rgb(0.82 + 0.03 + 0.5 * (0.1 + 0.32 + 0.5)));
@@ -67,7 +62,7 @@ TEST_CASE("several lights add up, an ambient one gives r0", "[reference_004]")
 
 TEST_CASE("a shadowed point has r0 alone, times the light", "[reference_004]")
 {
-    Scene scene = floor_scene();
+    Scene scene = shader_floor();
     scene.lights[0].intensity = Rgb(2);
     scene.objects.push_back(sphere({0, 2, 0}, 0.5, reflecting(0, 0, 0, 1)));
     check_color(seen(scene), Rgb(0.2));
@@ -77,7 +72,7 @@ TEST_CASE("a shadowed point has r0 alone, times the light", "[reference_004]")
 
 TEST_CASE("an object beyond the light casts no shadow", "[reference_004]")
 {
-    Scene scene = floor_scene();
+    Scene scene = shader_floor();
     scene.objects.push_back(sphere({0, 6, 0}, 0.5, reflecting(0, 0, 0, 1)));
     check_color(seen(scene), Rgb(0.82));
     scene.lights = {directional({0, 1, 0}, 1)};
@@ -89,7 +84,7 @@ TEST_CASE("each object sees the shadow ray from the world, whatever stands befor
 {
     // As the listing has it, the blocker would get the ray in the space of the object before,
     // which stands far away and is much larger.
-    Scene scene = floor_scene();
+    Scene scene = shader_floor();
     scene.objects.push_back(sphere({0, 0, 0}, 1, reflecting(0, 0, 0, 1)));
     scale(scene.objects[1], 10, 10, 10);
     scene.objects[1].transform[3] = {500, 0, 0, 1};
@@ -112,7 +107,7 @@ TEST_CASE("the side away from the light is in the object's own shadow", "[refere
 TEST_CASE("the normal is the object's own and does not turn to the viewer", "[reference_004]")
 {
     // From below, V = (-0.6, -0.8, 0), the floor's N still points up: Id = 1 and Is = 0.
-    check_color(trace(floor_scene(), {-3, -4, 0}, {3, 4, 0}), Rgb(0.5));
+    check_color(trace(shader_floor(), {-3, -4, 0}, {3, 4, 0}), Rgb(0.5));
 }
 
 TEST_CASE("minimumIntersection lists each object once, nearest first", "[reference_004]")

@@ -7,8 +7,6 @@
 namespace packtrace::test {
 namespace {
 
-const std::string four_spheres_file = PACKTRACE_SOURCE_DIR "/scenes/four_spheres.scene";
-
 ProgramResult run_report(const TempFolder& folder, std::vector<std::string> more,
                          const std::string& environment = "")
 {

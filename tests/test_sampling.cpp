@@ -53,8 +53,6 @@ bool same_pixel(const Image<Real>& a, const Image<Real>& b, int x, int y)
     return std::equal(a.pixel(x, y), a.pixel(x, y) + 3, b.pixel(x, y));
 }
 
-const std::string four_spheres_file = PACKTRACE_SOURCE_DIR "/scenes/four_spheres.scene";
-
 }  // namespace
 
 TEST_CASE("samples lie in the pixel, around its centre, on a grid", "[sampling]")

@@ -41,7 +41,7 @@ Direction read_direction(Cursor& cursor)
     return away ? Direction::away : Direction::towards;
 }
 
-Intensity read_intensity(Cursor& cursor, const char* name)
+Intensity read_nested_intensity(Cursor& cursor, const char* name)
 {
     int rights = 0;
     std::size_t opened = open_all(cursor);
@@ -63,12 +63,12 @@ Surface read_surface(Cursor& cursor)
     surface.direction = read_direction(cursor);
     cursor.expect(",", "',' after the direction");
     cursor.expect("(", "'(' before the reflectance");
-    surface.reflectance = read_intensity(cursor, "reflectance");
+    surface.reflectance = read_nested_intensity(cursor, "reflectance");
     cursor.expect(",", "',' after the reflectance");
     cursor.expect("(", "'(' before the translucence");
-    surface.translucence = read_intensity(cursor, "translucence");
+    surface.translucence = read_nested_intensity(cursor, "translucence");
     cursor.expect(",", "',' after the translucence");
-    surface.emission = read_intensity(cursor, "emission");
+    surface.emission = read_nested_intensity(cursor, "emission");
     cursor.expect(")", "')' after the emission");
     cursor.expect(")", "')' after the pair of translucence and emission");
     cursor.expect(")", "')' of the surface");

@@ -15,7 +15,7 @@ using boost::multiprecision::abs;
 using boost::multiprecision::sqrt;
 using reference::dot;
 
-constexpr int scene_count = 16;
+constexpr int glass_scene_count = 16;
 
 /// The camera looks to where rays meet the surface at the critical angle.
 template <class Real>
@@ -81,7 +81,7 @@ Bend bend_at(const Sphere& sphere, double ior, const RayNode& ray)
 }
 
 template <class Real>
-void judge_tree(const Scene& scene, const RayNode& tree, MeasureRun& run)
+void judge_glass_tree(const Scene& scene, const RayNode& tree, MeasureRun& run)
 {
     const double roundoff = std::numeric_limits<Real>::epsilon() / 2.0;
     const Sphere& sphere = std::get<Sphere>(scene.objects[0].surface);
@@ -115,15 +115,16 @@ template <class Real>
 StressMeasure::Ask prepared(const StressOptions& options)
 {
     std::vector<Scene> scenes;
-    for (int i = 0; i < scene_count; ++i) {
-        StressRandom random(options.seed * scene_count + static_cast<std::uint64_t>(i));
+    for (int i = 0; i < glass_scene_count; ++i) {
+        StressRandom random(options.seed * glass_scene_count + static_cast<std::uint64_t>(i));
         scenes.push_back(glass_scene<Real>(random));
     }
     return [=](const StressSubject& subject) {
         MeasureRun run;
         for (const Scene& scene : scenes)
-            for_each_tree<Real>(scene, subject, options.rays / scene_count + 1,
-                                [&](const RayNode& tree) { judge_tree<Real>(scene, tree, run); });
+            for_each_tree<Real>(
+                scene, subject, options.rays / glass_scene_count + 1,
+                [&](const RayNode& tree) { judge_glass_tree<Real>(scene, tree, run); });
         return run;
     };
 }

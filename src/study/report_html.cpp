@@ -83,7 +83,7 @@ void write_slider(std::ostream& to, const SceneReport& scene)
           "<img class=\"right\" alt=\"right picture\"></div></div>\n";
 }
 
-void write_run(std::ostream& to, const ReportRun& run)
+void write_row(std::ostream& to, const ReportRun& run)
 {
     to << "<tr" << (run.pareto ? " class=\"pareto\"" : "") << "><td>" << escaped(run.variant.name);
     for (const std::string& cell :
@@ -107,8 +107,8 @@ void write_plot(std::ostream& to, const SceneReport& scene, const StudyReport& s
     to << svg.substr(svg.find("<svg")) << "</div>\n";
 }
 
-void write_study(std::ostream& to, const SceneReport& scene, const StudyReport& study,
-                 const ReportOptions& options)
+void write_section(std::ostream& to, const SceneReport& scene, const StudyReport& study,
+                   const ReportOptions& options)
 {
     to << "<h3>" << name_of(study.study) << "</h3>\n<p>Truth: " << escaped(study.truth)
        << ".</p>\n";
@@ -116,7 +116,7 @@ void write_study(std::ostream& to, const SceneReport& scene, const StudyReport& 
     to << "<table><tr><th>run</th><th>ms</th><th>spread</th><th>RMSE</th><th>max</th>"
           "<th>pixels off</th><th>where</th></tr>\n";
     for (const ReportRun& run : study.runs)
-        write_run(to, run);
+        write_row(to, run);
     to << "</table>\n<ul>";
     for (const std::string& line : judgement(study, options))
         to << "<li>" << escaped(line) << "</li>";
@@ -142,7 +142,7 @@ std::string report_html(const std::vector<SceneReport>& scenes, const ReportOpti
              << "</h2>\n";
         write_slider(page, scene);
         for (const StudyReport& study : scene.studies)
-            write_study(page, scene, study, options);
+            write_section(page, scene, study, options);
     }
     page << "<script type=\"application/json\" id=\"pictures\">" << pictures_json(scenes).dump()
          << "</script>\n<script>" << page_script << "</script></body></html>\n";

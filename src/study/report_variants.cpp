@@ -1,20 +1,13 @@
 #include <algorithm>
-#include <cstdio>
 
 #include <packtrace/isa.hpp>
 #include <packtrace/report.hpp>
 
 #include "study/accuracy_name.hpp"
+#include "study/report_text.hpp"
 
 namespace packtrace {
 namespace {
-
-std::string brief(double value)
-{
-    char text[32];
-    std::snprintf(text, sizeof text, "%g", value);
-    return text;
-}
 
 std::vector<IsaInfo> wanted_isas(const ReportOptions& options)
 {
@@ -114,7 +107,7 @@ std::vector<Variant> report_variants(const Scene& scene, const ReportOptions& op
     for (const auto& [samples, contrast] : options.adaptive) {
         widest.samples = samples;
         widest.adaptive = contrast;
-        widest.name = "adaptive " + std::to_string(samples) + " at " + brief(contrast);
+        widest.name = "adaptive " + std::to_string(samples) + " at " + brief(contrast, 6);
         variants.push_back(widest);
     }
     return variants;

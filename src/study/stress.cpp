@@ -239,11 +239,6 @@ void add_measured(const StressMeasure& measure, const char* precision,
     }
 }
 
-bool wanted(const std::vector<std::string>& names, const std::string& name)
-{
-    return names.empty() || std::find(names.begin(), names.end(), name) != names.end();
-}
-
 void check_families(const StressOptions& options)
 {
     const auto families = list_stress_families();

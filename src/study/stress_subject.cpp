@@ -75,11 +75,6 @@ StressRun run_naive(const StressGroup& group)
     return run;
 }
 
-bool wanted(const std::vector<std::string>& names, const std::string& name)
-{
-    return names.empty() || std::find(names.begin(), names.end(), name) != names.end();
-}
-
 void add_packets(const StressOptions& options, std::vector<StressSubject>& subjects)
 {
     const std::pair<const char*, Accuracy> modes[] = {
@@ -99,6 +94,11 @@ void add_packets(const StressOptions& options, std::vector<StressSubject>& subje
 }
 
 }  // namespace
+
+bool wanted(const std::vector<std::string>& names, const std::string& name)
+{
+    return names.empty() || std::find(names.begin(), names.end(), name) != names.end();
+}
 
 std::vector<StressSubject> stress_subjects(const StressOptions& options)
 {

@@ -25,6 +25,9 @@ struct StressSubject {
     RenderOptions options;
 };
 
+/// Whether `name` is among `names`; where none are given all are.
+[[nodiscard]] bool wanted(const std::vector<std::string>& names, const std::string& name);
+
 /// The subjects that the options ask for. Throws std::invalid_argument for unknown names.
 [[nodiscard]] std::vector<StressSubject> stress_subjects(const StressOptions& options);
 

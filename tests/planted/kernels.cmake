@@ -9,4 +9,5 @@ target_compile_options(packtrace_planted PRIVATE ${planted_options} -O1)
 target_include_directories(packtrace_planted PRIVATE ${CMAKE_CURRENT_LIST_DIR}
                            ${PROJECT_SOURCE_DIR}/src)
 target_link_libraries(packtrace_planted PRIVATE packtrace_flags packtrace_xsimd)
+set_target_properties(packtrace_planted PROPERTIES UNITY_BUILD OFF)
 target_sources(packtrace_tests PRIVATE $<TARGET_OBJECTS:packtrace_planted>)
