@@ -117,9 +117,10 @@ TEST_CASE("each scene gets the narrowest kernel", "[features]")
     CHECK(kernel_of(matt_scene()) == "matt");
     CHECK(kernel_of(scene_named("checkers")) == "matt");
     CHECK(kernel_of(scene_named("mirrors at depth 0")) == "matt");
-    CHECK(kernel_of(scene_named("highlights")) == "mirrors");
+    CHECK(kernel_of(scene_named("highlights")) == "shiny");
     CHECK(kernel_of(scene_named("mirrors")) == "mirrors");
-    CHECK(kernel_of(scene_named("quadrics")) == "quadrics");
+    CHECK(kernel_of(scene_named("quadrics")) == "matt quadrics");
+    CHECK(kernel_of(scene_named("ambient light on a quadric")) == "matt quadrics");
     CHECK(kernel_of(scene_named("tinted mirrors")) == "quadrics");
     CHECK(kernel_of(scene_named("glass")) == "general");
     // Its limit has a colour, which transparent and mirroring surfaces show.

@@ -23,7 +23,9 @@ struct FeatureSet {
 /// measured: results/features.json.
 inline constexpr FeatureSet feature_sets[] = {
     {"matt", {}},
+    {"shiny", {.highlights = true}},
     {"mirrors", {.highlights = true, .bounces = true}},
+    {"matt quadrics", {.quadrics = true}},
     {"quadrics", {.quadrics = true, .highlights = true, .bounces = true, .colored = true}},
     {"general",
      {.quadrics = true, .highlights = true, .bounces = true, .colored = true, .glass = true}},
@@ -35,11 +37,11 @@ inline constexpr FeatureSet feature_sets[] = {
       .glass = true,
       .probe = true}},
 };
-inline constexpr int feature_set_count = 5;
+inline constexpr int feature_set_count = 7;
 /// Renders every scene.
-inline constexpr int general_set = 3;
+inline constexpr int general_set = 5;
 /// Renders every scene, and tells of its rays.
-inline constexpr int probe_set = 4;
+inline constexpr int probe_set = 6;
 
 /// A probe is never chosen for a scene that does not ask for it.
 constexpr bool covers(Features set, Features needed)

@@ -24,6 +24,12 @@ inline Real square_root(Real x)
     return static_cast<Real>(__builtin_sqrt(static_cast<double>(x)));
 }
 
+template <class Real>
+inline Real magnitude(Real x)
+{
+    return x < 0 ? -x : x;
+}
+
 /// Share of a length by which a bound may be wrong through rounding; more than three times what
 /// the operations below and a ray's own test can lose (docs/numerics.md has the proof), so that a
 /// sphere is left out only when the exact and the rounded test of every ray say miss.

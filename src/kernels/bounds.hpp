@@ -47,22 +47,64 @@ inline Box<Real> box_of(const Real (&points)[3][Size], int count)
     return box;
 }
 
+template <class Real>
+struct Ball {
+    Real center[3];
+    Real radius;
+};
+
+/// The ball around a box, with room for what rounding does to coordinates as large as its own:
+/// to its centre, and to rays that start lifted off the points in it.
+template <class Real>
+inline Ball<Real> ball_around(const Box<Real>& box)
+{
+    Ball<Real> ball;
+    Real radius2 = 0;
+    Real size = 0;
+    for (int axis = 0; axis < 3; ++axis) {
+        const Real half = Real(0.5) * (box.high[axis] - box.low[axis]);
+        ball.center[axis] = box.low[axis] + half;
+        radius2 += half * half;
+        size += magnitude(ball.center[axis]) + half;
+    }
+    ball.radius = square_root(radius2) + beam_slack<Real> * size;
+    return ball;
+}
+
+/// From everything in `box` along `direction`.
+template <class Real>
+inline Beam<Real> parallel_beam(const Real (&direction)[3], const Box<Real>& box)
+{
+    const Ball<Real> ball = ball_around(box);
+    Beam<Real> beam;
+    Real length2 = 0;
+    for (int axis = 0; axis < 3; ++axis)
+        length2 += direction[axis] * direction[axis];
+    const Real length = square_root(length2);
+    for (int axis = 0; axis < 3; ++axis) {
+        beam.base[axis] = ball.center[axis];
+        beam.axis[axis] = direction[axis] / length;
+    }
+    beam.radius = ball.radius;
+    beam.reach = static_cast<Real>(__builtin_inf());
+    beam.bounded = true;
+    return beam;
+}
+
 /// From a point light to everything in `box`: a cone around the ball that holds the box.
 template <class Real>
 inline Beam<Real> segment_beam(const Real (&light)[3], const Box<Real>& box)
 {
+    const Ball<Real> ball = ball_around(box);
     Beam<Real> beam;
     Real distance2 = 0;
-    Real radius2 = 0;
     for (int axis = 0; axis < 3; ++axis) {
-        const Real half = Real(0.5) * (box.high[axis] - box.low[axis]);
         beam.base[axis] = light[axis];
-        beam.axis[axis] = box.low[axis] + half - light[axis];
+        beam.axis[axis] = ball.center[axis] - light[axis];
         distance2 += beam.axis[axis] * beam.axis[axis];
-        radius2 += half * half;
     }
     const Real distance = square_root(distance2);
-    const Real radius = square_root(radius2) + beam_slack<Real> * distance;
+    const Real radius = ball.radius + beam_slack<Real> * distance;
     beam.bounded = radius < distance;
     if (!beam.bounded)
         return beam;

@@ -30,6 +30,25 @@ inline Quadratic<Real> quadratic_of(const SharedOriginSpheres<Real>& list, int i
                                   vreal<Real>(list.constant[index]));
 }
 
+/// Lanes of the packet of spheres at `first` that a ray of the beam may meet.
+template <class Real>
+inline std::uint32_t spheres_in(const Beam<Real>& beam, const abi::SphereListView<Real>& spheres,
+                                int first, const Vec3v<Real>& center)
+{
+    const std::uint32_t there = first_lanes<Real>(spheres.count - first);
+    if (!beam.bounded)
+        return there;
+    return there &
+           bits(may_meet<Real>(beam, center - broadcast(beam.base), load(spheres.radius + first)));
+}
+
+template <class Real>
+inline Vec3v<Real> load_centers(const abi::SphereListView<Real>& spheres, int first)
+{
+    return {load(spheres.center_x + first), load(spheres.center_y + first),
+            load(spheres.center_z + first)};
+}
+
 /// Fills `list` with the spheres that rays from `beam.base` may meet. What is kept of a sphere
 /// has the same bits as what the test of a single packet computes.
 template <class Real>
@@ -39,12 +58,9 @@ inline void find_candidates(SharedOriginSpheres<Real>& list, const Beam<Real>& b
     const Vec3v<Real> base = broadcast(beam.base);
     list.count = 0;
     for (int first = 0; first < spheres.count; first += lanes<Real>) {
-        const Vec3v<Real> center{load(spheres.center_x + first), load(spheres.center_y + first),
-                                 load(spheres.center_z + first)};
+        const Vec3v<Real> center = load_centers(spheres, first);
         const Vec3v<Real> o = base - center;
-        std::uint32_t kept = first_lanes<Real>(spheres.count - first);
-        if (beam.bounded)
-            kept &= bits(may_meet<Real>(beam, center - base, load(spheres.radius + first)));
+        const std::uint32_t kept = spheres_in(beam, spheres, first, center);
         if (kept == 0)
             continue;
         const vreal<Real> radius2 = load(spheres.radius2 + first);
@@ -56,6 +72,34 @@ inline void find_candidates(SharedOriginSpheres<Real>& list, const Beam<Real>& b
         compress_store(list.surface + list.count, kept, load(spheres.surface + first));
         list.count += __builtin_popcount(kept);
     }
+}
+
+/// The spheres that parallel rays from several points may meet, in the room of a list for rays that
+/// share their origin: centres in place of origins.
+template <class Real>
+inline void find_parallel_candidates(SharedOriginSpheres<Real>& list, const Beam<Real>& beam,
+                                     const abi::SphereListView<Real>& spheres)
+{
+    list.count = 0;
+    for (int first = 0; first < spheres.count; first += lanes<Real>) {
+        const Vec3v<Real> center = load_centers(spheres, first);
+        const std::uint32_t kept = spheres_in(beam, spheres, first, center);
+        if (kept == 0)
+            continue;
+        compress_store(list.x + list.count, kept, center.x);
+        compress_store(list.y + list.count, kept, center.y);
+        compress_store(list.z + list.count, kept, center.z);
+        compress_store(list.radius2 + list.count, kept, load(spheres.radius2 + first));
+        compress_store(list.surface + list.count, kept, load(spheres.surface + first));
+        list.count += __builtin_popcount(kept);
+    }
+}
+
+/// A list that find_parallel_candidates() filled.
+template <class Real>
+inline abi::SphereListView<Real> parallel_candidates(const SharedOriginSpheres<Real>& list)
+{
+    return {list.x, list.y, list.z, nullptr, list.radius2, list.surface, list.count};
 }
 
 }  // namespace

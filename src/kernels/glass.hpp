@@ -70,6 +70,15 @@ struct RefractedPacket {
     std::uint32_t total;  ///< lanes of total internal reflection: no refracted ray
 };
 
+template <class Real>
+inline vreal<Real> iors_of(const abi::SceneView<Real>& scene, const vint<Real>& body,
+                           std::uint32_t active)
+{
+    const auto ior = find_records<1, Real>(
+        body, active, [&](lane_int<Real> number) -> const Real& { return scene.ior[number]; });
+    return ior.field[0];
+}
+
 /// Snell's law for unit directions and normals turned against them. Entering pushes the body and
 /// leaving the innermost one pops it; leaving one further out, entering one the ray is in, or
 /// leaving one it is not in (open surfaces) goes straight on.
@@ -87,12 +96,12 @@ inline RefractedPacket<Real> refract(const abi::SceneView<Real>& scene,
     RefractedPacket<Real> result;
     result.inside = select(leaves, left(inside, surface.object), inside);
     result.inside = select(enters, entered(inside, surface.object), result.inside);
-    const auto ior_before = fetch_records<1, Real>(scene.ior, inside.body[0], active);
-    const auto ior_behind = fetch_records<1, Real>(scene.ior, result.inside.body[0], active);
+    const vreal<Real> ior_before = iors_of(scene, inside.body[0], active);
+    const vreal<Real> ior_behind = iors_of(scene, result.inside.body[0], active);
 
     const vreal<Real> zero(Real(0));
     const vreal<Real> one(Real(1));
-    const vreal<Real> eta = ior_before.field[0] / ior_behind.field[0];
+    const vreal<Real> eta = ior_before / ior_behind;
     const vreal<Real> cos_in = negated(dot(surface.normal, surface.dir));
     const vreal<Real> cos_out2 = nmadd(eta * eta, nmadd(cos_in, cos_in, one), one);
     const vreal<Real> bend = msub(eta, cos_in, sqrt(max(cos_out2, zero)));

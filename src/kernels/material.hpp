@@ -17,8 +17,9 @@ template <class Real>
 inline MaterialPacket<Real> fetch_materials(const abi::SceneView<Real>& scene,
                                             const vint<Real>& material, std::uint32_t active)
 {
-    static_assert(sizeof(abi::MaterialRecord<Real>) == 20 * sizeof(Real));
-    const auto record = fetch_records<20, Real>(&scene.materials->ambient[0], material, active);
+    const auto record = find_records<20, Real>(
+        material,
+        active, [&](lane_int<Real> number) -> const auto& { return scene.materials[number]; });
     return {record.vector(0),  record.vector(3),  record.vector(6), record.vector(9),
             record.vector(12), record.vector(15), record.field[18], record.field[19]};
 }

@@ -47,6 +47,28 @@ struct ObjectLists<Real, abi::SceneView<Real>> {
     }
 };
 
+/// The objects of a scene as parallel rays see them: some of its spheres, and all others.
+template <class Real>
+struct ParallelObjects {
+    const abi::SceneView<Real>& scene;
+    abi::SphereListView<Real> spheres;
+};
+
+template <class Real>
+struct ObjectLists<Real, ParallelObjects<Real>> : ObjectLists<Real, abi::SceneView<Real>> {
+    const abi::SphereListView<Real>& met_spheres;
+
+    explicit ObjectLists(const ParallelObjects<Real>& objects)
+        : ObjectLists<Real, abi::SceneView<Real>>{objects.scene}, met_spheres(objects.spheres)
+    {
+    }
+
+    const abi::SphereListView<Real>& spheres() const
+    {
+        return met_spheres;
+    }
+};
+
 template <class Real>
 struct ObjectLists<Real, SharedOriginObjects<Real>> {
     const SharedOriginObjects<Real>& objects;

@@ -11,43 +11,34 @@ namespace {
 template <class Real>
 using TilePixelColors = Real[abi::tile_pixels][4];
 
-/// Four reals moved at once; a vector extension of both compilers.
-template <class Real>
-struct Pixel {
-    using type [[gnu::vector_size(4 * sizeof(Real)), gnu::aligned(alignof(Real)), gnu::may_alias]] =
-        Real;
+/// `Count` reals moved at once; a vector extension of both compilers.
+template <class Real, int Count>
+struct Reals {
+    using type
+        [[gnu::vector_size(Count * sizeof(Real)), gnu::aligned(alignof(Real)), gnu::may_alias]] =
+            Real;
 
-    static type& at(Real* pixel)
+    static type& at(Real* first)
     {
-        return *reinterpret_cast<type*>(pixel);
+        return *reinterpret_cast<type*>(first);
     }
-    static const type& at(const Real* pixel)
+    static const type& at(const Real* first)
     {
-        return *reinterpret_cast<const type*>(pixel);
+        return *reinterpret_cast<const type*>(first);
     }
 };
 
-/// Where store_pixels puts a lane.
-template <class Real>
-constexpr int pixel_slot(int lane)
-{
-    if constexpr (sizeof(Real) == sizeof(float))
-        return lane % 4 * (lanes<Real> / 4) + lane / 4;
-    else
-        return lane;
-}
-
-inline void store_pixels(double (*to)[4], vreal<double> r, vreal<double> g, vreal<double> b)
+inline void store_pixels(double* to, vreal<double> r, vreal<double> g, vreal<double> b)
 {
     alignas(64) double channel[3][lanes<double>];
     store(channel[0], r);
     store(channel[1], g);
     store(channel[2], b);
-    for (int lane = 0; lane < lanes<double>; ++lane) {
-        to[lane][0] = channel[0][lane];
-        to[lane][1] = channel[1][lane];
-        to[lane][2] = channel[2][lane];
-        to[lane][3] = 0.0;
+    for (int lane = 0; lane < lanes<double>; ++lane, to += 4) {
+        to[0] = channel[0][lane];
+        to[1] = channel[1][lane];
+        to[2] = channel[2][lane];
+        to[3] = 0.0;
     }
 }
 
@@ -60,14 +51,20 @@ template <PixelWrite Write, class Real>
 inline void write_colors(TilePixelColors<Real>& pixels, const vint<Real>& number,
                          const Vec3v<Real>& color, std::uint32_t active)
 {
+    if (active == 0)
+        return;
     alignas(64) lane_int<Real> at[lanes<Real>];
-    alignas(64) Real colors[lanes<Real>][4];
     store(at, number);
-    store_pixels(colors, color.x, color.y, color.z);
+    // Hits keep their pixels' order, so that the ends of a packet tell whether any is missing.
+    if (Write == PixelWrite::set && active == all_lanes<Real> &&
+        at[lanes<Real> - 1] - at[0] == lanes<Real> - 1)
+        return store_pixels(pixels[at[0]], color.x, color.y, color.z);
+    alignas(64) Real colors[lanes<Real>][4];
+    store_pixels(colors[0], color.x, color.y, color.z);
     for (; active != 0; active &= active - 1) {
         const int lane = __builtin_ctz(active);
-        auto& pixel = Pixel<Real>::at(pixels[at[lane]]);
-        const auto& light = Pixel<Real>::at(colors[pixel_slot<Real>(lane)]);
+        auto& pixel = Reals<Real, 4>::at(pixels[at[lane]]);
+        const auto& light = Reals<Real, 4>::at(colors[lane]);
         pixel = Write == PixelWrite::set ? light : pixel + light;
     }
 }
@@ -105,18 +102,20 @@ struct ColumnOrder {
 
 constexpr ColumnOrder column_order;
 
-/// One row of a tile into `to`, interleaved. Each pixel is stored with its unused element, which
-/// the next one overwrites; the last goes element by element.
+/// One row of a tile into `to`, interleaved. Pixels go by twos, which are neighbours in the tile,
+/// and are stored with two elements more that the next ones overwrite.
 template <class Real>
 inline void write_row(Real* to, const TilePixelColors<Real>& pixels, int row, int width)
 {
     const int row_bits = spread_bits(row) << 1;
-    for (int column = 0; column < width - 1; ++column, to += 3)
-        Pixel<Real>::at(to) = Pixel<Real>::at(pixels[row_bits | column_order.number[column]]);
-    const Real* last = pixels[row_bits | column_order.number[width - 1]];
-    to[0] = last[0];
-    to[1] = last[1];
-    to[2] = last[2];
+    int column = 0;
+    for (; column + 2 < width; column += 2, to += 6) {
+        const auto two = Reals<Real, 8>::at(pixels[row_bits | column_order.number[column]]);
+        Reals<Real, 8>::at(to) = __builtin_shufflevector(two, two, 0, 1, 2, 4, 5, 6, 3, 7);
+    }
+    for (; column < width; ++column, to += 3)
+        for (int channel = 0; channel < 3; ++channel)
+            to[channel] = pixels[row_bits | column_order.number[column]][channel];
 }
 
 }  // namespace

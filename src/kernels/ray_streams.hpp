@@ -138,6 +138,24 @@ inline int gather_stream(const abi::RaysView<Real>& view, int begin, RayGroup<Re
     return count;
 }
 
+/// The same for packets in which no ray may have hit anything; normals of misses are 0.
+template <abi::Features F, class Real>
+inline SurfacePacket<Real> surface_or_none(const abi::SceneView<Real>& scene,
+                                           const RayPacket<Real>& rays, vreal<Real>& t,
+                                           const vint<Real>& surface, std::uint32_t found)
+{
+    const vreal<Real> zero(Real(0));
+    const Vec3v<Real> none{zero, zero, zero};
+    SurfacePacket<Real> result;
+    result.point = result.normal = result.lift = none;
+    result.object = surface;
+    if (found == 0)
+        return result;
+    result = outward_surface<F>(scene, rays, t, surface, found);
+    result.normal = select(from_bits<Real>(found), result.normal, none);
+    return result;
+}
+
 /// Hands out what a packet of rays, of which `live` are left, hit: to `at` and after.
 template <abi::Features F, class Real>
 inline void store_packet_hits(const abi::SceneView<Real>& scene, const RayPacket<Real>& rays,
@@ -152,7 +170,7 @@ inline void store_packet_hits(const abi::SceneView<Real>& scene, const RayPacket
         return;
     }
     vreal<Real> t = hit.t;
-    const SurfacePacket<Real> surface = outward_surface<F>(scene, rays, t, hit.surface, found);
+    const SurfacePacket<Real> surface = surface_or_none<F>(scene, rays, t, hit.surface, found);
     store_some(hits.t + at, select(missed, t_max, t), live);
     store_some(hits.object + at, select(missed, hit.surface, surface.object), live);
     store_some3(hits.normal, at, surface.normal, live);

@@ -2,7 +2,7 @@
 
 #include "kernel_abi/kernel_table.hpp"
 #include "kernels/light_shadows.hpp"
-#include "kernels/shared_origin.hpp"
+#include "kernels/object_lists.hpp"
 
 namespace packtrace::PACKTRACE_ISA {
 namespace {
@@ -18,12 +18,17 @@ inline const abi::SceneView<Real>& casters_of(const abi::SceneView<Real>& scene)
 template <abi::Features F, class Real>
 struct ShadeContext {
     const abi::SceneView<Real>* scene;
-    /// For each point light, what may stand between it and the hits.
+    /// For each light, what may stand between it and the hits; of directional ones spheres alone.
     const SharedOriginObjects<Real>* blockers;
     /// For each light, what the hits see of it; null where packets find out by themselves.
     const LightShadows<F, Real>* shadows;
     int depth;  ///< reflections and refractions before these hits
     abi::RayCounts* counts;
+
+    ParallelObjects<Real> parallel_blockers(int light) const
+    {
+        return {casters_of(*scene), parallel_candidates(blockers[light].spheres)};
+    }
 
     bool spawns() const
     {

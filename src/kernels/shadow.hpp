@@ -102,7 +102,7 @@ inline auto with_shadow_rays(const ShadeContext<F, Real>& context, int light,
                            [&](const vreal<Real>& t_end, const RayPacket<Real>& rays) {
                                const Reach<Real> reach{t_end, has_closed_reach(scene, light)};
                                if (scene.lights.data[light].kind == abi::LightKind::directional)
-                                   return trace(reach, casters_of(scene), rays);
+                                   return trace(reach, context.parallel_blockers(light), rays);
                                return trace(reach, context.blockers[light], rays);
                            });
 }

@@ -43,7 +43,8 @@ inline void visit_shadow_blockers(const ShadeContext<F, Real>& context, int ligh
     const abi::SceneView<Real>& casters = casters_of(scene);
     const bool closed = has_closed_reach(scene, light);
     if (scene.lights.data[light].kind == abi::LightKind::directional)
-        visit_blockers_of_group<F>(casters, casters, group, closed, blocker);
+        visit_blockers_of_group<F>(casters, context.parallel_blockers(light), group, closed,
+                                   blocker);
     else
         visit_blockers_of_group<F>(casters, context.blockers[light], group, closed, blocker);
 }

@@ -65,14 +65,14 @@ inline RecordPacket<Fields, Real> surface_records(const abi::SceneView<Real>& sc
                                                   const Record* table, const vint<Real>& surface,
                                                   std::uint32_t active)
 {
-    const auto find = [&](lane_int<Real> number, Record& room) -> const Record& {
+    return find_records<Fields, Real>(surface, active, [&](lane_int<Real> number) {
         const abi::SurfacePlace place = scene.places[number];
         if (abi::is_other_shape(place))
             return table[place & abi::place_mask];
-        make_record(scene, place, room);
-        return room;
-    };
-    return find_records<Fields, Record, Real>(surface, active, find);
+        Record record;
+        make_record(scene, place, record);
+        return record;
+    });
 }
 
 /// Planes and spheres (abi::SurfaceRecord).
@@ -169,17 +169,23 @@ template <class Real>
 inline void set_material(SurfacePacket<Real>& surface, const abi::SceneView<Real>& scene,
                          const vint<Real>& number, std::uint32_t active)
 {
-    surface.material = vint<Real>(lane_int<Real>(0));
-    surface.object = surface.material;
-    for_each_distinct<Real>(number, active, [&](lane_int<Real> value, vmask<Real> same) {
-        const abi::MaterialIndex index = scene.material_index[value];
-        vint<Real> chosen(static_cast<lane_int<Real>>(index.first));
-        if (index.checker >= 0)
-            chosen = chosen + checker_parity(scene.checkers[index.checker], surface.point);
-        surface.material = select(same, chosen, surface.material);
-        surface.object =
-            select(same, vint<Real>(static_cast<lane_int<Real>>(index.object)), surface.object);
-    });
+    const auto material_of = [&](const abi::MaterialIndex& index) {
+        const vint<Real> first(static_cast<lane_int<Real>>(index.first));
+        return index.checker < 0
+                   ? first
+                   : first + checker_parity(scene.checkers[index.checker], surface.point);
+    };
+    const auto object_of = [](const abi::MaterialIndex& index) {
+        return vint<Real>(static_cast<lane_int<Real>>(index.object));
+    };
+    DistinctNumbers<Real> distinct(number, active);
+    surface.material = material_of(scene.material_index[distinct.value()]);
+    surface.object = object_of(scene.material_index[distinct.value()]);
+    while (distinct.next()) {
+        const abi::MaterialIndex& index = scene.material_index[distinct.value()];
+        surface.material = select(distinct.lanes_of(), material_of(index), surface.material);
+        surface.object = select(distinct.lanes_of(), object_of(index), surface.object);
+    }
 }
 
 /// The surface's own gradient at `point`.

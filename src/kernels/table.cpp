@@ -72,6 +72,8 @@ constexpr abi::PrecisionTable<Real> precision_table()
     table.kernels[2] = feature_kernels<2, Real>();
     table.kernels[3] = feature_kernels<3, Real>();
     table.kernels[4] = feature_kernels<4, Real>();
+    table.kernels[5] = feature_kernels<5, Real>();
+    table.kernels[6] = feature_kernels<6, Real>();
     constexpr abi::Features any_surface{.quadrics = true};
     table.closest_hits = closest_hits<any_surface, Real>;
     table.occluded = occluded_rays<any_surface, Real>;

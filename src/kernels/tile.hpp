@@ -19,7 +19,7 @@ struct TileRun {
     abi::RayCounts& counts;
 };
 
-/// Per point light, what may stand between it and the hit points.
+/// Per light, what may stand between it and the hit points.
 template <abi::Features F, class Real>
 inline void find_blockers(const TileRun<F, Real>& run)
 {
@@ -34,9 +34,13 @@ inline void find_blockers(const TileRun<F, Real>& run)
         if (!light.casts_shadow)
             continue;
         run.counts.stages |= abi::stage_blockers;
+        SharedOriginObjects<Real>& blockers = run.work.blockers[i];
+        const abi::SceneView<Real>& casters = casters_of(scene);
         if (light.kind == abi::LightKind::point)
-            find_objects<F>(run.work.blockers[i], segment_beam(light.vector, box),
-                            casters_of(scene));
+            find_objects<F>(blockers, segment_beam(light.vector, box), casters);
+        else if (light.kind == abi::LightKind::directional)
+            find_parallel_candidates(blockers.spheres, parallel_beam(light.vector, box),
+                                     casters.spheres);
     }
 }
 

@@ -103,18 +103,23 @@ inline vmask<double> from_bits<double>(std::uint32_t pattern)
     return _mm256_castsi256_pd(_mm256_cmpeq_epi64(chosen, lane_bit));
 }
 
-/// Pixels r, g, b, 0 of all lanes; lane l is row [l % 4][l / 4] of `to`.
-inline void store_pixels(float (*to)[4], vreal<float> r, vreal<float> g, vreal<float> b)
+/// Pixels r, g, b, 0 of all lanes, in their order.
+inline void store_pixels(float* to, vreal<float> r, vreal<float> g, vreal<float> b)
 {
     const __m256 zero = _mm256_setzero_ps();
     const __m256d rg_low = _mm256_castps_pd(_mm256_unpacklo_ps(r, g));
     const __m256d rg_high = _mm256_castps_pd(_mm256_unpackhi_ps(r, g));
     const __m256d b_low = _mm256_castps_pd(_mm256_unpacklo_ps(b, zero));
     const __m256d b_high = _mm256_castps_pd(_mm256_unpackhi_ps(b, zero));
-    _mm256_storeu_ps(to[0], _mm256_castpd_ps(_mm256_unpacklo_pd(rg_low, b_low)));
-    _mm256_storeu_ps(to[2], _mm256_castpd_ps(_mm256_unpackhi_pd(rg_low, b_low)));
-    _mm256_storeu_ps(to[4], _mm256_castpd_ps(_mm256_unpacklo_pd(rg_high, b_high)));
-    _mm256_storeu_ps(to[6], _mm256_castpd_ps(_mm256_unpackhi_pd(rg_high, b_high)));
+    // Lanes l and l + 4 each; then halves are exchanged.
+    const __m256 first = _mm256_castpd_ps(_mm256_unpacklo_pd(rg_low, b_low));
+    const __m256 second = _mm256_castpd_ps(_mm256_unpackhi_pd(rg_low, b_low));
+    const __m256 third = _mm256_castpd_ps(_mm256_unpacklo_pd(rg_high, b_high));
+    const __m256 fourth = _mm256_castpd_ps(_mm256_unpackhi_pd(rg_high, b_high));
+    _mm256_storeu_ps(to, _mm256_permute2f128_ps(first, second, 0x20));
+    _mm256_storeu_ps(to + 8, _mm256_permute2f128_ps(third, fourth, 0x20));
+    _mm256_storeu_ps(to + 16, _mm256_permute2f128_ps(first, second, 0x31));
+    _mm256_storeu_ps(to + 24, _mm256_permute2f128_ps(third, fourth, 0x31));
 }
 
 inline vreal<double> low_half(vreal<float> x)

@@ -91,18 +91,27 @@ inline vmask<double> int_less(vint<double> i, vint<double> j)
     return _mm512_cmplt_epi64_mask(i, j);
 }
 
-/// Pixels r, g, b, 0 of all lanes; lane l is row [l % 4][l / 4] of `to`.
-inline void store_pixels(float (*to)[4], vreal<float> r, vreal<float> g, vreal<float> b)
+/// Pixels r, g, b, 0 of all lanes, in their order.
+inline void store_pixels(float* to, vreal<float> r, vreal<float> g, vreal<float> b)
 {
     const __m512 zero = _mm512_setzero_ps();
     const __m512d rg_low = _mm512_castps_pd(_mm512_unpacklo_ps(r, g));
     const __m512d rg_high = _mm512_castps_pd(_mm512_unpackhi_ps(r, g));
     const __m512d b_low = _mm512_castps_pd(_mm512_unpacklo_ps(b, zero));
     const __m512d b_high = _mm512_castps_pd(_mm512_unpackhi_ps(b, zero));
-    _mm512_storeu_ps(to[0], _mm512_castpd_ps(_mm512_unpacklo_pd(rg_low, b_low)));
-    _mm512_storeu_ps(to[4], _mm512_castpd_ps(_mm512_unpackhi_pd(rg_low, b_low)));
-    _mm512_storeu_ps(to[8], _mm512_castpd_ps(_mm512_unpacklo_pd(rg_high, b_high)));
-    _mm512_storeu_ps(to[12], _mm512_castpd_ps(_mm512_unpackhi_pd(rg_high, b_high)));
+    // Lanes l, l + 4, l + 8 and l + 12 each; then a transposition of quarters.
+    const __m512 first = _mm512_castpd_ps(_mm512_unpacklo_pd(rg_low, b_low));
+    const __m512 second = _mm512_castpd_ps(_mm512_unpackhi_pd(rg_low, b_low));
+    const __m512 third = _mm512_castpd_ps(_mm512_unpacklo_pd(rg_high, b_high));
+    const __m512 fourth = _mm512_castpd_ps(_mm512_unpackhi_pd(rg_high, b_high));
+    const __m512 low = _mm512_shuffle_f32x4(first, second, 0x44);
+    const __m512 low_more = _mm512_shuffle_f32x4(third, fourth, 0x44);
+    const __m512 high = _mm512_shuffle_f32x4(first, second, 0xee);
+    const __m512 high_more = _mm512_shuffle_f32x4(third, fourth, 0xee);
+    _mm512_storeu_ps(to, _mm512_shuffle_f32x4(low, low_more, 0x88));
+    _mm512_storeu_ps(to + 16, _mm512_shuffle_f32x4(low, low_more, 0xdd));
+    _mm512_storeu_ps(to + 32, _mm512_shuffle_f32x4(high, high_more, 0x88));
+    _mm512_storeu_ps(to + 48, _mm512_shuffle_f32x4(high, high_more, 0xdd));
 }
 
 inline vreal<double> low_half(vreal<float> x)

@@ -102,10 +102,10 @@ inline vmask<double> from_bits<double>(std::uint32_t pattern)
     return vtstq_u64(vdupq_n_u64(pattern), vld1q_u64(lane_bit));
 }
 
-/// Pixels r, g, b, 0 of all lanes; lane l is row [l % 4][l / 4] of `to`.
-inline void store_pixels(float (*to)[4], vreal<float> r, vreal<float> g, vreal<float> b)
+/// Pixels r, g, b, 0 of all lanes, in their order.
+inline void store_pixels(float* to, vreal<float> r, vreal<float> g, vreal<float> b)
 {
-    vst4q_f32(to[0], (float32x4x4_t{{r, g, b, vdupq_n_f32(0.0f)}}));
+    vst4q_f32(to, (float32x4x4_t{{r, g, b, vdupq_n_f32(0.0f)}}));
 }
 
 inline vreal<double> low_half(vreal<float> x)

@@ -124,18 +124,18 @@ inline vmask<double> from_bits<double>(std::uint32_t pattern)
     return _mm_castsi128_pd(_mm_cmpeq_epi64(chosen, lane_bit));
 }
 
-/// Pixels r, g, b, 0 of all lanes; lane l is row [l % 4][l / 4] of `to`.
-inline void store_pixels(float (*to)[4], vreal<float> r, vreal<float> g, vreal<float> b)
+/// Pixels r, g, b, 0 of all lanes, in their order.
+inline void store_pixels(float* to, vreal<float> r, vreal<float> g, vreal<float> b)
 {
     const __m128 zero = _mm_setzero_ps();
     const __m128 rg_low = _mm_unpacklo_ps(r, g);
     const __m128 rg_high = _mm_unpackhi_ps(r, g);
     const __m128 b_low = _mm_unpacklo_ps(b, zero);
     const __m128 b_high = _mm_unpackhi_ps(b, zero);
-    _mm_storeu_ps(to[0], _mm_movelh_ps(rg_low, b_low));
-    _mm_storeu_ps(to[1], _mm_movehl_ps(b_low, rg_low));
-    _mm_storeu_ps(to[2], _mm_movelh_ps(rg_high, b_high));
-    _mm_storeu_ps(to[3], _mm_movehl_ps(b_high, rg_high));
+    _mm_storeu_ps(to, _mm_movelh_ps(rg_low, b_low));
+    _mm_storeu_ps(to + 4, _mm_movehl_ps(b_low, rg_low));
+    _mm_storeu_ps(to + 8, _mm_movelh_ps(rg_high, b_high));
+    _mm_storeu_ps(to + 12, _mm_movehl_ps(b_high, rg_high));
 }
 
 inline vreal<double> low_half(vreal<float> x)
