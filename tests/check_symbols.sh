@@ -20,8 +20,10 @@ for object in "$@"; do
     symbols=$("$nm" --format=posix "$object") || { echo "nm can't read $object"; exit 1; }
     # Constants that the compiler names itself, .LC0, are no symbols to the linker.
     names=$(printf '%s\n' "$symbols" | grep -v '^\.L')
-    undefined=$(printf '%s\n' "$names" | awk '$2 ~ /^[Uwv]$/ && NF < 4 {print $1}')
-    defined=$(printf '%s\n' "$names" | awk '!($2 ~ /^[Uwv]$/ && NF < 4) {print $1}')
+    # LLVM's nm gives what is undefined a value and a size, too, of 0.
+    is_undefined='$2 == "U" || ($2 ~ /^[wv]$/ && NF < 4)'
+    undefined=$(printf '%s\n' "$names" | awk "$is_undefined"' {print $1}')
+    defined=$(printf '%s\n' "$names" | awk "!($is_undefined)"' {print $1}')
 
     foreign=$(printf '%s\n' "$defined" | grep -Ev "$ours")
     wanted=$(printf '%s\n' "$undefined" | grep -v '^$' | grep -Evx "$allowed_undefined" |

@@ -143,12 +143,12 @@ TEST_CASE("a ray that leaves a ball meets it again only from inside, however sha
 TEST_CASE("a saddle is met again from where it bends away", "[self_hits]")
 {
     Scene scene;
-    Object saddle;
+    Object object;
     Quadric quadric;
     quadric.kind = QuadricKind::saddle;
     quadric.coefficients = {1, -1, 0, 0, 0, 0, 0, 0, -1, 0};
-    saddle.surface = quadric;
-    scene.objects = {saddle};
+    object.surface = quadric;
+    scene.objects = {object};
     const RayScene<float> scenes(scene, exact_options());
     // z = x² - y²: from (1, 0, 1) along -x + 0.5 z: x = 1 - t, z = 1 + t/2, t² - 2.5 t = 0.
     const glm::vec3 start{1, 0, 1};

@@ -11,22 +11,10 @@ namespace {
 template <class Real>
 using TilePixelColors = Real[abi::tile_pixels][4];
 
-/// `Count` reals moved at once; a vector extension of both compilers.
+/// `Count` reals moved at once; a vector extension of both compilers. They are copied from and to
+/// arrays as bytes, which has no alignment.
 template <class Real, int Count>
-struct Reals {
-    using type
-        [[gnu::vector_size(Count * sizeof(Real)), gnu::aligned(alignof(Real)), gnu::may_alias]] =
-            Real;
-
-    static type& at(Real* first)
-    {
-        return *reinterpret_cast<type*>(first);
-    }
-    static const type& at(const Real* first)
-    {
-        return *reinterpret_cast<const type*>(first);
-    }
-};
+using Reals [[gnu::vector_size(Count * sizeof(Real))]] = Real;
 
 inline void store_pixels(double* to, vreal<double> r, vreal<double> g, vreal<double> b)
 {
@@ -63,9 +51,14 @@ inline void write_colors(TilePixelColors<Real>& pixels, const vint<Real>& number
     store_pixels(colors[0], color.x, color.y, color.z);
     for (; active != 0; active &= active - 1) {
         const int lane = __builtin_ctz(active);
-        auto& pixel = Reals<Real, 4>::at(pixels[at[lane]]);
-        const auto& light = Reals<Real, 4>::at(colors[lane]);
-        pixel = Write == PixelWrite::set ? light : pixel + light;
+        Reals<Real, 4> light;
+        __builtin_memcpy(&light, colors[lane], sizeof light);
+        if constexpr (Write == PixelWrite::add) {
+            Reals<Real, 4> before;
+            __builtin_memcpy(&before, pixels[at[lane]], sizeof before);
+            light += before;
+        }
+        __builtin_memcpy(pixels[at[lane]], &light, sizeof light);
     }
 }
 
@@ -110,8 +103,10 @@ inline void write_row(Real* to, const TilePixelColors<Real>& pixels, int row, in
     const int row_bits = spread_bits(row) << 1;
     int column = 0;
     for (; column + 2 < width; column += 2, to += 6) {
-        const auto two = Reals<Real, 8>::at(pixels[row_bits | column_order.number[column]]);
-        Reals<Real, 8>::at(to) = __builtin_shufflevector(two, two, 0, 1, 2, 4, 5, 6, 3, 7);
+        Reals<Real, 8> two;
+        __builtin_memcpy(&two, pixels[row_bits | column_order.number[column]], sizeof two);
+        two = __builtin_shufflevector(two, two, 0, 1, 2, 4, 5, 6, 3, 7);
+        __builtin_memcpy(to, &two, sizeof two);
     }
     for (; column < width; ++column, to += 3)
         for (int channel = 0; channel < 3; ++channel)

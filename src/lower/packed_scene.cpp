@@ -18,7 +18,7 @@ constexpr std::size_t frame_tree_objects = 128;
 
 /// From this round number on a sphere's record is made of its shape when it is hit: memory counts
 /// more then than the few operations, which slow a frame of four spheres by 4 %.
-constexpr std::size_t many_spheres = 1024;
+constexpr std::size_t fewest_to_share = 1024;
 
 bool any(const std::vector<std::uint8_t>& marked)
 {
@@ -57,7 +57,7 @@ template <class Real>
 PackedScene<Real>::PackedScene(const LoweredScene& lowered, Traversal traversal)
     : tree_(pack_tree<Real>(lowered, traversal)),
       lists_(lowered, !tree_.view().empty()),
-      shapes_(lowered, lowered.spheres.size() >= many_spheres)
+      shapes_(lowered, lowered.spheres.size() >= fewest_to_share)
 {
     view_.tree = tree_.view();
     lists_.show(view_);
