@@ -1,11 +1,12 @@
 #pragma once
 
-// Catch2 3 (Debian 13) and 2.13 (Debian 12) under one name.
+// Catch2 3 (Debian 13, Ubuntu 24.04) and 2.13 (Debian 12) under one name.
 #if __has_include(<catch2/catch_all.hpp>)
 #include <catch2/catch_all.hpp>
 namespace packtrace::test {
+using Catch::Approx;
 using Catch::Matchers::ContainsSubstring;
-}
+}  // namespace packtrace::test
 #else
 #include <catch2/catch.hpp>
 namespace packtrace::test {
