@@ -3,10 +3,12 @@
 // Catch2 3 (Debian 13, Ubuntu 24.04) and 2.13 (Debian 12) under one name.
 #if __has_include(<catch2/catch_all.hpp>)
 #include <catch2/catch_all.hpp>
-namespace packtrace::test {
+namespace packtrace {
 using Catch::Approx;
+namespace test {
 using Catch::Matchers::ContainsSubstring;
-}  // namespace packtrace::test
+}
+}  // namespace packtrace
 #else
 #include <catch2/catch.hpp>
 namespace packtrace::test {
