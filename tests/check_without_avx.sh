@@ -1,5 +1,5 @@
 #!/bin/sh
-# check_without_avx.sh QEMU PACKTRACE_TESTS PACKTRACE SCENE TESTS...
+# check_without_avx.sh QEMU PACKTRACE_TESTS PACKTRACE SCENE TESTS [OPTION…]
 #
 # Runs the program and the tests named by TESTS on an emulated processor that has SSE4.2 and no
 # AVX: an illegal instruction anywhere fails, in the host's code too.
@@ -9,6 +9,7 @@ tests_program=$2
 packtrace=$3
 scene=$4
 tests=$5
+shift 5
 
 case $qemu in
 '' | *NOTFOUND)
@@ -47,4 +48,4 @@ status=$?
 grep -q "this machine cannot run 'avx2'; it can run: sse42" "$folder/output" ||
     fail "--isa avx2 is refused with other words"
 
-emulated "$tests_program" "$tests" -w NoTests
+emulated "$tests_program" "$tests" "$@"
