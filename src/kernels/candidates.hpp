@@ -30,23 +30,34 @@ inline Quadratic<Real> quadratic_of(const SharedOriginSpheres<Real>& list, int i
                                   vreal<Real>(list.constant[index]));
 }
 
-/// Lanes of the packet of spheres at `first` that a ray of the beam may meet.
-template <class Real>
-inline std::uint32_t spheres_in(const Beam<Real>& beam, const abi::SphereListView<Real>& spheres,
-                                int first, const Vec3v<Real>& center)
+/// Calls `visit(first, kept, center)` for the packets of spheres that hold any which a ray of the
+/// beam may meet: those of the lanes `kept`.
+template <class Real, class Visit>
+inline void for_each_met(const Beam<Real>& beam, const abi::SphereListView<Real>& spheres,
+                         const Visit& visit)
 {
-    const std::uint32_t there = first_lanes<Real>(spheres.count - first);
-    if (!beam.bounded)
-        return there;
-    return there &
-           bits(may_meet<Real>(beam, center - broadcast(beam.base), load(spheres.radius + first)));
+    const Vec3v<Real> base = broadcast(beam.base);
+    for (int first = 0; first < spheres.count; first += lanes<Real>) {
+        const Vec3v<Real> center{load(spheres.center_x + first), load(spheres.center_y + first),
+                                 load(spheres.center_z + first)};
+        std::uint32_t kept = first_lanes<Real>(spheres.count - first);
+        if (beam.bounded)
+            kept &= bits(may_meet<Real>(beam, center - base, load(spheres.radius + first)));
+        if (kept != 0)
+            visit(first, kept, center);
+    }
 }
 
 template <class Real>
-inline Vec3v<Real> load_centers(const abi::SphereListView<Real>& spheres, int first)
+inline void append_sphere(SharedOriginSpheres<Real>& list, const abi::SphereListView<Real>& spheres,
+                          int first, std::uint32_t kept, const Vec3v<Real>& place)
 {
-    return {load(spheres.center_x + first), load(spheres.center_y + first),
-            load(spheres.center_z + first)};
+    compress_store(list.x + list.count, kept, place.x);
+    compress_store(list.y + list.count, kept, place.y);
+    compress_store(list.z + list.count, kept, place.z);
+    compress_store(list.radius2 + list.count, kept, load(spheres.radius2 + first));
+    compress_store(list.surface + list.count, kept, load(spheres.surface + first));
+    list.count += __builtin_popcount(kept);
 }
 
 /// Fills `list` with the spheres that rays from `beam.base` may meet. What is kept of a sphere
@@ -57,21 +68,12 @@ inline void find_candidates(SharedOriginSpheres<Real>& list, const Beam<Real>& b
 {
     const Vec3v<Real> base = broadcast(beam.base);
     list.count = 0;
-    for (int first = 0; first < spheres.count; first += lanes<Real>) {
-        const Vec3v<Real> center = load_centers(spheres, first);
+    for_each_met(beam, spheres, [&](int first, std::uint32_t kept, const Vec3v<Real>& center) {
         const Vec3v<Real> o = base - center;
-        const std::uint32_t kept = spheres_in(beam, spheres, first, center);
-        if (kept == 0)
-            continue;
-        const vreal<Real> radius2 = load(spheres.radius2 + first);
-        compress_store(list.x + list.count, kept, o.x);
-        compress_store(list.y + list.count, kept, o.y);
-        compress_store(list.z + list.count, kept, o.z);
-        compress_store(list.radius2 + list.count, kept, radius2);
-        compress_store(list.constant + list.count, kept, sphere_constant<Real>(o, radius2));
-        compress_store(list.surface + list.count, kept, load(spheres.surface + first));
-        list.count += __builtin_popcount(kept);
-    }
+        compress_store(list.constant + list.count, kept,
+                       sphere_constant<Real>(o, load(spheres.radius2 + first)));
+        append_sphere(list, spheres, first, kept, o);
+    });
 }
 
 /// The spheres that parallel rays from several points may meet, in the room of a list for rays that
@@ -81,18 +83,9 @@ inline void find_parallel_candidates(SharedOriginSpheres<Real>& list, const Beam
                                      const abi::SphereListView<Real>& spheres)
 {
     list.count = 0;
-    for (int first = 0; first < spheres.count; first += lanes<Real>) {
-        const Vec3v<Real> center = load_centers(spheres, first);
-        const std::uint32_t kept = spheres_in(beam, spheres, first, center);
-        if (kept == 0)
-            continue;
-        compress_store(list.x + list.count, kept, center.x);
-        compress_store(list.y + list.count, kept, center.y);
-        compress_store(list.z + list.count, kept, center.z);
-        compress_store(list.radius2 + list.count, kept, load(spheres.radius2 + first));
-        compress_store(list.surface + list.count, kept, load(spheres.surface + first));
-        list.count += __builtin_popcount(kept);
-    }
+    for_each_met(beam, spheres, [&](int first, std::uint32_t kept, const Vec3v<Real>& center) {
+        append_sphere(list, spheres, first, kept, center);
+    });
 }
 
 /// A list that find_parallel_candidates() filled.
