@@ -37,11 +37,11 @@ inline constexpr FeatureSet feature_sets[] = {
       .glass = true,
       .probe = true}},
 };
-inline constexpr int feature_set_count = 7;
+inline constexpr int feature_set_count = sizeof(feature_sets) / sizeof(FeatureSet);
 /// Renders every scene.
-inline constexpr int general_set = 5;
+inline constexpr int general_set = feature_set_count - 2;
 /// Renders every scene, and tells of its rays.
-inline constexpr int probe_set = 6;
+inline constexpr int probe_set = feature_set_count - 1;
 
 /// A probe is never chosen for a scene that does not ask for it.
 constexpr bool covers(Features set, Features needed)

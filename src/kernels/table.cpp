@@ -1,5 +1,7 @@
 #include "kernels/table.hpp"
 
+#include <utility>
+
 #include "kernels/closest_tile.hpp"
 #include "kernels/onedim.hpp"
 #include "kernels/probe_kernels.hpp"
@@ -62,18 +64,19 @@ constexpr abi::FeatureKernels<Real> feature_kernels()
                 closest_tile<abi::tree_features(F), Real>};
 }
 
+template <class Real, int... Set>
+constexpr void set_feature_kernels(abi::PrecisionTable<Real>& table,
+                                   std::integer_sequence<int, Set...>)
+{
+    ((table.kernels[Set] = feature_kernels<Set, Real>()), ...);
+}
+
 template <class Real>
 constexpr abi::PrecisionTable<Real> precision_table()
 {
     abi::PrecisionTable<Real> table;
     table.lanes = lanes<Real>;
-    table.kernels[0] = feature_kernels<0, Real>();
-    table.kernels[1] = feature_kernels<1, Real>();
-    table.kernels[2] = feature_kernels<2, Real>();
-    table.kernels[3] = feature_kernels<3, Real>();
-    table.kernels[4] = feature_kernels<4, Real>();
-    table.kernels[5] = feature_kernels<5, Real>();
-    table.kernels[6] = feature_kernels<6, Real>();
+    set_feature_kernels(table, std::make_integer_sequence<int, abi::feature_set_count>());
     constexpr abi::Features any_surface{.quadrics = true};
     table.closest_hits = closest_hits<any_surface, Real>;
     table.occluded = occluded_rays<any_surface, Real>;

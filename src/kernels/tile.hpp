@@ -38,7 +38,7 @@ inline void find_blockers(const TileRun<F, Real>& run)
         const abi::SceneView<Real>& casters = casters_of(scene);
         if (light.kind == abi::LightKind::point)
             find_objects<F>(blockers, segment_beam(light.vector, box), casters);
-        else if (light.kind == abi::LightKind::directional)
+        else
             find_parallel_candidates(blockers.spheres, parallel_beam(light.vector, box),
                                      casters.spheres);
     }
