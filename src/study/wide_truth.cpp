@@ -109,6 +109,34 @@ private:
         return size == 0 ? never : static_cast<double>(abs(a_) / size);
     }
 
+    /// How near a is to vanishing where none of its terms cancel: all of them must.
+    [[nodiscard]] double margin_of_vanishing(const WideVec& second) const
+    {
+        const WideVec by_transform = sizes(surface_.world, v_);
+        const WideVec size = sizes(surface_.own, magnitudes(dir_) + by_transform) +
+                             own_roundings * sizes(surface_.own, dir_);
+        const auto share = [](const Wide& term, const Wide& v, const Wide& reach) {
+            return term == 0 ? Wide(0) : Wide(abs(v) / reach);
+        };
+        return static_cast<double>(
+            std::max({share(second.x, v_.x, size.x), share(second.y, v_.y, size.y),
+                      share(second.z, v_.z, size.z)}));
+    }
+
+    /// How near a ray without a root is to one far away. There a and c have one sign; a change
+    /// that turns a's leaves a root ahead, at any distance. Where no terms of a cancel, as along a
+    /// cylinder, it cannot turn, but can vanish; from there any turn towards the surface meets it.
+    [[nodiscard]] double margin_of_no_root() const
+    {
+        if (t_max_ < never || !surface_.by_points)
+            return never;
+        const WideVec second = surface_.second_order(v_);
+        const WideVec terms = second * v_;
+        const bool cancels = a_ > 0 ? std::min({terms.x, terms.y, terms.z}) < 0
+                                    : std::max({terms.x, terms.y, terms.z}) > 0;
+        return cancels ? infinity_margin_ : margin_of_vanishing(second);
+    }
+
     [[nodiscard]] double touching_margin() const
     {
         if (a_ == 0)
@@ -164,7 +192,7 @@ private:
         const Wide discriminant = b_ * b_ - a_ * c_;
         const double touching = touching_margin();
         if (discriminant < 0) {
-            add_side(-b_ / a_, touching, false, found);
+            add_side(-b_ / a_, std::min(touching, margin_of_no_root()), false, found);
             return;
         }
         const Wide root = sqrt(discriminant);
