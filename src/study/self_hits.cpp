@@ -100,17 +100,19 @@ Vec3 any_direction(StressRandom& random, const Vec3& normal)
     return along * std::sqrt(1.0 - cosine * cosine) + random.sign() * cosine * normal;
 }
 
-/// Where a ray from a point of the surface meets it again; 0 for nowhere.
-double second_meeting(const WideSurface& surface, const WideVec& P, const WideVec& d)
+/// Where a ray from P, which counts as of the surface, meets it again; 0 for nowhere. The side
+/// that it leaves on says which way it crosses, as for kernels: rounding P may turn a grazing ray.
+double second_meeting(const WideSurface& surface, const WideVec& P, const WideVec& d, bool outside)
 {
     const WideVec v = surface.direction_to_own(d);
     const Wide a = dot(surface.second_order(v), v);
-    const Wide b = dot(surface.gradient(surface.point_to_own(P)), v);
+    const Wide size = abs(dot(surface.gradient(surface.point_to_own(P)), v));
+    const Wide b = outside ? size : Wide(-size);
     return a == 0 ? 0.0 : std::max(0.0, static_cast<double>(-2 * b / a));
 }
 
 /// t of a second meeting, 0 for none, and whether the way there is less deep below the surface
-/// than four times what the hit point is off by: then nothing is expected.
+/// than four times what the hit point is off by.
 struct Expected {
     double t;
     bool shallow;
@@ -141,7 +143,8 @@ Stream<Real> primary_stream(const StressGroup& group)
     return primary;
 }
 
-/// Adds a ray from where primary ray i hit, if that is beyond doubt.
+/// Adds a ray from where primary ray i hit, if that is beyond doubt, and its second meeting. It
+/// starts at the hit point as rounded, which is all that is known of it: so does the truth.
 template <class Real>
 void add_secondary(const StressGroup& group, const Stream<Real>& primary, std::size_t i,
                    StressRandom& random, double t_min, Stream<Real>& secondary,
@@ -160,18 +163,20 @@ void add_secondary(const StressGroup& group, const Stream<Real>& primary, std::s
                   std::numeric_limits<double>::infinity());
     const Vec3 start = primary.start(i, 2);
     secondary.add_start(start, outside ? primary.surface[i] : ~primary.surface[i]);
-    const double second = second_meeting(group.surfaces[0], P, wide(dir));
+    const double second = second_meeting(group.surfaces[0], wide(start), wide(dir), outside);
     const double moved = glm::length(narrow(wide(start) - P));
     expected.push_back({second, second * std::abs(glm::dot(dir, normal)) / 4.0 < 4.0 * moved});
 }
 
-/// Holds the hit of one secondary ray against what is expected of it.
-void count(SelfHitCounts& counts, const Expected& expected, bool hit, double t)
+/// Holds the hit of one secondary ray against what is expected of it; of shallow chords by the
+/// exact rule alone.
+void count(SelfHitCounts& counts, const Expected& expected, SelfHits rule, bool hit, double t)
 {
     ++counts.rays;
+    const bool excused = rule == SelfHits::note && expected.shallow;
     if (expected.t == 0.0)
         counts.taken += hit;
-    else if (!expected.shallow && (!hit || std::abs(t - expected.t) > 0.1 * expected.t))
+    else if (!excused && (!hit || std::abs(t - expected.t) > 0.1 * expected.t))
         ++(hit && t < 0.5 * expected.t ? counts.taken : counts.lost);
 }
 
@@ -198,7 +203,7 @@ SelfHitCounts count_self_hits(const StressSubject& subject, const StressGroup& g
 
     SelfHitCounts counts;
     for (std::size_t i = 0; i < expected.size(); ++i)
-        count(counts, expected[i], secondary.object[i] >= 0,
+        count(counts, expected[i], rule, secondary.object[i] >= 0,
               static_cast<double>(secondary.hits[0][i]));
     return counts;
 }

@@ -11,8 +11,9 @@ namespace packtrace::study {
 struct SelfHitCounts {
     std::uint64_t rays = 0;
     std::uint64_t taken = 0;  ///< hits of the own surface where there is none
-    std::uint64_t lost = 0;   ///< second meetings not found, or found a tenth or more off
-                              ///< though four times deeper than the hit point is off
+    /// Second meetings not found, or found a tenth or more off; by the notes' rule only those
+    /// by chords four times deeper than the hit point is off.
+    std::uint64_t lost = 0;
 
     void add(const SelfHitCounts& other);
 };

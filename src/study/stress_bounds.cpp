@@ -39,8 +39,7 @@ public:
         hold(row_.not_finite == 0, "no hit without a finite t and normal");
         hold(row_.rho <= 4.0, "t within 4 times what its inputs' rounding makes");
         hold(row_.exact_taken == 0, "with exact self-hits no own start taken for a hit");
-        hold(5000 * row_.exact_lost <= row_.secondary + 10000,
-             "with exact self-hits two second meetings lost, and 1 in 5000, at most");
+        hold(row_.exact_lost == 0, "with exact self-hits no second meeting lost");
     }
 
     void of_powers()
