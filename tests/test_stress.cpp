@@ -3,12 +3,14 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include <nlohmann/json.hpp>
 
 #include "catch.hpp"
 #include "run_program.hpp"
 #include "study/judge.hpp"
+#include "study/own_surface.hpp"
 #include "study/stress_family.hpp"
 
 namespace packtrace::test {
@@ -35,6 +37,41 @@ std::vector<StressRow> rows_of(const study::StressOptions& options)
         rows.insert(rows.end(), some.begin(), some.end());
     });
     return rows;
+}
+
+/// A cylinder, and a ray that is along it to within its own rounding and passes it by.
+Object turned_cylinder()
+{
+    Object cylinder;
+    cylinder.surface = study::quadric_of(QuadricKind::cylinder);
+    cylinder.transform[0] = {-0x1.c5519ep-8, 0x1.0dcd44p-1, 0x1.b9b048p-2, 0.0};
+    cylinder.transform[1] = {0x1.f23074p-3, 0x1.2d71f2p-1, -0x1.753a46p-1, 0.0};
+    cylinder.transform[2] = {-0x1.c9e65ep-1, 0x1.f19edep-3, -0x1.06e96ep-3, 0.0};
+    cylinder.transform[3] = {0x1.7b42bap+1, 0x1.caff8ap+0, -0x1.4e173p+0, 1.0};
+    return cylinder;
+}
+StressRay ray_along_cylinder()
+{
+    return {{0x1.7b8a0ap+2, -0x1.16d2aap-8, 0x1.70e8a8p-1},
+            {-0x1.e96a8ep-1, 0x1.09ef78p-2, -0x1.1901eep-3},
+            0.0,
+            std::numeric_limits<double>::infinity()};
+}
+
+/// Whether a change of the ray's direction by no more than `change` of each component makes it
+/// meet the object.
+bool meets_after(const Object& object, const StressRay& ray, double change)
+{
+    for (int which = 0; which < 27; ++which) {
+        StressRay other = ray;
+        int digits = which;
+        for (int axis = 0; axis < 3; ++axis, digits /= 3)
+            other.dir[axis] *= 1.0 + change * (digits % 3 - 1);
+        for (const Meeting& meeting : meetings(object, other))
+            if (meeting.exists)
+                return true;
+    }
+    return false;
 }
 
 const StressRow& row_of(const std::vector<StressRow>& rows, const std::string& kernel,
@@ -102,6 +139,52 @@ TEST_CASE("a judge finds a wrong hit, a wrong miss and a wrong place", "[stress]
     CHECK(errors(past, {0, 10.0, {1, 0, 0}}).wrong == 1);
     CHECK(errors(through, {0, 8.001, {0, 0, -1}}).rho > 100.0);
     CHECK(errors(through, {0, 8.0, {0, 0, std::nan("")}}).not_finite == 1);
+}
+
+TEST_CASE("a ray that its own rounding turns towards a cylinder is inside the band", "[stress]")
+{
+    const double band = study::undecidable_band * 0x1p-24;
+    const auto along = meetings(turned_cylinder(), ray_along_cylinder());
+    REQUIRE(along.size() == 1);
+    CHECK(!along[0].exists);
+    CHECK(meets_after(turned_cylinder(), ray_along_cylinder(), 0x1p-24));
+    CHECK(along[0].margin < band);
+    // Ten thousand times further off the axis it is decided, until its range ends.
+    StressRay off = ray_along_cylinder();
+    off.dir += 1e-3 * Vec3(turned_cylinder().transform[0]);
+    for (const Meeting& meeting : meetings(turned_cylinder(), off))
+        CHECK((meeting.exists || meeting.margin > band));
+    StressRay short_one = ray_along_cylinder();
+    short_one.t_max = 10.0;
+    CHECK(meetings(turned_cylinder(), short_one)[0].margin > band);
+}
+
+TEST_CASE("packets are right about rays along a cylinder outside the band", "[stress]")
+{
+    study::StressOptions options;
+    options.rays = 24000;
+    options.kernels = {"packet"};
+    options.precisions = {"single"};
+    options.families = {"cylinder-axis"};
+    for (const StressRow& row : rows_of(options)) {
+        CAPTURE(row.mode, row.isa);
+        CHECK(row.wrong == 0);
+        CHECK(row.undecidable < row.rays / 2);
+    }
+}
+
+TEST_CASE("second meetings are those of rays from where they start", "[stress]")
+{
+    study::StressOptions options;
+    options.rays = 8000;
+    options.kernels = {"packet"};
+    options.families = {"cone-apex", "far-quadric"};
+    for (const StressRow& row : rows_of(options)) {
+        CAPTURE(row.family, row.precision, row.mode, row.isa);
+        CHECK(row.secondary > 1000);
+        CHECK(row.exact_taken == 0);
+        CHECK(row.exact_lost == 0);
+    }
 }
 
 TEST_CASE("packets keep every stated bound on every family", "[stress]")
