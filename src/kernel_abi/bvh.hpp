@@ -46,16 +46,16 @@ constexpr int quadric_count(std::uint32_t child)
 
 /// The spheres of one leaf; unused places have a negative radius2, which nothing hits.
 template <class Real>
-struct alignas(32) SphereBlock {
+struct alignas(64) SphereBlock {
     Real center[3][node_width];
     Real radius2[node_width];
-    lane_int<Real> surface[node_width];
 };
 
 template <class Real>
 struct BvhView {
     const BvhNode* nodes = nullptr;  ///< the first is the root
     const SphereBlock<Real>* blocks = nullptr;
+    const lane_int<Real>* block_surfaces = nullptr;  ///< eight a block, apart: only hits need them
     const QuadricRecord<Real>* quadrics = nullptr;
     int node_count = 0;  ///< 0: the scene has no hierarchy, its lists hold everything
     /// Largest magnitude of a coordinate of the root's box.

@@ -46,6 +46,7 @@ struct SceneView {
     bool precise_powers = false;  ///< highlights in double, for rays in single precision
 
     const MaterialIndex* material_index = nullptr;  ///< by surface
+    bool surfaces_are_objects = false;              ///< each surface has the number of its object
     const MaterialRecord<Real>* materials = nullptr;
     const CheckerRecord<Real>* checkers = nullptr;
     /// Refractive index by object; [-1] is outside everything.

@@ -1,41 +1,40 @@
 #pragma once
 
-#include "kernels/octants.hpp"
 #include "kernels/tree_closest.hpp"
+#include "kernels/walk_lists.hpp"
 
 namespace packtrace::PACKTRACE_ISA {
 namespace {
 
-/// Rays that share no way: in cells of one octant each, and one by one where those are full.
+/// Tests listed rays for their closest hits.
+template <abi::Features F, class Real>
+struct ClosestOfListed {
+    const abi::BvhView<Real>& tree;
+    const SlabRays& slabs;
+    RayGroup<Real>& group;
+
+    void leaf(std::uint32_t child, int ray) const
+    {
+        closest_of_leaf<F>(tree, group, ray, BlockRay<Real>(group, ray), child);
+    }
+    void lone(std::uint32_t child, int ray) const
+    {
+        closest_of_ray<F>(tree, slabs, group, ray, child);
+    }
+};
+
+/// The active rays of cells that share no way, in lists of one octant each.
 template <abi::Features F, class Real>
 [[gnu::noinline]] void closest_of_others(const abi::BvhView<Real>& tree, RayGroup<Real>& group,
                                          std::uint32_t cells)
 {
-    Regrouped<Real> octants;
     SlabRays slabs;
-    sort_by_octant(group, cells, octants);
-    CellBounds bounds;
-    bound_cells(bounds, octants.rays, tree, Cells::all);
-    for (int cell = 0; cell < octants.cells; ++cell)
-        bounds.t_max[cell] = furthest(octants.rays, cell);
-    const ClosestInTree<F, Real> closest(tree, octants.rays, bounds, slabs);
-    for (int cell = 0; cell < octants.cells; ++cell) {
-        walk_cells(tree, bounds, 1u << cell, closest);
-        for (std::uint32_t left = octants.rays.active[cell]; left != 0; left &= left - 1) {
-            const int ray = cell * cell_rays + __builtin_ctz(left);
-            group.t[octants.from[ray]] = octants.rays.t[ray];
-            group.surface[octants.from[ray]] = octants.rays.surface[ray];
-        }
-    }
-    SlabRays rest;
-    for (; cells != 0; cells &= cells - 1) {
-        const int cell = __builtin_ctz(cells);
-        std::uint32_t left = group.active[cell];
-        if (left != 0)
-            fill_cell(rest, group, cell, tree.extent, tree.slack);
-        for (; left != 0; left &= left - 1)
-            closest_of_ray<F>(tree, rest, group, cell * cell_rays + __builtin_ctz(left), 0);
-    }
+    OctantLists octants;
+    list_rays(octants, slabs, tree, group, cells);
+    const ClosestOfListed<F, Real> visit{tree, slabs, group};
+    ListWalk<Real, ClosestOfListed<F, Real>> lists(tree, slabs, group, visit);
+    octants.for_each(
+        [&](int octant, const std::uint8_t* rays, int count) { lists.walk(octant, rays, count); });
 }
 
 /// Brings the t and surface of a group's active rays down to their first hit in the hierarchy,
@@ -51,14 +50,8 @@ template <abi::Features F, class Real>
         closest_of_cells<F>(tree, group, bounds, slabs);
     }
     const std::uint32_t others = active_cells(group) & ~bounds.coherent;
-    if (others == 0)
-        return;
-    std::uint16_t active[group_cells];
-    for (int cell = 0; cell < group_cells; ++cell)
-        active[cell] = group.active[cell];
-    closest_of_others<F>(tree, group, others);
-    for (int cell = 0; cell < group_cells; ++cell)
-        group.active[cell] = active[cell];
+    if (others != 0)
+        closest_of_others<F>(tree, group, others);
 }
 
 /// The same among all objects of a scene, lists first: what stands in them is large.

@@ -38,7 +38,7 @@ inline void count_tests(abi::Primitive, int)
 {
 }
 template <class Real>
-inline void count_block_tests(const abi::SphereBlock<Real>&, int)
+inline void count_block_tests(const abi::SphereBlock<Real>&)
 {
 }
 inline void count_group_node()

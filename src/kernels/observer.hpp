@@ -236,15 +236,16 @@ inline void count_tests(abi::Primitive kind, int objects)
     tests_of(kind).pairs += popcount(observer.live) * static_cast<unsigned>(objects);
 }
 
-/// One ray is tested against the spheres of a block from `first`, side by side.
+/// One ray is tested against the spheres of a block side by side.
 template <class Real>
-inline void count_block_tests(const abi::SphereBlock<Real>& block, int first)
+inline void count_block_tests(const abi::SphereBlock<Real>& block)
 {
     if (observer.counts == nullptr)
         return;
-    ++tests_of(abi::Primitive::sphere).packets;
-    for (int i = first; i < first + lanes<Real> && i < abi::node_width; ++i)
-        tests_of(abi::Primitive::sphere).pairs += block.radius2[i] >= 0 ? 1 : 0;
+    constexpr int packets = lanes<Real> < abi::node_width ? abi::node_width / lanes<Real> : 1;
+    tests_of(abi::Primitive::sphere).packets += packets;
+    for (const Real radius2 : block.radius2)
+        tests_of(abi::Primitive::sphere).pairs += radius2 >= 0 ? 1 : 0;
 }
 
 constexpr abi::Part part_of(abi::Primitive kind)

@@ -20,6 +20,8 @@ struct Reach {
     {
         if (closed)
             return root_between(quadratic, rays.t_min, t_end);
+        if (none(may_hit(quadratic)))
+            return from_bits<Real>(0);
         std::uint32_t blocked = 0;
         visit_roots(quadratic, [&](vmask<Real> valid, const vreal<Real>& t) {
             blocked |= bits(valid & (t > rays.t_min) & (t < t_end));

@@ -70,6 +70,23 @@ inline std::uint32_t active_lanes(const RayGroup<Real>& group, int first)
     return group.active[first / cell_rays] >> first % cell_rays & all_lanes<Real>;
 }
 
+template <class Real>
+inline bool is_active(const RayGroup<Real>& group, int ray)
+{
+    return (group.active[ray / cell_rays] >> ray % cell_rays & 1) != 0;
+}
+
+/// Calls `visit(ray)` for the active rays of `cells`.
+template <class Real, class Visit>
+inline void for_each_active(const RayGroup<Real>& group, std::uint32_t cells, const Visit& visit)
+{
+    for (; cells != 0; cells &= cells - 1) {
+        const int cell = __builtin_ctz(cells);
+        for (std::uint32_t left = group.active[cell]; left != 0; left &= left - 1)
+            visit(cell * cell_rays + __builtin_ctz(left));
+    }
+}
+
 /// Ends the rays of the packet at `first` at `t_max`, and those not in `active` before they
 /// start.
 template <class Real>

@@ -5,6 +5,7 @@
 #include "kernels/group_closest.hpp"
 #include "kernels/second_meeting.hpp"
 #include "kernels/settle_start.hpp"
+#include "kernels/stream_values.hpp"
 #include "kernels/surface.hpp"
 #include "kernels/tree_blockers.hpp"
 #include "kernels/tree_crossings.hpp"
@@ -12,56 +13,6 @@
 // Streams of rays from outside: closest hits, occlusion, all hits.
 namespace packtrace::PACKTRACE_ISA {
 namespace {
-
-/// Up to a packet of values; lanes beyond `count` repeat the first.
-template <class Real>
-inline vreal<Real> load_some(const Real* from, int count)
-{
-    if (count >= lanes<Real>)
-        return load(from);
-    alignas(64) Real values[lanes<Real>];
-    for (int lane = 0; lane < lanes<Real>; ++lane)
-        values[lane] = from[lane < count ? lane : 0];
-    return load(values);
-}
-
-template <class Element, class Real>
-inline void store_some(Element* to, batch<Real> x, int count)
-{
-    alignas(64) Real values[lanes<Real>];
-    store(values, x);
-    const int live = count < lanes<Real> ? count : lanes<Real>;
-    for (int lane = 0; lane < live; ++lane)
-        to[lane] = static_cast<Element>(values[lane]);
-}
-
-template <class Element>
-inline void store_some(Element* to, vint<double> x, int count)
-{
-    alignas(64) std::int64_t values[lanes<double>];
-    store(values, x);
-    const int live = count < lanes<double> ? count : lanes<double>;
-    for (int lane = 0; lane < live; ++lane)
-        to[lane] = static_cast<Element>(values[lane]);
-}
-
-/// Nothing where the arrays are not wanted.
-template <class Real>
-inline void store_some3(Real* const (&to)[3], int at, const Vec3v<Real>& v, int count)
-{
-    if (to[0] == nullptr)
-        return;
-    store_some(to[0] + at, v.x, count);
-    store_some(to[1] + at, v.y, count);
-    store_some(to[2] + at, v.z, count);
-}
-
-template <class Real>
-inline Vec3v<Real> load_some3(const Real* const (&from)[3], int first, int count)
-{
-    return {load_some(from[0] + first, count), load_some(from[1] + first, count),
-            load_some(from[2] + first, count)};
-}
 
 template <class Real>
 struct StreamPacket {
@@ -79,11 +30,14 @@ struct StreamPacket {
     }
 };
 
-/// Object numbers of the lanes of `active`; the others keep what they have.
+/// Object numbers of the lanes of `active`; the others keep what they have or, where every surface
+/// is an object of its own, all.
 template <class Real>
 inline vint<Real> objects_of(const abi::SceneView<Real>& scene, const vint<Real>& surface,
                              std::uint32_t active)
 {
+    if (scene.surfaces_are_objects)
+        return surface;
     alignas(64) lane_int<Real> number[lanes<Real>];
     store(number, surface);
     for (; active != 0; active &= active - 1) {
@@ -166,29 +120,19 @@ inline void store_packet_hits(const abi::SceneView<Real>& scene, const RayPacket
     const std::uint32_t found = ~bits(missed) & first_lanes<Real>(live);
     if (hits.normal[0] == nullptr && scene.finish == nullptr) {
         store_some(hits.t + at, select(missed, t_max, hit.t), live);
-        store_some(hits.object + at, objects_of(scene, hit.surface, found), live);
+        store_numbers<Real>(hits.object + at, objects_of(scene, hit.surface, found), live);
         return;
     }
     vreal<Real> t = hit.t;
     const SurfacePacket<Real> surface = surface_or_none<F>(scene, rays, t, hit.surface, found);
     store_some(hits.t + at, select(missed, t_max, t), live);
-    store_some(hits.object + at, select(missed, hit.surface, surface.object), live);
+    store_numbers<Real>(hits.object + at, select(missed, hit.surface, surface.object), live);
     store_some3(hits.normal, at, surface.normal, live);
     store_some3(hits.outer_start, at, surface.point + surface.lift, live);
     store_some3(hits.inner_start, at, surface.point - surface.lift, live);
     store_some3(hits.point, at, surface.point, live);
     if (hits.surface != nullptr)
-        store_some(hits.surface + at, hit.surface, live);
-}
-
-/// Up to a packet of numbers; lanes beyond `count` repeat the first.
-template <class Real>
-inline vint<Real> load_numbers(const std::int32_t* from, int count)
-{
-    alignas(64) lane_int<Real> values[lanes<Real>];
-    for (int lane = 0; lane < lanes<Real>; ++lane)
-        values[lane] = from[lane < count ? lane : 0];
-    return load(values);
+        store_numbers<Real>(hits.surface + at, hit.surface, live);
 }
 
 /// Puts right what a packet of a stream hit, if it is told where its rays start.
@@ -244,14 +188,6 @@ inline void closest_hits(const abi::SceneView<Real>& scene, const abi::RaysView<
                                  begin + first, count - first);
         }
     }
-}
-
-/// Writes a byte a lane.
-template <class Real>
-inline void store_mask(std::uint8_t* mask, std::uint32_t blocked, int live)
-{
-    for (int lane = 0; lane < lanes<Real> && lane < live; ++lane)
-        mask[lane] = static_cast<std::uint8_t>(blocked >> lane & 1u);
 }
 
 template <abi::Features F, class Real>

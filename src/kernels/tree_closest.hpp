@@ -80,7 +80,7 @@ public:
         if constexpr (F.quadrics)
             if (abi::is_quadric_leaf(child))
                 return quadrics(child, cells);
-        spheres(tree_.blocks[child & abi::block_mask], cells);
+        spheres(sphere_leaf(tree_, child), cells);
     }
 
     /// Whatever is below a child that few rays of one cell may meet.
@@ -100,30 +100,29 @@ public:
     }
 
 private:
-    void spheres(const abi::SphereBlock<Real>& block, std::uint32_t cells) const
+    void spheres(const SphereLeaf<Real>& leaf, std::uint32_t cells) const
     {
         const PartScope part(abi::Part::spheres);
         bool closer = false;
-        visit_spheres(bounds_, block, cells,
-                      [&](int slot, int cell) { closer |= sphere(block, slot, cell); });
+        visit_spheres(bounds_, leaf.block, cells,
+                      [&](int slot, int cell) { closer |= sphere(leaf, slot, cell); });
         if (closer)
             join_t_max(bounds_);
     }
 
-    bool sphere(const abi::SphereBlock<Real>& block, int slot, int cell) const
+    bool sphere(const SphereLeaf<Real>& leaf, int slot, int cell) const
     {
         bool any_closer = false;
         for (int first = cell * cell_rays; first < (cell + 1) * cell_rays; first += lanes<Real>) {
             tell_live(active_lanes(group_, first));
             count_tests(abi::Primitive::sphere, 1);
             const RayPacket<Real> rays = load_rays(group_, first);
-            const Quadratic<Real> quadratic = quadratic_of(block, slot, rays);
+            const Quadratic<Real> quadratic = quadratic_of(leaf.block, slot, rays);
             const auto active = may_hit(quadratic);
             if (none(active))
                 continue;
             HitPacket<Real> hit = load_hits(group_, first);
-            keep_first_root<Real>(hit, quadratic, active, rays.t_min,
-                                  static_cast<std::int32_t>(block.surface[slot]));
+            keep_first_root<Real>(hit, quadratic, active, rays.t_min, leaf.surface_of(slot));
             store_hits(group_, first, hit);
             any_closer = true;
         }

@@ -23,9 +23,9 @@ public:
                     quadric(tree_.quadrics[abi::first_quadric(child) + i], __builtin_ctz(left));
             return;
         }
-        const abi::SphereBlock<Real>& block = tree_.blocks[child & abi::block_mask];
-        visit_spheres(bounds_, block, cells,
-                      [&](int slot, int cell) { sphere(block, slot, cell); });
+        const SphereLeaf<Real> leaf = sphere_leaf(tree_, child);
+        visit_spheres(bounds_, leaf.block, cells,
+                      [&](int slot, int cell) { sphere(leaf, slot, cell); });
     }
 
     // Rays stay together: what they meet does not end them.
@@ -46,12 +46,12 @@ private:
                 cross(first, load_rays(group_, first));
     }
 
-    void sphere(const abi::SphereBlock<Real>& block, int slot, int cell) const
+    void sphere(const SphereLeaf<Real>& leaf, int slot, int cell) const
     {
         packets_of(cell, [&](int first, const RayPacket<Real>& rays) {
-            visit_roots(quadratic_of(block, slot, rays),
+            visit_roots(quadratic_of(leaf.block, slot, rays),
                         [&](vmask<Real> valid, const vreal<Real>& t) {
-                            visit_(first, valid, t, static_cast<std::int32_t>(block.surface[slot]));
+                            visit_(first, valid, t, leaf.surface_of(slot));
                         });
         });
     }

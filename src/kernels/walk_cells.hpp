@@ -53,11 +53,16 @@ private:
 template <class Real>
 inline void fetch_child(const abi::BvhView<Real>& tree, std::uint32_t child)
 {
+    const bool leaf = abi::is_leaf(child);
     const char* const from =
-        abi::is_leaf(child) ? reinterpret_cast<const char*>(tree.blocks + (child & abi::block_mask))
-                            : reinterpret_cast<const char*>(tree.nodes + child);
-    for (int line = 0; line < 4; ++line)
-        __builtin_prefetch(from + 64 * line);
+        leaf ? reinterpret_cast<const char*>(tree.blocks + (child & abi::block_mask))
+             : reinterpret_cast<const char*>(tree.nodes + child);
+    __builtin_prefetch(from);
+    __builtin_prefetch(from + 64);
+    if (leaf)
+        return;
+    __builtin_prefetch(from + 128);
+    __builtin_prefetch(from + 192);
 }
 
 /// Puts the children of a node that the cells may meet on the stack.

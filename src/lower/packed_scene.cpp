@@ -46,6 +46,14 @@ PackedTree<Real> pack_tree(const LoweredScene& lowered, Traversal traversal)
                : PackedTree<Real>();
 }
 
+/// Whether each surface has the number of its object, so that none need be looked up.
+bool are_objects(const std::vector<abi::MaterialIndex>& surfaces)
+{
+    std::int32_t number = 0;
+    return std::all_of(surfaces.begin(), surfaces.end(),
+                       [&](const abi::MaterialIndex& index) { return index.object == number++; });
+}
+
 }  // namespace
 
 Traversal frame_traversal(const LoweredScene& lowered, Traversal traversal)
@@ -128,6 +136,7 @@ void PackedScene<Real>::pack_materials(const LoweredScene& lowered)
         round_to(checkers_[i].v, lowered.checkers[i].v);
     }
     view_.material_index = material_index_.data();
+    view_.surfaces_are_objects = are_objects(surfaces);
     view_.materials = materials_.data();
     view_.checkers = lowered.checkers.empty() ? nullptr : checkers_.data();
 }

@@ -103,7 +103,7 @@ float coherent_spread(const std::vector<abi::BvhNode>& nodes, float extent)
             sizes += glm::length(size);
             leaves += 1.0;
         }
-    return static_cast<float>(std::clamp(2.0 * sizes / (leaves * extent), 0.004, 0.1));
+    return static_cast<float>(std::clamp(0.5 * sizes / (leaves * extent), 0.002, 0.1));
 }
 
 double worst_slack(const LoweredScene& lowered)
@@ -147,6 +147,7 @@ PackedTree<Real>::PackedTree(const LoweredScene& lowered)
     std::copy(bvh.nodes.begin(), bvh.nodes.end(), nodes_.data());
     view_ = {nodes_.data(),
              blocks_.data(),
+             block_surfaces_.data(),
              quadrics_.data(),
              static_cast<int>(bvh.nodes.size()),
              extent_of(nodes_[0]),
@@ -172,14 +173,13 @@ void PackedTree<Real>::pack_leaves(const LoweredScene& lowered, Bvh& bvh)
             quadric_count += leaf.count;
         }
     }
-    // One more: kernels read a whole packet from the last.
-    blocks_ = AlignedArray<abi::SphereBlock<Real>>::unset(block_count + 1);
-    blocks_[block_count] = {};
+    blocks_ = AlignedArray<abi::SphereBlock<Real>>::unset(block_count);
+    block_surfaces_ = AlignedArray<abi::lane_int<Real>>::unset(block_count * abi::node_width);
     quadrics_ = AlignedArray<abi::QuadricRecord<Real>>::unset(quadric_count);
     for_each_in_parallel(bvh.leaves, [&](const BvhLeaf& leaf) {
         const std::uint32_t at = packed_at[static_cast<std::size_t>(&leaf - bvh.leaves.data())];
         if (leaf.kind == sphere_item)
-            pack_block(lowered, bvh, leaf, blocks_[at & abi::block_mask]);
+            pack_block(lowered, bvh, leaf, at & abi::block_mask);
         else
             pack_run(lowered, bvh, leaf, &quadrics_[at & abi::quadric_mask]);
     });
@@ -199,8 +199,10 @@ void PackedTree<Real>::pack_run(const LoweredScene& lowered, const Bvh& bvh, con
 
 template <class Real>
 void PackedTree<Real>::pack_block(const LoweredScene& lowered, const Bvh& bvh, const BvhLeaf& leaf,
-                                  abi::SphereBlock<Real>& block)
+                                  std::uint32_t index)
 {
+    abi::SphereBlock<Real>& block = blocks_[index];
+    abi::lane_int<Real>* const surfaces = &block_surfaces_[std::size_t{index} * abi::node_width];
     // Unused places: a sphere of negative size where nothing is.
     constexpr Real nowhere = Real(1e15);
     for (std::uint32_t i = 0; i < abi::node_width; ++i) {
@@ -210,7 +212,7 @@ void PackedTree<Real>::pack_block(const LoweredScene& lowered, const Bvh& bvh, c
         for (int axis = 0; axis < 3; ++axis)
             block.center[axis][i] = used ? static_cast<Real>(sphere.center[axis]) : nowhere;
         block.radius2[i] = used ? static_cast<Real>(sphere.radius * sphere.radius) : Real(-1);
-        block.surface[i] = used ? sphere.surface : -1;
+        surfaces[i] = used ? sphere.surface : -1;
     }
 }
 

@@ -30,18 +30,19 @@ public:
 
     [[nodiscard]] std::size_t bytes() const
     {
-        return nodes_.bytes() + blocks_.bytes() + quadrics_.bytes();
+        return nodes_.bytes() + blocks_.bytes() + block_surfaces_.bytes() + quadrics_.bytes();
     }
 
 private:
     void pack_leaves(const LoweredScene& lowered, Bvh& bvh);
     static void pack_run(const LoweredScene& lowered, const Bvh& bvh, const BvhLeaf& leaf,
                          abi::QuadricRecord<Real>* run);
-    static void pack_block(const LoweredScene& lowered, const Bvh& bvh, const BvhLeaf& leaf,
-                           abi::SphereBlock<Real>& block);
+    void pack_block(const LoweredScene& lowered, const Bvh& bvh, const BvhLeaf& leaf,
+                    std::uint32_t index);
 
     AlignedArray<abi::BvhNode> nodes_;
     AlignedArray<abi::SphereBlock<Real>> blocks_;
+    AlignedArray<abi::lane_int<Real>> block_surfaces_;
     AlignedArray<abi::QuadricRecord<Real>> quadrics_;
     abi::BvhView<Real> view_;
 };

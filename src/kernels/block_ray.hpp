@@ -1,0 +1,84 @@
+#pragma once
+
+#include "kernels/occluded.hpp"
+#include "kernels/sphere_leaf.hpp"
+
+// One ray against the spheres of a block side by side, by the operations that test one sphere
+// against a packet of rays, so with the same bits.
+namespace packtrace::PACKTRACE_ISA {
+namespace {
+
+/// One ray in every lane.
+template <class Real>
+inline RayPacket<Real> broadcast_ray(const RayGroup<Real>& group, int ray)
+{
+    const auto all3 = [ray](const Real(&from)[3][group_rays]) {
+        return Vec3v<Real>{vreal<Real>(from[0][ray]), vreal<Real>(from[1][ray]),
+                           vreal<Real>(from[2][ray])};
+    };
+    RayPacket<Real> rays;
+    rays.org = all3(group.org);
+    rays.dir = all3(group.dir);
+    rays.dir2 = dot(rays.dir, rays.dir);
+    rays.t_min = vreal<Real>(group.t_min[ray]);
+    return rays;
+}
+
+/// The ray, a sphere a lane.
+template <class Real>
+class BlockRay {
+    static_assert(abi::node_width % lanes<Real> == 0);
+
+public:
+    BlockRay(const RayGroup<Real>& group, int ray) : rays_(broadcast_ray(group, ray))
+    {
+    }
+
+    /// A bit for each sphere that the ray meets up to `t_max`, and where it does so first.
+    std::uint32_t first_roots(const abi::SphereBlock<Real>& block, Real t_max,
+                              Real (&t)[abi::node_width]) const
+    {
+        std::uint32_t met = 0;
+        for (int first = 0; first < abi::node_width; first += lanes<Real>) {
+            const Quadratic<Real> quadratic = quadratics(block, first);
+            const auto active = may_hit(quadratic);
+            if (none(active))
+                continue;
+            HitPacket<Real> hit = no_hit<Real>(static_cast<Real>(__builtin_inf()));
+            keep_first_root<Real>(hit, quadratic, active, rays_.t_min, 0);
+            store(t + first, hit.t);
+            const auto found = int_equal(hit.surface, vint<Real>(lane_int<Real>(0)));
+            met |= (bits(found) & bits(hit.t <= vreal<Real>(t_max))) << first;
+        }
+        return met;
+    }
+
+    /// A bit for each sphere in the ray's way up to `t_end`, which is in it or not (Reach).
+    std::uint32_t blocked_by(const abi::SphereBlock<Real>& block, Real t_end, bool closed) const
+    {
+        const Reach<Real> reach{vreal<Real>(t_end), closed};
+        std::uint32_t blocking = 0;
+        for (int first = 0; first < abi::node_width; first += lanes<Real>)
+            blocking |= bits(reach.blocked_by(quadratics(block, first), rays_)) << first;
+        return blocking;
+    }
+
+private:
+    Quadratic<Real> quadratics(const abi::SphereBlock<Real>& block, int first) const
+    {
+        const Vec3v<Real> center{load(block.center[0] + first), load(block.center[1] + first),
+                                 load(block.center[2] + first)};
+        const Vec3v<Real> o = rays_.org - center;
+        const vreal<Real> radius2 = load(block.radius2 + first);
+        return sphere_quadratic<Real>(rays_, o, radius2, sphere_constant<Real>(o, radius2));
+    }
+
+    RayPacket<Real> rays_;
+};
+
+}  // namespace
+}  // namespace packtrace::PACKTRACE_ISA
+
+#if PACKTRACE_LANES == 16
+#include "kernels/native/block_ray_avx512.hpp"
+#endif
