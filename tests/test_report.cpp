@@ -85,7 +85,7 @@ TEST_CASE("a report runs every kernel, precision, instruction set and number of 
                              "spp 64", "adaptive 16 at 0.01"})
         CHECK(names.count(name) == 1);
     CHECK(names.count("depth 4") == 0);
-    for (const char* mode : {"fast", "robust"})
+    for (const char* mode : {"fast", "robust", "from 0.001", "general kernel"})
         CHECK(names.count("packets " + supported_isas().back() + " single " + mode +
                           ", 1 thread") == 1);
 }
@@ -105,6 +105,7 @@ TEST_CASE("a report's errors are those of the pictures against the truth", "[rep
             RenderOptions options;
             options.isa = run.variant.isa;
             options.accuracy = run.variant.accuracy;
+            options.self_hits = run.variant.self_hits;
             const auto picture = convert<double>(render<float>(scene.scene, options));
             CHECK(run.error.rmse == compare(picture, truth).rmse);
             CHECK((arithmetic.pictures[run.picture].image.rgb == picture.rgb));

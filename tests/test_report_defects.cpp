@@ -40,9 +40,10 @@ StudyReport report_beside(const Scene& scene, const Subject& defect)
 
 /// Sound kernels on a scene that was lowered wrongly.
 template <class Change>
-Subject wrongly_lowered(const Scene& scene, const Change& change)
+Subject wrongly_lowered(const Scene& scene, const Change& change,
+                        SelfHits self_hits = default_self_hits)
 {
-    LoweredScene lowered = lower(scene);
+    LoweredScene lowered = lower(scene, Accuracy::automatic, self_hits);
     change(lowered);
     const auto& table = kernels_of(choose_isa().name);
     return packet_subject<float>(scene, lowered, table, variant_named("defect", scene));
@@ -77,14 +78,16 @@ void check_named(const StudyReport& report, const std::string& kind)
 TEST_CASE("an epsilon that is too small is named", "[report_defects]")
 {
     const Scene scene = four_spheres(192, 192);
-    const Subject defect = wrongly_lowered(scene, [](LoweredScene& s) { s.epsilon = 1e-9; });
+    const Subject defect = wrongly_lowered(
+        scene, [](LoweredScene& s) { s.epsilon = 1e-9; }, SelfHits::note);
     check_named(report_beside(scene, defect), "near start");
 }
 
 TEST_CASE("an epsilon that is too large is named", "[report_defects]")
 {
     const Scene scene = four_spheres(192, 192);
-    const Subject defect = wrongly_lowered(scene, [](LoweredScene& s) { s.epsilon = 0.05; });
+    const Subject defect = wrongly_lowered(
+        scene, [](LoweredScene& s) { s.epsilon = 0.05; }, SelfHits::note);
     check_named(report_beside(scene, defect), "near start");
 }
 

@@ -28,7 +28,7 @@ enum class SelfHits {
 };
 
 /// What counts where nothing is said, in packets and the scalar reference alike.
-inline constexpr SelfHits default_self_hits = SelfHits::note;
+inline constexpr SelfHits default_self_hits = SelfHits::exact;
 
 struct RenderOptions {
     Kernel kernel = Kernel::packet;

@@ -30,8 +30,9 @@ struct Variant {
     std::string precision = "single";         ///< or "double"
     std::string isa;                          ///< packets only
     Accuracy accuracy = Accuracy::automatic;  ///< packets of floats only
-    bool general = false;                     ///< RenderOptions::force_general
-    int lanes = 1;                            ///< rays in a packet
+    SelfHits self_hits = default_self_hits;
+    bool general = false;  ///< RenderOptions::force_general
+    int lanes = 1;         ///< rays in a packet
     int threads = 1;
     int depth = 0;    ///< Scene::max_depth
     int samples = 1;  ///< as RenderOptions has them

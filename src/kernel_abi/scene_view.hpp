@@ -40,10 +40,14 @@ struct SceneView {
     /// place in `finish`, or -1. Null where no hit is solved again, not even on spheres.
     const std::int32_t* finish_index = nullptr;
     const StiffObject* finish = nullptr;
-    /// By surface; null where no hit is sharpened and no start is exact.
+    /// Of the others, too; null where no hit is sharpened and no start is exact.
     const SurfaceForm* forms = nullptr;
-    bool sharpened = false;       ///< some hits are, by `forms`
-    bool precise_powers = false;  ///< highlights in double, for rays in single precision
+    bool sharpened = false;    ///< some hits are, by their surface's form
+    bool sharpened_t = false;  ///< with their t
+    /// Those on spheres among many, unless they are solved again.
+    Sharpened sharpened_spheres = Sharpened::nothing;
+    bool met_again_outside = false;  ///< some surface may be, by rays that leave it outwards
+    bool precise_powers = false;     ///< highlights in double, for rays in single precision
 
     const MaterialIndex* material_index = nullptr;  ///< by surface
     bool surfaces_are_objects = false;              ///< each surface has the number of its object

@@ -13,6 +13,10 @@ enum class MetAgain : std::int32_t {
     from_anywhere
 };
 
+/// What one more step in double makes exact of a hit of rays in single precision: its point, where
+/// rays start; or its t as well.
+enum class Sharpened : std::int32_t { nothing, point, all };
+
 /// constant + 2 normal·p + p·curvature p = 0 with p = P - anchor, negative inside; scaled so
 /// that the largest coefficient of p is about 1.
 struct SurfaceForm {
@@ -26,7 +30,7 @@ struct SurfaceForm {
     double clip_low;  ///< -infinity where nothing is clipped
     double clip_high;
     MetAgain met_again;
-    std::int32_t sharpened;  ///< hits of rays in single precision get one more step in double
+    Sharpened sharpened;
 };
 
 }  // namespace packtrace::abi

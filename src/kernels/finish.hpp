@@ -146,7 +146,8 @@ inline void sharpen_surface(FinishedHits<float>& hits, const abi::SurfaceForm& f
     const Vec3v<float> point = joined(at(low, low_half(hits.t) - low_half(step)),
                                       at(high, high_half(hits.t) - high_half(step)));
     const auto use = same & (abs(step) <= abs(hits.t) * vreal<float>(0.0625f));
-    hits.t = select(use, hits.t - step, hits.t);
+    if (form.sharpened == abi::Sharpened::all)
+        hits.t = select(use, hits.t - step, hits.t);
     hits.point = select(use, point, hits.point);
 }
 
@@ -159,8 +160,10 @@ inline void sharpen_surface(FinishedHits<float>& hits, const abi::SurfaceForm& f
     const RayPacket<double> low = low_half(rays);
     const RayPacket<double> high = high_half(rays);
     for_each_distinct<float>(surface, active, [&](std::int32_t number, const vmask<float>& same) {
-        if (scene.forms[number].sharpened)
-            sharpen_surface(hits, scene.forms[number], low, high, same);
+        with_form(scene, number, [&](const abi::SurfaceForm& form) {
+            if (form.sharpened != abi::Sharpened::nothing)
+                sharpen_surface(hits, form, low, high, same);
+        });
     });
 }
 

@@ -118,7 +118,7 @@ inline void store_packet_hits(const abi::SceneView<Real>& scene, const RayPacket
 {
     const auto missed = int_equal(hit.surface, vint<Real>(lane_int<Real>(-1)));
     const std::uint32_t found = ~bits(missed) & first_lanes<Real>(live);
-    if (hits.normal[0] == nullptr && scene.finish == nullptr) {
+    if (hits.normal[0] == nullptr && scene.finish == nullptr && !scene.sharpened_t) {
         store_some(hits.t + at, select(missed, t_max, hit.t), live);
         store_numbers<Real>(hits.object + at, objects_of(scene, hit.surface, found), live);
         return;

@@ -31,23 +31,37 @@ inline vreal<Real> other_root(const abi::SurfaceForm& form, const Vec3v<Real>& p
 /// For the lanes of `active`, each from a point of its own surface; `outside` are those that
 /// leave it on the outer side.
 template <class Real>
-[[gnu::noinline]] vreal<Real> second_meeting(const abi::SceneView<Real>& scene,
-                                             const vint<Real>& surface, const Vec3v<Real>& point,
-                                             const Vec3v<Real>& dir, std::uint32_t outside,
-                                             std::uint32_t active)
+[[gnu::noinline]] vreal<Real> look_for_second_meeting(const abi::SceneView<Real>& scene,
+                                                      const vint<Real>& surface,
+                                                      const Vec3v<Real>& point,
+                                                      const Vec3v<Real>& dir, std::uint32_t outside,
+                                                      std::uint32_t active)
 {
     vreal<Real> t(static_cast<Real>(__builtin_inf()));
     const vmask<Real> outer = from_bits<Real>(outside & all_lanes<Real>);
     for_each_distinct<Real>(surface, active, [&](lane_int<Real> number, vmask<Real> same) {
-        const abi::SurfaceForm& form = scene.forms[number];
-        if (form.met_again == abi::MetAgain::never)
-            return;
-        const std::uint32_t leavers =
-            form.met_again == abi::MetAgain::from_inside ? bits(same) & ~outside : bits(same);
-        if ((leavers & active) != 0)
-            t = select(from_bits<Real>(leavers), other_root(form, point, dir, outer), t);
+        with_form(scene, number, [&](const abi::SurfaceForm& form) {
+            if (form.met_again == abi::MetAgain::never)
+                return;
+            const std::uint32_t leavers =
+                form.met_again == abi::MetAgain::from_inside ? bits(same) & ~outside : bits(same);
+            if ((leavers & active) != 0)
+                t = select(from_bits<Real>(leavers), other_root(form, point, dir, outer), t);
+        });
     });
     return t;
+}
+
+/// The same, without looking where nothing is met again.
+template <class Real>
+inline vreal<Real> second_meeting(const abi::SceneView<Real>& scene, const vint<Real>& surface,
+                                  const Vec3v<Real>& point, const Vec3v<Real>& dir,
+                                  std::uint32_t outside, std::uint32_t active)
+{
+    const std::uint32_t may_meet = scene.met_again_outside ? active : active & ~outside;
+    if (may_meet == 0)
+        return vreal<Real>(static_cast<Real>(__builtin_inf()));
+    return look_for_second_meeting<Real>(scene, surface, point, dir, outside, may_meet);
 }
 
 }  // namespace

@@ -136,6 +136,19 @@ inline Vec3v<Real> unit(const Vec3v<Real>& v)
     return scale<Real>(select(length2 > zero, vreal<Real>(Real(1)) / sqrt(length2), zero), v);
 }
 
+/// What n·d has to be above for a ray to come from the inside. With SelfHits::exact the side that a
+/// ray comes from is the one its children start on; one that grazes the surface to within what
+/// single precision tells apart comes from outside, as inside no ray does so that does not start
+/// there.
+template <class Real>
+inline vreal<Real> grazing(const abi::SceneView<Real>& scene, const Vec3v<Real>& outward,
+                           const Vec3v<Real>& dir)
+{
+    if (sizeof(Real) != sizeof(float) || !(scene.start_error > 0))
+        return vreal<Real>(Real(0));
+    return vreal<Real>(Real(4) * scene.start_error) * magnitude_dot(outward, dir);
+}
+
 /// Fills `normal`, `lift` and `leaving`. The apex of a cone has no normal; there it is 0.
 template <class Real>
 inline void set_normal(SurfacePacket<Real>& surface, const abi::SceneView<Real>& scene,
@@ -143,7 +156,7 @@ inline void set_normal(SurfacePacket<Real>& surface, const abi::SceneView<Real>&
 {
     const vreal<Real> zero(Real(0));
     const Vec3v<Real> outward = is_unit ? from.gradient : unit<Real>(from.gradient);
-    const auto leaving = dot(outward, surface.dir) > zero;
+    const auto leaving = dot(outward, surface.dir) > grazing(scene, outward, surface.dir);
     const auto turn = (from.faces_viewer > zero) & leaving;
     surface.leaving = bits(leaving);
     surface.lift = {zero, zero, zero};

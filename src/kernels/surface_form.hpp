@@ -1,11 +1,40 @@
 #pragma once
 
-#include "kernel_abi/surface_form.hpp"
+#include "kernel_abi/scene_view.hpp"
 #include "kernels/halves.hpp"
 
 // What an equation in double (abi::SurfaceForm) says along rays of either precision.
 namespace packtrace::PACKTRACE_ISA {
 namespace {
+
+/// What a sphere that has a shape of its own would have for a form.
+inline abi::SurfaceForm form_of(const abi::SphereShape& sphere, abi::Sharpened sharpened)
+{
+    abi::SurfaceForm form{};
+    for (int axis = 0; axis < 3; ++axis) {
+        form.anchor[axis] = sphere.center[axis];
+        form.curvature[axis] = 1.0 / sphere.radius;
+    }
+    form.constant = -sphere.radius;
+    form.clip_low = -__builtin_inf();
+    form.clip_high = __builtin_inf();
+    form.met_again = abi::MetAgain::from_inside;
+    form.sharpened = sharpened;
+    return form;
+}
+
+/// Calls `visit` with the form of a surface.
+template <class Real, class Visit>
+inline void with_form(const abi::SceneView<Real>& scene, lane_int<Real> surface, const Visit& visit)
+{
+    const abi::SurfacePlace place = scene.places[surface];
+    const abi::SurfacePlace index = place & abi::place_mask;
+    if (abi::is_other_shape(place))
+        return visit(scene.forms[index]);
+    const bool solved_again = (place & abi::finished_bit) != 0;
+    visit(form_of(scene.sphere_shapes[index],
+                  solved_again ? abi::Sharpened::nothing : scene.sharpened_spheres));
+}
 
 /// A form along the line P + t d: constant + 2 slope t + bend t², and its height for clipping.
 template <class Real>

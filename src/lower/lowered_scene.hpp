@@ -107,9 +107,9 @@ struct LoweredScene {
     SelfHits self_hits = SelfHits::note;
     /// By surface: hits of rays in single precision are solved again in double.
     std::vector<std::uint8_t> finished;
-    /// By surface: those whose hits get one more step in double, unless they are finished; none: no
-    /// surface.
-    std::vector<std::uint8_t> sharpened;
+    /// By surface: what of its hits gets one more step in double, unless they are finished; empty
+    /// for nothing of any.
+    std::vector<abi::Sharpened> sharpened;
     bool precise_powers = false;           ///< highlights are computed in double
     double camera_t_min = 0.0;             ///< start of camera rays
     std::vector<std::int32_t> eye_inside;  ///< glass objects around the eye, innermost first

@@ -4,7 +4,6 @@
 #include <limits>
 
 #include "lower/in_parallel.hpp"
-#include "lower/pack_form.hpp"
 #include "lower/pack_record.hpp"
 
 namespace packtrace {
@@ -19,11 +18,6 @@ constexpr std::size_t frame_tree_objects = 128;
 /// From this round number on a sphere's record is made of its shape when it is hit: memory counts
 /// more then than the few operations, which slow a frame of four spheres by 4 %.
 constexpr std::size_t fewest_to_share = 1024;
-
-bool any(const std::vector<std::uint8_t>& marked)
-{
-    return std::find(marked.begin(), marked.end(), 1) != marked.end();
-}
 
 /// How many roundoffs rays start off a surface by. Hits in single precision are solved again or
 /// sharpened in double and rounded once; those in double are as the search found them. Measured in
@@ -70,7 +64,6 @@ PackedScene<Real>::PackedScene(const LoweredScene& lowered, Traversal traversal)
     view_.tree = tree_.view();
     lists_.show(view_);
     shapes_.show(view_);
-    pack_forms(lowered);
     pack_materials(lowered);
     pack_ior(lowered);
     pack_lights(lowered);
@@ -88,34 +81,6 @@ PackedScene<Real>::PackedScene(const LoweredScene& lowered, Traversal traversal)
         view_.secondary_t_min = view_.epsilon;
     else
         view_.start_error = start_roundoffs<Real> * std::numeric_limits<Real>::epsilon() / 2;
-}
-
-/// Equations of all surfaces, where hits are sharpened or rays start from the exact place.
-template <class Real>
-void PackedScene<Real>::pack_forms(const LoweredScene& lowered)
-{
-    const bool single = sizeof(Real) == sizeof(float);
-    if (!(single && any(lowered.sharpened)) && lowered.self_hits == SelfHits::note)
-        return;
-    forms_ = AlignedArray<abi::SurfaceForm>(lowered.material_index.size());
-    const auto put = [&](std::int32_t surface, const abi::SurfaceForm& form) {
-        const auto at = static_cast<std::size_t>(surface);
-        forms_[at] = form;
-        const bool sharpened = single && !lowered.sharpened.empty() && lowered.sharpened[at] != 0 &&
-                               lowered.finished[at] == 0;
-        forms_[at].sharpened = sharpened ? 1 : 0;
-        view_.sharpened = view_.sharpened || sharpened;
-    };
-    for (const LoweredSphere& sphere : lowered.spheres)
-        put(sphere.surface, pack_form(sphere));
-    for (const LoweredHugeSphere& sphere : lowered.huge_spheres)
-        put(sphere.surface, pack_form(sphere));
-    for (const LoweredPlane& plane : lowered.planes)
-        put(plane.surface, pack_form(plane));
-    for (const LoweredQuadric& quadric : lowered.quadrics)
-        for (int piece = 0; piece < (quadric.capped ? 3 : 1); ++piece)
-            put(quadric.surface + piece, pack_form(quadric, piece));
-    view_.forms = forms_.data();
 }
 
 template <class Real>

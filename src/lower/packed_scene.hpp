@@ -13,7 +13,8 @@
 
 namespace packtrace {
 
-/// What Traversal::automatic comes to for pictures. PackedScene's own choice is for streams of rays.
+/// What Traversal::automatic comes to for pictures. PackedScene's own choice is for streams of
+/// rays.
 [[nodiscard]] Traversal frame_traversal(const LoweredScene& lowered, Traversal traversal);
 
 /// A lowered scene in the arrays and the precision the kernels read. Values are rounded once,
@@ -34,11 +35,10 @@ public:
     {
         return sizeof *this + tree_.bytes() + lists_.bytes() + shapes_.bytes() +
                material_index_.bytes() + materials_.bytes() + checkers_.bytes() + ior_.bytes() +
-               lights_.bytes() + forms_.bytes() + (casters_ ? casters_->bytes() : 0);
+               lights_.bytes() + (casters_ ? casters_->bytes() : 0);
     }
 
 private:
-    void pack_forms(const LoweredScene& lowered);
     void pack_materials(const LoweredScene& lowered);
     void pack_ior(const LoweredScene& lowered);
     void pack_lights(const LoweredScene& lowered);
@@ -47,7 +47,6 @@ private:
     PackedTree<Real> tree_;
     PackedLists<Real> lists_;
     PackedShapes<Real> shapes_;
-    AlignedArray<abi::SurfaceForm> forms_;
     AlignedArray<abi::MaterialIndex> material_index_;
     AlignedArray<abi::MaterialRecord<Real>> materials_;
     AlignedArray<abi::CheckerRecord<Real>> checkers_;

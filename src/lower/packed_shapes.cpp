@@ -3,11 +3,15 @@
 #include <algorithm>
 
 #include "lower/in_parallel.hpp"
+#include "lower/pack_form.hpp"
 #include "lower/pack_record.hpp"
 #include "lower/pack_stiff.hpp"
 
 namespace packtrace {
 namespace {
+
+/// Marks a surface that no object here has, as where those that cast no shadow are left out.
+constexpr abi::SurfacePlace no_place = ~abi::SurfacePlace{0};
 
 template <class Object>
 int pieces_of(const Object&)
@@ -47,6 +51,16 @@ void pack_normal(const LoweredQuadric&, abi::SurfaceRecord<Real>&)
 {
 }
 
+template <class Object>
+abi::SurfaceForm form_of(const Object& object, int)
+{
+    return pack_form(object);
+}
+abi::SurfaceForm form_of(const LoweredQuadric& quadric, int piece)
+{
+    return pack_form(quadric, piece);
+}
+
 /// Planes and spheres in the form of the curved ones, for the kernels of every kind.
 template <class Real>
 abi::CurvedSurfaceRecord<Real> curved(const abi::SurfaceRecord<Real>& surface)
@@ -68,13 +82,17 @@ PackedShapes<Real>::PackedShapes(const LoweredScene& lowered, bool many_spheres)
                     lowered.finished.end()),
       places_(AlignedArray<abi::SurfacePlace>::unset(lowered.material_index.size()))
 {
+    std::fill_n(places_.data(), places_.size(), no_place);
     if (many_spheres_)
         pack_sphere_shapes(lowered);
     place_others(lowered);
+    std::replace(places_.data(), places_.data() + places_.size(), no_place,
+                 static_cast<abi::SurfacePlace>(others_) | abi::other_shape_bit);
     pack_others(lowered);
     pack_curved(lowered);
     if (finishes_)
         pack_finish(lowered);
+    pack_forms(lowered);
 }
 
 /// Calls `visit` with every object that is not among the spheres, kind by kind.
@@ -161,6 +179,45 @@ void PackedShapes<Real>::pack_finish(const LoweredScene& lowered)
     std::copy(finish.begin(), finish.end(), finish_.data());
 }
 
+/// What of hits gets one more step in double: nothing of rays in double, nor where they are solved
+/// again.
+template <class Real>
+abi::Sharpened PackedShapes<Real>::sharpened(const LoweredScene& lowered,
+                                             std::int32_t surface) const
+{
+    const auto at = static_cast<std::size_t>(surface);
+    if (sizeof(Real) != sizeof(float) || lowered.sharpened.empty() || lowered.finished[at] != 0)
+        return abi::Sharpened::nothing;
+    return lowered.sharpened[at];
+}
+
+/// Equations of all other surfaces, where hits are sharpened or rays start from the exact place.
+/// One more, for surfaces of no object here, is met by nothing.
+template <class Real>
+void PackedShapes<Real>::pack_forms(const LoweredScene& lowered)
+{
+    const bool sharpens = sizeof(Real) == sizeof(float) && !lowered.sharpened.empty();
+    if (!sharpens && lowered.self_hits == SelfHits::note)
+        return;
+    forms_ = AlignedArray<abi::SurfaceForm>(others_ + 1);
+    for_each_other(lowered, [&](const auto& object) {
+        for (int piece = 0; piece < pieces_of(object); ++piece) {
+            const std::int32_t surface = object.surface + piece;
+            abi::SurfaceForm& form = forms_[other(surface)];
+            form = form_of(object, piece);
+            form.sharpened = sharpened(lowered, surface);
+            most_sharpened_ = std::max(most_sharpened_, form.sharpened);
+            met_again_outside_ =
+                met_again_outside_ || form.met_again == abi::MetAgain::from_anywhere;
+        }
+    });
+    if (!many_spheres_)
+        return;
+    for (const LoweredSphere& sphere : lowered.spheres)
+        sharpened_spheres_ = std::max(sharpened_spheres_, sharpened(lowered, sphere.surface));
+    most_sharpened_ = std::max(most_sharpened_, sharpened_spheres_);
+}
+
 template <class Real>
 void PackedShapes<Real>::show(abi::SceneView<Real>& view) const
 {
@@ -170,6 +227,11 @@ void PackedShapes<Real>::show(abi::SceneView<Real>& view) const
     view.curved_surfaces = curved_.data();
     view.finish_index = finish_index_.data();
     view.finish = finish_.data();
+    view.forms = forms_.data();
+    view.sharpened = most_sharpened_ != abi::Sharpened::nothing;
+    view.sharpened_t = most_sharpened_ == abi::Sharpened::all;
+    view.sharpened_spheres = sharpened_spheres_;
+    view.met_again_outside = met_again_outside_;
 }
 
 template class PackedShapes<float>;

@@ -20,7 +20,7 @@ public:
     [[nodiscard]] std::size_t bytes() const
     {
         return places_.bytes() + spheres_.bytes() + surfaces_.bytes() + curved_.bytes() +
-               finish_index_.bytes() + finish_.bytes();
+               finish_index_.bytes() + finish_.bytes() + forms_.bytes();
     }
 
 private:
@@ -32,6 +32,8 @@ private:
     void pack_others(const LoweredScene& lowered);
     void pack_curved(const LoweredScene& lowered);
     void pack_finish(const LoweredScene& lowered);
+    void pack_forms(const LoweredScene& lowered);
+    [[nodiscard]] abi::Sharpened sharpened(const LoweredScene& lowered, std::int32_t surface) const;
 
     /// Of a surface that is not among the spheres: its place in all arrays but `finish_`.
     [[nodiscard]] std::size_t other(std::int32_t surface) const
@@ -48,6 +50,10 @@ private:
     AlignedArray<abi::CurvedSurfaceRecord<Real>> curved_;
     AlignedArray<std::int32_t> finish_index_;
     AlignedArray<abi::StiffObject> finish_;
+    AlignedArray<abi::SurfaceForm> forms_;
+    abi::Sharpened most_sharpened_ = abi::Sharpened::nothing;
+    abi::Sharpened sharpened_spheres_ = abi::Sharpened::nothing;
+    bool met_again_outside_ = false;
 };
 
 }  // namespace packtrace

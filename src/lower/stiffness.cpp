@@ -115,18 +115,21 @@ void mark_finished(Accuracy accuracy, SelfHits self_hits, LoweredScene& lowered)
     const bool all = accuracy == Accuracy::robust;
     lowered.finished.assign(lowered.material_index.size(), all ? 1 : 0);
     if (self_hits == SelfHits::exact)
-        lowered.sharpened.assign(lowered.material_index.size(), 1);
+        lowered.sharpened.assign(lowered.material_index.size(), abi::Sharpened::point);
     if (accuracy != Accuracy::automatic)
         return;
     if (!lowered.quadrics.empty())
-        lowered.sharpened.resize(lowered.material_index.size(), 0);
+        lowered.sharpened.resize(lowered.material_index.size(), abi::Sharpened::nothing);
     for_each_in_parallel(lowered.spheres, [&](const LoweredSphere& sphere) {
         if (is_stiff(sphere))
             lowered.finished[static_cast<std::size_t>(sphere.surface)] = 1;
     });
     for_each_in_parallel(lowered.quadrics, [&](const LoweredQuadric& quadric) {
-        auto& marked = is_stiff(quadric) ? lowered.finished : lowered.sharpened;
-        std::fill_n(marked.begin() + quadric.surface, quadric.capped ? 3 : 1, std::uint8_t{1});
+        const int pieces = quadric.capped ? 3 : 1;
+        if (is_stiff(quadric))
+            std::fill_n(lowered.finished.begin() + quadric.surface, pieces, std::uint8_t{1});
+        else
+            std::fill_n(lowered.sharpened.begin() + quadric.surface, pieces, abi::Sharpened::all);
     });
 }
 

@@ -16,6 +16,7 @@ RenderOptions options_of(const Variant& variant)
     if (variant.kernel == Kernel::packet)
         options.isa = variant.isa;
     options.accuracy = variant.accuracy;
+    options.self_hits = variant.self_hits;
     options.force_general = variant.general;
     options.threads = variant.threads;
     options.samples = variant.samples;
@@ -54,7 +55,8 @@ Subject subject_in(const Scene& given, const Variant& variant)
     const Scene scene = scene_of(given, variant);
     if (variant.kernel == Kernel::scalar)
         return scalar_subject<Real>(scene, variant);
-    const LoweredScene lowered = lower(scene, accuracy_in<Real>(options_of(variant)));
+    const LoweredScene lowered =
+        lower(scene, accuracy_in<Real>(options_of(variant)), variant.self_hits);
     return packet_subject<Real>(scene, lowered, kernels_of(variant.isa), variant);
 }
 

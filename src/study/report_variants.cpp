@@ -45,6 +45,17 @@ Variant in_mode(Variant variant, Accuracy accuracy, const ReportOptions& options
     return variant;
 }
 
+// Packets whose rays start a fixed 0.001 along their way, as the notes have it.
+Variant by_note(Variant variant, const ReportOptions& options)
+{
+    variant.study = Study::arithmetic;
+    variant.self_hits = SelfHits::note;
+    variant.threads = options.threads.front();
+    variant.name =
+        "packets " + variant.isa + " single from 0.001, " + threads_text(variant.threads);
+    return variant;
+}
+
 // Packets by the kernel that knows everything.
 Variant by_general(Variant variant, const ReportOptions& options)
 {
@@ -91,6 +102,7 @@ std::vector<Variant> report_variants(const Scene& scene, const ReportOptions& op
     Variant widest = packets(isas.back(), "single", scene.max_depth);
     for (const Accuracy accuracy : {Accuracy::fast, Accuracy::robust})
         variants.push_back(in_mode(widest, accuracy, options));
+    variants.push_back(by_note(widest, options));
     variants.push_back(by_general(widest, options));
     widest.study = Study::depth;
     for (int depth = 0; depth <= scene.max_depth; ++depth) {
