@@ -136,8 +136,8 @@ inline Vec3v<Real> unit(const Vec3v<Real>& v)
     return scale<Real>(select(length2 > zero, vreal<Real>(Real(1)) / sqrt(length2), zero), v);
 }
 
-/// What n·d has to be above for a ray to come from the inside. With SelfHits::exact the side that a
-/// ray comes from is the one its children start on; one that grazes the surface to within what
+/// What n·d has to be above for a ray to come from the inside. With SelfHits::exact the side that
+/// a ray comes from is the one its children start on; one that grazes the surface to within what
 /// single precision tells apart comes from outside, as inside no ray does so that does not start
 /// there.
 template <class Real>
