@@ -23,18 +23,13 @@ struct ClosestOfListed {
     }
 };
 
-/// The active rays of cells that share no way, in lists of one octant each.
+/// The active rays of cells that share no way.
 template <abi::Features F, class Real>
 [[gnu::noinline]] void closest_of_others(const abi::BvhView<Real>& tree, RayGroup<Real>& group,
                                          std::uint32_t cells)
 {
     SlabRays slabs;
-    OctantLists octants;
-    list_rays(octants, slabs, tree, group, cells);
-    const ClosestOfListed<F, Real> visit{tree, slabs, group};
-    ListWalk<Real, ClosestOfListed<F, Real>> lists(tree, slabs, group, visit);
-    octants.for_each(
-        [&](int octant, const std::uint8_t* rays, int count) { lists.walk(octant, rays, count); });
+    walk_in_lists(tree, slabs, group, cells, ClosestOfListed<F, Real>{tree, slabs, group});
 }
 
 /// Brings the t and surface of a group's active rays down to their first hit in the hierarchy,
@@ -45,10 +40,8 @@ template <abi::Features F, class Real>
     const PartScope part(abi::Part::boxes);
     CellBounds bounds;
     bound_cells(bounds, group, tree);
-    if (bounds.coherent != 0) {
-        SlabRays slabs;
-        closest_of_cells<F>(tree, group, bounds, slabs);
-    }
+    if (bounds.coherent != 0)
+        closest_of_cells<F>(tree, group, bounds);
     const std::uint32_t others = active_cells(group) & ~bounds.coherent;
     if (others != 0)
         closest_of_others<F>(tree, group, others);

@@ -137,36 +137,33 @@ struct BlockersOfListed {
         if (is_active(group, ray) &&
             !goes_behind_leaf<F>(tree, group, ray, BlockRay<Real>(group, ray), closed, child,
                                  blocker))
-            group.t[ray] = static_cast<Real>(-__builtin_inf());
+            end(ray);
     }
     void lone(std::uint32_t child, int ray) const
     {
-        if (is_active(group, ray))
-            blockers_of_ray<F>(tree, slabs, group, ray, child, closed, blocker);
-        settle(ray);
+        if (!is_active(group, ray))
+            return;
+        blockers_of_ray<F>(tree, slabs, group, ray, child, closed, blocker);
+        if (!is_active(group, ray))
+            end(ray);
     }
 
 private:
     /// No box is met before a ray that has ended.
-    void settle(int ray) const
+    void end(int ray) const
     {
-        if (!is_active(group, ray))
-            group.t[ray] = static_cast<Real>(-__builtin_inf());
+        group.t[ray] = static_cast<Real>(-__builtin_inf());
     }
 };
 
-/// Takes the active rays of cells that share no way in lists.
+/// The active rays of cells that share no way.
 template <abi::Features F, class Real, class Blocker>
 inline void blockers_of_others(const abi::BvhView<Real>& tree, RayGroup<Real>& group,
                                std::uint32_t cells, bool closed, const Blocker& blocker)
 {
     SlabRays slabs;
-    OctantLists octants;
-    list_rays(octants, slabs, tree, group, cells);
-    const BlockersOfListed<F, Real, Blocker> visit{tree, slabs, group, closed, blocker};
-    ListWalk<Real, BlockersOfListed<F, Real, Blocker>> lists(tree, slabs, group, visit);
-    octants.for_each(
-        [&](int octant, const std::uint8_t* rays, int count) { lists.walk(octant, rays, count); });
+    walk_in_lists(tree, slabs, group, cells,
+                  BlockersOfListed<F, Real, Blocker>{tree, slabs, group, closed, blocker});
 }
 
 /// Meets the active rays of a group with what blocks them in the hierarchy.

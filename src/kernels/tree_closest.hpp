@@ -162,8 +162,9 @@ private:
 /// The same for the coherent cells of a group.
 template <abi::Features F, class Real>
 inline void closest_of_cells(const abi::BvhView<Real>& tree, RayGroup<Real>& group,
-                             CellBounds& bounds, SlabRays& slabs)
+                             CellBounds& bounds)
 {
+    SlabRays slabs;
     start_coherent(bounds, group);
     walk_cells(tree, bounds, bounds.coherent, ClosestInTree<F, Real>(tree, group, bounds, slabs));
 }

@@ -189,5 +189,18 @@ private:
     std::uint8_t lists_[list_room];
 };
 
+/// Takes the active rays of cells in lists of one octant each; `slabs` is the one that `visit`
+/// sees.
+template <class Real, class Visit>
+inline void walk_in_lists(const abi::BvhView<Real>& tree, SlabRays& slabs,
+                          const RayGroup<Real>& group, std::uint32_t cells, const Visit& visit)
+{
+    OctantLists octants;
+    list_rays(octants, slabs, tree, group, cells);
+    ListWalk<Real, Visit> lists(tree, slabs, group, visit);
+    octants.for_each(
+        [&](int octant, const std::uint8_t* rays, int count) { lists.walk(octant, rays, count); });
+}
+
 }  // namespace
 }  // namespace packtrace::PACKTRACE_ISA

@@ -213,8 +213,13 @@ void PackedShapes<Real>::pack_forms(const LoweredScene& lowered)
     });
     if (!many_spheres_)
         return;
-    for (const LoweredSphere& sphere : lowered.spheres)
-        sharpened_spheres_ = std::max(sharpened_spheres_, sharpened(lowered, sphere.surface));
+    // All that are sharpened are so alike: the first says it.
+    const auto first = std::find_if(
+        lowered.spheres.begin(), lowered.spheres.end(), [&](const LoweredSphere& sphere) {
+            return sharpened(lowered, sphere.surface) != abi::Sharpened::nothing;
+        });
+    if (first != lowered.spheres.end())
+        sharpened_spheres_ = sharpened(lowered, first->surface);
     most_sharpened_ = std::max(most_sharpened_, sharpened_spheres_);
 }
 

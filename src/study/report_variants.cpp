@@ -34,36 +34,37 @@ Variant packets(const IsaInfo& isa, const std::string& precision, int depth)
     return variant;
 }
 
-// Packets in another accuracy mode than the usual one.
-Variant in_mode(Variant variant, Accuracy accuracy, const ReportOptions& options)
+// Packets of singles beside the usual ones; `how` names what is other with them.
+Variant beside(Variant variant, const std::string& how, const ReportOptions& options)
 {
     variant.study = Study::arithmetic;
+    variant.threads = options.threads.front();
+    variant.name =
+        "packets " + variant.isa + " single " + how + ", " + threads_text(variant.threads);
+    return variant;
+}
+
+// In another accuracy mode than the usual one.
+Variant in_mode(const Variant& usual, Accuracy accuracy, const ReportOptions& options)
+{
+    Variant variant = beside(usual, name_of(accuracy), options);
     variant.accuracy = accuracy;
-    variant.threads = options.threads.front();
-    variant.name = "packets " + variant.isa + " single " + name_of(accuracy) + ", " +
-                   threads_text(variant.threads);
     return variant;
 }
 
-// Packets whose rays start a fixed 0.001 along their way, as the notes have it.
-Variant by_note(Variant variant, const ReportOptions& options)
+// With rays that start a fixed 0.001 along their way, as the notes have it.
+Variant by_note(const Variant& usual, const ReportOptions& options)
 {
-    variant.study = Study::arithmetic;
+    Variant variant = beside(usual, "from 0.001", options);
     variant.self_hits = SelfHits::note;
-    variant.threads = options.threads.front();
-    variant.name =
-        "packets " + variant.isa + " single from 0.001, " + threads_text(variant.threads);
     return variant;
 }
 
-// Packets by the kernel that knows everything.
-Variant by_general(Variant variant, const ReportOptions& options)
+// By the kernel that knows everything.
+Variant by_general(const Variant& usual, const ReportOptions& options)
 {
-    variant.study = Study::arithmetic;
+    Variant variant = beside(usual, "general kernel", options);
     variant.general = true;
-    variant.threads = options.threads.front();
-    variant.name =
-        "packets " + variant.isa + " single general kernel, " + threads_text(variant.threads);
     return variant;
 }
 
