@@ -163,7 +163,7 @@ TEST_CASE("an infinite error is white and does not set the heat map's scale", "[
     a.pixel(0, 0)[0] = nan;
     a.pixel(1, 0)[0] = 1e-3;
     const Image<float> map = heatmap(a, b);
-    CHECK(map.rgb == std::vector<float>{1, 1, 1, 1, 1, 1, 0, 0, 0});
+    CHECK(map.rgb == Image<float>::Pixels{1, 1, 1, 1, 1, 1, 0, 0, 0});
 }
 
 TEST_CASE("packtrace compare prints the distance of two files", "[compare]")

@@ -2,6 +2,7 @@
 
 #include <sys/resource.h>
 
+#include <algorithm>
 #include <bit>
 #include <cmath>
 #include <csignal>
@@ -24,13 +25,15 @@ using test::read_text;
 using test::TempFolder;
 using test::write_text;
 
+using Pixels = Image<float>::Pixels;
+
 constexpr float inf = std::numeric_limits<float>::infinity();
 constexpr float nan = std::numeric_limits<float>::quiet_NaN();
 
-Image<float> image_of(int width, int height, std::vector<float> values)
+Image<float> image_of(int width, int height, const std::vector<float>& values)
 {
     Image<float> image(width, height);
-    image.rgb = std::move(values);
+    image.rgb.assign(values.begin(), values.end());
     return image;
 }
 
@@ -95,6 +98,21 @@ std::vector<std::uint32_t> bits(const Image<float>& image)
 
 }  // namespace
 
+TEST_CASE("a new picture is black, in huge pages or not", "[image]")
+{
+    for (const int edge : {1, 3, 700}) {
+        {
+            Image<float> dirty(edge, edge);
+            dirty.rgb.assign(dirty.rgb.size(), 7.0f);
+        }
+        const Image<float> image(edge, edge);
+        REQUIRE(image.rgb.size() == static_cast<std::size_t>(edge * edge * 3));
+        CHECK(std::all_of(image.rgb.begin(), image.rgb.end(), [](float v) { return v == 0.0f; }));
+        CHECK(reinterpret_cast<std::uintptr_t>(image.rgb.data()) % 64 == 0);
+        CHECK(Image<float>::unset(edge, edge).rgb.size() == image.rgb.size());
+    }
+}
+
 TEST_CASE("every 8-bit value survives a PNG", "[image]")
 {
     const TempFolder folder;
@@ -116,7 +134,7 @@ TEST_CASE("a PNG clamps, rounds to the nearest and has no NaN", "[image]")
     write_image(folder / "a.png", image_of(3, 1,
                                            {nan, inf, -inf, -1.0f, 2.0f, 0.5f, 0.4999f / 255,
                                             0.5001f / 255, 254.4f / 255}));
-    const std::vector<float> expected{0, 1, 0, 0, 1, 128.0f / 255, 0, 1.0f / 255, 254.0f / 255};
+    const Pixels expected{0, 1, 0, 0, 1, 128.0f / 255, 0, 1.0f / 255, 254.0f / 255};
     CHECK(read_image(folder / "a.png").rgb == expected);
 }
 
@@ -124,7 +142,7 @@ TEST_CASE("gamma raises a PNG's values to its inverse", "[image]")
 {
     const TempFolder folder;
     write_image(folder / "a.png", image_of(1, 1, {0.25f, nan, -0.25f}), {.gamma = 2.0});
-    CHECK(read_image(folder / "a.png").rgb == std::vector<float>{128.0f / 255, 0, 0});
+    CHECK(read_image(folder / "a.png").rgb == Pixels{128.0f / 255, 0, 0});
     for (const double bad : {0.0, -1.0, std::nan(""), static_cast<double>(inf)})
         CHECK_THROWS_AS(write_image(folder / "b.png", gradient(1, 1), {.gamma = bad}),
                         std::invalid_argument);
@@ -179,9 +197,9 @@ TEST_CASE("a PFM is read in either byte order, in grey, and scaled", "[image]")
 {
     const TempFolder folder;
     write_text(folder / "big.pfm", "PF\n1 1\n1.0\n\x3f\x80\0\0\x40\0\0\0\xbf\0\0\0"s);
-    CHECK(read_image(folder / "big.pfm").rgb == std::vector<float>{1.0f, 2.0f, -0.5f});
+    CHECK(read_image(folder / "big.pfm").rgb == Pixels{1.0f, 2.0f, -0.5f});
     write_text(folder / "grey.pfm", "Pf 2 1 -2\n\0\0\x80\x3f\0\0\0\xbf"s);
-    CHECK(read_image(folder / "grey.pfm").rgb == std::vector<float>{2, 2, 2, -1, -1, -1});
+    CHECK(read_image(folder / "grey.pfm").rgb == Pixels{2, 2, 2, -1, -1, -1});
 }
 
 TEST_CASE("a wrong PFM is refused with the reason", "[image]")

@@ -74,10 +74,10 @@ LoweredScene lower_on(int threads, const Scene& scene)
     return arena.execute([&] { return lower(scene); });
 }
 
-template <class T>
-bool same_bytes(const std::vector<T>& a, const std::vector<T>& b)
+template <class Elements>
+bool same_bytes(const Elements& a, const Elements& b)
 {
-    return a.size() == b.size() && std::memcmp(a.data(), b.data(), a.size() * sizeof(T)) == 0;
+    return a.size() == b.size() && std::memcmp(a.data(), b.data(), a.size() * sizeof(a[0])) == 0;
 }
 
 template <class Object>

@@ -128,12 +128,12 @@ Rays<Real> many_rays(int count, unsigned seed)
     return rays;
 }
 
-template <class Element>
-std::size_t differing(const std::vector<Element>& a, const std::vector<Element>& b)
+template <class Elements>
+std::size_t differing(const Elements& a, const Elements& b)
 {
     std::size_t count = 0;
     for (std::size_t i = 0; i < a.size(); ++i)
-        if (std::memcmp(&a[i], &b[i], sizeof(Element)) != 0)
+        if (std::memcmp(&a[i], &b[i], sizeof(a[i])) != 0)
             ++count;
     return count;
 }

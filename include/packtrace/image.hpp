@@ -3,20 +3,35 @@
 #include <cstddef>
 #include <vector>
 
+#include <packtrace/huge_pages.hpp>
+
 namespace packtrace {
 
 /// A picture of linear RGB values, 1.0 for full, not clamped; rows from the top, pixels
 /// interleaved as r, g, b.
 template <class Real>
 struct Image {
+    using Pixels = std::vector<Real, HugePageAllocator<Real>>;
+
     int width = 0;   ///< pixels
     int height = 0;  ///< pixels
-    std::vector<Real> rgb;
+    Pixels rgb;
 
     Image() = default;
-    Image(int w, int h)
-        : width(w), height(h), rgb(static_cast<std::size_t>(w) * static_cast<std::size_t>(h) * 3)
+    /// Black.
+    Image(int w, int h) : Image(unset(w, h))
     {
+        rgb.assign(rgb.size(), Real(0));
+    }
+
+    /// Pixels of any colour, for who fills them all.
+    [[nodiscard]] static Image unset(int w, int h)
+    {
+        Image image;
+        image.width = w;
+        image.height = h;
+        image.rgb.resize(static_cast<std::size_t>(w) * static_cast<std::size_t>(h) * 3);
+        return image;
     }
 
     [[nodiscard]] Real* pixel(int x, int y)
@@ -34,7 +49,7 @@ struct Image {
 template <class To, class From>
 [[nodiscard]] Image<To> convert(const Image<From>& from)
 {
-    Image<To> to(from.width, from.height);
+    auto to = Image<To>::unset(from.width, from.height);
     for (std::size_t i = 0; i < from.rgb.size(); ++i)
         to.rgb[i] = static_cast<To>(from.rgb[i]);
     return to;

@@ -58,7 +58,7 @@ template <class Real>
 FrameCounts FrameRenderer<Real>::render(Image<Real>& image) const
 {
     if (image.width != width_ || image.height != height_)
-        image = Image<Real>(width_, height_);
+        image = Image<Real>::unset(width_, height_);
     if (options_.threads == 0)
         return render_tiles(image);
     tbb::task_arena arena(options_.threads);

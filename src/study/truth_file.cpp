@@ -11,7 +11,7 @@ namespace {
 
 constexpr const char* magic = "packtrace-truth-1";
 
-std::string_view bytes_of(const std::vector<double>& values)
+std::string_view bytes_of(const Image<double>::Pixels& values)
 {
     return {reinterpret_cast<const char*>(values.data()), values.size() * sizeof(double)};
 }
