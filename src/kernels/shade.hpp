@@ -91,7 +91,9 @@ inline void shade_packet(const ShadeContext<F, Real>& context, const HitStream<F
     const PathPacket<Real> path{load_weight(hits, first), load(hits.pixel + first),
                                 load_path(hits, first)};
     const PacketProbe<F.probe, Real> probe = packet_probe(hits, path, active);
-    const SurfacePacket<Real> surface = surface_of<F>(*context.scene, hits, first, active);
+    const SurfacePacket<Real> surface = context.surfaces != nullptr
+                                            ? context.surfaces[first / lanes<Real>]
+                                            : surface_of<F>(*context.scene, hits, first, active);
     const MaterialPacket<Real> material = fetch_materials(*context.scene, surface.material, active);
 
     Vec3v<Real> color = local_color<F>(context, surface, material, probe, active, first);

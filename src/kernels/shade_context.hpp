@@ -3,6 +3,7 @@
 #include "kernel_abi/kernel_table.hpp"
 #include "kernels/light_shadows.hpp"
 #include "kernels/object_lists.hpp"
+#include "kernels/surface.hpp"
 
 namespace packtrace::PACKTRACE_ISA {
 namespace {
@@ -20,6 +21,8 @@ struct ShadeContext {
     const abi::SceneView<Real>* scene;
     /// For each light, what may stand between it and the hits; of directional ones spheres alone.
     const SharedOriginObjects<Real>* blockers;
+    /// The surfaces at the hits, by packet; null where shading alone looks at them.
+    const SurfacePacket<Real>* surfaces;
     /// For each light, what the hits see of it; null where packets find out by themselves.
     const LightShadows<F, Real>* shadows;
     int depth;  ///< reflections and refractions before these hits

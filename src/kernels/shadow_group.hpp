@@ -19,7 +19,7 @@ inline void gather_shadow_rays(const ShadeContext<F, Real>& context, const HitSt
     const abi::LightRecord<Real>& record = scene.lights.data[light];
     for (int first = 0; first < hits.count; first += lanes<Real>) {
         const std::uint32_t active = first_lanes<Real>(hits.count - first);
-        const SurfacePacket<Real> surface = surface_of<F>(scene, hits, first, active);
+        const SurfacePacket<Real>& surface = context.surfaces[first / lanes<Real>];
         const MaterialPacket<Real> material = fetch_materials(scene, surface.material, active);
         const LightPacket<Real> packet = light_at<F>(record, surface, material, active);
         with_shadow_ray(context, light, packet, surface,

@@ -44,7 +44,17 @@ inline void find_blockers(const TileRun<F, Real>& run)
     }
 }
 
-/// For a scene with a hierarchy, what the hits see of each light.
+/// For a scene with a hierarchy, the surfaces at the hits, which every light's rays start from.
+template <abi::Features F, class Real>
+inline void find_surfaces(const TileRun<F, Real>& run)
+{
+    const HitStream<F, Real>& hits = run.work.memory->hits;
+    for (int first = 0; first < hits.count; first += lanes<Real>)
+        run.work.surfaces[first / lanes<Real>] =
+            surface_of<F>(run.scene, hits, first, first_lanes<Real>(hits.count - first));
+}
+
+/// What the hits see of each light there.
 template <abi::Features F, class Real>
 inline void find_shadows(const TileRun<F, Real>& run, const ShadeContext<F, Real>& context)
 {
@@ -78,14 +88,18 @@ inline void join_children(const TileRun<F, Real>& run, RayStream<F, Real>& next,
 template <PixelWrite Write, abi::Features F, class Real>
 inline RayStream<F, Real>* shade_chunk(const TileRun<F, Real>& run, int depth)
 {
-    const ShadeContext<F, Real> context{&run.scene, run.work.blockers, run.work.shadows, depth,
-                                        &run.counts};
+    const ShadeContext<F, Real> context{
+        &run.scene, run.work.blockers, run.work.surfaces, run.work.shadows, depth, &run.counts};
     const HitStream<F, Real>& hits = run.work.memory->hits;
     if (hits.count == 0)
         return nullptr;
     run.counts.stages |= abi::stage_normals;
     if (run.scene.finish != nullptr)
         run.counts.stages |= abi::stage_solved_again;
+    if (run.work.surfaces != nullptr) {
+        begin_span(abi::Span::shade, depth, abi::Part::surface);
+        find_surfaces(run);
+    }
     begin_span(abi::Span::shadows, depth, abi::Part::beams);
     find_blockers(run);
     if (run.work.shadows != nullptr)

@@ -85,6 +85,7 @@ struct Workspace {
     RayStream<F, Real>* streams = nullptr;  ///< of generations 1 … max_depth
     RayStream<F, Real>* refracted = nullptr;
     RayGroup<Real>* group = nullptr;                ///< where the scene has a hierarchy
+    SurfacePacket<Real>* surfaces = nullptr;        ///< at a chunk's hits, likewise
     LightShadows<F, Real>* shadows = nullptr;       ///< of each light, likewise
     SharedOriginObjects<Real> visible;              ///< from the camera
     SharedOriginObjects<Real>* blockers = nullptr;  ///< from each light
@@ -103,8 +104,10 @@ struct Workspace {
         const std::size_t shadowed = count_shadowed(scene);
         if (!scene.tree.empty())
             group = arena.take<RayGroup<Real>>(1);
-        if (!scene.tree.empty() && shadowed > 0)
+        if (!scene.tree.empty() && shadowed > 0) {
+            surfaces = arena.take<SurfacePacket<Real>>(chunk_rays / lanes<Real>);
             shadows = arena.take<LightShadows<F, Real>>(lights);
+        }
         visible = take_objects(arena, scene);
         if (shadowed > 0)
             blockers = arena.take<SharedOriginObjects<Real>>(lights);
