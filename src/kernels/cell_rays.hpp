@@ -9,10 +9,10 @@ namespace {
 
 /// A group's rays as boxes see them, cell by cell, filled when a cell first needs it.
 struct SlabRays {
-    alignas(32) float near_org[3][group_rays];  ///< moved so that boxes seem nearer
+    alignas(32) float near_org[3][group_rays];  ///< times inv; moved so that boxes seem nearer
     alignas(32) float far_org[3][group_rays];   ///< and further
-    alignas(32) float inv[3][group_rays];
-    std::uint32_t filled = 0;  ///< a bit a cell
+    alignas(32) float inv[3][group_rays];       ///< 1 / direction
+    std::uint32_t filled = 0;                   ///< a bit a cell
 };
 
 template <class Real>
@@ -45,8 +45,8 @@ inline void fill_cell(SlabRays& slabs, const RayGroup<Real>& group, int cell, fl
             const Eight near = by_sign(inv, org + pad, org - pad);
             const Eight far = by_sign(inv, org - pad, org + pad);
             store8(slabs.inv[axis] + first, by_sign(reckoned, Eight(1.0f), inv));
-            store8(slabs.near_org[axis] + first, by_sign(reckoned, Eight(open_axis), near));
-            store8(slabs.far_org[axis] + first, by_sign(reckoned, Eight(-open_axis), far));
+            store8(slabs.near_org[axis] + first, by_sign(reckoned, Eight(open_axis), near * inv));
+            store8(slabs.far_org[axis] + first, by_sign(reckoned, Eight(-open_axis), far * inv));
         }
     }
 }
@@ -66,8 +66,8 @@ inline std::uint32_t meet_rays(const SlabRays& slabs, const RayGroup<Real>& grou
             const Eight inv = load8(slabs.inv[axis] + first);
             const Eight enter = by_sign(inv, Eight(low[axis]), Eight(high[axis]));
             const Eight leave = by_sign(inv, Eight(high[axis]), Eight(low[axis]));
-            t_near = max8((enter - load8(slabs.near_org[axis] + first)) * inv, t_near);
-            t_far = min8((leave - load8(slabs.far_org[axis] + first)) * inv, t_far);
+            t_near = max8(about_msub(enter, inv, load8(slabs.near_org[axis] + first)), t_near);
+            t_far = min8(about_msub(leave, inv, load8(slabs.far_org[axis] + first)), t_far);
         }
         hits |= less_equal8(t_near, t_far) << part;
     }

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "kernels/cell_rays.hpp"
+#include "kernels/copy_rays.hpp"
 
 // Rays of one octant of directions through the hierarchy, listed by the boxes they meet: a node is
 // looked at once for all of them, and no ray waits for another's branches (Barringer and
@@ -43,8 +44,8 @@ inline SlabHits meet_boxes(const FacingBoxes& boxes, const SlabRays& slabs, int 
     Eight t_far(t_max);
     for (int axis = 0; axis < 3; ++axis) {
         const Eight inv(slabs.inv[axis][ray]);
-        t_near = max8((boxes.enter[axis] - Eight(slabs.near_org[axis][ray])) * inv, t_near);
-        t_far = min8((boxes.leave[axis] - Eight(slabs.far_org[axis][ray])) * inv, t_far);
+        t_near = max8(about_msub(boxes.enter[axis], inv, Eight(slabs.near_org[axis][ray])), t_near);
+        t_far = min8(about_msub(boxes.leave[axis], inv, Eight(slabs.far_org[axis][ray])), t_far);
     }
     return {t_near, less_equal8(t_near, t_far)};
 }
@@ -172,10 +173,7 @@ private:
             const int slot = children.slot[child];
             fetch_child(tree_, node.child[slot]);
             const int first = end;
-            for (int i = 0; i < entry.count; ++i) {
-                lists_[end] = rays[i];
-                end += met[i] >> slot & 1;
-            }
+            end += copy_rays(lists_ + end, rays, met, entry.count, slot);
             push(node.child[slot], first, end - first);
         }
     }
@@ -186,7 +184,7 @@ private:
     const Visit& visit_;
     int size_ = 0;
     ListEntry entries_[walk_stack];
-    std::uint8_t lists_[list_room];
+    std::uint8_t lists_[list_room + copy_step];
 };
 
 /// Takes the active rays of cells in lists of one octant each; `slabs` is the one that `visit`

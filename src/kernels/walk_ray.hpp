@@ -9,9 +9,9 @@ namespace {
 
 /// A ray as the boxes see it, in single precision with room for rounding.
 struct SlabRay {
-    float near_org[3];  ///< moved so that boxes seem nearer
+    float near_org[3];  ///< times inv; moved so that boxes seem nearer
     float far_org[3];   ///< and further
-    float inv[3];
+    float inv[3];       ///< 1 / direction
     float t_max;
     int near_row[3];  ///< of BvhNode's rows low x, y, z, high x, y, z: where the ray enters
 };
@@ -26,10 +26,12 @@ inline SlabHits meet_boxes(const SlabRay& ray, const abi::BvhNode& node)
         const Eight inv(ray.inv[axis]);
         const int near = ray.near_row[axis];
         const int far = 2 * axis + 3 - near;
-        t_near = max8((load8(planes + near * abi::node_width) - Eight(ray.near_org[axis])) * inv,
-                      t_near);
+        t_near =
+            max8(about_msub(load8(planes + near * abi::node_width), inv, Eight(ray.near_org[axis])),
+                 t_near);
         t_far =
-            min8((load8(planes + far * abi::node_width) - Eight(ray.far_org[axis])) * inv, t_far);
+            min8(about_msub(load8(planes + far * abi::node_width), inv, Eight(ray.far_org[axis])),
+                 t_far);
     }
     return {t_near, less_equal8(t_near, t_far)};
 }
