@@ -1,5 +1,6 @@
 #pragma once
 
+#include "kernels/child_order.hpp"
 #include "kernels/observe.hpp"
 #include "kernels/slab.hpp"
 
@@ -31,17 +32,9 @@ public:
     {
         return entries_[--size_];
     }
-    int size() const
+    void push(const WalkEntry& entry)
     {
-        return size_;
-    }
-    /// Puts `entry` in above `bottom`, so that nearer ones come out earlier.
-    void insert(int bottom, const WalkEntry& entry)
-    {
-        int at = size_++;
-        for (; at > bottom && entries_[at - 1].t_near < entry.t_near; --at)
-            entries_[at] = entries_[at - 1];
-        entries_[at] = entry;
+        entries_[size_++] = entry;
     }
 
 private:
@@ -77,11 +70,12 @@ inline void push_children(WalkStack& stack, const abi::BvhView<Real>& tree, std:
         return;
     alignas(32) float t_near[abi::node_width];
     store8(t_near, slabs.t_near);
-    const int bottom = stack.size();
-    for (std::uint32_t left = slabs.hits; left != 0; left &= left - 1) {
-        const auto slot = static_cast<std::uint16_t>(__builtin_ctz(left));
+    const ChildOrder order(slabs.hits, slabs.t_near);
+    for (int i = 0; i < order.count; ++i) {
+        const int slot = order.slot[i];
         fetch_child(tree, node.child[slot]);
-        stack.insert(bottom, {index, slot, static_cast<std::uint16_t>(cells), t_near[slot]});
+        stack.push({index, static_cast<std::uint16_t>(slot), static_cast<std::uint16_t>(cells),
+                    t_near[slot]});
     }
 }
 

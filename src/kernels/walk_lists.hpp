@@ -50,25 +50,6 @@ inline SlabHits meet_boxes(const FacingBoxes& boxes, const SlabRays& slabs, int 
     return {t_near, less_equal8(t_near, t_far)};
 }
 
-/// The children of a node that any ray meets, the furthest first.
-struct ListedChildren {
-    int slot[abi::node_width];
-    int count = 0;
-
-    ListedChildren(std::uint32_t met, Eight nearest)
-    {
-        alignas(32) float t_near[abi::node_width];
-        store8(t_near, nearest);
-        for (; met != 0; met &= met - 1) {
-            const int next = __builtin_ctz(met);
-            int at = count++;
-            for (; at > 0 && t_near[slot[at - 1]] < t_near[next]; --at)
-                slot[at] = slot[at - 1];
-            slot[at] = next;
-        }
-    }
-};
-
 /// The rays of a group by the octant of their directions.
 class OctantLists {
 public:
@@ -167,7 +148,7 @@ private:
             any |= hits.hits;
             nearest = min8(nearest, hits.t_near);
         }
-        const ListedChildren children(any, nearest);
+        const ChildOrder children(any, nearest);
         int end = entry.first;
         for (int child = 0; child < children.count; ++child) {
             const int slot = children.slot[child];

@@ -44,18 +44,6 @@ struct RayEntry {
 
 class RayStack {
 public:
-    int size() const
-    {
-        return size_;
-    }
-    /// Puts a child in above `bottom`, so that nearer ones come out earlier.
-    void insert(int bottom, std::uint32_t child, float t_near)
-    {
-        int at = size_++;
-        for (; at > bottom && entries_[at - 1].t_near < t_near; --at)
-            entries_[at] = entries_[at - 1];
-        entries_[at] = {child, t_near};
-    }
     void push(std::uint32_t child, float t_near)
     {
         entries_[size_++] = {child, t_near};
@@ -109,16 +97,15 @@ inline bool enter_node(const abi::BvhNode& node, const SlabRay& ray, const Fetch
         child = node.child[near];
         return true;
     }
-    for (std::uint32_t met = slabs.hits; met != 0; met &= met - 1)
-        fetch(node.child[__builtin_ctz(met)]);
-    const int bottom = stack.size();
-    stack.insert(bottom, node.child[first], t_near[first]);
-    stack.insert(bottom, node.child[second], t_near[second]);
-    for (; left != 0; left &= left - 1) {
-        const int slot = __builtin_ctz(left);
-        stack.insert(bottom, node.child[slot], t_near[slot]);
+    const ChildOrder order(slabs.hits, slabs.t_near);
+    for (int i = 0; i < order.count - 1; ++i) {
+        const int slot = order.slot[i];
+        fetch(node.child[slot]);
+        stack.push(node.child[slot], t_near[slot]);
     }
-    return stack.pop(no_end, child);
+    child = node.child[order.slot[order.count - 1]];
+    fetch(child);
+    return true;
 }
 
 /// Calls `leaf(child)` for the leaves below `child` that the ray may meet, nearest first as far as
