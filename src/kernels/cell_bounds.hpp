@@ -188,10 +188,12 @@ inline void leave_out(CellRange& range, std::uint32_t cells)
     }
 }
 
-/// The bounds of a group's active rays, to meet the boxes of a hierarchy.
+/// The bounds of a group's active rays, to meet the boxes of a hierarchy. Cells are coherent up to
+/// `spread` (abi::BvhView).
 template <class Real>
 inline void bound_cells(CellBounds& bounds, const RayGroup<Real>& group,
-                        const abi::BvhView<Real>& tree, Cells wanted = Cells::coherent)
+                        const abi::BvhView<Real>& tree, float spread,
+                        Cells wanted = Cells::coherent)
 {
     CellRange org[3];
     CellRange dir[3];
@@ -199,7 +201,7 @@ inline void bound_cells(CellBounds& bounds, const RayGroup<Real>& group,
         find_cells(dir[axis], group.dir[axis], group);
     bounds.coherent = active_cells(group);
     if (wanted == Cells::coherent)
-        bounds.coherent &= coherent_cells(dir, tree.spread);
+        bounds.coherent &= coherent_cells(dir, spread);
     if (bounds.coherent == 0)
         return;
     const std::uint32_t others = ~bounds.coherent & ((1u << group_cells) - 1u);

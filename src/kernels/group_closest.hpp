@@ -39,7 +39,7 @@ template <abi::Features F, class Real>
 {
     const PartScope part(abi::Part::boxes);
     CellBounds bounds;
-    bound_cells(bounds, group, tree);
+    bound_cells(bounds, group, tree, tree.spread);
     if (bounds.coherent != 0)
         closest_of_cells<F>(tree, group, bounds);
     const std::uint32_t others = active_cells(group) & ~bounds.coherent;

@@ -166,6 +166,10 @@ inline void blockers_of_others(const abi::BvhView<Real>& tree, RayGroup<Real>& g
                   BlockersOfListed<F, Real, Blocker>{tree, slabs, group, closed, blocker});
 }
 
+/// Lists are let go of rays that are blocked, beams are not: cells go in lists earlier than where
+/// closest hits are looked for; results/tree_designs.json.
+inline constexpr float blocked_spread = 0.7f;
+
 /// Meets the active rays of a group with what blocks them in the hierarchy.
 template <abi::Features F, class Real, class Blocker>
 [[gnu::noinline]] void visit_blockers_in_tree(const abi::BvhView<Real>& tree, RayGroup<Real>& group,
@@ -173,7 +177,7 @@ template <abi::Features F, class Real, class Blocker>
 {
     const PartScope part(abi::Part::boxes);
     CellBounds bounds;
-    bound_cells(bounds, group, tree);
+    bound_cells(bounds, group, tree, blocked_spread * tree.spread);
     const std::uint32_t others = active_cells(group) & ~bounds.coherent;
     if (bounds.coherent != 0)
         blockers_of_cells<F>(tree, group, bounds, closed, blocker);

@@ -78,7 +78,7 @@ inline void visit_crossings_in_tree(const abi::BvhView<Real>& tree, const RayGro
                                     const Visit& visit)
 {
     CellBounds bounds;
-    bound_cells(bounds, group, tree, Cells::all);
+    bound_cells(bounds, group, tree, tree.spread, Cells::all);
     start_coherent(bounds, group);
     walk_cells(tree, bounds, bounds.coherent,
                CrossingsInTree<F, Real, Visit>(tree, group, bounds, visit));
