@@ -98,7 +98,7 @@ std::vector<std::uint32_t> bits(const Image<float>& image)
 
 }  // namespace
 
-TEST_CASE("a new picture is black, in huge pages or not", "[image]")
+TEST_CASE("a new picture is black, unless it is to be filled", "[image]")
 {
     for (const int edge : {1, 3, 700}) {
         {
@@ -108,7 +108,6 @@ TEST_CASE("a new picture is black, in huge pages or not", "[image]")
         const Image<float> image(edge, edge);
         REQUIRE(image.rgb.size() == static_cast<std::size_t>(edge * edge * 3));
         CHECK(std::all_of(image.rgb.begin(), image.rgb.end(), [](float v) { return v == 0.0f; }));
-        CHECK(reinterpret_cast<std::uintptr_t>(image.rgb.data()) % 64 == 0);
         CHECK(Image<float>::unset(edge, edge).rgb.size() == image.rgb.size());
     }
 }

@@ -3,7 +3,7 @@
 #include <cstddef>
 #include <vector>
 
-#include <packtrace/huge_pages.hpp>
+#include <packtrace/unset_allocator.hpp>
 
 namespace packtrace {
 
@@ -11,7 +11,7 @@ namespace packtrace {
 /// interleaved as r, g, b.
 template <class Real>
 struct Image {
-    using Pixels = std::vector<Real, HugePageAllocator<Real>>;
+    using Pixels = std::vector<Real, UnsetAllocator<Real>>;
 
     int width = 0;   ///< pixels
     int height = 0;  ///< pixels
