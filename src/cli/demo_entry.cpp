@@ -25,7 +25,7 @@ void render_packets(const Scene& scene, DemoEntry& entry)
     options.isa = entry.isa;
     options.threads = entry.threads;
     const Renderer<Real> renderer(scene, options);
-    Image<Real> image(scene.width, scene.height);
+    Image<Real> image;
     // A renderer's first frame pays for the memory that later ones reuse.
     entry.rays = renderer.render(image).total();
     entry.seconds.push_back(seconds_of([&] { static_cast<void>(renderer.render(image)); }));

@@ -20,7 +20,7 @@ Image<Real> render(const Scene& scene, const RenderOptions& options)
             "precision: packets come in single and double only; "
             "use the scalar kernel for extended");
     } else {
-        Image<Real> image(scene.width, scene.height);
+        Image<Real> image;
         (void)Renderer<Real>(scene, options).render(image);
         return image;
     }
