@@ -4,6 +4,7 @@
 #include <cmath>
 #include <cstddef>
 #include <cstring>
+#include <limits>
 #include <random>
 
 #include <tbb/task_arena.h>
@@ -48,8 +49,31 @@ std::vector<BvhItem> along_a_line(int count, float ratio)
     return items;
 }
 
+/// Every other item far away along some axis, on either side, with faces at `low` and `high`.
+std::vector<BvhItem> far_apart(float low, float high)
+{
+    std::vector<BvhItem> items = scattered(100, 1);
+    for (std::size_t i = 0; i < items.size(); i += 2) {
+        const std::size_t axis = i / 2 % 3;
+        const bool mirrored = i % 4 == 0;
+        items[i].low[axis] = mirrored ? -high : low;
+        items[i].high[axis] = mirrored ? -low : high;
+    }
+    return items;
+}
+
+std::vector<BvhItem> closest_together()
+{
+    std::vector<BvhItem> items;
+    for (std::uint32_t i = 0; i < 100; ++i)
+        items.push_back(item_at(static_cast<float>(i) * 1e-42f, 0.0f, 0.0f, 0.0f, i));
+    return items;
+}
+
 std::vector<Items> families()
 {
+    constexpr float largest = std::numeric_limits<float>::max();
+    constexpr float inf = std::numeric_limits<float>::infinity();
     return {{"one item", scattered(1, 1)},
             {"eight items", scattered(8, 1)},
             {"nine items", scattered(9, 1)},
@@ -58,6 +82,12 @@ std::vector<Items> families()
             {"a hundred thousand", scattered(100000, 1)},
             {"all in one place", along_a_line(500, 1.0f)},
             {"ever smaller", along_a_line(150, 0.6f)},
+            {"areas that overflow", far_apart(1e25f, 1.1e25f)},
+            {"sums of corners that overflow", far_apart(1.75e38f, 1.76e38f)},
+            {"as far as floats go", far_apart(largest, inf)},
+            {"at infinity", far_apart(inf, inf)},
+            {"without bounds", far_apart(-inf, inf)},
+            {"closer together than numbers with all digits", closest_together()},
             {"flat", std::vector<BvhItem>(300, item_at(2.0f, 2.0f, 2.0f, 0.0f, 0))}};
 }
 
@@ -144,6 +174,23 @@ TEST_CASE("a hierarchy holds every item once, in boxes inside boxes", "[bvh]")
         CHECK(validator.faults == 0);
         CHECK(validator.levels <= abi::bvh_levels);
     }
+}
+
+TEST_CASE("a face at NaN is taken for one at infinity", "[bvh]")
+{
+    constexpr float nan = std::numeric_limits<float>::quiet_NaN();
+    constexpr float inf = std::numeric_limits<float>::infinity();
+    std::vector<BvhItem> items = scattered(100, 1);
+    std::vector<BvhItem> unbounded = items;
+    for (std::size_t i = 0; i < items.size(); i += 9)
+        for (int axis = 0; axis < 3; ++axis) {
+            items[i].low[axis] = nan;
+            items[i].high[axis] = nan;
+            unbounded[i].low[axis] = -inf;
+            unbounded[i].high[axis] = inf;
+        }
+    const Bvh bvh = build_bvh(items);
+    CHECK(Validator(bvh, unbounded).faults == 0);
 }
 
 TEST_CASE("a hierarchy of nothing has no nodes", "[bvh]")

@@ -227,6 +227,37 @@ TEST_CASE("lists and hierarchies give the same hits and pictures", "[traversal]"
     compare_on_every_isa(4, 3000, 1);
 }
 
+TEST_CASE("objects too far away for a hierarchy overwrite nothing and hide nothing", "[traversal]")
+{
+    for (const double far : {1e14, 1e16, 1e20, 1.75e38, 3.4e38, 1e39, 1e154, 1e300}) {
+        for (const int apart : {1, 2, 40}) {
+            Scene scene;
+            const Material material = scratch(Rgb(0.5), 50, 0.3);
+            for (int i = 0; i < 80; ++i) {
+                const double x = i % apart == 0 ? (i % 4 < 2 ? far : -far) : i % 20 - 10;
+                const Vec3 center(x, i / 20, 5 + i % 3);
+                if (i % 2 == 0) {
+                    add_sphere(scene, center, 0.5, material);
+                } else {
+                    add_object(scene, quadric_of(2), material);
+                    scene.objects.back().transform =
+                        glm::scale(glm::translate(Mat4(1.0), center), Vec3(0.5, 0.3, 0.4));
+                }
+            }
+            add_plane(scene, {0, 6, 0}, {0.1, -1, 0}, material);
+            for (const IsaInfo& isa : list_isas()) {
+                if (!isa.supported)
+                    continue;
+                INFO(isa.name << ", " << far << ", one in " << apart);
+                RenderOptions options;
+                options.isa = isa.name;
+                compare_traversals(scene, many_rays<float>(500, 7), options);
+                compare_traversals(scene, many_rays<double>(500, 7), options);
+            }
+        }
+    }
+}
+
 TEST_CASE("lists and hierarchies give the same for two hundred scenes", "[traversal][slow]")
 {
     compare_on_every_isa(200, 5000, 1000);

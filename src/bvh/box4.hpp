@@ -44,28 +44,43 @@ inline Float4 load4(const float* from)
     return v;
 }
 
+/// A face at NaN bounds nothing: it counts as infinitely far.
 inline Float4 low_of(const BvhItem& item)
 {
-    return load4(item.low);
+    const Float4 low = load4(item.low);
+    return low == low ? low : Float4{-Box4::inf, -Box4::inf, -Box4::inf, -Box4::inf};
 }
 inline Float4 high_of(const BvhItem& item)
 {
-    return load4(item.high);
+    const Float4 high = load4(item.high);
+    return high == high ? high : Float4{Box4::inf, Box4::inf, Box4::inf, Box4::inf};
 }
-/// Twice the centre of an item's box; the fourth is 0, as the integers there would make numbers
-/// that some processors are slow at.
+
+/// The nearest finite number.
+inline Float4 finite(Float4 a)
+{
+    constexpr float largest = std::numeric_limits<float>::max();
+    constexpr Float4 most{largest, largest, largest, largest};
+    return larger(smaller(a, most), -most);
+}
+
+/// The centre of an item's box, finite whatever the box: halves are added, which cannot overflow.
+/// The fourth is 0, as the integers there would make numbers that some processors are slow at.
 inline Float4 centroid(const BvhItem& item)
 {
     constexpr Int4 first_three{-1, -1, -1, 0};
-    const Float4 sum = low_of(item) + high_of(item);
-    return reinterpret_cast<Float4>(reinterpret_cast<Int4>(sum) & first_three);
+    const Float4 center = 0.5f * finite(low_of(item)) + 0.5f * finite(high_of(item));
+    return reinterpret_cast<Float4>(reinterpret_cast<Int4>(center) & first_three);
 }
 
-/// Half the surface of a box; 0 for an empty one.
+/// Half the surface of a box: 0 for an empty one, infinite for one without bounds.
 inline float half_area(const Box4& box)
 {
+    if (!(box.low[0] <= box.high[0]))
+        return 0.0f;
     const Float4 d = box.high - box.low;
-    return d[0] >= 0 ? d[0] * d[1] + d[1] * d[2] + d[2] * d[0] : 0.0f;
+    const float area = d[0] * d[1] + d[1] * d[2] + d[2] * d[0];
+    return area >= 0.0f ? area : Box4::inf;
 }
 
 }  // namespace packtrace

@@ -8,7 +8,8 @@
 
 namespace packtrace {
 
-/// What a hierarchy is built of: the box of an object, rounded outwards.
+/// What a hierarchy is built of: the box of an object, rounded outwards. Any number is safe:
+/// faces may be infinite, and one at NaN counts as infinitely far.
 struct BvhItem {
     float low[3];
     std::uint32_t number;  ///< the caller's own

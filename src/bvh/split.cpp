@@ -13,7 +13,8 @@ constexpr int bin_count = 16;
 /// Larger ranges are looked at by several threads.
 constexpr std::size_t parallel_items = std::size_t{1} << 15;
 
-/// Which bin of an axis an item falls into.
+/// Which bin of an axis an item falls into. Centres that are too far apart for a float to say how
+/// far all fall into the first, and centres too close together into the first and the last.
 struct Binning {
     Float4 start, scale;
 
@@ -27,9 +28,13 @@ struct Binning {
     }
 
     /// By axis; the fourth says nothing.
-    [[nodiscard]] Int4 operator()(const BvhItem& item) const
+    [[nodiscard]] Int4 operator()(Float4 center) const
     {
-        return __builtin_convertvector((centroid(item) - start) * scale, Int4);
+        constexpr auto last = static_cast<float>(bin_count - 1);
+        const Float4 place = (center - start) * scale;
+        // In this order: NaN is not larger than 0, which puts it into the first bin.
+        const Float4 clamped = smaller(larger(place, Float4{}), Float4{last, last, last, last});
+        return __builtin_convertvector(clamped, Int4);
     }
 };
 
@@ -40,7 +45,7 @@ struct Bins {
     void include(std::span<const BvhItem> items, const Binning& binning)
     {
         for (const BvhItem& item : items) {
-            const Int4 bin = binning(item);
+            const Int4 bin = binning(centroid(item));
             for (int axis = 0; axis < 3; ++axis) {
                 box[axis][bin[axis]].include(low_of(item), high_of(item));
                 ++count[axis][bin[axis]];
@@ -107,15 +112,12 @@ void look_for_cut(const Bins& bins, int axis, Cut& best)
 std::size_t sort_sides(std::span<BvhItem> items, const Binning& binning, const Cut& cut,
                        Box4 (&centroids)[2])
 {
-    const float start = binning.start[cut.axis];
-    const float scale = binning.scale[cut.axis];
-    const auto limit = static_cast<float>(cut.bin);
     std::size_t below = 0;
     for (BvhItem& item : items) {
         const BvhItem here = item;
-        const float place = (here.low[cut.axis] + here.high[cut.axis] - start) * scale;
-        const bool is_below = place < limit;
-        centroids[is_below ? 0 : 1].include(centroid(here), centroid(here));
+        const Float4 center = centroid(here);
+        const bool is_below = binning(center)[cut.axis] < cut.bin;
+        centroids[is_below ? 0 : 1].include(center, center);
         item = items[below];
         items[below] = here;
         below += is_below ? 1 : 0;
@@ -171,7 +173,7 @@ std::pair<BvhRange, BvhRange> split(std::span<BvhItem> items, const BvhRange& ra
     for (int axis = 0; axis < 3; ++axis)
         look_for_cut(bins, axis, cut);
     if (cut.axis < 0)
-        return halves(items, range, range.begin + range.count() / 2);
+        return split_number(items, range);
     Box4 centroids[2];
     const std::size_t middle = range.begin + sort_sides(members, binning, cut, centroids);
     BvhRange below{range.begin, middle, {}, centroids[0]};

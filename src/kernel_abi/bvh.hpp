@@ -12,6 +12,10 @@ inline constexpr int node_width = 8;
 /// No hierarchy has more levels of nodes than this.
 inline constexpr int bvh_levels = 48;
 
+/// Rays and boxes with coordinates beyond this are not told apart by the hierarchy's single
+/// precision: such objects stay in lists, and such rays are held against everything.
+inline constexpr float largest_coordinate = 1e15f;
+
 /// Boxes of eight children side by side, single precision in every kernel. They hold what they
 /// bound with room for its rounding to either precision. An absent child's box is inside out.
 struct alignas(64) BvhNode {

@@ -34,8 +34,6 @@ struct CellRange {
 inline constexpr float no_end = __builtin_inff();
 /// An axis along which nothing is known has its origins in [-open_axis, open_axis].
 inline constexpr float open_axis = 1e30f;
-/// Coordinates beyond this are not reckoned with in single precision.
-inline constexpr float largest_coordinate = 1e15f;
 /// Components of directions smaller than this are as good as 0 for rays at least that long.
 inline constexpr float smallest_component = 1e-18f;
 inline constexpr float smallest_length = 1e-12f;
@@ -111,7 +109,7 @@ inline BeamScale beam_scale(const CellRange (&org)[3], const CellRange (&dir)[3]
     }
     reach = reach + Eight(extent);
     const Eight zero(0.0f);
-    const Eight large(largest_coordinate);
+    const Eight large(abi::largest_coordinate);
     Eight reckoned = at_most8(max8(reach, length), large);
     reckoned = by_sign(at_most8(Eight(smallest_length), length), zero, reckoned);
     return {reach, reckoned};
@@ -172,7 +170,7 @@ inline std::uint32_t coherent_cells(const CellRange (&dir)[3], float largest_spr
             length = max8(length, size8(low, high));
             spread = max8(spread, high - low);
         }
-        const std::uint32_t reckoned = less_equal8(length, Eight(largest_coordinate));
+        const std::uint32_t reckoned = less_equal8(length, Eight(abi::largest_coordinate));
         coherent |= (reckoned & less_equal8(spread, Eight(largest_spread) * length)) << first;
     }
     return coherent;

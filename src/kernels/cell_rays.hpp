@@ -33,7 +33,7 @@ inline void fill_cell(SlabRays& slabs, const RayGroup<Real>& group, int cell, fl
             length = max8(length, max8(zero - dir, dir));
         }
         reach = reach + Eight(extent);
-        Eight reckoned = at_most8(max8(reach, length), Eight(largest_coordinate));
+        Eight reckoned = at_most8(max8(reach, length), Eight(abi::largest_coordinate));
         reckoned = by_sign(at_most8(Eight(smallest_length), length), zero, reckoned);
         const Eight pad = Eight(slack) * reach;
         for (int axis = 0; axis < 3; ++axis) {

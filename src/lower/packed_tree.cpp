@@ -56,6 +56,15 @@ BvhItem make_item(const LoweredQuadric& quadric, std::size_t number)
     return make_item(quadric.bound, quadric.box_half, number, quadric_item);
 }
 
+/// Whether single precision reckons with all of a box; not with one at NaN.
+bool within_tree(const Vec3& center, const Vec3& half)
+{
+    bool within = true;
+    for (int axis = 0; axis < 3; ++axis)
+        within = within && std::abs(center[axis]) + half[axis] <= abi::largest_coordinate;
+    return within;
+}
+
 /// Writes items of the objects that fit, in order; returns the end of them.
 template <class Object>
 BvhItem* fill_items(const std::vector<Object>& objects, BvhItem* items)
@@ -119,13 +128,13 @@ double worst_slack(const LoweredScene& lowered)
 
 bool fits_tree(const LoweredSphere& sphere)
 {
-    return !sphere.stiff;
+    return !sphere.stiff && within_tree(sphere.center, Vec3(sphere.radius));
 }
 
 bool fits_tree(const LoweredQuadric& quadric)
 {
     return !quadric.stiff && std::isfinite(quadric.bound_radius) &&
-           quadric.condition < worst_condition;
+           quadric.condition < worst_condition && within_tree(quadric.bound, quadric.box_half);
 }
 
 std::size_t count_tree_objects(const LoweredScene& lowered)
