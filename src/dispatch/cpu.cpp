@@ -4,7 +4,7 @@ namespace packtrace {
 
 // Asked for exactly the features each object is compiled with (kernels.cmake), in the names
 // both g++ and clang take; these also tell whether the operating system saves the registers.
-bool cpu_runs(const std::string& isa)
+bool cpu_runs(std::string_view isa)
 {
 #if defined(__x86_64__)
     __builtin_cpu_init();

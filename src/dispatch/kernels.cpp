@@ -1,6 +1,7 @@
 #include "dispatch/kernels.hpp"
 
 #include <stdexcept>
+#include <string>
 
 namespace packtrace {
 
@@ -22,13 +23,14 @@ const std::vector<const abi::KernelTable*>& all_kernels()
     return tables;
 }
 
-const abi::KernelTable& kernels_of(const std::string& isa)
+const abi::KernelTable& kernels_of(std::string_view isa)
 {
     if (cpu_runs(isa))
         for (const abi::KernelTable* table : all_kernels())
             if (isa == table->isa)
                 return *table;
-    throw std::invalid_argument("no kernels for instruction set '" + isa + "' on this machine");
+    throw std::invalid_argument("no kernels for instruction set '" + std::string(isa) +
+                                "' on this machine");
 }
 
 template <>

@@ -1,7 +1,7 @@
 #pragma once
 
 #include <stdexcept>
-#include <string>
+#include <string_view>
 #include <vector>
 
 #include "kernel_abi/kernel_table.hpp"
@@ -13,11 +13,11 @@ namespace packtrace {
 
 /// Whether this machine, and its operating system, run every instruction `isa` was compiled
 /// with.
-[[nodiscard]] bool cpu_runs(const std::string& isa);
+[[nodiscard]] bool cpu_runs(std::string_view isa);
 
 /// The kernels of an instruction set that list_isas() names as supported. Throws
 /// std::invalid_argument for any other.
-[[nodiscard]] const abi::KernelTable& kernels_of(const std::string& isa);
+[[nodiscard]] const abi::KernelTable& kernels_of(std::string_view isa);
 
 /// The half of a table that works in `Real`.
 template <class Real>
