@@ -4,12 +4,15 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include <cerrno>
 #include <string>
+#include <system_error>
 #include <vector>
 
 namespace packtrace::test {
 
-/// Runs the packtrace program on a terminal of its own and returns what it wrote there.
+/// Runs the packtrace program on a terminal of its own and returns what it wrote there. Throws
+/// std::system_error where there is no terminal to be had.
 [[nodiscard]] inline std::string run_on_terminal(std::vector<std::string> arguments)
 {
     arguments.insert(arguments.begin(), PACKTRACE_CLI);
@@ -20,6 +23,8 @@ namespace packtrace::test {
 
     int terminal = -1;
     const pid_t child = forkpty(&terminal, nullptr, nullptr, nullptr);
+    if (child == -1)
+        throw std::system_error(errno, std::generic_category(), "forkpty");
     if (child == 0) {
         execv(words[0], words.data());
         _exit(127);
