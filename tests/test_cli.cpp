@@ -52,6 +52,10 @@ Words listed_commands()
     return commands;
 }
 
+// Ends a program that works on: seconds of its own processor time, a hundred times what refusals
+// take. Other programs of a busy machine don't count.
+const std::string ends_soon = "ulimit -t 20;";
+
 bool is_one_line(const std::string& text)
 {
     return !text.empty() && text.find('\n') == text.size() - 1;
@@ -251,14 +255,14 @@ TEST_CASE("bad scenes exit 1 with one line, at once, and leave no picture", "[cl
     };
     for (const auto& [name, text] : scenes) {
         write_text(folder / "bad.scene", text);
-        const ProgramResult result = render_small(folder / "bad.scene", folder / "a.png", {});
+        const ProgramResult result =
+            render_small(folder / "bad.scene", folder / "a.png", {}, ends_soon);
         INFO(name << ": " << result.err.substr(0, 200));
         CHECK(result.exit_code == 1);
         CHECK(result.out.empty());
         CHECK(is_one_line(result.err));
         CHECK(result.err.size() < 400);
         CHECK_THAT(result.err, ContainsSubstring("bad.scene:"));
-        CHECK(result.seconds < 1.0);
         CHECK(folder.names() == Words{"bad.scene"});
     }
 }
@@ -287,12 +291,12 @@ TEST_CASE("an output that can't be written is told before the rendering", "[cli]
     for (const auto& [name, reason] : outputs) {
         // A picture that would take minutes.
         const ProgramResult result = run_packtrace({"render", four_spheres, "-o", folder / name,
-                                                    "--size", "20000x20000", "--kernel", "scalar"});
+                                                    "--size", "20000x20000", "--kernel", "scalar"},
+                                                   ends_soon);
         CHECK(result.exit_code == 1);
         CHECK(is_one_line(result.err));
         CHECK_THAT(result.err, ContainsSubstring(name));
         CHECK_THAT(result.err, ContainsSubstring(reason));
-        CHECK(result.seconds < 1.0);
         CHECK(folder.names() == Words{"folder.png"});
     }
 }
@@ -385,7 +389,6 @@ TEST_CASE("a long render shows its progress on a terminal only", "[cli][slow]")
                       "--size",      "1800x1800",  "--kernel",  "scalar",
                       "--precision", "extended",   "--threads", "1"};
     const ProgramResult piped = run_packtrace(words);
-    REQUIRE(piped.seconds > 1.2);
     CHECK(is_one_line(piped.err));
     CHECK(piped.err.find('\r') == std::string::npos);
 

@@ -137,13 +137,15 @@ TEST_CASE("a truth with no more samples than its runs is refused", "[report]")
                       "report: a truth of 4 samples a pixel cannot judge runs of 4; give it more");
 }
 
-TEST_CASE("each run is timed as often as asked, and its median is of these times", "[report]")
+TEST_CASE("each run is timed as often as asked, and its median lies between these times",
+          "[report]")
 {
     for (const StudyReport& study : report(small_scene(), short_options()).studies)
         for (const ReportRun& run : study.runs) {
             REQUIRE(run.seconds.size() == 2);
             CHECK(run.seconds[0] > 0.0);
-            CHECK(run.median == (run.seconds[0] + run.seconds[1]) / 2.0);
+            CHECK(run.median >= std::min(run.seconds[0], run.seconds[1]));
+            CHECK(run.median <= std::max(run.seconds[0], run.seconds[1]));
         }
 }
 
