@@ -1,11 +1,15 @@
 #include "lower/exact_inverse.hpp"
 
-#include <boost/multiprecision/cpp_bin_float.hpp>
-
 namespace packtrace {
 namespace {
 
-using Wide = boost::multiprecision::cpp_bin_float_quad;
+// 113 bits, which compilers bring along: long double has them on 64-bit Arm, not on x86-64.
+#if defined(__SIZEOF_FLOAT128__)
+__extension__ typedef __float128 Wide;
+#else
+using Wide = long double;
+static_assert(__LDBL_MANT_DIG__ == 113);
+#endif
 
 Wide minor_of(const Mat3& m, int column, int row)
 {
