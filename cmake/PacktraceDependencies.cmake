@@ -29,10 +29,11 @@ find_path(PACKTRACE_DEFLATE_DIR libdeflate.h DOC "Folder that holds libdeflate.h
 find_library(PACKTRACE_DEFLATE_LIBRARY deflate DOC "libdeflate")
 packtrace_need(PACKTRACE_DEFLATE_LIBRARY libdeflate-dev)
 
-find_path(PACKTRACE_BOOST_DIR boost/multiprecision/cpp_bin_float.hpp
-          DOC "Folder that holds boost/multiprecision")
-packtrace_need(PACKTRACE_BOOST_DIR libboost-dev)
-
+if(PACKTRACE_BUILD_STUDY)
+    find_path(PACKTRACE_BOOST_DIR boost/multiprecision/cpp_bin_float.hpp
+              DOC "Folder that holds boost/multiprecision")
+    packtrace_need(PACKTRACE_BOOST_DIR libboost-dev)
+endif()
 if(PACKTRACE_BUILD_TESTS)
     find_package(Catch2 CONFIG QUIET)
     packtrace_need(Catch2_FOUND catch2)
@@ -58,6 +59,8 @@ packtrace_header_library(packtrace_pegtl ${PACKTRACE_PEGTL_DIR})
 packtrace_header_library(packtrace_cli11 ${PACKTRACE_CLI11_DIR})
 packtrace_header_library(packtrace_json ${PACKTRACE_JSON_DIR})
 packtrace_header_library(packtrace_stb ${PACKTRACE_STB_DIR})
-packtrace_header_library(packtrace_boost ${PACKTRACE_BOOST_DIR})
 packtrace_header_library(packtrace_deflate ${PACKTRACE_DEFLATE_DIR})
 target_link_libraries(packtrace_deflate INTERFACE ${PACKTRACE_DEFLATE_LIBRARY})
+if(PACKTRACE_BUILD_STUDY)
+    packtrace_header_library(packtrace_boost ${PACKTRACE_BOOST_DIR})
+endif()

@@ -5,22 +5,51 @@
 
 namespace packtrace {
 
-// kernel_list.inc is written by the build: a line KERNELS(isa) for each set compiled in.
+// kernel_list.inc is written by the build: a line KERNELS(isa) for each set compiled in, followed
+// by PROBES(isa) where its probes are, too.
 #define KERNELS(isa)                        \
     namespace isa {                         \
     const abi::KernelTable& kernel_table(); \
     }
+#define PROBES(isa)                           \
+    namespace isa {                           \
+    const abi::ProbeKernels& probe_kernels(); \
+    }
 #include "dispatch/kernel_list.inc"
 #undef KERNELS
+#undef PROBES
+
+namespace {
+
+[[maybe_unused]] void add_probes(const abi::ProbeKernels& probes, abi::KernelTable& table)
+{
+    table.single_precision.kernels[abi::probe_set] = probes.single_precision;
+    table.double_precision.kernels[abi::probe_set] = probes.double_precision;
+}
+
+std::vector<abi::KernelTable> whole_tables()
+{
+    std::vector<abi::KernelTable> tables;
+#define KERNELS(isa) tables.push_back(isa::kernel_table());
+#define PROBES(isa) add_probes(isa::probe_kernels(), tables.back());
+#include "dispatch/kernel_list.inc"
+#undef KERNELS
+#undef PROBES
+    return tables;
+}
+
+}  // namespace
 
 const std::vector<const abi::KernelTable*>& all_kernels()
 {
-    static const std::vector<const abi::KernelTable*> tables = {
-#define KERNELS(isa) &isa::kernel_table(),
-#include "dispatch/kernel_list.inc"
-#undef KERNELS
-    };
-    return tables;
+    static const std::vector<abi::KernelTable> tables = whole_tables();
+    static const std::vector<const abi::KernelTable*> pointers = [] {
+        std::vector<const abi::KernelTable*> result;
+        for (const abi::KernelTable& table : tables)
+            result.push_back(&table);
+        return result;
+    }();
+    return pointers;
 }
 
 const abi::KernelTable& kernels_of(std::string_view isa)

@@ -108,6 +108,12 @@ struct PrecisionTable {
     void (*self_test)(const SelfTestJob<Real>& job) = nullptr;
 };
 
+/// The kernels of Features::probe, which only src/study asks for.
+struct ProbeKernels {
+    FeatureKernels<float> single_precision;
+    FeatureKernels<double> double_precision;
+};
+
 /// What one instruction set offers.
 struct KernelTable {
     const char* isa = nullptr;

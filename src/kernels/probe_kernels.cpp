@@ -8,29 +8,22 @@
 namespace packtrace::PACKTRACE_ISA {
 namespace {
 
-constexpr abi::Features features = abi::feature_sets[abi::probe_set].features;
-static_assert(features.probe);
+constexpr abi::FeatureSet probe = abi::feature_sets[abi::probe_set];
+static_assert(probe.features.probe);
+
+template <class Real>
+constexpr abi::FeatureKernels<Real> kernels()
+{
+    return {probe, scratch_bytes<probe.features, Real>, render_tile<probe.features, Real>, nullptr};
+}
+
+constexpr abi::ProbeKernels both = {kernels<float>(), kernels<double>()};
 
 }  // namespace
 
-std::size_t probe_scratch_bytes(const abi::SceneView<float>& scene)
+const abi::ProbeKernels& probe_kernels()
 {
-    return scratch_bytes<features>(scene);
-}
-
-std::size_t probe_scratch_bytes(const abi::SceneView<double>& scene)
-{
-    return scratch_bytes<features>(scene);
-}
-
-abi::RayCounts probe_tile(const abi::TileJob<float>& job)
-{
-    return render_tile<features>(job);
-}
-
-abi::RayCounts probe_tile(const abi::TileJob<double>& job)
-{
-    return render_tile<features>(job);
+    return both;
 }
 
 }  // namespace packtrace::PACKTRACE_ISA

@@ -3,12 +3,11 @@
 #include "kernel_abi/kernel_table.hpp"
 
 // The kernels of Features::probe. They have a source of their own because in one object with the
-// others they would sway the compiler's choice of what to inline there.
+// others they would sway the compiler's choice of what to inline there, and because programs
+// without src/study do without them.
 namespace packtrace::PACKTRACE_ISA {
 
-[[nodiscard]] std::size_t probe_scratch_bytes(const abi::SceneView<float>& scene);
-[[nodiscard]] std::size_t probe_scratch_bytes(const abi::SceneView<double>& scene);
-[[nodiscard]] abi::RayCounts probe_tile(const abi::TileJob<float>& job);
-[[nodiscard]] abi::RayCounts probe_tile(const abi::TileJob<double>& job);
+/// A reference, which takes no instruction that the machine may lack.
+[[nodiscard]] const abi::ProbeKernels& probe_kernels();
 
 }  // namespace packtrace::PACKTRACE_ISA

@@ -4,7 +4,6 @@
 
 #include "kernels/closest_tile.hpp"
 #include "kernels/onedim.hpp"
-#include "kernels/probe_kernels.hpp"
 #include "kernels/ray_streams.hpp"
 #include "kernels/self_test.hpp"
 #include "kernels/tile.hpp"
@@ -43,11 +42,13 @@ void power_of_arrays(const Real* x, const Real* n, Real* y, int count)
     }
 }
 
-/// Double renders truths to compare with, and does without special kernels.
+/// Double renders truths to compare with, and does without special kernels. Probes are compiled
+/// in probe_kernels.cpp.
 template <class Real>
 constexpr bool is_compiled(int set)
 {
-    return (PACKTRACE_FEATURE_SETS && sizeof(Real) == sizeof(float)) || set >= abi::general_set;
+    return set != abi::probe_set &&
+           ((PACKTRACE_FEATURE_SETS && sizeof(Real) == sizeof(float)) || set == abi::general_set);
 }
 
 template <int Set, class Real>
@@ -57,8 +58,6 @@ constexpr abi::FeatureKernels<Real> feature_kernels()
     constexpr abi::Features F = set.features;
     if constexpr (!is_compiled<Real>(Set))
         return {};
-    else if constexpr (F.probe)
-        return {set, probe_scratch_bytes, probe_tile, nullptr};
     else
         return {set, scratch_bytes<F, Real>, render_tile<F, Real>,
                 closest_tile<abi::tree_features(F), Real>};

@@ -1,0 +1,47 @@
+#include <stdexcept>
+#include <string>
+
+#include "cli/command.hpp"
+
+// Stands in for the commands of src/study in programs built without it (PACKTRACE_BUILD_STUDY).
+namespace packtrace::cli {
+namespace {
+
+void add_left_out(CLI::App& app, const std::string& name)
+{
+    CLI::App* command = app.add_subcommand(name, "(not in this build; ./run build adds it)");
+    command->allow_extras();
+    command->callback([name] {
+        throw std::runtime_error("packtrace: this build leaves out '" + name +
+                                 "'; type ./run build, which builds all commands");
+    });
+}
+
+}  // namespace
+
+void add_bench(CLI::App& app)
+{
+    add_left_out(app, "bench");
+}
+
+void add_explain(CLI::App& app)
+{
+    add_left_out(app, "explain");
+}
+
+void add_profile(CLI::App& app)
+{
+    add_left_out(app, "profile");
+}
+
+void add_report(CLI::App& app)
+{
+    add_left_out(app, "report");
+}
+
+void add_stress(CLI::App& app)
+{
+    add_left_out(app, "stress");
+}
+
+}  // namespace packtrace::cli
