@@ -1,0 +1,98 @@
+#!/bin/sh
+# check_run.sh RUN
+#
+# What ./run installs, prints and ends with, on a machine whose apt-get, dpkg-query and cmake are
+# scripts of this test: nothing is installed or built.
+set -u
+run=$1
+folder=$(mktemp -d) || exit 1
+trap 'rm -rf "$folder"' EXIT
+mkdir "$folder/bin" "$folder/project"
+cp "$run" "$folder/project/run"
+cd "$folder/project" || exit 1
+PATH=$folder/bin:$PATH
+unset CI CXX
+
+failed=0
+# A program of this machine: its name, then the lines of its script.
+fake() {
+    name=$1
+    shift
+    { echo '#!/bin/sh' && printf '%s\n' "$@"; } >"$folder/bin/$name"
+    chmod +x "$folder/bin/$name"
+}
+# A run of ./run that is to end with a status.
+ends() {
+    expected=$1
+    shift
+    ./run "$@" >"$folder/printed" 2>&1
+    status=$?
+    [ "$status" = "$expected" ] || wrong "./run $* ends with status $status, not $expected"
+}
+wrong() {
+    echo "$1; it printed:"
+    cat "$folder/printed"
+    failed=1
+}
+prints() {
+    grep -q -e "$1" "$folder/printed" || wrong "nothing printed of: $1"
+}
+prints_no() {
+    ! grep -q -e "$1" "$folder/printed" || wrong "printed: $1"
+}
+
+fake dpkg-query 'exit 1'
+fake sudo 'exec "$@"'
+fake apt-get 'echo "noise of apt-get"'
+# Sets up a build folder, and builds a program that says what it was called with.
+fake cmake 'case $1 in' \
+    '--preset) mkdir -p build/release; echo "$@" >>configured ;;' \
+    '*) echo "[1/1] Building noise"' \
+    '   printf "#!/bin/sh\\necho packtrace \\"\\$@\\"\\n" >build/release/packtrace' \
+    '   chmod +x build/release/packtrace ;;' \
+    'esac'
+
+# The demo needs neither the tests' packages nor those of reports and truths.
+ends 0 demo --size 8x8
+prints 'Installing .*libtbb-dev'
+for package in catch2 benchmark qemu gnuplot boost; do
+    prints_no "$package"
+done
+prints 'the first time takes about'
+prints_no noise
+grep -q noise build/apt.log || wrong 'apt-get leaves no log'
+grep -q noise build/build.log || wrong 'the build leaves no log'
+prints 'packtrace demo scenes/four_spheres.scene -o demo --size 8x8'
+prints "The picture is $PWD/demo/four_spheres.png"
+prints "The program is $PWD/build/release/packtrace"
+prints 'Try next:'
+grep -q STUDY=OFF configured || wrong 'the demo builds the study'
+
+# A build folder that has everything keeps it.
+echo PACKTRACE_BUILD_STUDY:BOOL=ON >build/release/CMakeCache.txt
+touch build/release/build.ninja
+rm configured
+ends 0 demo
+grep -q STUDY configured && wrong 'the demo takes the study away'
+prints_no 'the first time'
+
+ends 0 install
+prints 'catch2'
+
+# What fails shows its output.
+fake apt-get 'echo "noise of apt-get"' 'exit 100'
+ends 1 demo
+prints 'noise of apt-get'
+prints 'Could not install'
+fake dpkg-query 'echo installed'
+fake cmake 'echo "noise of cmake"' 'exit 1'
+ends 1 demo
+prints 'noise of cmake'
+prints 'setting up the build failed'
+fake cmake 'case $1 in --preset) ;; *) echo "noise of ninja"; exit 1 ;; esac'
+ends 1 demo
+prints 'noise of ninja'
+prints 'the build failed'
+ends 2 dmeo
+prints "unknown command 'dmeo'"
+exit "$failed"
