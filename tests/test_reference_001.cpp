@@ -189,7 +189,7 @@ TEST_CASE("a sphere under a matrix keeps t and takes its normal by the inverse t
     CHECK(hit.object == 0);
     CHECK(hit.t == 2.0);
     // Own point (0.6, 0.8, 0) is (6.2, 0.8, 0); the gradient there is (1.2/4, 0.8, 0).
-    const V N = outward_normal(bodies, hit, V(6.2, 0.8, 0));
+    const V N = facing(bodies, hit, V(6.2, 0.8, 0), V(2, 0, 0)).outward;
     const double size = std::hypot(0.3, 0.8);
     check_color(N, Rgb(0.3 / size, 0.8 / size, 0));
 }

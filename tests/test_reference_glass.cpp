@@ -60,7 +60,7 @@ private:
 };
 
 // Between z = -1 and z = 1.
-Object slab()
+Object glass_slab()
 {
     return quadric({0, 0, 1, 0, 0, 0, 0, 0, 0, -1});
 }
@@ -101,7 +101,7 @@ TEST_CASE("total internal reflection begins at the critical angle", "[reference_
 
 TEST_CASE("a slab shifts a ray by the analytic amount and keeps its direction", "[reference_glass]")
 {
-    const GlassWalk walk({slab()}, {1.5});
+    const GlassWalk walk({glass_slab()}, {1.5});
     for (const double degrees : {0.0, 10.0, 45.0, 80.0}) {
         const double angle = degrees * pi / 180;
         const V dir(std::sin(angle), 0, std::cos(angle));
@@ -117,9 +117,9 @@ TEST_CASE("a slab shifts a ray by the analytic amount and keeps its direction", 
 TEST_CASE("nested glass goes by the ior of what the ray is in", "[reference_glass]")
 {
     // A slab of 1.3 holds one of 1.8, half as thick. n sin stays 0.5 throughout.
-    Object inner = slab();
+    Object inner = glass_slab();
     inner.transform[2][2] = 0.5;
-    const GlassWalk walk({slab(), inner}, {1.3, 1.8});
+    const GlassWalk walk({glass_slab(), inner}, {1.3, 1.8});
     Ray ray = walk.start({0, 0, -3}, {0.5, 0, std::sqrt(0.75)});
     const std::vector<double> media = {1.3, 1.8, 1.3, 1.0};
     const std::vector<int> tops = {0, 1, 0, -1};
@@ -133,9 +133,9 @@ TEST_CASE("nested glass goes by the ior of what the ray is in", "[reference_glas
 TEST_CASE("leaving a body deeper in the stack bends nothing", "[reference_glass]")
 {
     // The second slab reaches from z = 0 to z = 2: entered after the first, left after it.
-    Object second = slab();
+    Object second = glass_slab();
     second.transform[3][2] = 1.0;
-    const GlassWalk walk({slab(), second}, {1.3, 1.8});
+    const GlassWalk walk({glass_slab(), second}, {1.3, 1.8});
     Ray ray = walk.start({0, 0, -3}, {0.5, 0, std::sqrt(0.75)});
     const std::vector<double> media = {1.3, 1.8, 1.8, 1.0};
     for (const double medium : media) {
@@ -157,7 +157,7 @@ TEST_CASE("an eye inside glass starts with the stack around it", "[reference_gla
     CHECK(outer_first.start({0, 0, 2}, {0, 0, 1}).inside.top() == 0);
     CHECK(outer_first.start({0, 0, 4}, {0, 0, 1}).inside.top() == reference::GlassStack::outside);
     // From between the two, out of the outer one: n sin goes from 1.3 to 1.
-    const GlassWalk pool({slab(), sphere({0, 0, 9}, 1)}, {1.3, 1.8});
+    const GlassWalk pool({glass_slab(), sphere({0, 0, 9}, 1)}, {1.3, 1.8});
     CHECK(sine(pool.step(pool.start({0, 0, 0}, {0.5, 0, std::sqrt(0.75)}))) ==
           Approx(0.65).epsilon(1e-14));
 }
@@ -178,7 +178,7 @@ TEST_CASE("a ninth body around the ray is not recorded and bends nothing", "[ref
     std::vector<Object> shells;
     std::vector<double> iors;
     for (int i = 0; i < 9; ++i) {
-        Object shell = slab();
+        Object shell = glass_slab();
         shell.transform[2][2] = 9 - i;
         shells.push_back(shell);
         iors.push_back(1.1 + 0.1 * i);

@@ -4,6 +4,7 @@
 
 #include <packtrace/compare.hpp>
 #include <packtrace/intersect.hpp>
+#include <packtrace/read_scene.hpp>
 
 #include "catch.hpp"
 #include "packet_scenes.hpp"
@@ -114,6 +115,63 @@ TEST_CASE("four spheres differ from long double at edges alone, by the exact rul
         const auto picture = convert<double>(render<float>(scene, exact_options(isa)));
         CHECK(compare(picture, truth).pixels_off <= 2);
     }
+}
+
+TEST_CASE("a ray that touches a ball to the last digit is mirrored off its outer side",
+          "[self_hits]")
+{
+    Scene scene = read_scene(PACKTRACE_SOURCE_DIR "/scenes/four_spheres.scene");
+    scene.width = scene.height = 640;
+    for (const int column : {64, 576}) {
+        const auto color = reference::Reference<double>(scene).trace_pixel(column, 255);
+        const auto truth = reference::Reference<long double>(scene).trace_pixel(column, 255);
+        check_color(color,
+                    Rgb(static_cast<double>(truth.x), static_cast<double>(truth.y),
+                        static_cast<double>(truth.z)),
+                    1e-7);
+    }
+}
+
+TEST_CASE("where the gradient vanishes the normal is against the ray, in every kernel",
+          "[self_hits]")
+{
+    const Scene cone = parse_scene(
+        "illumination = general  image_size = 3 x 3  camera { position = (0, 0, -5) }"
+        "light { type = point position = (0, 0, -3) intensity = 1 }"
+        "light { type = ambient intensity = 1 }"
+        "cone { rotate = (1, 0, 0, 90) ambient = 0.25 diffuse = 0.5 }",
+        "cone");
+    // The eye is on the cone's apex: rays start in it, mirrored ones and those to the light too.
+    Scene inside = parse_scene(
+        "illumination = whitted  image_size = 100 x 100  ellipsoid { specular = 0.5 }  cone { }"
+        "light { type = directional intensity = 1 direction = (0, 1, -1.36) }",
+        "inside");
+    const auto check = [](const auto& image) {
+        int bad = 0;
+        for (const auto value : image.rgb)
+            bad += !std::isfinite(value);
+        CHECK(bad == 0);
+    };
+    const auto check_middle = [&](const auto& image) {
+        check(image);
+        CHECK(static_cast<double>(image.pixel(1, 1)[0]) == Approx(0.75));
+    };
+    check_middle(scalar_exact<float>(cone));
+    check_middle(scalar_exact<double>(cone));
+    check_middle(scalar_exact<long double>(cone));
+    check(scalar_exact<float>(inside));
+    check(scalar_exact<double>(inside));
+    check(scalar_exact<long double>(inside));
+    for (const std::string& isa : supported_isas())
+        for (const Accuracy accuracy : {Accuracy::fast, Accuracy::automatic, Accuracy::robust}) {
+            CAPTURE(isa, static_cast<int>(accuracy));
+            RenderOptions options = exact_options(isa);
+            options.accuracy = accuracy;
+            check_middle(render<float>(cone, options));
+            check_middle(render<double>(cone, options));
+            check(render<float>(inside, options));
+            check(render<double>(inside, options));
+        }
 }
 
 TEST_CASE("a ray that leaves a ball meets it again only from inside, however shallow",

@@ -136,6 +136,17 @@ inline Vec3v<Real> unit(const Vec3v<Real>& v)
     return scale<Real>(select(length2 > zero, vreal<Real>(Real(1)) / sqrt(length2), zero), v);
 }
 
+/// The unit normal of hits of rays along `dir`. Where the gradient vanishes, at a cone's apex or
+/// the edge of crossing planes, it is the unit vector against the ray.
+template <class Real>
+inline Vec3v<Real> outward_normal(const Vec3v<Real>& gradient, const Vec3v<Real>& dir, bool is_unit)
+{
+    const Vec3v<Real> outward = is_unit ? gradient : unit<Real>(gradient);
+    const auto is_there = dot(outward, outward) > vreal<Real>(Real(0.5));
+    const Vec3v<Real> against = scale<Real>(vreal<Real>(Real(-1)) / sqrt(dot(dir, dir)), dir);
+    return select(is_there, outward, against);
+}
+
 /// What n·d has to be above for a ray to come from the inside. With SelfHits::exact the side that
 /// a ray comes from is the one its children start on; one that grazes the surface to within what
 /// single precision tells apart comes from outside, as inside no ray does so that does not start
@@ -149,13 +160,13 @@ inline vreal<Real> grazing(const abi::SceneView<Real>& scene, const Vec3v<Real>&
     return vreal<Real>(Real(4) * scene.start_error) * magnitude_dot(outward, dir);
 }
 
-/// Fills `normal`, `lift` and `leaving`. The apex of a cone has no normal; there it is 0.
+/// Fills `normal`, `lift` and `leaving`.
 template <class Real>
 inline void set_normal(SurfacePacket<Real>& surface, const abi::SceneView<Real>& scene,
                        const GradientPacket<Real>& from, bool is_unit)
 {
     const vreal<Real> zero(Real(0));
-    const Vec3v<Real> outward = is_unit ? from.gradient : unit<Real>(from.gradient);
+    const Vec3v<Real> outward = outward_normal(from.gradient, surface.dir, is_unit);
     const auto leaving = dot(outward, surface.dir) > grazing(scene, outward, surface.dir);
     const auto turn = (from.faces_viewer > zero) & leaving;
     surface.leaving = bits(leaving);

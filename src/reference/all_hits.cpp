@@ -16,12 +16,13 @@ std::vector<SurfaceHit<Real>> all_hits(const Bodies<Real>& bodies, const Vec3<Re
         for (const auto& root : roots_of(body, org, dir)) {
             if (root.t < t_min || root.t > t_max)
                 continue;
-            const Hit<Real> hit{root.t, body.object, root.part};
-            hits.push_back({root.t, body.object, outward_normal(bodies, hit, org + root.t * dir)});
+            const Hit<Real> hit{root.t, body.object, root.part, root.leaving};
+            const Facing<Real> at = facing(bodies, hit, org + root.t * dir, dir);
+            hits.push_back({root.t, body.object, at.outward, root.leaving});
         }
         return true;
     });
-    std::sort(hits.begin(), hits.end(), [](const auto& a, const auto& b) {
+    std::stable_sort(hits.begin(), hits.end(), [](const auto& a, const auto& b) {
         return std::pair(a.t, a.object) < std::pair(b.t, b.object);
     });
     return hits;

@@ -12,6 +12,7 @@ struct SurfaceHit {
     Real t;
     int object;
     Vec3<Real> normal;  ///< unit, the surface's outward one, not turned to the ray
+    bool leaving;       ///< the ray comes from the inside
 };
 
 /// Every meeting with t in [t_min, t_max], by increasing t, then object number. A ray that

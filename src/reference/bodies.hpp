@@ -1,5 +1,6 @@
 #pragma once
 
+#include <packtrace/render.hpp>
 #include <packtrace/scene.hpp>
 #include "reference/affine.hpp"
 #include "reference/plane.hpp"
@@ -33,13 +34,15 @@ struct Bodies {
     std::vector<PlacedBody<Real>> placed;
     std::vector<Place> places;  ///< by object number, of those that are in
 
-    /// All objects, or those that `wanted` says.
-    explicit Bodies(const Scene& scene, bool (*wanted)(const Object&) = nullptr);
+    /// All objects, or those that `wanted` says. By SelfHits::note spheres are met by the note's
+    /// own formula, by SelfHits::exact by one that cancels nothing.
+    explicit Bodies(const Scene& scene, SelfHits rule = default_self_hits,
+                    bool (*wanted)(const Object&) = nullptr);
 };
 
 /// Object number `object` of a scene in its own space, whether it has a matrix or not.
 template <class Real>
-[[nodiscard]] PlacedBody<Real> place_body(const Object& from, int object);
+[[nodiscard]] PlacedBody<Real> place_body(const Object& from, int object, SelfHits rule);
 
 /// Calls `visit` with one body after the other until it returns false.
 template <class Real, class Visit>

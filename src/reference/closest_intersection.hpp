@@ -11,6 +11,7 @@ struct Hit {
     Real t = std::numeric_limits<Real>::infinity();
     int object = -1;  ///< -1 for none
     Part part = Part::side;
+    bool leaving = false;  ///< the ray comes from the inside
 
     [[nodiscard]] explicit operator bool() const
     {
@@ -25,21 +26,21 @@ template <class Real>
                                              const Vec3<Real>& D, Real t_min, Real t_max)
 {
     Hit<Real> closest;
-    const auto offer = [&](Real t, int object, Part part = Part::side) {
+    const auto offer = [&](Real t, int object, Part part, bool leaving) {
         if (t >= t_min && t <= t_max &&
             (t < closest.t || (t == closest.t && object < closest.object)))
-            closest = {t, object, part};
+            closest = {t, object, part, leaving};
     };
     for (const SphereBody<Real>& sphere : bodies.spheres) {
-        const auto [t1, t2] = intersect_ray_sphere(O, D, sphere);
-        offer(t1, sphere.object);
-        offer(t2, sphere.object);
+        const Interior<Real> interior = interior_along(sphere, O, D);
+        offer(interior.first, sphere.object, Part::side, false);
+        offer(interior.last, sphere.object, Part::side, true);
     }
     for (const PlaneBody<Real>& plane : bodies.planes)
-        offer(intersect_ray_plane(O, D, plane), plane.object);
+        offer(intersect_ray_plane(O, D, plane), plane.object, Part::side, dot(plane.normal, D) > 0);
     for (const PlacedBody<Real>& body : bodies.placed)
         for (const auto& root : roots_of(body, O, D))
-            offer(root.t, body.object, root.part);
+            offer(root.t, body.object, root.part, root.leaving);
     return closest;
 }
 

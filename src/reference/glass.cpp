@@ -19,7 +19,7 @@ template <class Real>
 std::optional<Ray<Real>> Glass<Real>::refraction_ray(const Ray<Real>& ray,
                                                      const SurfacePoint<Real>& at) const
 {
-    Ray<Real> frac{at.P, ray.dir, ray.inside, at.hit()};
+    Ray<Real> frac{at.P, ray.dir, ray.inside, at.through()};
     const bool recorded = ray.inside.contains(at.object);
     // Straight on: in again where the ray already is, or out where it never was, as happens
     // with open surfaces and with a full stack.

@@ -22,7 +22,8 @@ template <class Real>
 template <class Real>
 [[nodiscard]] bool is_inside(const QuadricBody<Real>& quadric, const Vec3<Real>& p)
 {
-    return quadric.value(p) < 0 && quadric.low < p.z && p.z < quadric.high;
+    return quadric.value(quadric.point_to_canonical(p)) < 0 && quadric.low < p.z &&
+           p.z < quadric.high;
 }
 
 template <class Real>

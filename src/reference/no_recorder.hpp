@@ -26,9 +26,11 @@ struct NoRecorder {
     void hit(Real, int, const Vec3<Real>&, const Vec3<Real>&) const
     {
     }
-    /// The same in a note that has no such normal: the outward one in world space.
+    /// The same in a note that has no such normal: the outward one in world space; the
+    /// last argument is the ray's direction.
     template <class Real>
-    void outward_hit(const Bodies<Real>&, const Hit<Real>&, const Vec3<Real>&) const
+    void outward_hit(const Bodies<Real>&, const Hit<Real>&, const Vec3<Real>&,
+                     const Vec3<Real>&) const
     {
     }
     /// What the ray sees as it hits nothing.

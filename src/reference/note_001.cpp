@@ -22,7 +22,7 @@ Note001<Real, Recorder>::Note001(const Scene& scene, const World<Real>& world, R
 template <class Real, class Recorder>
 Color<Real> Note001<Real, Recorder>::compute_lighting(const Vec3<Real>& P, const Vec3<Real>& N,
                                                       const Vec3<Real>& V, Real s,
-                                                      const Hit<Real>& on) const
+                                                      const Departure<Real>& on) const
 {
     Color<Real> i(0, 0, 0);
     for (const LightSource<Real>& light : world_.lights) {
@@ -55,23 +55,22 @@ Color<Real> Note001<Real, Recorder>::compute_lighting(const Vec3<Real>& P, const
 }
 
 template <class Real, class Recorder>
-bool Note001<Real, Recorder>::in_shadow(const Hit<Real>& on, const Vec3<Real>& P,
+bool Note001<Real, Recorder>::in_shadow(const Departure<Real>& on, const Vec3<Real>& P,
                                         const Vec3<Real>& L, Real t_max) const
 {
     if (world_.shadows == ShadowKind::none)
         return false;
-    const auto shadow_sphere = closest_from(world_.blockers, start_at(world_, on, P, L), L, t_max);
+    const Start<Real> start = start_at(world_, on.along(L), P);
+    const auto shadow_sphere = closest_from(world_.blockers, start, L, t_max);
     return static_cast<bool>(shadow_sphere);
 }
 
 // The note has only spheres and lets N point away from the centre even when seen from inside.
 // Planes and quadrics have no such side: theirs faces the viewer.
 template <class Real, class Recorder>
-Vec3<Real> Note001<Real, Recorder>::normal(const Hit<Real>& closest, const Vec3<Real>& P,
-                                           const Vec3<Real>& D) const
+const Vec3<Real>& Note001<Real, Recorder>::normal(const SurfacePoint<Real>& at) const
 {
-    const Vec3<Real> N = outward_normal(world_.bodies, closest, P);
-    return is_a_sphere_[static_cast<std::size_t>(closest.object)] ? N : turned_against(N, D);
+    return is_a_sphere_[static_cast<std::size_t>(at.object)] ? at.outward : at.N;
 }
 
 template <class Real, class Recorder>
@@ -86,18 +85,18 @@ Color<Real> Note001<Real, Recorder>::trace_ray(const Start<Real>& start, const V
                                                Real t_max, int depth) const
 {
     const auto traced = record_.ray(start.on, D);
-    const Hit<Real> closest = closest_from(world_.bodies, start, D, t_max);
+    const auto closest = closest_surface(world_, start, D, t_max);
     if (!closest)
         return record_.miss(world_.background);
 
     // Compute local color
-    const auto object = static_cast<std::size_t>(closest.object);
-    const Vec3<Real> P = point_of(closest, start, D);
-    const Vec3<Real> N = normal(closest, P, D);
-    record_.hit(closest.t, closest.object, P, N);
-    const Color<Real> color = color_at(world_.paints[object], world_.bodies, closest.object, P);
+    const auto object = static_cast<std::size_t>(closest->object);
+    const Vec3<Real>& P = closest->P;
+    const Vec3<Real>& N = normal(*closest);
+    record_.hit(closest->t, closest->object, P, N);
+    const Color<Real> color = color_at(world_.paints[object], world_.bodies, closest->object, P);
     const Color<Real> local_color =
-        color * compute_lighting(P, N, -D, shadings_[object].specular, closest);
+        color * compute_lighting(P, N, -D, shadings_[object].specular, closest->back());
     record_.tint(color);
 
     // If we hit the recursion limit or the object is not reflective, we're done
@@ -109,7 +108,7 @@ Color<Real> Note001<Real, Recorder>::trace_ray(const Start<Real>& start, const V
     const Vec3<Real> R = reflect_ray(-D, N);
     record_.mirrored(Color<Real>(r, r, r));
     const Color<Real> reflected_color =
-        trace_ray(start_at(world_, closest, P, R), R, infinity<Real>, depth - 1);
+        trace_ray(start_at(world_, closest->back(), P), R, infinity<Real>, depth - 1);
 
     return record_.local(local_color * (1 - r)) + reflected_color * r;
 }

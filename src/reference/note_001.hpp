@@ -1,7 +1,7 @@
 #pragma once
 
 #include "reference/no_recorder.hpp"
-#include "reference/start.hpp"
+#include "reference/surface_point.hpp"
 
 #include <vector>
 
@@ -33,16 +33,15 @@ public:
                                         int depth) const;
 
     /// The light that reaches `P`, per channel. `V` points to where the ray came from; `on` is the
-    /// hit there, which only SelfHits::exact looks at.
+    /// surface there, which only SelfHits::exact looks at.
     [[nodiscard]] Color<Real> compute_lighting(const Vec3<Real>& P, const Vec3<Real>& N,
                                                const Vec3<Real>& V, Real s,
-                                               const Hit<Real>& on = {}) const;
+                                               const Departure<Real>& on = {}) const;
 
 private:
-    [[nodiscard]] bool in_shadow(const Hit<Real>& on, const Vec3<Real>& P, const Vec3<Real>& L,
-                                 Real t_max) const;
-    [[nodiscard]] Vec3<Real> normal(const Hit<Real>& closest, const Vec3<Real>& P,
-                                    const Vec3<Real>& D) const;
+    [[nodiscard]] bool in_shadow(const Departure<Real>& on, const Vec3<Real>& P,
+                                 const Vec3<Real>& L, Real t_max) const;
+    [[nodiscard]] const Vec3<Real>& normal(const SurfacePoint<Real>& at) const;
 
     [[no_unique_address]] Recorder record_;
     const World<Real>& world_;

@@ -1,7 +1,6 @@
 #include "reference/note_004.hpp"
 
 #include "reference/model_of.hpp"
-#include "reference/start.hpp"
 #include "reference/tree_recorder.hpp"
 
 #include <algorithm>
@@ -25,12 +24,14 @@ std::pair<Real, Part> intersection(const PlacedBody<Real>& object, const Vec3<Re
     return least;
 }
 
-// The note's object.normalVector, made unit; it does not turn to the viewer.
+// The note's object.normalVector, made unit; it does not turn to the viewer, who looks along Td.
 template <class Real>
-Vec3<Real> normal_vector(const PlacedBody<Real>& object, const Vec3<Real>& I, Part part)
+Vec3<Real> normal_vector(const PlacedBody<Real>& object, const Vec3<Real>& I, Part part,
+                         const Vec3<Real>& Td)
 {
-    return normalize(std::visit([&](const auto& surface) { return normal_at(surface, I, part); },
-                                object.surface));
+    const Vec3<Real> normal = std::visit(
+        [&](const auto& surface) { return normal_at(surface, I, part); }, object.surface);
+    return unit(normal).value_or(-normalize(Td));
 }
 
 // From `I` to the light in the object's own space; a directional light has no end.
@@ -52,7 +53,8 @@ Note004<Real, Recorder>::Note004(const Scene& scene, const World<Real>& world, R
     : record_(record), world_(world)
 {
     for (const Object& object : scene.objects) {
-        object_list_.push_back(place_body<Real>(object, static_cast<int>(object_list_.size())));
+        object_list_.push_back(
+            place_body<Real>(object, static_cast<int>(object_list_.size()), world.self_hits));
         if (object.casts_shadow)
             blockers_.push_back(object_list_.back());
         Material material;
@@ -98,14 +100,15 @@ Color<Real> Note004<Real, Recorder>::shader(const Tuple& intersection, const Vec
     if (light.type == LightType::ambient)
         return r[0] * (c * Li);
     const auto [S, distance] = to_light(object, I, light);
-    const Vec3<Real> N = normal_vector(object, I, part);
+    const Vec3<Real> N = normal_vector(object, I, part, Td);
     const Vec3<Real> R = -S + (2 * dot(S, N)) * N;
     const Vec3<Real> V = normalize(Te - I);
     const Real Id = std::max(dot(N, S), Real(0));
     const Real Is = std::max(dot(R, V), Real(0));
     Real f = r[0];
+    const Departure<Real> on{k, part, unit(object.placement.normal_to_world(N)).value_or(N)};
     const bool blocked = light.casts_shadow && (world_.self_hits == SelfHits::exact
-                                                    ? shadowed_exactly(object, part, I, S, distance)
+                                                    ? shadowed_exactly(object, on, I, S, distance)
                                                     : shadowed(object, I, S, distance));
     if (!record_.blocked(light.number, blocked))
         f = r[0] + r[1] * Id + r[2] * std::pow(Is, r[3]);
@@ -136,15 +139,14 @@ bool Note004<Real, Recorder>::shadowed(const PlacedBody<Real>& shaded, const Vec
 }
 
 template <class Real, class Recorder>
-bool Note004<Real, Recorder>::shadowed_exactly(const PlacedBody<Real>& shaded, Part part,
-                                               const Vec3<Real>& own_I, const Vec3<Real>& own_S,
-                                               Real distance) const
+bool Note004<Real, Recorder>::shadowed_exactly(const PlacedBody<Real>& shaded,
+                                               const Departure<Real>& on, const Vec3<Real>& own_I,
+                                               const Vec3<Real>& own_S, Real distance) const
 {
     if (world_.shadows == ShadowKind::none)
         return false;
     const Vec3<Real> S = shaded.placement.vector_to_world(own_S);
-    const Hit<Real> on{0, shaded.object, part};
-    const Start<Real> start = start_at(world_, on, shaded.placement.point_to_world(own_I), S);
+    const Start<Real> start = start_at(world_, on.along(S), shaded.placement.point_to_world(own_I));
     return std::any_of(blockers_.begin(), blockers_.end(), [&](const auto& object) {
         const Roots<Real> roots = roots_from(object, start, S);
         return std::any_of(roots.begin(), roots.end(), [&](const auto& root) {
@@ -165,7 +167,7 @@ Color<Real> Note004<Real, Recorder>::trace_ray(const Vec3<Real>& e, const Vec3<R
         return record_.miss(world_.background);
     const Tuple& first = list.front();
     record_.outward_hit(world_.bodies, Hit<Real>{first.t0, first.k, first.part},
-                        e + direction * first.t0);
+                        e + direction * first.t0, direction);
     Color<Real> color;
     for (const LightSource<Real>& light : world_.lights)
         color += shader(first, direction, e, light);

@@ -2,7 +2,7 @@
 
 #include "reference/bodies.hpp"
 #include "reference/no_recorder.hpp"
-#include "reference/world.hpp"
+#include "reference/start.hpp"
 
 #include <vector>
 
@@ -44,7 +44,7 @@ public:
 
     /// The same by SelfHits::exact: nothing is moved by an epsilon, and the piece of `object` that
     /// I is on is not found by looking.
-    [[nodiscard]] bool shadowed_exactly(const PlacedBody<Real>& object, Part part,
+    [[nodiscard]] bool shadowed_exactly(const PlacedBody<Real>& object, const Departure<Real>& on,
                                         const Vec3<Real>& I, const Vec3<Real>& S,
                                         Real distance) const;
 

@@ -25,7 +25,7 @@ template <class Real>
                                    const Vec3<Real>& D)
 {
     Roots<Real> roots;
-    roots.add(intersect_ray_plane(O, D, plane));
+    roots.add(intersect_ray_plane(O, D, plane), Part::side, dot(plane.normal, D) > 0);
     return roots;
 }
 

@@ -1,95 +1,124 @@
 #pragma once
 
-#include "reference/roots.hpp"
+#include "reference/canonical.hpp"
+#include "reference/interior.hpp"
 #include "reference/vec3.hpp"
 
-#include <array>
+#include <algorithm>
 #include <cmath>
 #include <limits>
 
 namespace packtrace::reference {
 
-/// Ax² + By² + Cz² + Dxy + Exz + Fyz + Gx + Hy + Iz + J = 0 in its own space.
+/// A quadric, clipped by own z and perhaps capped.
 template <class Real>
 struct QuadricBody {
-    std::array<Real, 10> k{};  ///< A … J
+    CanonicalQuadric<Real> form;
     Real low = -std::numeric_limits<Real>::infinity();
     Real high = std::numeric_limits<Real>::infinity();
     bool capped = false;
     int object = 0;
 
-    /// The left side of the equation at `p`; negative inside.
+    [[nodiscard]] Vec3<Real> point_to_canonical(const Vec3<Real>& own) const
+    {
+        return vector_to_canonical(own - form.center);
+    }
+    [[nodiscard]] Vec3<Real> vector_to_canonical(const Vec3<Real>& own) const
+    {
+        return {dot(form.axes[0], own), dot(form.axes[1], own), dot(form.axes[2], own)};
+    }
+    /// Half the gradient at a canonical point.
+    [[nodiscard]] Vec3<Real> half_gradient(const Vec3<Real>& p) const
+    {
+        const Vec3<Real> bent = form.square * p;
+        return {bent.x, bent.y, bent.z + form.linear};
+    }
+    /// The left side of the equation at a canonical point; negative inside.
     [[nodiscard]] Real value(const Vec3<Real>& p) const
     {
-        const auto& [A, B, C, D, E, F, G, H, I, J] = k;
-        return p.x * (A * p.x + D * p.y + E * p.z + G) + p.y * (B * p.y + F * p.z + H) +
-               p.z * (C * p.z + I) + J;
-    }
-    [[nodiscard]] Vec3<Real> gradient(const Vec3<Real>& p) const
-    {
-        const auto& [A, B, C, D, E, F, G, H, I, J] = k;
-        return {2 * A * p.x + D * p.y + E * p.z + G, 2 * B * p.y + D * p.x + F * p.z + H,
-                2 * C * p.z + E * p.x + F * p.y + I};
-    }
-    /// The second-order terms alone.
-    [[nodiscard]] Real quadratic(const Vec3<Real>& d) const
-    {
-        const auto& [A, B, C, D, E, F, G, H, I, J] = k;
-        return d.x * (A * d.x + D * d.y + E * d.z) + d.y * (B * d.y + F * d.z) + d.z * C * d.z;
+        return dot(form.square * p, p) + 2 * form.linear * p.z + form.constant;
     }
 };
 
-/// Adds the roots of the unclipped surface that lie within the z range.
+/// A quadric's left side along the line p + t v in canonical space: a t² + 2 b t + c.
 template <class Real>
-void add_side_roots(const QuadricBody<Real>& quadric, const Vec3<Real>& org, const Vec3<Real>& dir,
-                    Roots<Real>& roots)
+struct QuadricLine {
+    Real a;
+    Real b;
+    bool parallel;  ///< a is 0, or nothing but rounding error: there is at most one root
+};
+
+template <class Real>
+[[nodiscard]] QuadricLine<Real> line_of(const QuadricBody<Real>& quadric, const Vec3<Real>& p,
+                                        const Vec3<Real>& v)
 {
-    // From the line's point nearest to the own origin, so that a far origin costs no digits.
-    const Real t_near = -dot(org, dir) / dot(dir, dir);
-    const Vec3<Real> p = org + t_near * dir;
-    const Real a = quadric.quadratic(dir);
-    const Real b = dot(quadric.gradient(p), dir) / 2;
-    const Real c = quadric.value(p);
-    const Real discriminant = b * b - a * c;
-    if (!(discriminant >= 0))
-        return;
-    // The sum without cancellation; a = 0 (along an axis or asymptote) leaves c / q.
-    const Real q = -(b + std::copysign(std::sqrt(discriminant), b));
-    for (const Real t : {q / a, c / q}) {
-        const Real z = p.z + t * dir.z;
-        if (quadric.low <= z && z <= quadric.high)
-            roots.add(t_near + t);
-    }
+    // What rounding v does to a, and what computing it adds.
+    constexpr Real roundoffs = 4 * std::numeric_limits<Real>::epsilon();
+    const Vec3<Real> terms = quadric.form.square * v * v;
+    const Real a = terms.x + terms.y + terms.z;
+    const Real size = std::abs(terms.x) + std::abs(terms.y) + std::abs(terms.z);
+    return {a, dot(quadric.half_gradient(p), v), std::abs(a) <= roundoffs * size};
 }
 
-/// Adds the meeting with the flat piece of inside at height `z`, if there is one.
+/// b² - a c of a line through p, by its moment m = p x v: terms that cancel for far origins are
+/// not there, and crossing planes leave a square alone.
 template <class Real>
-void add_cap_root(const QuadricBody<Real>& quadric, const Vec3<Real>& org, const Vec3<Real>& dir,
-                  Part part, Roots<Real>& roots)
+[[nodiscard]] Real discriminant_of(const QuadricBody<Real>& quadric, const Vec3<Real>& p,
+                                   const Vec3<Real>& v, Real a)
 {
-    const Real z = part == Part::low_cap ? quadric.low : quadric.high;
-    const Real t = (z - org.z) / dir.z;
-    const Vec3<Real> p = org + t * dir;
-    if (quadric.value({p.x, p.y, z}) <= 0)
-        roots.add(t, part);
+    const auto& [axes, center, s, linear, constant] = quadric.form;
+    const Vec3<Real> m = cross(p, v);
+    const Vec3<Real> others(s.y * s.z, s.z * s.x, s.x * s.y);
+    const Real climb = linear * v.z;
+    return 2 * linear * (s.y * v.y * m.x - s.x * v.x * m.y) + climb * climb - constant * a -
+           dot(others * m, m);
+}
+
+/// The t at which a line is nearest to the centre in the measure of the surface's own curvature: a
+/// long way along a cylinder or an edge is no distance. Along a paraboloid's axis it is one.
+template <class Real>
+[[nodiscard]] Real nearest_to_center(const QuadricBody<Real>& quadric, const Vec3<Real>& p,
+                                     const Vec3<Real>& v)
+{
+    const Vec3<Real>& s = quadric.form.square;
+    Vec3<Real> weight(std::abs(s.x), std::abs(s.y), std::abs(s.z));
+    if (quadric.form.linear != 0)
+        weight.z = std::max(weight.x, weight.y);
+    const Real distance = dot(weight * v, v);
+    return distance > 0 ? -dot(weight * p, v) / distance : Real(0);
+}
+
+/// Where a line in canonical space is inside the surface, were it not clipped.
+template <class Real>
+[[nodiscard]] Interior<Real> interior_along(const QuadricBody<Real>& quadric, const Vec3<Real>& org,
+                                            const Vec3<Real>& v)
+{
+    // From the line's point nearest to the centre, so that a far origin costs no digits.
+    const Real start = nearest_to_center(quadric, org, v);
+    const Vec3<Real> p = org + start * v;
+    const auto [a, b, parallel] = line_of(quadric, p, v);
+    const Real c = quadric.value(p);
+    Interior<Real> interior =
+        parallel ? interior_of_line(b, c)
+                 : interior_of_parabola(a, b, c, discriminant_of(quadric, p, v, a));
+    interior.first += start;
+    interior.last += start;
+    return interior;
 }
 
 template <class Real>
 [[nodiscard]] Roots<Real> roots_of(const QuadricBody<Real>& quadric, const Vec3<Real>& org,
                                    const Vec3<Real>& dir)
 {
-    Roots<Real> roots;
-    add_side_roots(quadric, org, dir, roots);
-    if (quadric.capped) {
-        add_cap_root(quadric, org, dir, Part::low_cap, roots);
-        add_cap_root(quadric, org, dir, Part::high_cap, roots);
-    }
-    return roots;
+    const Interior<Real> interior =
+        interior_along(quadric, quadric.point_to_canonical(org), quadric.vector_to_canonical(dir));
+    return clipped_roots(interior, slab_of(quadric.low, quadric.high, org.z, dir.z),
+                         quadric.capped);
 }
 
 /// The way out of the inside, not normalised.
 template <class Real>
-[[nodiscard]] Vec3<Real> normal_at(const QuadricBody<Real>& quadric, const Vec3<Real>& p, Part part)
+[[nodiscard]] Vec3<Real> normal_at(const QuadricBody<Real>& quadric, const Vec3<Real>& P, Part part)
 {
     switch (part) {
         case Part::low_cap:
@@ -99,7 +128,9 @@ template <class Real>
         case Part::side:
             break;
     }
-    return quadric.gradient(p);
+    const Vec3<Real> n = quadric.half_gradient(quadric.point_to_canonical(P));
+    const auto& axes = quadric.form.axes;
+    return n.x * axes[0] + n.y * axes[1] + n.z * axes[2];
 }
 
 }  // namespace packtrace::reference

@@ -1,7 +1,7 @@
 #pragma once
 
-#include "reference/closest_intersection.hpp"
 #include "reference/glass_stack.hpp"
+#include "reference/start.hpp"
 
 namespace packtrace::reference {
 
@@ -11,7 +11,7 @@ struct Ray {
     Vec3<Real> org;
     Vec3<Real> dir;  ///< unit
     GlassStack inside;
-    Hit<Real> left = {};  ///< what it leaves; nothing for a ray from the eye
+    Departure<Real> left = {};  ///< what it leaves; nothing for a ray from the eye
 };
 
 }  // namespace packtrace::reference

@@ -25,7 +25,7 @@ template <class Real>
     Color<Real> share(1, 1, 1);
     if (world.shadows == ShadowKind::none || !way.light_casts_shadow)
         return share;
-    const Start<Real> start = start_at(world, at.hit(), at.P, way.L);
+    const Start<Real> start = start_at(world, at.back().along(way.L), at.P);
     visit_bodies(world.blockers, [&](const auto& body) {
         if (!any_within(roots_from(body, start, way.L), start.t_min, way.distance))
             return true;

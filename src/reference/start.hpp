@@ -2,88 +2,56 @@
 
 #include <packtrace/render.hpp>
 #include "reference/epsilon.hpp"
+#include "reference/own_roots.hpp"
 #include "reference/surface_normal.hpp"
 #include "reference/world.hpp"
 
 namespace packtrace::reference {
 
+/// The piece of a surface that a ray leaves, and on which side: both are decided once, where the
+/// ray is made.
+template <class Real>
+struct Departure {
+    int object = -1;  ///< -1 for a ray from an eye
+    Part part = Part::side;
+    Vec3<Real> outward = {};  ///< unit normal
+    Side side = Side::outer;
+
+    [[nodiscard]] explicit operator bool() const
+    {
+        return object >= 0;
+    }
+    [[nodiscard]] Departure towards(Side other) const
+    {
+        return {object, part, outward, other};
+    }
+    /// By the direction alone, as rays to lights leave.
+    [[nodiscard]] Departure along(const Vec3<Real>& D) const
+    {
+        return towards(dot(outward, D) >= 0 ? Side::outer : Side::inner);
+    }
+};
+
 /// Where a ray begins, and what it begins on. By SelfHits::note that is its point alone and an
-/// epsilon; by SelfHits::exact its own surface is solved as one that the point is on, and all
+/// epsilon; by SelfHits::exact its own body is solved as one that the point is on, and all
 /// others from a little off it.
 template <class Real>
 struct Start {
     Vec3<Real> on;   ///< the point itself
     Vec3<Real> org;  ///< from where other surfaces are looked for
     Real t_min = epsilon<Real>;
-    int object = -1;  ///< own surface; -1 for none
+    int object = -1;  ///< own body; -1 for none
     Part part = Part::side;
-    bool outside = false;  ///< the ray leaves on its surface's outer side
-
-    [[nodiscard]] bool is_own(int hit_object, Part hit_part) const
-    {
-        return hit_object == object && hit_part == part;
-    }
+    Side side = Side::outer;  ///< on which the ray leaves it
 };
-
-/// The meeting at t != 0 of a ray with a quadratic surface that it starts on, a t² + 2 b t = 0;
-/// infinite for none. b has the sign of the side that the ray leaves on, whatever rounding says.
-template <class Real>
-[[nodiscard]] Real other_root(Real a, Real b, bool outside)
-{
-    const Real t = (outside ? -2 : 2) * std::abs(b) / a;
-    return t > 0 ? t : infinity<Real>;
-}
-
-template <class Real>
-[[nodiscard]] Real second_root(const SphereBody<Real>& sphere, const Vec3<Real>& P,
-                               const Vec3<Real>& D, const Start<Real>& start)
-{
-    return other_root(dot(D, D), dot(P - sphere.center, D), start.outside);
-}
-
-template <class Real>
-[[nodiscard]] Real second_root(const PlaneBody<Real>&, const Vec3<Real>&, const Vec3<Real>&,
-                               const Start<Real>&)
-{
-    return infinity<Real>;
-}
-
-template <class Real>
-[[nodiscard]] Real second_root(const QuadricBody<Real>& quadric, const Vec3<Real>& P,
-                               const Vec3<Real>& D, const Start<Real>& start)
-{
-    if (start.part != Part::side)
-        return infinity<Real>;
-    const Real t = other_root(quadric.quadratic(D), dot(quadric.gradient(P), D) / 2, start.outside);
-    const Real z = P.z + t * D.z;
-    return quadric.low <= z && z <= quadric.high ? t : infinity<Real>;
-}
-
-template <class Real>
-[[nodiscard]] Real second_root(const PlacedBody<Real>& body, const Vec3<Real>& P,
-                               const Vec3<Real>& D, const Start<Real>& start)
-{
-    const Vec3<Real> own_P = body.placement.point_to_own(P);
-    const Vec3<Real> own_D = body.placement.vector_to_own(D);
-    return std::visit(
-        [&](const auto& surface) { return second_root(surface, own_P, own_D, start); },
-        body.surface);
-}
 
 /// Where a ray that begins at `start` meets a body.
 template <class Real, class Body>
 [[nodiscard]] Roots<Real> roots_from(const Body& body, const Start<Real>& start,
                                      const Vec3<Real>& D)
 {
-    const Roots<Real> roots = roots_of(body, start.org, D);
-    if (body.object != start.object)
-        return roots;
-    Roots<Real> result;
-    for (const auto& root : roots)
-        if (root.part != start.part)
-            result.add(root.t, root.part);
-    result.add(second_root(body, start.on, D, start), start.part);
-    return result;
+    return body.object == start.object ? own_roots(body, start.on, D, start.part, start.side)
+                                       : roots_of(body, start.org, D);
 }
 
 /// The nearest meeting from `start` on, as closest_intersection has it.
@@ -98,18 +66,18 @@ template <class Real>
         for (const auto& root : roots_from(body, start, D))
             if (root.t >= start.t_min && root.t <= t_max &&
                 (root.t < closest.t || (root.t == closest.t && body.object < closest.object)))
-                closest = {root.t, body.object, root.part};
+                closest = {root.t, body.object, root.part, root.leaving};
         return true;
     });
     return closest;
 }
 
-/// The point of a hit: the own surface was solved from the start itself.
+/// The point of a hit: the own body was solved from the start itself.
 template <class Real>
 [[nodiscard]] Vec3<Real> point_of(const Hit<Real>& hit, const Start<Real>& start,
                                   const Vec3<Real>& D)
 {
-    return (start.is_own(hit.object, hit.part) ? start.on : start.org) + hit.t * D;
+    return (hit.object == start.object ? start.on : start.org) + hit.t * D;
 }
 
 /// How far off a surface at P with the outward normal N rounding can be, as the packets have it.
@@ -123,23 +91,20 @@ template <class Real>
                         std::abs(N.z) * (std::abs(P.z) + std::abs(off.z)));
 }
 
-/// Where a ray begins that leaves the surface of `hit` at P in the direction D, or with no hit
-/// one from an eye at P.
+/// Where a ray begins that leaves a surface at P, or one from an eye at P.
 template <class Real>
-[[nodiscard]] Start<Real> start_at(const World<Real>& world, const Hit<Real>& hit,
-                                   const Vec3<Real>& P, const Vec3<Real>& D)
+[[nodiscard]] Start<Real> start_at(const World<Real>& world, const Departure<Real>& left,
+                                   const Vec3<Real>& P)
 {
-    if (!hit || world.self_hits == SelfHits::note)
+    if (!left || world.self_hits == SelfHits::note)
         return {P, P};
-    const Vec3<Real> N = outward_normal(world.bodies, hit, P);
-    const bool outside = dot(N, D) >= 0;
-    const Real lift = lift_at(place_of(world.bodies, hit.object), P, N);
+    const Real lift = lift_at(place_of(world.bodies, left.object), P, left.outward);
     return {P,
-            P + (outside ? lift : -lift) * N,
+            P + (left.side == Side::outer ? lift : -lift) * left.outward,
             std::numeric_limits<Real>::min(),
-            hit.object,
-            hit.part,
-            outside};
+            left.object,
+            left.part,
+            left.side};
 }
 
 }  // namespace packtrace::reference

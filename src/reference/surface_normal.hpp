@@ -4,22 +4,46 @@
 
 namespace packtrace::reference {
 
-/// Unit normal at the point `P` of a hit, on the surface's own outer side: away from a
-/// sphere's centre, along a plane's normal, up the gradient of a quadric.
+/// How a surface stands to the ray that meets it.
 template <class Real>
-[[nodiscard]] Vec3<Real> outward_normal(const Bodies<Real>& bodies, const Hit<Real>& hit,
-                                        const Vec3<Real>& P)
+struct Facing {
+    Vec3<Real> outward;  ///< unit, on the surface's own outer side: away from a sphere's centre,
+                         ///< along a plane's normal, up the gradient of a quadric
+    bool leaving;        ///< the ray comes from the inside
+
+    /// The normal's side from which the ray comes.
+    [[nodiscard]] Vec3<Real> turned() const
+    {
+        return leaving ? -outward : outward;
+    }
+};
+
+/// Outwards, not normalised, at the point `P` of a hit.
+template <class Real>
+[[nodiscard]] Vec3<Real> gradient_at(const Bodies<Real>& bodies, const Hit<Real>& hit,
+                                     const Vec3<Real>& P)
 {
     const auto [kind, index] = bodies.places[static_cast<std::size_t>(hit.object)];
     switch (kind) {
         case BodyKind::sphere:
-            return normalize(normal_at(bodies.spheres[index], P, hit.part));
+            return normal_at(bodies.spheres[index], P, hit.part);
         case BodyKind::plane:
-            return bodies.planes[index].normal;
+            return normal_at(bodies.planes[index], P, hit.part);
         case BodyKind::placed:
             break;
     }
-    return normalize(normal_at(bodies.placed[index], P, hit.part));
+    return normal_at(bodies.placed[index], P, hit.part);
+}
+
+/// At the point `P` of a hit of a ray along `D`. Where the gradient vanishes, at a cone's apex or
+/// the edge of crossing planes, the normal is the unit vector against the ray.
+template <class Real>
+[[nodiscard]] Facing<Real> facing(const Bodies<Real>& bodies, const Hit<Real>& hit,
+                                  const Vec3<Real>& P, const Vec3<Real>& D)
+{
+    if (const auto outward = unit(gradient_at(bodies, hit, P)))
+        return {*outward, hit.leaving};
+    return {-unit(D).value_or(Vec3<Real>()), false};
 }
 
 /// The place that a surface's coordinates are off from: a sphere's centre, a plane's point, where
@@ -37,13 +61,6 @@ template <class Real>
             break;
     }
     return bodies.placed[index].placement.point_to_world({});
-}
-
-/// The normal's side from which the ray with direction `D` comes.
-template <class Real>
-[[nodiscard]] Vec3<Real> turned_against(const Vec3<Real>& N, const Vec3<Real>& D)
-{
-    return dot(N, D) > 0 ? -N : N;
 }
 
 /// `P` in the space the object's surface is defined in.

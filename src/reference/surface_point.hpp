@@ -12,36 +12,50 @@ template <class Real>
 struct SurfacePoint {
     Real t;
     int object;
-    Vec3<Real> P;
-    Vec3<Real> N;  ///< unit, turned against the ray
-    bool leaving;  ///< the ray comes from the inside
     Part part;
+    Vec3<Real> P;
+    Vec3<Real> outward;  ///< unit normal
+    Vec3<Real> N;        ///< the same, turned against the ray
+    bool leaving;        ///< the ray comes from the inside
 
-    [[nodiscard]] Hit<Real> hit() const
+    /// Of a ray that goes back to where this one comes from.
+    [[nodiscard]] Departure<Real> back() const
     {
-        return {t, object, part};
+        return {object, part, outward, leaving ? Side::inner : Side::outer};
+    }
+    /// Of a ray that goes on behind the surface.
+    [[nodiscard]] Departure<Real> through() const
+    {
+        return back().towards(leaving ? Side::outer : Side::inner);
     }
 };
+
+/// What a ray from `start` along `D` meets first, up to t_max.
+template <class Real>
+[[nodiscard]] std::optional<SurfacePoint<Real>> closest_surface(const World<Real>& world,
+                                                                const Start<Real>& start,
+                                                                const Vec3<Real>& D, Real t_max)
+{
+    const Hit<Real> hit = closest_from(world.bodies, start, D, t_max);
+    if (!hit)
+        return std::nullopt;
+    const Vec3<Real> P = point_of(hit, start, D);
+    const Facing<Real> at = facing(world.bodies, hit, P, D);
+    return SurfacePoint<Real>{hit.t, hit.object, hit.part, P, at.outward, at.turned(), at.leaving};
+}
 
 template <class Real>
 [[nodiscard]] std::optional<SurfacePoint<Real>> closest_surface(const World<Real>& world,
                                                                 const Ray<Real>& ray)
 {
-    const Start<Real> start = start_at(world, ray.left, ray.org, ray.dir);
-    const Hit<Real> hit = closest_from(world.bodies, start, ray.dir, infinity<Real>);
-    if (!hit)
-        return std::nullopt;
-    const Vec3<Real> P = point_of(hit, start, ray.dir);
-    const Vec3<Real> N = outward_normal(world.bodies, hit, P);
-    return SurfacePoint<Real>{
-        hit.t, hit.object, P, turned_against(N, ray.dir), dot(N, ray.dir) > 0, hit.part};
+    return closest_surface(world, start_at(world, ray.left, ray.org), ray.dir, infinity<Real>);
 }
 
 /// The mirrored ray stays in the glass it was in.
 template <class Real>
 [[nodiscard]] Ray<Real> reflection_ray(const Ray<Real>& ray, const SurfacePoint<Real>& at)
 {
-    return {at.P, reflect_ray(-ray.dir, at.N), ray.inside, at.hit()};
+    return {at.P, reflect_ray(-ray.dir, at.N), ray.inside, at.back()};
 }
 
 }  // namespace packtrace::reference

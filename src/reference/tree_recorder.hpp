@@ -55,9 +55,10 @@ public:
         now().normal = rgb(N);
     }
     template <class Real>
-    void outward_hit(const Bodies<Real>& bodies, const Hit<Real>& at, const Vec3<Real>& P) const
+    void outward_hit(const Bodies<Real>& bodies, const Hit<Real>& at, const Vec3<Real>& P,
+                     const Vec3<Real>& D) const
     {
-        hit(at.t, at.object, P, outward_normal(bodies, at, P));
+        hit(at.t, at.object, P, facing(bodies, at, P, D).outward);
     }
     template <class Real>
     [[nodiscard]] Color<Real> miss(const Color<Real>& color) const

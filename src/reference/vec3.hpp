@@ -2,7 +2,10 @@
 
 #include <packtrace/vec.hpp>
 
+#include <algorithm>
 #include <cmath>
+#include <limits>
+#include <optional>
 
 namespace packtrace::reference {
 
@@ -93,6 +96,21 @@ template <class Real>
 [[nodiscard]] Vec3<Real> normalize(const Vec3<Real>& a)
 {
     return a / length(a);
+}
+
+/// The same also where the squares overflow or vanish; nothing for a vector without a direction,
+/// zero or not finite.
+template <class Real>
+[[nodiscard]] std::optional<Vec3<Real>> unit(const Vec3<Real>& a)
+{
+    using Limits = std::numeric_limits<Real>;
+    const Real square = dot(a, a);
+    if (square >= Limits::min() && square <= Limits::max())
+        return a / std::sqrt(square);
+    const Real size = std::abs(a.x) + std::abs(a.y) + std::abs(a.z);
+    if (!(size > 0 && size <= Limits::max()))
+        return std::nullopt;
+    return normalize(a / std::max({std::abs(a.x), std::abs(a.y), std::abs(a.z)}));
 }
 
 /// The direction `V`, pointing away from the surface, mirrored about the unit normal `N`.

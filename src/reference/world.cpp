@@ -4,8 +4,8 @@ namespace packtrace::reference {
 
 template <class Real>
 World<Real>::World(const Scene& scene, SelfHits rule)
-    : bodies(scene),
-      blockers(scene, [](const Object& object) { return object.casts_shadow; }),
+    : bodies(scene, rule),
+      blockers(scene, rule, [](const Object& object) { return object.casts_shadow; }),
       background(scene.background),
       shadows(scene.shadows),
       max_depth(scene.max_depth),

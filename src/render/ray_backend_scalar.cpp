@@ -44,7 +44,8 @@ public:
             hits.object[i] = hit.object;
             if (hits.normal_x == nullptr || !hit)
                 continue;
-            const auto normal = reference::outward_normal(bodies_, hit, ray.org + hit.t * ray.dir);
+            const auto normal =
+                reference::facing(bodies_, hit, ray.org + hit.t * ray.dir, ray.dir).outward;
             hits.normal_x[i] = normal.x;
             hits.normal_y[i] = normal.y;
             hits.normal_z[i] = normal.z;
