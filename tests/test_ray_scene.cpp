@@ -129,7 +129,8 @@ TEST_CASE("packets find the closest hits of any rays, with outward normals", "[r
                     CHECK(found.t[i] == rays.columns[7][i]);
                     continue;
                 }
-                CHECK(std::abs(found.t[i] - truth.t[i]) <= 1e-10 * truth.t[i]);
+                // A ground of radius 5000 costs packets the last digits of a place on it.
+                CHECK(std::abs(found.t[i] - truth.t[i]) <= 1e-10 * truth.t[i] + 1e-12);
                 CHECK(std::abs(found.nx[i] - truth.nx[i]) < 1e-9);
                 CHECK(std::abs(found.ny[i] - truth.ny[i]) < 1e-9);
                 CHECK(std::abs(found.nz[i] - truth.nz[i]) < 1e-9);

@@ -5,6 +5,7 @@
 #include "reference/render_reference.hpp"
 #include "reference_scenes.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <utility>
 #include <vector>
@@ -205,6 +206,26 @@ TEST_CASE("the lower object number wins at equal t, whatever the surfaces", "[re
               .object == 0);
 }
 
+TEST_CASE("double meets a ground of radius 5000 where long double does", "[reference_001]")
+{
+    using Wide = reference::Vec3<long double>;
+    Scene scene;
+    scene.objects = {sphere({0, -5001, 0}, 5000)};
+    const reference::Bodies<double> bodies(scene);
+    const reference::Bodies<long double> wide(scene);
+    double worst = 0;
+    for (int i = 0; i < 1000; ++i) {
+        const V O(0.3 - 0.001 * i, 0.1, 0.0007 * i);
+        const V D(0.1 * (i % 7) - 0.3, -0.02 - 0.001 * i, 0.13 * (i % 11) - 0.7);
+        const auto hit = closest_intersection(bodies, O, D, 0.0, inf);
+        const auto truth =
+            closest_intersection(wide, Wide(O), Wide(D), 0.0L, reference::infinity<long double>);
+        REQUIRE(hit.object == 0);
+        worst = std::max(worst, std::abs(hit.t / static_cast<double>(truth.t) - 1));
+    }
+    CHECK(worst <= 1e-15);
+}
+
 TEST_CASE("the middle of the note's picture is the red sphere's topmost point", "[reference_001]")
 {
     // Canvas (0, 0) touches the red sphere at (0, 0, 3) with N = (0, 1, 0). Both lights reach
@@ -226,7 +247,7 @@ TEST_CASE("float, double and long double draw the same picture", "[reference_001
     const Image<long double> exact = render_reference<long double>(scene);
     for (std::size_t i = 0; i < picture.rgb.size(); ++i)
         REQUIRE(std::abs(static_cast<double>(exact.rgb[i]) - picture.rgb[i]) <= 1e-9);
-    // The ground's radius is too much for the textbook formula in float; the others are not.
+    // The ground's radius is too much for any formula on it in float; the others are not.
     scene.objects.pop_back();
     const Image<double> without_ground = render_reference<double>(scene);
     const Image<float> single = render_reference<float>(scene);

@@ -5,6 +5,7 @@
 
 #include <cmath>
 #include <limits>
+#include <type_traits>
 #include <utility>
 
 namespace packtrace::reference {
@@ -34,6 +35,23 @@ template <class Real>
     return {(-b + root) / (2 * a), (-b - root) / (2 * a)};
 }
 
+/// What a sphere's equation is solved in: a ground sphere's radius costs double some digits that
+/// its users count on.
+template <class Real>
+using Solving = std::conditional_t<std::is_same_v<Real, double>, long double, Real>;
+
+/// Whether a line passes the sphere so far off that rounding has no part in it.
+template <class Real>
+[[nodiscard]] bool passes_by(const SphereBody<Real>& sphere, const Vec3<Real>& O,
+                             const Vec3<Real>& D)
+{
+    constexpr Real roundoff = 16 * std::numeric_limits<Real>::epsilon();
+    const Vec3<Real> CO = O - sphere.center;
+    const Vec3<Real> moment = cross(CO, D);
+    const Real reach = sphere.radius * sphere.radius + roundoff * roundoff * dot(CO, CO);
+    return dot(moment, moment) > 2 * dot(D, D) * reach;
+}
+
 /// Where a line is inside a sphere. The discriminant is Lagrange's form a r² - |CO x D|², which
 /// keeps its digits where the sphere is far away.
 template <class Real>
@@ -44,12 +62,17 @@ template <class Real>
         const auto [t1, t2] = intersect_ray_sphere(O, D, sphere);
         return {t2, t1, true};
     }
-    const Real r = sphere.radius;
-    const Vec3<Real> CO = O - sphere.center;
-    const Vec3<Real> moment = cross(CO, D);
-    const Real a = dot(D, D);
-    const Real discriminant = a * (r * r) - dot(moment, moment);
-    return interior_of_parabola(a, dot(CO, D), dot(CO, CO) - r * r, discriminant);
+    if (passes_by(sphere, O, D))
+        return without_roots<Real>(false);
+    using Wide = Solving<Real>;
+    const Vec3<Wide> d(D);
+    const Vec3<Wide> CO = Vec3<Wide>(O) - Vec3<Wide>(sphere.center);
+    const Vec3<Wide> moment = cross(CO, d);
+    const Wide r2 = Wide(sphere.radius) * sphere.radius;
+    const Wide a = dot(d, d);
+    const auto [first, last, between] =
+        interior_of_parabola(a, dot(CO, d), dot(CO, CO) - r2, a * r2 - dot(moment, moment));
+    return {static_cast<Real>(first), static_cast<Real>(last), between};
 }
 
 template <class Real>

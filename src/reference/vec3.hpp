@@ -25,6 +25,12 @@ struct Vec3 {
     {
     }
 
+    template <class Other>
+    explicit Vec3(const Vec3<Other>& from)
+        : x(static_cast<Real>(from.x)), y(static_cast<Real>(from.y)), z(static_cast<Real>(from.z))
+    {
+    }
+
     Vec3& operator+=(const Vec3& b)
     {
         return *this = *this + b;
