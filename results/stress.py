@@ -8,7 +8,7 @@ import pathlib
 import subprocess
 import sys
 
-COMMAND = ["--precision", "single", "--kernel", "packet", "--kernel", "naive", "--isa", "avx512"]
+COMMAND = ["--precision", "single", "--kernel", "packet", "--kernel", "textbook", "--isa", "avx512"]
 LEFT_OUT = ("ns_per_ray", "pareto")  # of use only from a machine at rest
 
 

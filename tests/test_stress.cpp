@@ -6,28 +6,62 @@
 #include <limits>
 
 #include <nlohmann/json.hpp>
+#include <packtrace/isa.hpp>
 
 #include "catch.hpp"
 #include "run_program.hpp"
-#include "study/judge.hpp"
+#include "study/evaluate.hpp"
 #include "study/own_surface.hpp"
 #include "study/stress_family.hpp"
+#include "study/stress_group.hpp"
+#include "study/stress_subject.hpp"
+#include "study/stress_verdict.hpp"
+#include "temp_folder.hpp"
 
 namespace packtrace::test {
 namespace {
 
-using study::Meeting;
+using study::Expected;
 using study::StressRay;
 using study::StressRow;
+using study::TrueHit;
+using study::Verdict;
 using study::WideSurface;
 
-std::vector<Meeting> meetings(const Object& object, const StressRay& ray)
+constexpr double single_roundoff = 0x1p-24;
+
+std::vector<TrueHit> true_hits(const Object& object, const StressRay& ray)
 {
-    std::vector<Meeting> found;
-    study::find_meetings(WideSurface(object, 0), ray, found);
+    std::vector<TrueHit> found;
+    study::find_true_hits(WideSurface(object, 0), ray, found);
     std::sort(found.begin(), found.end(),
-              [](const Meeting& a, const Meeting& b) { return a.t < b.t; });
+              [](const TrueHit& a, const TrueHit& b) { return a.t < b.t; });
     return found;
+}
+
+Expected expected_of(const std::vector<Object>& objects, const StressRay& ray)
+{
+    std::vector<TrueHit> hits;
+    for (std::size_t i = 0; i < objects.size(); ++i)
+        study::find_true_hits(WideSurface(objects[i], static_cast<std::int32_t>(i)), ray, hits);
+    return study::expect(ray, std::move(hits), single_roundoff);
+}
+
+Verdict verdict_of(const Expected& expected, const study::Answer& answer)
+{
+    return study::verdict_of(expected, answer, study::double_band, single_roundoff);
+}
+
+study::Errors errors_of(const Expected& expected, const StressRay& ray, const study::Answer& answer)
+{
+    study::Evaluation evaluation(single_roundoff);
+    evaluation.add(ray, expected, answer);
+    return evaluation.errors();
+}
+
+StressRay endless(const Vec3& org, const Vec3& dir)
+{
+    return {org, dir, 0.0, study::no_end};
 }
 
 std::vector<StressRow> rows_of(const study::StressOptions& options)
@@ -67,8 +101,8 @@ bool meets_after(const Object& object, const StressRay& ray, double change)
         int digits = which;
         for (int axis = 0; axis < 3; ++axis, digits /= 3)
             other.dir[axis] *= 1.0 + change * (digits % 3 - 1);
-        for (const Meeting& meeting : meetings(object, other))
-            if (meeting.exists)
+        for (const TrueHit& hit : true_hits(object, other))
+            if (hit.exists)
                 return true;
     }
     return false;
@@ -90,7 +124,7 @@ TEST_CASE("the truth about a ray through a sphere is known", "[stress]")
 {
     const Object ball = study::sphere_object({0, 0, 10}, 2);
     const StressRay through{{0, 0, 0}, {0, 0, 1}, 0.0, 1e9};
-    const auto both = meetings(ball, through);
+    const auto both = true_hits(ball, through);
     REQUIRE(both.size() == 2);
     CHECK(both[0].exists);
     CHECK(both[1].exists);
@@ -107,12 +141,12 @@ TEST_CASE("the truth tells how near a ray is to missing", "[stress]")
     const Object ball = study::sphere_object({0, 0, 10}, 2);
     for (const double off : {1e-3, 1e-6, 1e-9}) {
         CAPTURE(off);
-        const auto inside = meetings(ball, {{2.0 - off, 0, 0}, {0, 0, 1}, 0.0, 1e9});
+        const auto inside = true_hits(ball, {{2.0 - off, 0, 0}, {0, 0, 1}, 0.0, 1e9});
         REQUIRE(inside.size() == 2);
         CHECK(inside[0].exists);
         CHECK(inside[0].margin < off);
         CHECK(inside[0].margin > off / 20);
-        const auto outside = meetings(ball, {{2.0 + off, 0, 0}, {0, 0, 1}, 0.0, 1e9});
+        const auto outside = true_hits(ball, {{2.0 + off, 0, 0}, {0, 0, 1}, 0.0, 1e9});
         REQUIRE(outside.size() == 1);
         CHECK_FALSE(outside[0].exists);
         CHECK(outside[0].margin < off);
@@ -120,31 +154,261 @@ TEST_CASE("the truth tells how near a ray is to missing", "[stress]")
     }
 }
 
-TEST_CASE("a judge finds a wrong hit, a wrong miss and a wrong place", "[stress]")
+TEST_CASE("an answer is held against the hit that was expected before", "[stress]")
 {
     const Object ball = study::sphere_object({0, 0, 10}, 2);
-    const std::vector<WideSurface> surfaces = {WideSurface(ball, 0)};
-    const StressRay through{{0, 0, 0}, {0, 0, 1}, 0.0, 1e9};
-    const StressRay past{{3, 0, 0}, {0, 0, 1}, 0.0, 1e9};
-    const auto errors = [&](const StressRay& ray, const study::Answer& answer) {
-        study::Judge judge(surfaces, 0x1p-24);
-        judge.judge(ray, meetings(ball, ray), answer);
-        return judge.errors();
+    const Object behind = study::sphere_object({0, 0, 20}, 2);
+    const StressRay through = endless({0, 0, 0}, {0, 0, 1});
+    const Expected expected = expected_of({ball, behind}, through);
+    CHECK(expected.object == 0);
+    CHECK(expected.t == 8);
+    CHECK(expected.normal.z == -1.0);
+    CHECK(expected.cosine == -1.0);
+    CHECK(verdict_of(expected, {0, 8.0, {0, 0, -1}}) == Verdict::right);
+    CHECK(verdict_of(expected, {-1, 0.0, {}}) == Verdict::lost);
+    CHECK(verdict_of(expected, {0, 12.0, {0, 0, 1}}) == Verdict::wrong_root);
+    CHECK(verdict_of(expected, {1, 18.0, {0, 0, -1}}) == Verdict::wrong_object);
+    const Expected miss = expected_of({ball}, endless({3, 0, 0}, {0, 0, 1}));
+    CHECK(miss.object == -1);
+    CHECK(verdict_of(miss, {-1, 0.0, {}}) == Verdict::right);
+    CHECK(verdict_of(miss, {0, 10.0, {1, 0, 0}}) == Verdict::false_hit);
+    // Far off, but nearer to no other hit: the right one, with a wrong t.
+    CHECK(errors_of(expected, through, {0, 8.001, {0, 0, -1}}).wrong() == 0);
+    CHECK(errors_of(expected, through, {0, 8.001, {0, 0, -1}}).t_beyond == 1);
+}
+
+TEST_CASE("t, normals and numbers that are wrong are counted", "[stress]")
+{
+    const Object ball = study::sphere_object({0, 0, 10}, 2);
+    const StressRay through = endless({0, 0, 0}, {0, 0, 1});
+    const Expected expected = expected_of({ball}, through);
+    const auto errors = [&](const study::Answer& answer) {
+        return errors_of(expected, through, answer);
     };
-    CHECK(errors(through, {0, 8.0, {0, 0, -1}}).wrong == 0);
-    CHECK(errors(through, {0, 8.0, {0, 0, -1}}).rho == 0.0);
-    CHECK(errors(through, {-1, 1e9, {}}).wrong == 1);
-    CHECK(errors(through, {0, 12.0, {0, 0, 1}}).wrong == 1);
-    CHECK(errors(past, {-1, 1e9, {}}).wrong == 0);
-    CHECK(errors(past, {0, 10.0, {1, 0, 0}}).wrong == 1);
-    CHECK(errors(through, {0, 8.001, {0, 0, -1}}).rho > 100.0);
-    CHECK(errors(through, {0, 8.0, {0, 0, std::nan("")}}).not_finite == 1);
+    CHECK(errors({0, 8.0, {0, 0, -1}}).rho == 0.0);
+    CHECK(errors({0, 8.0, {0, 0, -1}}).t_beyond_half == 0);
+    CHECK(errors({0, 8.0 + 0x1p-20, {0, 0, -1}}).ulp == std::vector<float>{1.0f});
+    CHECK(errors({0, 8.0 + 0x1p-20, {0, 0, -1}}).t_beyond == 0);
+    CHECK(errors({0, 8.0 + 0x1p-20, {0, 0, -1}}).t_beyond_half == 1);
+    CHECK(errors({0, 8.0 + 0x1p-19, {0, 0, -1}}).t_beyond == 1);
+    CHECK(errors({0, 8.0, {0, 0, 0}}).no_normal == 1);
+    CHECK(errors({0, 8.0, {0, 0, 1}}).wrong_side == 1);
+    CHECK(errors({0, 8.0, {0.6, 0, -0.8}}).normal == std::vector<float>{0.6f});
+    CHECK(errors({0, 8.0, {0, 0, std::nan("")}}).not_finite == 1);
+    CHECK(errors({0, std::nan(""), {0, 0, -1}}).not_finite == 1);
+}
+
+TEST_CASE("where both roots are one float the normal tells the far side", "[stress]")
+{
+    const Object ball = study::sphere_object({0, 0, 10000}, static_cast<double>(0.0003f));
+    const auto small = static_cast<double>(1e-8f);
+    const Expected expected = expected_of({ball}, endless({0, 0, 0}, {small, small, 1}));
+    CHECK(expected.root_decided(study::double_band));
+    CHECK(static_cast<float>(expected.t) == 10000.0f);
+    CHECK(expected.normal.z == Approx(-0.881917));
+    const double third = 1.0 / 3.0;
+    CHECK(verdict_of(expected, {0, 10000.0, {third, third, -0.8819171}}) == Verdict::right);
+    CHECK(verdict_of(expected, {0, 10000.0, {third, third, 0.8819171}}) == Verdict::wrong_root);
+}
+
+TEST_CASE("which of two objects is first is decided as far as double can", "[stress]")
+{
+    // A ball of radius 2 before another whose hit is `gap` behind.
+    for (const double gap : {1e-3, 1e-9, 1e-14, 1e-17}) {
+        CAPTURE(gap);
+        std::vector<TrueHit> hits(2);
+        for (TrueHit& hit : hits) {
+            hit.exists = true;
+            hit.t = 8;
+            hit.object = static_cast<std::int32_t>(&hit - hits.data());
+            hit.normal = {0, 0, -1};
+            hit.spread = 18.0;
+            hit.condition = hit.spread / 8.0;
+            hit.margin = 1.0;
+        }
+        hits[1].t += study::Wide(gap);
+        const Expected expected = study::expect(endless({0, 0, 0}, {0, 0, 1}), hits, 0x1p-24);
+        CHECK(expected.object == 0);
+        CHECK(expected.margin == Approx(gap / 36.0));
+        const bool told = gap > 1e-13;
+        CHECK(expected.decided(study::double_band) == told);
+        CHECK(verdict_of(expected, {1, 8.0, {0, 0, -1}}) ==
+              (told ? Verdict::wrong_object : Verdict::right));
+    }
+}
+
+TEST_CASE("every ray hits crossing planes, on their edge as well", "[stress]")
+{
+    Quadric quadric;
+    quadric.coefficients = {1, 0, -1, 0, 0, 0, 0, 0, 0, 0};
+    Object planes;
+    planes.surface = quadric;
+    const Expected edge = expected_of({planes}, endless({0, 0, -5}, {0, 0.04, 0.2}));
+    CHECK(edge.object == 0);
+    CHECK(static_cast<double>(edge.t) == Approx(25.0));
+    CHECK(edge.decided(study::double_band));
+    CHECK_FALSE(edge.root_decided(study::double_band));
+    CHECK(verdict_of(edge, {-1, 0.0, {}}) == Verdict::lost);
+    CHECK(verdict_of(edge, {0, 25.0, {1, 0, 0}}) == Verdict::right);
+    // x = -z first, at z = -2: before it x² < z², inside.
+    const Expected off = expected_of({planes}, endless({2, 0, -5}, {0, 0, 1}));
+    CHECK(off.t == 3);
+    CHECK(off.normal.x == Approx(std::sqrt(0.5)));
+    CHECK(off.normal.z == Approx(std::sqrt(0.5)));
+    CHECK(off.root_decided(study::double_band));
+}
+
+TEST_CASE("a ray inside a capped body has to leave it, at its rim as well", "[stress]")
+{
+    Quadric quadric = study::quadric_of(QuadricKind::cylinder);
+    quadric.z_range = ZRange{-1.0, 1.0};
+    quadric.capped = true;
+    Object cylinder;
+    cylinder.surface = quadric;
+    const auto at_rim = [&](double z) {
+        Expected expected = expected_of({cylinder}, endless({0, 0, 0}, {1, 0, z}));
+        expected.certain = true;
+        return expected;
+    };
+    CHECK(at_rim(1.0).object == 0);
+    CHECK(at_rim(1.0).t == 1);
+    CHECK_FALSE(at_rim(1.0).decided(study::double_band));
+    CHECK(verdict_of(at_rim(1.0), {-1, 0.0, {}}) == Verdict::lost);
+    CHECK(verdict_of(at_rim(1.0), {0, 1.0, {0, 0, 1}}) == Verdict::right);
+    CHECK(verdict_of(at_rim(1.0), {0, 1.0, {1, 0, 0}}) == Verdict::right);
+    CHECK(verdict_of(at_rim(1.0 + 1e-6), {0, 1.0, {1, 0, 0}}) == Verdict::wrong_root);
+    CHECK(at_rim(0.5).decided(study::double_band));
+
+    const auto not_closed = [&](double z, std::size_t crossings) {
+        study::Evaluation evaluation(single_roundoff);
+        evaluation.add_crossings(at_rim(z), crossings);
+        return evaluation.errors().not_closed;
+    };
+    CHECK(not_closed(1.0, 0) == 1);
+    CHECK(not_closed(1.0, 1) == 0);
+    CHECK(not_closed(1.0, 2) == 1);
+    CHECK(not_closed(0.5, 1) == 0);
+    CHECK(not_closed(0.5, 3) == 1);
+}
+
+TEST_CASE("any-hit answers and the first of all hits are held to the truth", "[stress]")
+{
+    const Object ball = study::sphere_object({0, 0, 10}, 2);
+    const Expected hit = expected_of({ball}, endless({0, 0, 0}, {0, 0, 1}));
+    const Expected miss = expected_of({ball}, endless({3, 0, 0}, {0, 0, 1}));
+    study::Evaluation evaluation(single_roundoff);
+    evaluation.add_occluded(hit, true);
+    evaluation.add_occluded(miss, false);
+    evaluation.add_first_of_all(hit, 0, 0);
+    CHECK(evaluation.errors().occluded == 0);
+    CHECK(evaluation.errors().order == 0);
+    evaluation.add_occluded(hit, false);
+    evaluation.add_occluded(miss, true);
+    evaluation.add_first_of_all(hit, 1, 0);
+    CHECK(evaluation.errors().occluded == 2);
+    CHECK(evaluation.errors().order == 1);
+}
+
+TEST_CASE("a ray along a cone's side has one hit, and none at infinity", "[stress]")
+{
+    Object cone;
+    cone.surface = study::quadric_of(QuadricKind::cone);
+    StressRay ray = endless({0, 2, 0}, {0, 1, 1});
+    ray.exact = true;
+    // y² - z² = (2 + t)² - t² = 4 + 4 t.
+    const Expected behind = expected_of({cone}, ray);
+    CHECK(behind.object == -1);
+    CHECK(verdict_of(behind, {0, 6e16, {0, 1, -1}}) == Verdict::false_hit);
+    ray.dir = -ray.dir;
+    CHECK(expected_of({cone}, ray).t == 1);
+}
+
+TEST_CASE("among many spheres the truth leaves out none that matters", "[stress]")
+{
+    for (const study::StressFamily& family : study::touching_families()) {
+        if (family.name != "creases-100" && family.name != "creases-1000")
+            continue;
+        for (const study::StressGroup& group : study::make_groups<float>(family, 7, 64))
+            for (std::size_t i = 0; i < group.rays.size(); ++i) {
+                CAPTURE(family.name, i);
+                const Expected all = expected_of(group.scene.objects, group.rays[i]);
+                const Expected& some = group.expected[i];
+                CHECK(some.object == all.object);
+                CHECK(some.t == all.t);
+                // Beyond any band the margins may be those of other far objects.
+                CHECK(std::min(some.margin, 1e-6) == std::min(all.margin, 1e-6));
+            }
+    }
+}
+
+TEST_CASE("known findings come first in their families", "[stress]")
+{
+    int known = 0;
+    for (const study::StressFamily& family : study::stress_families())
+        for (const auto& make : family.known) {
+            CAPTURE(family.name);
+            study::StressRandom random(1);
+            const study::StressCase one = make();
+            CHECK_FALSE(one.scene.objects.empty());
+            CHECK(expected_of(one.scene.objects, one.ray(random)).object >= -1);
+            ++known;
+        }
+    CHECK(known >= 6);
+}
+
+TEST_CASE("the square root of 113 bits is right to the last", "[stress]")
+{
+    for (const double x : {4.0, 2.0, 1e-300, 3e300, 0.1}) {
+        const study::Wide root = study::square_root(study::Wide(x));
+        const study::Wide off = abs(root * root - x) / x;
+        CHECK(static_cast<double>(off) < 0x1p-110);
+    }
+    CHECK(study::square_root(study::Wide(9)) == 3);
+    CHECK(study::square_root(study::Wide(-1)) == 0);
+}
+
+TEST_CASE("a verdict names the families that are wrong", "[stress]")
+{
+    StressRow good;
+    good.family = "sphere";
+    good.precision = "single";
+    good.mode = "exact";
+    good.held = true;
+    good.rays = 100;
+    CHECK(study::faults_of(good).empty());
+    CHECK(study::without_faults({good}));
+    CHECK(study::stress_verdict({good}) ==
+          "verdict: exact is right in all 1 families (0 wrong decisions, 0 self-hits, 0 second "
+          "hits lost, 100 rays)");
+    StressRow bad = good;
+    bad.family = "rims";
+    bad.wrong = bad.lost = 3;
+    bad.faults = study::faults_of(bad);
+    CHECK(bad.faults == std::vector<std::string>{"3 lost"});
+    CHECK_FALSE(study::without_faults({good, bad}));
+    CHECK(study::stress_verdict({good, bad}) ==
+          "verdict: exact is WRONG in rims (3 wrong decisions, 0 self-hits, 0 second hits lost, "
+          "200 rays)");
+    StressRow fast = bad;
+    fast.held = false;
+    fast.faults.clear();
+    CHECK(study::stress_verdict({fast}) == "verdict: no rays were traced in an exact mode");
+    for (std::uint64_t StressRow::*count :
+         {&StressRow::false_hits, &StressRow::wrong_object, &StressRow::wrong_root,
+          &StressRow::occluded, &StressRow::order, &StressRow::not_closed,
+          &StressRow::beyond_own_band, &StressRow::not_finite, &StressRow::no_normal,
+          &StressRow::wrong_side, &StressRow::t_beyond, &StressRow::t_beyond_half,
+          &StressRow::self_hits, &StressRow::second_lost, &StressRow::second_inexact}) {
+        StressRow row = good;
+        row.*count = 1;
+        CHECK(study::faults_of(row).size() == 1);
+    }
 }
 
 TEST_CASE("a ray that its own rounding turns towards a cylinder is inside the band", "[stress]")
 {
-    const double band = study::undecidable_band * 0x1p-24;
-    const auto along = meetings(turned_cylinder(), ray_along_cylinder());
+    const double band = study::undecided_band * 0x1p-24;
+    const auto along = true_hits(turned_cylinder(), ray_along_cylinder());
     REQUIRE(along.size() == 1);
     CHECK(!along[0].exists);
     CHECK(meets_after(turned_cylinder(), ray_along_cylinder(), 0x1p-24));
@@ -152,11 +416,11 @@ TEST_CASE("a ray that its own rounding turns towards a cylinder is inside the ba
     // Ten thousand times further off the axis it is decided, until its range ends.
     StressRay off = ray_along_cylinder();
     off.dir += 1e-3 * Vec3(turned_cylinder().transform[0]);
-    for (const Meeting& meeting : meetings(turned_cylinder(), off))
-        CHECK((meeting.exists || meeting.margin > band));
+    for (const TrueHit& hit : true_hits(turned_cylinder(), off))
+        CHECK((hit.exists || hit.margin > band));
     StressRay short_one = ray_along_cylinder();
     short_one.t_max = 10.0;
-    CHECK(meetings(turned_cylinder(), short_one)[0].margin > band);
+    CHECK(true_hits(turned_cylinder(), short_one)[0].margin > band);
 }
 
 TEST_CASE("packets are right about rays along a cylinder outside the band", "[stress]")
@@ -168,12 +432,12 @@ TEST_CASE("packets are right about rays along a cylinder outside the band", "[st
     options.families = {"cylinder-axis"};
     for (const StressRow& row : rows_of(options)) {
         CAPTURE(row.mode, row.isa);
-        CHECK(row.wrong == 0);
-        CHECK(row.undecidable < row.rays / 2);
+        CHECK(row.beyond_own_band == 0);
+        CHECK(row.undecided < row.rays / 2);
     }
 }
 
-TEST_CASE("second meetings are those of rays from where they start", "[stress]")
+TEST_CASE("second hits are those of rays from where they start", "[stress]")
 {
     study::StressOptions options;
     options.rays = 8000;
@@ -181,20 +445,42 @@ TEST_CASE("second meetings are those of rays from where they start", "[stress]")
     options.families = {"cone-apex", "far-quadric"};
     for (const StressRow& row : rows_of(options)) {
         CAPTURE(row.family, row.precision, row.mode, row.isa);
-        CHECK(row.secondary > 1000);
-        CHECK(row.exact_taken == 0);
-        CHECK(row.exact_lost == 0);
+        CHECK(row.second_rays > 1000);
+        CHECK(row.self_hits == 0);
+        CHECK(row.second_lost == 0);
     }
 }
 
-TEST_CASE("packets keep every stated bound on every family", "[stress]")
+TEST_CASE("packets are right outside the band of their own precision", "[stress]")
 {
     study::StressOptions options;
     options.rays = 400;
     options.kernels = {"packet"};
+    for (const auto& some : {study::sphere_families(), study::plane_families(),
+                             study::quadric_families(), study::scene_families()})
+        for (const study::StressFamily& family : some)
+            options.families.push_back(family.name);
     for (const StressRow& row : rows_of(options)) {
-        CAPTURE(row.family, row.precision, row.mode, row.isa, row.broken);
-        CHECK(row.broken.empty());
+        CAPTURE(row.family, row.precision, row.mode, row.isa, row.example);
+        CHECK(row.beyond_own_band == 0);
+        CHECK(row.not_finite == 0);
+        CHECK(row.rho <= 4.0);
+        CHECK(row.self_hits == 0);
+        CHECK(row.second_lost == 0);
+    }
+}
+
+TEST_CASE("powers, glass and mirrors keep their bounds", "[stress]")
+{
+    study::StressOptions options;
+    options.rays = 400;
+    options.families = {"exponents",      "exponent-1",  "exponent-10000",
+                        "critical-angle", "mirror-room", "mirror-ball"};
+    for (const StressRow& row : rows_of(options)) {
+        CAPTURE(row.family, row.precision, row.mode, row.isa);
+        CHECK(row.rays > 0);
+        CHECK(row.beyond_own_band == 0);
+        CHECK(row.faults.empty());
     }
 }
 
@@ -205,13 +491,13 @@ TEST_CASE("the textbook breaks on what packets hold", "[stress]")
     options.precisions = {"single"};
     options.families = {"tiny-far"};
     const auto far = rows_of(options);
-    CHECK(row_of(far, "naive", "").wrong > 100);
-    CHECK(row_of(far, "packet", "fast").wrong == 0);
+    CHECK(row_of(far, "textbook", "").beyond_own_band > 100);
+    CHECK(row_of(far, "packet", "fast").beyond_own_band == 0);
     options.families = {"ground-5000"};
     const auto ground = rows_of(options);
-    CHECK(row_of(ground, "naive", "").ulp_max > 1e4);
-    CHECK(row_of(ground, "packet", "fast").ulp_max < 200.0);
-    CHECK(row_of(ground, "packet", "auto").ulp_max < 4.0);
+    CHECK(row_of(ground, "textbook", "").ulp.max > 1e4);
+    CHECK(row_of(ground, "packet", "fast").ulp.max < 200.0);
+    CHECK(row_of(ground, "packet", "auto").ulp.max < 4.0);
 }
 
 TEST_CASE("all instruction sets with fused multiply-add answer alike in every mode", "[stress]")
@@ -219,33 +505,43 @@ TEST_CASE("all instruction sets with fused multiply-add answer alike in every mo
     study::StressOptions options;
     options.rays = 300;
     options.kernels = {"packet"};
+    const std::vector<std::string> fused = {"sse_fma", "avx2", "avx512"};
     for (const StressRow& row : rows_of(options)) {
         CAPTURE(row.family, row.precision, row.mode, row.isa);
-        // One row without, and one row for all with it.
-        const bool plain = row.isa.find("sse42") != std::string::npos;
-        const bool fused = row.isa.find("avx2") != std::string::npos;
-        CHECK((plain || row.isa.find("sse_fma") != std::string::npos) == (plain || fused));
+        // Any with it comes with all of them.
+        const std::string names = " " + row.isa + " ";
+        std::size_t in_row = 0;
+        std::size_t supported = 0;
+        for (const IsaInfo& isa : list_isas()) {
+            if (!isa.supported || std::find(fused.begin(), fused.end(), isa.name) == fused.end())
+                continue;
+            ++supported;
+            in_row += names.find(" " + isa.name + " ") != std::string::npos;
+        }
+        CHECK((in_row == 0 || in_row == supported));
     }
 }
 
-TEST_CASE("the stress command prints rows, JSON and its families", "[stress]")
+TEST_CASE("the stress command prints rows, a verdict, JSON and its families", "[stress]")
 {
-    const std::vector<std::string> few = {"stress", "--family", "sphere", "--rays", "64"};
+    const std::vector<std::string> few = {"stress", "--family", "plane", "--rays", "64"};
     const auto with = [&](std::vector<std::string> more) {
         more.insert(more.begin(), few.begin(), few.end());
         return run_packtrace(more);
     };
-    const ProgramResult table = with({"--kernel", "packet", "--mode", "robust"});
+    const std::string exact = study::stress_modes[std::size(study::stress_modes) - 1].name;
+    const ProgramResult table = with({"--kernel", "packet", "--mode", exact});
     CHECK(table.exit_code == 0);
-    CHECK(table.out.find("sphere") != std::string::npos);
-    CHECK(table.out.find("robust") != std::string::npos);
+    CHECK(table.out.find("plane") != std::string::npos);
+    CHECK(table.out.find("verdict: " + exact + " is right in all 1 families") != std::string::npos);
     CHECK(table.out.find("fast") == std::string::npos);
 
     const auto json = nlohmann::json::parse(with({"--json", "--precision", "single"}).out);
     CHECK(json.at("rays_per_family") == 64);
+    CHECK(json.at("verdict").get<std::string>().starts_with("verdict: "));
     CHECK(json.at("rows").size() >= 3);
     for (const auto& row : json.at("rows")) {
-        CHECK(row.at("family") == "sphere");
+        CHECK(row.at("family") == "plane");
         CHECK(row.at("precision") == "single");
         CHECK(row.at("rays") == 64);
     }
@@ -256,6 +552,25 @@ TEST_CASE("the stress command prints rows, JSON and its families", "[stress]")
         CHECK(list.out.find(family.name) != std::string::npos);
     CHECK(run_packtrace({"stress", "--family", "nonsense"}).exit_code == 2);
     CHECK(run_packtrace({"stress", "--rays", "0"}).exit_code == 2);
+    CHECK(run_packtrace({"stress", "--mode", "nonsense"}).exit_code == 2);
+    CHECK(run_packtrace({"stress", "--self-hits", "nonsense"}).exit_code == 2);
+}
+
+TEST_CASE("the stress command writes wrong rays and their scenes", "[stress]")
+{
+    const TempFolder folder;
+    const auto run = [&](const std::string& into) {
+        return run_packtrace({"stress", "--family", "tiny-far", "--rays", "64", "--kernel",
+                              "textbook", "--precision", "single", "--cases", into});
+    };
+    CHECK(run((folder / ".").string()).exit_code == 0);
+    const std::string name = (folder / "tiny-far-single-textbook").string();
+    const ProgramResult traced = run_packtrace({"intersect", name + ".scene", name + ".csv"});
+    CHECK(traced.exit_code == 0);
+    CHECK(std::count(traced.out.begin(), traced.out.end(), '\n') == 2);
+    const ProgramResult nowhere = run((folder / "none").string());
+    CHECK(nowhere.exit_code != 0);
+    CHECK(nowhere.err.find("none") != std::string::npos);
 }
 
 TEST_CASE("accuracy is refused where it means nothing", "[stress]")

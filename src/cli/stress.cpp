@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <filesystem>
 #include <iostream>
 #include <memory>
 #include <string>
@@ -13,7 +14,10 @@
 #include "cli/text_table.hpp"
 #include "cli/thread_limit.hpp"
 #include "cli/validators.hpp"
+#include "core/atomic_file.hpp"
 #include "study/stress.hpp"
+#include "study/stress_subject.hpp"
+#include "study/stress_verdict.hpp"
 
 namespace packtrace::cli {
 namespace {
@@ -25,6 +29,7 @@ constexpr int most_rays = 10000000;
 struct StressArguments {
     study::StressOptions options;
     std::optional<std::string> isa;
+    std::optional<std::string> cases;  ///< a folder for scenes and rays of wrong answers
     int threads = 0;
     bool list = false;
     bool json = false;
@@ -38,27 +43,58 @@ std::vector<std::string> family_names()
     return names;
 }
 
-TextTable make_table()
+std::vector<std::string> mode_names()
 {
-    return {5,
-            {"family", "precision", "kernel", "mode", "instruction sets", "hits", "wrong",
-             "in band", "nan", "ulp 50%", "99%", "max", "rho", "off surface", "normal",
-             "note self/lost", "exact", "ns", "best"}};
+    std::vector<std::string> names;
+    for (const study::StressMode& mode : study::stress_modes)
+        names.emplace_back(mode.name);
+    return names;
 }
 
-std::string pair_of(std::uint64_t taken, std::uint64_t lost)
+TextTable make_table()
 {
-    return std::to_string(taken) + "/" + std::to_string(lost);
+    return {5, {"family",   "precision", "kernel", "mode",      "instruction sets",
+                "rays",     "hits",      "wrong",  "lost",      "false",
+                "object",   "root",      "other",  "own band",  "self",
+                "2nd lost", "t 50%",     "99%",    "max",       "normal 99%",
+                "max",      "side",      "none",   "2nd t 99%", "ns",
+                "best"}};
 }
 
 void add_row(TextTable& table, const StressRow& row)
 {
-    table.add({row.family, row.precision, row.kernel, row.mode, row.isa, std::to_string(row.hits),
-               std::to_string(row.wrong), std::to_string(row.wrong_in_band),
-               std::to_string(row.not_finite), brief(row.ulp_median), brief(row.ulp_p99),
-               brief(row.ulp_max), brief(row.rho), brief(row.distance), brief(row.normal),
-               pair_of(row.note_taken, row.note_lost), pair_of(row.exact_taken, row.exact_lost),
-               fixed(row.ns, 1), row.pareto ? "*" : ""});
+    const auto count = [](std::uint64_t number) { return std::to_string(number); };
+    table.add({row.family,
+               row.precision,
+               row.kernel,
+               row.mode,
+               row.isa,
+               count(row.rays),
+               count(row.hits),
+               count(row.wrong),
+               count(row.lost),
+               count(row.false_hits),
+               count(row.wrong_object),
+               count(row.wrong_root),
+               count(row.occluded + row.order + row.not_closed),
+               count(row.beyond_own_band),
+               count(row.self_hits),
+               count(row.second_lost),
+               brief(row.ulp.median),
+               brief(row.ulp.p99),
+               brief(row.ulp.max),
+               brief(row.normal.p99),
+               brief(row.normal.max),
+               count(row.wrong_side),
+               count(row.no_normal + row.not_finite),
+               brief(row.second.p99),
+               fixed(row.ns, 1),
+               row.pareto ? "*" : ""});
+}
+
+nlohmann::ordered_json spread_json(const study::ErrorSpread& spread)
+{
+    return {{"median", spread.median}, {"p99", spread.p99}, {"max", spread.max}};
 }
 
 nlohmann::ordered_json row_json(const StressRow& row)
@@ -68,27 +104,37 @@ nlohmann::ordered_json row_json(const StressRow& row)
             {"kernel", row.kernel},
             {"mode", row.mode},
             {"isa", row.isa},
+            {"held", row.held},
             {"rays", row.rays},
             {"hits", row.hits},
-            {"undecidable", row.undecidable},
+            {"undecided", row.undecided},
             {"wrong", row.wrong},
-            {"wrong_in_band", row.wrong_in_band},
+            {"lost", row.lost},
+            {"false_hits", row.false_hits},
+            {"wrong_object", row.wrong_object},
+            {"wrong_root", row.wrong_root},
+            {"any_hit_wrong", row.occluded},
+            {"first_of_all_wrong", row.order},
+            {"not_closed", row.not_closed},
+            {"wrong_beyond_own_band", row.beyond_own_band},
             {"not_finite", row.not_finite},
-            {"ulp_median", row.ulp_median},
-            {"ulp_p99", row.ulp_p99},
-            {"ulp_max", row.ulp_max},
+            {"no_normal", row.no_normal},
+            {"wrong_side", row.wrong_side},
+            {"t_beyond_ulp", row.t_beyond},
+            {"t_beyond_half_ulp", row.t_beyond_half},
+            {"ulp", spread_json(row.ulp)},
+            {"normal_error", spread_json(row.normal)},
             {"rho", row.rho},
             {"distance_roundoffs", row.distance},
-            {"normal_error", row.normal},
-            {"relative_error_well_conditioned", row.relative},
-            {"secondary_rays", row.secondary},
-            {"note_self_hits", row.note_taken},
-            {"note_lost_hits", row.note_lost},
-            {"exact_self_hits", row.exact_taken},
-            {"exact_lost_hits", row.exact_lost},
+            {"second_rays", row.second_rays},
+            {"self_hits", row.self_hits},
+            {"second_lost", row.second_lost},
+            {"second_inexact", row.second_inexact},
+            {"second_error", spread_json(row.second)},
             {"ns_per_ray", row.ns},
             {"pareto", row.pareto},
-            {"broken_bounds", row.broken}};
+            {"first_wrong", row.example},
+            {"faults", row.faults}};
 }
 
 void print_families()
@@ -107,17 +153,50 @@ void print_rows(const std::vector<StressRow>& rows)
     table.print(std::cout);
 }
 
-/// One line a broken bound; how many there are.
-std::size_t print_broken(const std::vector<StressRow>& rows)
+/// One line for each row that has faults, and its first wrong ray.
+void print_faults(const std::vector<StressRow>& rows)
 {
-    std::size_t count = 0;
+    for (const StressRow& row : rows) {
+        if (row.faults.empty())
+            continue;
+        std::cout << row.family << ", " << row.precision << ' ' << row.mode << " (" << row.isa
+                  << "): ";
+        for (std::size_t i = 0; i < row.faults.size(); ++i)
+            std::cout << (i == 0 ? "" : ", ") << row.faults[i];
+        std::cout << '\n';
+        if (!row.example.empty())
+            std::cout << "    " << row.example << '\n';
+    }
+}
+
+void print_json(const study::StressOptions& options, const std::vector<StressRow>& rows)
+{
+    nlohmann::ordered_json json;
+    json["seed"] = options.seed;
+    json["rays_per_family"] = options.rays;
+    json["verdict"] = study::stress_verdict(rows);
+    json["rows"] = nlohmann::ordered_json::array();
     for (const StressRow& row : rows)
-        for (const std::string& bound : row.broken) {
-            std::cerr << "packtrace: " << row.family << ", " << row.precision << ' ' << row.mode
-                      << " (" << row.isa << "): broken: " << bound << '\n';
-            ++count;
-        }
-    return count;
+        json["rows"].push_back(row_json(row));
+    std::cout << json.dump(2) << '\n';
+}
+
+/// The first wrong ray of each row and its scene, for `packtrace intersect`.
+void write_cases(const std::filesystem::path& folder, const std::vector<StressRow>& rows)
+{
+    for (const StressRow& row : rows) {
+        if (row.example.empty())
+            continue;
+        std::string name = row.family + "-" + row.precision + "-" + row.kernel;
+        for (const std::string& part : {row.mode, row.isa.substr(0, row.isa.find(' '))})
+            name += part.empty() ? "" : "-" + part;
+        AtomicFile scene(folder / (name + ".scene"));
+        scene.write("# " + row.example + "\n" + row.example_scene);
+        scene.commit();
+        AtomicFile rays(folder / (name + ".csv"));
+        rays.write("ox,oy,oz,dx,dy,dz,t_min,t_max\n" + row.example_ray + "\n");
+        rays.commit();
+    }
 }
 
 void run(const StressArguments& arguments)
@@ -132,18 +211,16 @@ void run(const StressArguments& arguments)
     study::run_stress(options, [&](const std::vector<StressRow>& some) {
         rows.insert(rows.end(), some.begin(), some.end());
     });
+    if (arguments.cases)
+        write_cases(*arguments.cases, rows);
     if (arguments.json) {
-        nlohmann::ordered_json json;
-        json["seed"] = options.seed;
-        json["rays_per_family"] = options.rays;
-        json["rows"] = nlohmann::ordered_json::array();
-        for (const StressRow& row : rows)
-            json["rows"].push_back(row_json(row));
-        std::cout << json.dump(2) << '\n';
+        print_json(options, rows);
     } else {
         print_rows(rows);
+        print_faults(rows);
+        std::cout << study::stress_verdict(rows) << '\n';
     }
-    if (print_broken(rows) > 0)
+    if (!study::without_faults(rows))
         throw Failed{};
 }
 
@@ -159,23 +236,36 @@ void add_stress(CLI::App& app)
         ->check(one_of(family_names()))
         ->type_name("NAME");
     command->add_flag("--list", arguments->list, "List the families");
-    command->add_option("--rays", options.rays, "Rays of each family (default 2000)")
+    command->add_option("--rays", options.rays, "Rays of each family (default 4096)")
         ->check(whole_number(1, most_rays))
         ->type_name("N");
     command->add_option("--seed", options.seed, "Other rays of the same kind (default 1)")
         ->type_name("N");
     command->add_option("--kernel", options.kernels, "Only this kernel (repeatable)")
-        ->check(one_of({"packet", "scalar", "naive"}))
-        ->type_name("packet|scalar|naive");
+        ->check(one_of({"packet", "scalar", "textbook"}))
+        ->type_name("packet|scalar|textbook");
     command->add_option("--mode", options.modes, "Only this accuracy of packets (repeatable)")
-        ->check(one_of({"fast", "auto", "robust"}))
-        ->type_name("fast|auto|robust");
+        ->check(one_of(mode_names()))
+        ->type_name("NAME");
     command->add_option("--precision", options.precisions, "Only this precision (repeatable)")
         ->check(one_of({"single", "double"}))
         ->type_name("single|double");
     command->add_option("--isa", arguments->isa, "Only this instruction set (default all)")
         ->type_name("NAME");
+    command
+        ->add_option_function<std::string>(
+            "--self-hits",
+            [arguments](const std::string& rule) {
+                arguments->options.self_hits = rule == "note" ? SelfHits::note : SelfHits::exact;
+            },
+            "How second rays keep from their own start (default exact)")
+        ->check(one_of({"note", "exact"}))
+        ->type_name("note|exact");
     add_threads_option(*command, arguments->threads);
+    command
+        ->add_option("--cases", arguments->cases,
+                     "Write the first wrong ray of each row, and its scene, into this folder")
+        ->type_name("FOLDER");
     command->add_flag("--json", arguments->json, "Print JSON");
     command->callback([arguments] { run(*arguments); });
 }

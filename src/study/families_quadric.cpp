@@ -1,9 +1,8 @@
-#include "study/stress_family.hpp"
+#include "study/placed_quadric.hpp"
 
 #include <utility>
 
 #include <glm/geometric.hpp>
-#include <glm/gtc/matrix_transform.hpp>
 
 #include "study/own_surface.hpp"
 
@@ -16,45 +15,6 @@ const Kinds every_kind = {QuadricKind::ellipsoid,   QuadricKind::cylinder,
                           QuadricKind::cone,        QuadricKind::paraboloid,
                           QuadricKind::hyperboloid, QuadricKind::hyperboloid2,
                           QuadricKind::saddle};
-
-Mat4 any_turn(StressRandom& random)
-{
-    const double angle = random.between(0.0, 6.2831853);
-    return glm::rotate(Mat4(1.0), angle, random.unit());
-}
-
-/// Turned, stretched along its axes, turned again and moved.
-Mat4 any_placement(StressRandom& random, const Vec3& stretch, const Vec3& to)
-{
-    const Mat4 after = any_turn(random);
-    const Mat4 before = any_turn(random);
-    return glm::translate(Mat4(1.0), to) * after * glm::scale(Mat4(1.0), stretch) * before;
-}
-
-Vec3 to_world(const Mat4& m, const Vec3& own)
-{
-    return Vec3(m * glm::dvec4(own, 1.0));
-}
-
-/// A placed quadric and a source of rays in its own space, which are taken to the world.
-StressCase placed(const Quadric& quadric, const Mat4& transform,
-                  std::function<StressRay(StressRandom&)> own_ray)
-{
-    StressCase result;
-    Object object;
-    object.surface = quadric;
-    object.transform = transform;
-    result.scene.objects = {object};
-    result.scene.camera.position = Vec3(transform[3]) + Vec3(0.0, 0.0, -5.0);
-    result.ray = [=, own_ray = std::move(own_ray)](StressRandom& random) {
-        const StressRay own = own_ray(random);
-        StressRay ray = own;
-        ray.org = to_world(transform, own.org);
-        ray.dir = glm::normalize(Vec3(transform * glm::dvec4(own.dir, 0.0)));
-        return ray;
-    };
-    return result;
-}
 
 /// Rays from a world distance of a few units at the surface and past it.
 StressCase shot_at(StressRandom& random, const Kinds& kinds, const Mat4& transform)
@@ -70,14 +30,6 @@ StressCase shot_at(StressRandom& random, const Kinds& kinds, const Mat4& transfo
         return ray;
     };
     return result;
-}
-
-Vec3 any_stretch(StressRandom& random, double least)
-{
-    const double x = random.power(least, 1.0);
-    const double y = random.power(least, 1.0);
-    const double z = random.power(least, 1.0);
-    return {x, y, z};
 }
 
 /// Rays of own space with a direction near `way`, off by `least` to `most`, through `around`.

@@ -12,7 +12,6 @@ namespace packtrace::study {
 namespace {
 
 using boost::multiprecision::abs;
-using boost::multiprecision::sqrt;
 using reference::dot;
 
 constexpr int glass_scene_count = 16;
@@ -56,24 +55,24 @@ struct Bend {
 Bend bend_at(const Sphere& sphere, double ior, const RayNode& ray)
 {
     const WideVec o = wide(ray.org) - wide(sphere.center);
-    const Wide length = sqrt(dot(wide(ray.dir), wide(ray.dir)));
+    const Wide length = square_root(dot(wide(ray.dir), wide(ray.dir)));
     const WideVec d = wide(ray.dir) / length;
     const Wide radius = sphere.radius;
     const Wide b = dot(o, d);
-    const Wide t = sqrt(b * b - dot(o, o) + radius * radius) - b;
+    const Wide t = square_root(b * b - dot(o, o) + radius * radius) - b;
     const WideVec normal = (o + t * d) / radius;
     const Wide cosine = dot(normal, d);
     const Wide eta = ior;
     const Wide out2 = 1 - eta * eta * (1 - cosine * cosine);
     // cos² changes by the direction's and the index' rounding, and as the hit point moves.
-    const Wide place = sqrt(dot(wide(sphere.center), wide(sphere.center)));
-    const Wide moved = (2 * place + sqrt(dot(o, o)) + t) / radius;
+    const Wide place = square_root(dot(wide(sphere.center), wide(sphere.center)));
+    const Wide moved = (2 * place + square_root(dot(o, o)) + t) / radius;
     const Wide change = 2 * eta * eta * (1 - cosine * cosine + cosine + moved);
     Bend bend;
     bend.total = out2 < 0;
     bend.margin = static_cast<double>(abs(out2) / change);
     if (!bend.total) {
-        const Wide out = sqrt(out2);
+        const Wide out = square_root(out2);
         bend.dir = eta * d + (out - eta * cosine) * normal;
         bend.condition = static_cast<double>(eta * (2 + moved) + change / (2 * out));
     }
@@ -81,7 +80,7 @@ Bend bend_at(const Sphere& sphere, double ior, const RayNode& ray)
 }
 
 template <class Real>
-void judge_glass_tree(const Scene& scene, const RayNode& tree, MeasureRun& run)
+void evaluate_glass_tree(const Scene& scene, const RayNode& tree, MeasureRun& run)
 {
     const double roundoff = std::numeric_limits<Real>::epsilon() / 2.0;
     const Sphere& sphere = std::get<Sphere>(scene.objects[0].surface);
@@ -89,13 +88,13 @@ void judge_glass_tree(const Scene& scene, const RayNode& tree, MeasureRun& run)
     const Bend bend = bend_at(sphere, ior, tree);
     Errors& errors = run.errors;
     ++errors.rays;
-    const bool band = bend.margin < undecidable_band * roundoff;
-    errors.undecidable += band;
+    const bool band = bend.margin < undecided_band * roundoff;
+    errors.undecided += band;
     const bool one = tree.children.size() == 1;
     const bool total = one && tree.children[0].kind == RayKind::mirrored;
     run.answers.push_back(total ? 1.0 : 0.0);
     if (!one || (total != bend.total && !band)) {
-        ++errors.wrong;
+        ++errors.beyond_own_band;
         return;
     }
     if (total || bend.total)
@@ -107,7 +106,7 @@ void judge_glass_tree(const Scene& scene, const RayNode& tree, MeasureRun& run)
     if (band)
         return;
     const double error = largest(wide(dir) - bend.dir);
-    errors.normal = std::max(errors.normal, error);
+    errors.normal.push_back(static_cast<float>(error));
     errors.rho = std::max(errors.rho, error / (roundoff * bend.condition));
 }
 
@@ -124,7 +123,7 @@ StressMeasure::Ask prepared(const StressOptions& options)
         for (const Scene& scene : scenes)
             for_each_tree<Real>(
                 scene, subject, options.rays / glass_scene_count + 1,
-                [&](const RayNode& tree) { judge_glass_tree<Real>(scene, tree, run); });
+                [&](const RayNode& tree) { evaluate_glass_tree<Real>(scene, tree, run); });
         return run;
     };
 }

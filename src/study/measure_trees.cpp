@@ -11,12 +11,13 @@
 namespace packtrace::study {
 namespace {
 
-using boost::multiprecision::abs;
-using boost::multiprecision::sqrt;
 using reference::dot;
 
 constexpr int scene_count = 16;
 constexpr int bounces = 12;
+
+/// A tree of so many bounces takes as long as some hundred rays: there are fewer of them.
+constexpr int sparse_trees = 4;
 
 Object mirror(Object object)
 {
@@ -63,7 +64,7 @@ struct Path {
     double turn_error = 0.0;
 };
 
-/// t of the way to the next meeting with one object, and of which bend; 0 for none.
+/// t of the way to the next hit with one object, and of which bend; 0 for none.
 Wide way_to(const Object& object, int number, const Path& path, WideVec& normal, double& curvature)
 {
     if (const Sphere* sphere = std::get_if<Sphere>(&object.surface)) {
@@ -71,7 +72,7 @@ Wide way_to(const Object& object, int number, const Path& path, WideVec& normal,
         const Wide b = dot(o, path.dir);
         const Wide radius = sphere->radius;
         const Wide c = number == path.left ? Wide(0) : Wide(dot(o, o) - radius * radius);
-        const Wide t = sqrt(b * b - c) - b;
+        const Wide t = square_root(b * b - c) - b;
         normal = (o + t * path.dir) / radius;
         curvature = 1.0 / sphere->radius;
         return t;
@@ -86,7 +87,7 @@ Wide way_to(const Object& object, int number, const Path& path, WideVec& normal,
 
 double size_of(const WideVec& v)
 {
-    return static_cast<double>(sqrt(dot(v, v)));
+    return glm::length(narrow(v));
 }
 
 /// Follows a ray to its next mirror; false where which one that is cannot be told.
@@ -134,22 +135,22 @@ bool bounce(const Scene& scene, Path& path, double roundoff)
 /// A tree's rays one by one, as far as which mirror they meet can be told; returns how far off
 /// the last of those is, in roundoffs.
 template <class Real>
-double judge_bounces(const Scene& scene, const RayNode& tree, MeasureRun& run)
+double evaluate_bounces(const Scene& scene, const RayNode& tree, MeasureRun& run)
 {
     const double roundoff = std::numeric_limits<Real>::epsilon() / 2.0;
     Errors& errors = run.errors;
     Path path{wide(tree.org), wide(tree.dir)};
-    path.dir = path.dir / sqrt(dot(path.dir, path.dir));
+    path.dir = path.dir / square_root(dot(path.dir, path.dir));
     double last = 0.0;
     for (const RayNode* ray = &tree; ray != nullptr;
          ray = ray->children.empty() ? nullptr : &ray->children[0]) {
         run.answers.insert(run.answers.end(), {ray->point.x, ray->point.y, ray->point.z});
         if (!bounce(scene, path, roundoff)) {
-            ++errors.undecidable;
+            ++errors.undecided;
             return last;
         }
         if (ray->object != path.left) {
-            ++errors.wrong;
+            ++errors.beyond_own_band;
             return last;
         }
         ++errors.hits;
@@ -162,10 +163,10 @@ double judge_bounces(const Scene& scene, const RayNode& tree, MeasureRun& run)
 }
 
 template <class Real>
-void judge_tree(const Scene& scene, const RayNode& tree, MeasureRun& run)
+void evaluate_tree(const Scene& scene, const RayNode& tree, MeasureRun& run)
 {
     ++run.errors.rays;
-    const double off = judge_bounces<Real>(scene, tree, run);
+    const double off = evaluate_bounces<Real>(scene, tree, run);
     run.errors.distance = std::max(run.errors.distance, off);
     run.errors.ulp.push_back(static_cast<float>(off / 2.0));
 }
@@ -181,8 +182,9 @@ StressMeasure::Ask prepared(const StressOptions& options, bool room)
     return [=](const StressSubject& subject) {
         MeasureRun run;
         for (const Scene& scene : scenes)
-            for_each_tree<Real>(scene, subject, options.rays / scene_count + 1,
-                                [&](const RayNode& tree) { judge_tree<Real>(scene, tree, run); });
+            for_each_tree<Real>(
+                scene, subject, options.rays / (sparse_trees * scene_count) + 1,
+                [&](const RayNode& tree) { evaluate_tree<Real>(scene, tree, run); });
         return run;
     };
 }

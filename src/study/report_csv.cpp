@@ -7,7 +7,7 @@ namespace packtrace {
 namespace {
 
 // A field between quotes, as some names have commas.
-std::string quoted(const std::string& text)
+std::string csv_text(const std::string& text)
 {
     std::string result = "\"";
     for (const char c : text)
@@ -24,8 +24,8 @@ void write_row(std::ostream& to, const SceneReport& scene, const StudyReport& st
                const ReportRun& run)
 {
     const Variant& variant = run.variant;
-    to << quoted(scene.name) << ',' << scene.width << ',' << scene.height << ','
-       << name_of(study.study) << ',' << quoted(variant.name) << ','
+    to << csv_text(scene.name) << ',' << scene.width << ',' << scene.height << ','
+       << name_of(study.study) << ',' << csv_text(variant.name) << ','
        << (variant.kernel == Kernel::scalar ? "scalar" : "packet") << ',' << variant.precision
        << ',' << variant.isa << ',' << (has_accuracy(variant) ? name_of(variant.accuracy) : "")
        << ',' << variant.lanes << ',' << variant.threads << ',' << variant.depth << ','
@@ -33,7 +33,7 @@ void write_row(std::ostream& to, const SceneReport& scene, const StudyReport& st
        << exact(run.median) << ',' << exact(run.spread) << ',' << run.rays << ','
        << exact(run.error.rmse) << ',' << exact(run.error.max_abs) << ',' << exact(run.error.psnr)
        << ',' << run.error.pixels << ',' << run.error.pixels_off << ',' << (run.pareto ? 1 : 0)
-       << ',' << quoted(shares_text(run)) << '\n';
+       << ',' << csv_text(shares_text(run)) << '\n';
 }
 
 }  // namespace

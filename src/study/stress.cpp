@@ -1,61 +1,21 @@
 #include "study/stress.hpp"
 
 #include <algorithm>
+#include <cstdio>
 #include <iterator>
 #include <limits>
 #include <stdexcept>
 
 #include <tbb/parallel_for.h>
+#include <packtrace/write_scene.hpp>
 
-#include "study/self_hits.hpp"
-#include "study/stress_bounds.hpp"
+#include "study/second_hits.hpp"
 #include "study/stress_measure.hpp"
 #include "study/stress_subject.hpp"
+#include "study/stress_verdict.hpp"
 
 namespace packtrace::study {
 namespace {
-
-/// Scenes of a family.
-constexpr int group_count = 16;
-
-template <class Real>
-StressGroup make_group(const StressFamily& family, std::uint64_t seed, int rays)
-{
-    StressRandom random(seed);
-    StressCase one = family.make(random);
-    StressGroup group;
-    group.scene = std::move(one.scene);
-    round_to_precision<Real>(group.scene);
-    for (const Object& object : group.scene.objects)
-        group.surfaces.emplace_back(object, static_cast<std::int32_t>(group.surfaces.size()));
-    for (int i = 0; i < rays; ++i) {
-        StressRay ray = one.ray(random);
-        round_to_precision<Real>(ray);
-        std::vector<Meeting> meetings;
-        for (const WideSurface& surface : group.surfaces)
-            find_meetings(surface, ray, meetings);
-        group.rays.push_back(ray);
-        group.meetings.push_back(std::move(meetings));
-    }
-    return group;
-}
-
-/// The same scenes and rays whatever else is run: they follow from seed and family alone.
-template <class Real>
-std::vector<StressGroup> make_groups(const StressFamily& family, const StressOptions& options)
-{
-    StressRandom random(options.seed);
-    std::uint64_t mixed = random.bits();
-    for (const char letter : family.name)
-        mixed = StressRandom(mixed ^ static_cast<unsigned char>(letter)).bits();
-    std::vector<StressGroup> groups(group_count);
-    tbb::parallel_for(0, group_count, [&](int i) {
-        const int rays = options.rays / group_count + (i < options.rays % group_count ? 1 : 0);
-        groups[static_cast<std::size_t>(i)] =
-            make_group<Real>(family, mixed + static_cast<std::uint64_t>(i), rays);
-    });
-    return groups;
-}
 
 bool same_answers(const StressRun& a, const StressRun& b)
 {
@@ -77,20 +37,111 @@ double percentile(std::vector<float>& values, double share)
     return static_cast<double>(*at);
 }
 
+ErrorSpread spread_of(std::vector<float>& errors)
+{
+    return {percentile(errors, 0.5), percentile(errors, 0.99), percentile(errors, 1.0)};
+}
+
+std::string text_of(const Vec3& v)
+{
+    char text[96];
+    std::snprintf(text, sizeof text, "(%.17g,%.17g,%.17g)", v.x, v.y, v.z);
+    return text;
+}
+
+std::string hit_text(std::int32_t object, double t, const Vec3& normal)
+{
+    char text[64];
+    std::snprintf(text, sizeof text, "object %d at t = %.17g, normal ", object, t);
+    return object < 0 ? "a miss" : text + text_of(normal);
+}
+
+const char* name_of(Verdict verdict)
+{
+    switch (verdict) {
+        case Verdict::right:
+            return "right";
+        case Verdict::lost:
+            return "lost";
+        case Verdict::false_hit:
+            return "false hit";
+        case Verdict::wrong_object:
+            return "wrong object";
+        case Verdict::wrong_root:
+            return "wrong root";
+    }
+    return "";
+}
+
+/// Which ray it is, what it should hit, and what was said.
+std::string example_text(const StressGroup& group, std::size_t scene, std::size_t ray,
+                         const Answer& answer, Verdict verdict)
+{
+    const StressRay& r = group.rays[ray];
+    const Expected& e = group.expected[ray];
+    return std::string(name_of(verdict)) + ": scene " + std::to_string(scene) + ", ray " +
+           std::to_string(ray) + " " + text_of(r.org) + " -> " + text_of(r.dir) + ": expected " +
+           hit_text(e.object, static_cast<double>(e.t), e.normal) + "; got " +
+           hit_text(answer.object, answer.t, answer.normal);
+}
+
 template <class Real>
-Errors judge_runs(const std::vector<StressGroup>& groups, const std::vector<StressRun>& runs)
+constexpr double roundoff_of = std::numeric_limits<Real>::epsilon() / 2.0;
+
+/// The answers to the rays of one scene, held against what is expected.
+template <class Real>
+Errors evaluate_run(const StressGroup& group, const StressRun& run)
+{
+    Evaluation evaluation(roundoff_of<Real>);
+    for (std::size_t i = 0; i < group.rays.size(); ++i) {
+        const Expected& expected = group.expected[i];
+        evaluation.add(group.rays[i], expected, run.answers[i]);
+        if (run.occluded.empty())
+            continue;
+        evaluation.add_occluded(expected, run.occluded[i] != 0);
+        evaluation.add_first_of_all(expected, run.first[i], run.answers[i].object);
+        evaluation.add_crossings(expected, run.crossings[i]);
+    }
+    return evaluation.errors();
+}
+
+template <class Real>
+Errors evaluate_runs(const std::vector<StressGroup>& groups, const std::vector<StressRun>& runs)
 {
     std::vector<Errors> by_group(groups.size());
-    tbb::parallel_for(std::size_t{0}, groups.size(), [&](std::size_t g) {
-        Judge judge(groups[g].surfaces, std::numeric_limits<Real>::epsilon() / 2.0);
-        for (std::size_t i = 0; i < groups[g].rays.size(); ++i)
-            judge.judge(groups[g].rays[i], groups[g].meetings[i], runs[g].answers[i]);
-        by_group[g] = judge.errors();
-    });
+    tbb::parallel_for(std::size_t{0}, groups.size(),
+                      [&](std::size_t g) { by_group[g] = evaluate_run<Real>(groups[g], runs[g]); });
     Errors sum;
     for (const Errors& errors : by_group)
         sum.add(errors);
     return sum;
+}
+
+/// A ray as a line of the CSV that `packtrace intersect` reads.
+std::string csv_of(const StressRay& ray)
+{
+    char text[256];
+    std::snprintf(text, sizeof text, "%.17g,%.17g,%.17g,%.17g,%.17g,%.17g,%.17g,%.17g", ray.org.x,
+                  ray.org.y, ray.org.z, ray.dir.x, ray.dir.y, ray.dir.z, ray.t_min, ray.t_max);
+    return text;
+}
+
+/// The first wrong closest hit; nothing where all are right.
+template <class Real>
+void add_example(StressRow& row, const std::vector<StressGroup>& groups,
+                 const std::vector<StressRun>& runs)
+{
+    for (std::size_t g = 0; g < groups.size(); ++g)
+        for (std::size_t i = 0; i < groups[g].rays.size(); ++i) {
+            const Verdict verdict = verdict_of(groups[g].expected[i], runs[g].answers[i],
+                                               double_band, roundoff_of<Real>);
+            if (verdict == Verdict::right)
+                continue;
+            row.example = example_text(groups[g], g, i, runs[g].answers[i], verdict);
+            row.example_scene = scene_text(groups[g].scene);
+            row.example_ray = csv_of(groups[g].rays[i]);
+            return;
+        }
 }
 
 StressRow row_of(const StressSubject& subject, const char* precision, Errors errors, double seconds)
@@ -98,50 +149,51 @@ StressRow row_of(const StressSubject& subject, const char* precision, Errors err
     StressRow row;
     row.precision = precision;
     row.kernel = subject.kernel;
-    row.mode = subject.mode;
     row.isa = subject.isa;
+    const bool doubles = row.precision == "double" && subject.kernel == "packet";
+    row.mode = doubles ? "any" : subject.mode;
+    row.held = doubles || subject.exact;
     row.rays = errors.rays;
     row.hits = errors.hits;
-    row.undecidable = errors.undecidable;
-    row.wrong = errors.wrong;
-    row.wrong_in_band = errors.wrong_in_band;
+    row.undecided = errors.undecided;
+    row.wrong = errors.wrong();
+    row.lost = errors.lost;
+    row.false_hits = errors.false_hits;
+    row.wrong_object = errors.wrong_object;
+    row.wrong_root = errors.wrong_root;
+    row.occluded = errors.occluded;
+    row.order = errors.order;
+    row.not_closed = errors.not_closed;
+    row.beyond_own_band = errors.beyond_own_band;
     row.not_finite = errors.not_finite;
-    row.ulp_median = percentile(errors.ulp, 0.5);
-    row.ulp_p99 = percentile(errors.ulp, 0.99);
-    row.ulp_max = percentile(errors.ulp, 1.0);
+    row.no_normal = errors.no_normal;
+    row.wrong_side = errors.wrong_side;
+    row.t_beyond = errors.t_beyond;
+    row.t_beyond_half = errors.t_beyond_half;
+    row.ulp = spread_of(errors.ulp);
+    row.normal = spread_of(errors.normal);
     row.rho = errors.rho;
     row.distance = errors.distance;
-    row.normal = errors.normal;
-    row.relative = errors.relative;
     row.ns = seconds * 1e9 / static_cast<double>(std::max<std::uint64_t>(errors.rays, 1));
     return row;
 }
 
 template <class Real>
-SelfHitCounts self_hits_of(const StressSubject& subject, const std::vector<StressGroup>& groups,
-                           SelfHits rule)
+void add_second_hits(StressRow& row, const StressSubject& subject,
+                     const std::vector<StressGroup>& groups, SelfHits rule)
 {
-    std::vector<SelfHitCounts> by_group(groups.size());
+    std::vector<SecondHits> by_group(groups.size());
     tbb::parallel_for(std::size_t{0}, groups.size(), [&](std::size_t g) {
-        by_group[g] = count_self_hits<Real>(subject, groups[g], rule);
+        by_group[g] = trace_second_hits<Real>(subject, groups[g], rule);
     });
-    SelfHitCounts sum;
-    for (const SelfHitCounts& counts : by_group)
-        sum.add(counts);
-    return sum;
-}
-
-template <class Real>
-void add_self_hits(StressRow& row, const StressSubject& subject,
-                   const std::vector<StressGroup>& groups)
-{
-    const SelfHitCounts note = self_hits_of<Real>(subject, groups, SelfHits::note);
-    const SelfHitCounts exact = self_hits_of<Real>(subject, groups, SelfHits::exact);
-    row.secondary = note.rays;
-    row.note_taken = note.taken;
-    row.note_lost = note.lost;
-    row.exact_taken = exact.taken;
-    row.exact_lost = exact.lost;
+    SecondHits sum;
+    for (const SecondHits& some : by_group)
+        sum.add(some);
+    row.second_rays = sum.rays;
+    row.self_hits = sum.taken;
+    row.second_lost = sum.lost;
+    row.second_inexact = sum.inexact;
+    row.second = spread_of(sum.errors);
 }
 
 template <class Real>
@@ -152,11 +204,11 @@ StressRow row_of(const StressSubject& subject, const std::vector<StressGroup>& g
     for (const StressRun& run : runs)
         seconds += run.seconds;
     return row_of(subject, sizeof(Real) == sizeof(float) ? "single" : "double",
-                  judge_runs<Real>(groups, runs), seconds);
+                  evaluate_runs<Real>(groups, runs), seconds);
 }
 
-/// Whether `runs` are, bit for bit, those of the last row of the same kernel and mode.
-struct Judged {
+/// Answers that a row was made of; later ones with the same bits share the row.
+struct Evaluated {
     std::size_t row;
     std::vector<StressRun> runs;
 };
@@ -165,9 +217,11 @@ template <class Real>
 void add_rows(const StressFamily& family, const StressOptions& options,
               const std::vector<StressSubject>& subjects, std::vector<StressRow>& rows)
 {
-    const std::vector<StressGroup> groups = make_groups<Real>(family, options);
-    std::vector<Judged> judged;
+    const std::vector<StressGroup> groups = make_groups<Real>(family, options.seed, options.rays);
+    std::vector<Evaluated> evaluated;
     for (const StressSubject& subject : subjects) {
+        if (family.packets_only && subject.kernel != "packet")
+            continue;
         // Packets of doubles are the same in every mode.
         const bool packet_of_doubles = sizeof(Real) == sizeof(double) && subject.kernel == "packet";
         if (packet_of_doubles && subject.mode != subjects.back().mode)
@@ -175,31 +229,32 @@ void add_rows(const StressFamily& family, const StressOptions& options,
         std::vector<StressRun> runs;
         for (const StressGroup& group : groups)
             runs.push_back(run_subject<Real>(subject, group));
-        const auto twin = std::find_if(judged.begin(), judged.end(), [&](const Judged& other) {
-            const StressRow& row = rows[other.row];
-            return row.kernel == subject.kernel &&
-                   (row.mode == subject.mode || packet_of_doubles) &&
-                   std::equal(runs.begin(), runs.end(), other.runs.begin(), same_answers);
-        });
-        if (twin != judged.end()) {
+        const auto twin =
+            std::find_if(evaluated.begin(), evaluated.end(), [&](const Evaluated& other) {
+                const StressRow& row = rows[other.row];
+                return row.kernel == subject.kernel &&
+                       (row.mode == subject.mode || packet_of_doubles) &&
+                       std::equal(runs.begin(), runs.end(), other.runs.begin(), same_answers);
+            });
+        if (twin != evaluated.end()) {
             rows[twin->row].isa += " " + subject.isa;
             continue;
         }
         rows.push_back(row_of<Real>(subject, groups, runs));
-        add_self_hits<Real>(rows.back(), subject, groups);
+        add_second_hits<Real>(rows.back(), subject, groups, options.self_hits);
         rows.back().family = family.name;
-        if (packet_of_doubles)
-            rows.back().mode = "any";
-        rows.back().broken = broken_bounds(rows.back());
-        judged.push_back({rows.size() - 1, std::move(runs)});
+        add_example<Real>(rows.back(), groups, runs);
+        if (rows.back().held)
+            rows.back().faults = faults_of(rows.back());
+        evaluated.push_back({rows.size() - 1, std::move(runs)});
     }
 }
 
 /// Whether a is nowhere worse than b, and somewhere better, in wrong answers, error and time.
 bool dominates(const StressRow& a, const StressRow& b)
 {
-    const bool not_worse = a.wrong <= b.wrong && a.ulp_p99 <= b.ulp_p99 && a.ns <= b.ns;
-    return not_worse && (a.wrong < b.wrong || a.ulp_p99 < b.ulp_p99 || a.ns < b.ns);
+    const bool not_worse = a.wrong <= b.wrong && a.ulp.p99 <= b.ulp.p99 && a.ns <= b.ns;
+    return not_worse && (a.wrong < b.wrong || a.ulp.p99 < b.ulp.p99 || a.ns < b.ns);
 }
 
 /// Of each precision, as their errors count in units of their own.
@@ -232,9 +287,8 @@ void add_measured(const StressMeasure& measure, const char* precision,
         }
         rows.push_back(row_of(subject, precision, std::move(run.errors), run.seconds));
         rows.back().family = measure.name;
-        if (doubles)
-            rows.back().mode = "any";
-        rows.back().broken = broken_bounds(rows.back());
+        if (rows.back().held)
+            rows.back().faults = faults_of_measure(rows.back());
         answered.emplace_back(rows.size() - 1, std::move(run.answers));
     }
 }

@@ -10,45 +10,65 @@
 namespace packtrace::study {
 
 struct StressOptions {
-    std::vector<std::string> families;    ///< by name; empty: all
-    std::vector<std::string> kernels;     ///< packet, scalar, naive; empty: all
-    std::vector<std::string> modes;       ///< fast, auto, robust; empty: all; packets only
-    std::vector<std::string> precisions;  ///< single, double; empty: both
-    std::string isa;                      ///< empty: all that run here
-    int rays = 2000;                      ///< of each family and precision
+    std::vector<std::string> families;     ///< by name; empty: all
+    std::vector<std::string> kernels;      ///< packet, scalar, textbook; empty: all
+    std::vector<std::string> modes;        ///< of stress_modes; empty: all; packets only
+    std::vector<std::string> precisions;   ///< single, double; empty: both
+    std::string isa;                       ///< empty: all that run here
+    SelfHits self_hits = SelfHits::exact;  ///< how second rays keep from their own start
+    int rays = 4096;                       ///< of each family and precision
     std::uint64_t seed = 1;
 };
 
-/// One kernel in one mode on one family.
+/// How many, and quantiles of their errors.
+struct ErrorSpread {
+    double median = 0.0;
+    double p99 = 0.0;
+    double max = 0.0;
+};
+
+/// One kernel in one mode on one family. All wrong answers are such as double itself can tell from
+/// right ones, unless another band is named.
 struct StressRow {
     std::string family;
     std::string precision;  ///< single, double
-    std::string kernel;     ///< packet, scalar, naive
-    std::string mode;       ///< fast, auto, robust; empty but for packets
+    std::string kernel;     ///< packet, scalar, textbook
+    std::string mode;       ///< of stress_modes; "any" for packets of doubles, empty for others
     std::string isa;        ///< those that gave the same bits, parted by spaces
+    bool held = false;      ///< its answers count for the verdict
     std::uint64_t rays = 0;
     std::uint64_t hits = 0;
-    std::uint64_t undecidable = 0;
-    std::uint64_t wrong = 0;
-    std::uint64_t wrong_in_band = 0;
+    std::uint64_t undecided = 0;  ///< rays that double cannot decide either
+    std::uint64_t wrong = 0;      ///< closest hits: the sum of the next four
+    std::uint64_t lost = 0;
+    std::uint64_t false_hits = 0;
+    std::uint64_t wrong_object = 0;
+    std::uint64_t wrong_root = 0;  ///< of the right object
+    std::uint64_t occluded = 0;    ///< any-hit answers that are wrong
+    std::uint64_t order = 0;       ///< the first of all hits is another object than the closest
+    std::uint64_t not_closed = 0;  ///< rays that do not leave a closed body just once
+    std::uint64_t beyond_own_band = 0;  ///< wrong even outside the band of the precision itself
     std::uint64_t not_finite = 0;
-    double ulp_median = 0.0;
-    double ulp_p99 = 0.0;
-    double ulp_max = 0.0;
+    std::uint64_t no_normal = 0;
+    std::uint64_t wrong_side = 0;
+    std::uint64_t t_beyond = 0;       ///< t off by more than 1 ulp, and than double's limit
+    std::uint64_t t_beyond_half = 0;  ///< the same for 0.51 ulp
+    ErrorSpread ulp;                  ///< of t, in units in the last place of the precision
+    ErrorSpread normal;
     double rho = 0.0;
     double distance = 0.0;
-    double normal = 0.0;
-    double relative = 0.0;
-    // Secondary rays from the hits: own starts taken for hits, and second meetings lost, with
-    // SelfHits::note and SelfHits::exact.
-    std::uint64_t secondary = 0;
-    std::uint64_t note_taken = 0;
-    std::uint64_t note_lost = 0;
-    std::uint64_t exact_taken = 0;
-    std::uint64_t exact_lost = 0;
-    double ns = 0.0;                  ///< a ray, of the first of the instruction sets
-    bool pareto = false;              ///< no other of the family is both quicker and more exact
-    std::vector<std::string> broken;  ///< stated bounds that do not hold
+    // Rays that leave the hits.
+    std::uint64_t second_rays = 0;
+    std::uint64_t self_hits = 0;
+    std::uint64_t second_lost = 0;
+    std::uint64_t second_inexact = 0;  ///< t off by more than 1e-6, and than double's limit
+    ErrorSpread second;                ///< relative errors of t
+    double ns = 0.0;                   ///< a ray, of the first of the instruction sets
+    bool pareto = false;               ///< no other of the family is both quicker and more exact
+    std::string example_scene;         ///< the scene of the first wrong closest hit
+    std::string example_ray;           ///< and its ray, as `packtrace intersect` reads it
+    std::string example;               ///< the first wrong closest hit
+    std::vector<std::string> faults;   ///< what the verdict holds against it
 };
 
 /// Runs families of extreme rays through the kernels and holds the answers against 113 bits.

@@ -45,8 +45,8 @@ const std::vector<StressFamily>& stress_families()
 {
     static const std::vector<StressFamily> families = [] {
         std::vector<StressFamily> all;
-        for (auto some :
-             {sphere_families(), plane_families(), quadric_families(), scene_families()})
+        for (auto some : {sphere_families(), plane_families(), quadric_families(), scene_families(),
+                          far_families(), touching_families(), edge_families()})
             all.insert(all.end(), std::move_iterator(some.begin()), std::move_iterator(some.end()));
         return all;
     }();
@@ -74,6 +74,23 @@ Object plane_object(const Vec3& point, const Vec3& normal)
     Object object;
     object.surface = plane;
     return object;
+}
+
+StressCase known_case(std::vector<Object> objects, const StressRay& ray)
+{
+    StressCase result;
+    result.scene.objects = std::move(objects);
+    result.ray = [ray, first = true](StressRandom& random) mutable {
+        StressRay next = ray;
+        if (!first)
+            for (int axis = 0; axis < 3; ++axis) {
+                next.org[axis] *= 1.0 + random.between(-1.0, 1.0) * 0x1p-21;
+                next.dir[axis] *= 1.0 + random.between(-1.0, 1.0) * 0x1p-21;
+            }
+        first = false;
+        return next;
+    };
+    return result;
 }
 
 Vec3 across(StressRandom& random, const Vec3& v)

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <functional>
+#include <limits>
 #include <string>
 #include <vector>
 
@@ -8,6 +9,9 @@
 #include "study/wide_truth.hpp"
 
 namespace packtrace::study {
+
+/// t_max of rays without an end.
+inline constexpr double no_end = std::numeric_limits<double>::infinity();
 
 /// A scene and a source of rays that are hard on it.
 struct StressCase {
@@ -20,6 +24,11 @@ struct StressFamily {
     std::string name;
     std::string what;
     std::function<StressCase(StressRandom&)> make;
+    /// The first scenes, if these are known ones.
+    std::vector<std::function<StressCase()>> known = {};
+    bool closed = false;  ///< rays from inside a body that they must leave
+    int scenes = 16;
+    bool packets_only = false;  ///< too many objects for one after the other
 };
 
 /// All of them, in the order they are shown.
@@ -29,10 +38,16 @@ struct StressFamily {
 [[nodiscard]] std::vector<StressFamily> plane_families();
 [[nodiscard]] std::vector<StressFamily> quadric_families();
 [[nodiscard]] std::vector<StressFamily> scene_families();
+[[nodiscard]] std::vector<StressFamily> far_families();
+[[nodiscard]] std::vector<StressFamily> touching_families();
+[[nodiscard]] std::vector<StressFamily> edge_families();
 
 [[nodiscard]] StressRay ray_towards(const Vec3& org, const Vec3& target);
 [[nodiscard]] Object sphere_object(const Vec3& center, double radius);
 [[nodiscard]] Object plane_object(const Vec3& point, const Vec3& normal);
+
+/// A scene of a known finding: its ray, then such as differ from it in their last digits.
+[[nodiscard]] StressCase known_case(std::vector<Object> objects, const StressRay& ray);
 
 /// Any unit vector across `v`.
 [[nodiscard]] Vec3 across(StressRandom& random, const Vec3& v);

@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "study/judge.hpp"
+#include "study/evaluate.hpp"
 #include "study/stress_subject.hpp"
 
 namespace packtrace::study {

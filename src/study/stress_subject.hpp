@@ -3,37 +3,44 @@
 #include <string>
 #include <vector>
 
-#include "study/judge.hpp"
+#include "study/evaluate.hpp"
 #include "study/stress.hpp"
-#include "study/stress_family.hpp"
+#include "study/stress_group.hpp"
 
 namespace packtrace::study {
 
-/// Rays of one scene with all that is known of them.
-struct StressGroup {
-    Scene scene;
-    std::vector<StressRay> rays;
-    std::vector<WideSurface> surfaces;
-    std::vector<std::vector<Meeting>> meetings;  ///< by ray
+/// An accuracy of packets; `exact` ones are held to deciding as double does.
+struct StressMode {
+    const char* name;
+    Accuracy accuracy;
+    bool exact;
 };
+
+inline constexpr StressMode stress_modes[] = {{"fast", Accuracy::fast, false},
+                                              {"auto", Accuracy::automatic, false},
+                                              {"robust", Accuracy::robust, true}};
 
 /// A kernel in one mode, on one instruction set.
 struct StressSubject {
     std::string kernel;
     std::string mode;
     std::string isa;
+    bool exact = false;
     RenderOptions options;
 };
 
 /// Whether `name` is among `names`; where none are given all are.
 [[nodiscard]] bool wanted(const std::vector<std::string>& names, const std::string& name);
 
-/// The subjects that the options ask for. Throws std::invalid_argument for unknown names.
+/// The subjects that the options ask for.
 [[nodiscard]] std::vector<StressSubject> stress_subjects(const StressOptions& options);
 
-/// Answers, and what they took.
+/// Answers by ray, and what the closest hits took. The textbook has no more than those.
 struct StressRun {
     std::vector<Answer> answers;
+    std::vector<std::uint8_t> occluded;
+    std::vector<std::int32_t> first;     ///< object of the first of all hits
+    std::vector<std::size_t> crossings;  ///< how many hits there are
     double seconds = 0.0;
 };
 

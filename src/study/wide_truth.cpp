@@ -1,37 +1,111 @@
 #include "study/wide_truth.hpp"
 
 #include <algorithm>
-#include <limits>
+#include <cmath>
+
+#include <glm/geometric.hpp>
 
 namespace packtrace::study {
 namespace {
 
 using boost::multiprecision::abs;
-using boost::multiprecision::sqrt;
 using reference::dot;
 
 constexpr double never = std::numeric_limits<double>::infinity();
 
 /// A coordinate in own space is a sum of three products, each rounded up to three times.
-const Wide own_roundings = 3;
+constexpr double own_roundings = 3.0;
 
-/// The sums of magnitudes that a matrix makes of a vector.
-WideVec sizes(const WideVec (&rows)[3], const WideVec& v)
+double narrow(const Wide& x)
 {
-    const WideVec size = magnitudes(v);
-    return {dot(magnitudes(rows[0]), size), dot(magnitudes(rows[1]), size),
-            dot(magnitudes(rows[2]), size)};
+    return static_cast<double>(x);
 }
+
+Vec3 sizes(const WideVec& v)
+{
+    return glm::abs(study::narrow(v));
+}
+
+/// How sensitive a ray is to its inputs: sums of magnitudes, for which double is enough. Inputs
+/// are the ray, the surface's place, its transform, and the ray's start and way in own space.
+class Sensitivity {
+public:
+    Sensitivity(const WideSurface& surface, const StressRay& ray)
+        : by_points_(surface.by_points),
+          org_(glm::abs(ray.org)),
+          dir_(glm::abs(ray.dir)),
+          from_offset_(sizes(wide(ray.org) - surface.offset)),
+          place_(sizes(surface.place))
+    {
+        for (int row = 0; row < 3; ++row) {
+            world_[row] = sizes(surface.world[row]);
+            own_[row] = sizes(surface.own[row]);
+        }
+    }
+
+    /// What changes by 1 move at t along the own covector g, whose world form is n.
+    [[nodiscard]] double at(const Vec3& g, const Vec3& n, double t, const Vec3& own) const
+    {
+        const Vec3 way = std::abs(t) * dir_;
+        double sum = dot3(n, org_ + way + place_);
+        if (by_points_)
+            sum += dot3(n, to_world(own)) + own_roundings * dot3(g, to_own(from_offset_ + way));
+        return sum;
+    }
+
+    /// What they turn the direction by, along g.
+    [[nodiscard]] double of_direction(const Vec3& g, const Vec3& n, const Vec3& v) const
+    {
+        double sum = dot3(n, dir_);
+        if (by_points_)
+            sum += dot3(n, to_world(v)) + own_roundings * dot3(g, to_own(dir_));
+        return sum;
+    }
+
+    /// What they change of the own direction's components, one by one.
+    [[nodiscard]] Vec3 of_components(const Vec3& v) const
+    {
+        return to_own(dir_ + to_world(v)) + own_roundings * to_own(dir_);
+    }
+
+    /// The sums of magnitudes that the transposed inverse makes of a covector.
+    [[nodiscard]] Vec3 covector(const Vec3& g) const
+    {
+        return by_points_ ? g.x * own_[0] + g.y * own_[1] + g.z * own_[2] : g;
+    }
+
+private:
+    static double dot3(const Vec3& a, const Vec3& b)
+    {
+        return std::abs(a.x) * b.x + std::abs(a.y) * b.y + std::abs(a.z) * b.z;
+    }
+    [[nodiscard]] Vec3 to_world(const Vec3& v) const
+    {
+        return {dot3(v, world_[0]), dot3(v, world_[1]), dot3(v, world_[2])};
+    }
+    [[nodiscard]] Vec3 to_own(const Vec3& v) const
+    {
+        return {dot3(v, own_[0]), dot3(v, own_[1]), dot3(v, own_[2])};
+    }
+
+    bool by_points_;
+    Vec3 org_;
+    Vec3 dir_;
+    Vec3 from_offset_;
+    Vec3 place_;
+    Vec3 world_[3];
+    Vec3 own_[3];
+};
 
 /// One ray against one surface.
 class Line {
 public:
     Line(const WideSurface& surface, const StressRay& ray)
         : surface_(surface),
-          org_(wide(ray.org)),
-          dir_(wide(ray.dir)),
-          p_(surface.point_to_own(org_)),
-          v_(surface.direction_to_own(dir_)),
+          sensitivity_(surface, ray),
+          p_(surface.point_to_own(wide(ray.org))),
+          v_(surface.direction_to_own(wide(ray.dir))),
+          own_dir_(narrow3(v_)),
           t_min_(ray.t_min),
           t_max_(ray.t_max)
     {
@@ -42,90 +116,89 @@ public:
         infinity_margin_ = margin_of_infinity(second);
     }
 
-    void find(std::vector<Meeting>& found) const
+    void find(std::vector<TrueHit>& found) const
     {
+        if (surface_.sheets) {
+            for (const std::size_t sheet : {std::size_t{0}, std::size_t{1}})
+                find_sheet((*surface_.sheets)[sheet], (*surface_.sheets)[1 - sheet], found);
+            return;
+        }
         find_sides(found);
         if (surface_.capped) {
-            find_cap(surface_.z_range->low, Wide(-1), found);
-            find_cap(surface_.z_range->high, Wide(1), found);
+            find_cap(surface_.z_range->low, -1, found);
+            find_cap(surface_.z_range->high, 1, found);
         }
     }
 
 private:
+    static Vec3 narrow3(const WideVec& v)
+    {
+        return study::narrow(v);
+    }
+
     [[nodiscard]] WideVec own_at(const Wide& t) const
     {
         return p_ + t * v_;
     }
 
-    /// What relative changes of the inputs by 1 move along the own covector g, at t. Inputs are
-    /// the ray, the surface's place, its transform, and the ray's start and way in own space.
-    [[nodiscard]] Wide reach(const WideVec& g, const Wide& t, const WideVec& own) const
+    [[nodiscard]] Vec3 to_world(const WideVec& g) const
     {
-        const WideVec n = magnitudes(surface_.covector_to_world(g));
-        const Wide by_place = dot(n, magnitudes(org_) + magnitudes(t * dir_) + surface_.place);
-        if (!surface_.by_points)
-            return by_place;
-        const WideVec way = magnitudes(org_ - surface_.offset) + magnitudes(t * dir_);
-        return by_place + dot(n, sizes(surface_.world, own)) +
-               own_roundings * dot(magnitudes(g), sizes(surface_.own, way));
+        return narrow3(surface_.covector_to_world(g));
+    }
+
+    [[nodiscard]] double reach(const WideVec& g, const Wide& t, const WideVec& own) const
+    {
+        return sensitivity_.at(narrow3(g), to_world(g), narrow(t), narrow3(own));
     }
 
     /// What a general quadric's canonical form adds to `reach`, and to the change of its half
     /// value: its centre, axes and coefficients, and the ray's start and way in its space.
-    [[nodiscard]] Wide canonical_terms(const WideVec& g, const Wide& t) const
+    [[nodiscard]] double canonical_terms(const Vec3& g, const Wide& t, const WideVec& own) const
     {
         const CanonicalForm& form = *surface_.canonical;
-        const WideVec center = wide(form.center);
-        const WideVec way = magnitudes(p_) + magnitudes(center) + magnitudes(t * v_);
-        const WideVec off = own_at(t) - center;
-        Wide sum = abs(Wide(form.constant)) / 2;
+        const Vec3 way = sizes(p_) + glm::abs(form.center) + std::abs(narrow(t)) * sizes(v_);
+        const Vec3 off = narrow3(own - wide(form.center));
+        double sum = std::abs(form.constant) / 2.0;
         for (int axis = 0; axis < 3; ++axis) {
-            const WideVec row = wide(form.axes[axis]);
-            const Wide x = dot(row, off);
-            sum += abs(dot(row, g)) * dot(magnitudes(row), way) +
-                   abs(Wide(form.square[axis])) * x * x / 2 +
-                   (axis == 2 ? abs(Wide(form.linear) * x) : Wide(0));
+            const Vec3& row = form.axes[axis];
+            const double x = glm::dot(row, off);
+            sum += std::abs(glm::dot(row, g)) * glm::dot(glm::abs(row), way) +
+                   std::abs(form.square[axis]) * x * x / 2.0 +
+                   (axis == 2 ? std::abs(form.linear * x) : 0.0);
         }
         // The form itself comes from an eigenvalue problem and completed squares.
-        return 2 * own_roundings * sum;
+        return 2.0 * own_roundings * sum;
     }
 
     /// How much the half value can change at t.
-    [[nodiscard]] Wide sensitivity(const Wide& t) const
+    [[nodiscard]] double change_at(const WideVec& g, const Wide& t, const WideVec& own) const
     {
-        const WideVec own = own_at(t);
-        const WideVec g = surface_.gradient(own);
-        return reach(g, t, own) + (surface_.canonical ? canonical_terms(g, t) : Wide(0));
+        return reach(g, t, own) + (surface_.canonical ? canonical_terms(narrow3(g), t, own) : 0.0);
     }
 
     /// How near the quadratic is to losing a root to infinity.
     [[nodiscard]] double margin_of_infinity(const WideVec& second) const
     {
-        const WideVec n = magnitudes(surface_.covector_to_world(second));
-        Wide size = 2 * dot(n, magnitudes(dir_));
-        if (surface_.by_points)
-            size += 2 * (dot(n, sizes(surface_.world, v_)) +
-                         own_roundings * dot(magnitudes(second), sizes(surface_.own, dir_)));
-        return size == 0 ? never : static_cast<double>(abs(a_) / size);
+        const double size =
+            2.0 * sensitivity_.of_direction(narrow3(second), to_world(second), own_dir_);
+        return size == 0.0 ? never : std::abs(narrow(a_)) / size;
     }
 
     /// How near a is to vanishing where none of its terms cancel: all of them must.
     [[nodiscard]] double margin_of_vanishing(const WideVec& second) const
     {
-        const WideVec by_transform = sizes(surface_.world, v_);
-        const WideVec size = sizes(surface_.own, magnitudes(dir_) + by_transform) +
-                             own_roundings * sizes(surface_.own, dir_);
-        const auto share = [](const Wide& term, const Wide& v, const Wide& reach) {
-            return term == 0 ? Wide(0) : Wide(abs(v) / reach);
-        };
-        return static_cast<double>(
-            std::max({share(second.x, v_.x, size.x), share(second.y, v_.y, size.y),
-                      share(second.z, v_.z, size.z)}));
+        const Vec3 size = sensitivity_.of_components(own_dir_);
+        double margin = 0.0;
+        const Vec3 terms = narrow3(second);
+        for (int axis = 0; axis < 3; ++axis)
+            if (terms[axis] != 0.0)
+                margin = std::max(margin, std::abs(own_dir_[axis]) / size[axis]);
+        return margin;
     }
 
     /// How near a ray without a root is to one far away. There a and c have one sign; a change
     /// that turns a's leaves a root ahead, at any distance. Where no terms of a cancel, as along a
-    /// cylinder, it cannot turn, but can vanish; from there any turn towards the surface meets it.
+    /// cylinder, it cannot turn, but can vanish; from there any turn towards the surface hits it.
     [[nodiscard]] double margin_of_no_root() const
     {
         if (t_max_ < never || !surface_.by_points)
@@ -142,52 +215,72 @@ private:
         if (a_ == 0)
             return never;
         const Wide t = -b_ / a_;
-        const Wide half_value = (c_ - b_ * b_ / a_) / 2;
-        return static_cast<double>(abs(half_value) / sensitivity(t));
+        const WideVec own = own_at(t);
+        const double half_value = narrow((c_ + t * b_) / 2);
+        return std::abs(half_value) / change_at(surface_.gradient(own), t, own);
     }
 
-    /// Adds the meeting at t, whose own uncertainty is `spread`; `margin` holds so far.
-    void add(const Wide& t, const Wide& spread, const WideVec& world_normal, bool exists,
-             double margin, std::vector<Meeting>& found) const
+    /// Adds the hit at t, whose own uncertainty is `spread`; `margin` holds so far.
+    TrueHit& add(const Wide& t, double spread, const WideVec& normal, bool exists, double margin,
+                 std::vector<TrueHit>& found) const
     {
-        Meeting meeting;
-        meeting.t = t;
-        meeting.object = surface_.object;
-        meeting.exists = exists && t > t_min_ && t < t_max_;
-        const Wide size = sqrt(dot(world_normal, world_normal));
+        TrueHit hit;
+        hit.t = t;
+        hit.object = surface_.object;
+        hit.exists = exists && t > t_min_ && t < t_max_;
+        const WideVec n = surface_.covector_to_world(normal);
+        const Wide size = square_root(dot(n, n));
         if (size > 0)
-            meeting.normal = world_normal / size;
-        if (spread > 0) {
-            const double start = static_cast<double>(abs(t - t_min_) / spread);
-            (t_min_ == 0 ? margin : meeting.end_margin) = std::min(margin, start);
-            if (t_max_ < never)
-                meeting.end_margin = std::min(meeting.end_margin,
-                                              static_cast<double>(abs(t - Wide(t_max_)) / spread));
-        }
-        meeting.condition = static_cast<double>(spread / abs(t));
-        meeting.margin = margin;
-        found.push_back(meeting);
+            hit.normal = n / size;
+        const double size_of_t = std::abs(narrow(t));
+        if (t_min_ > 0)
+            hit.end_gap = std::abs(narrow(t - t_min_)) / size_of_t;
+        else if (spread > 0)
+            margin = std::min(margin, size_of_t / spread);
+        if (t_max_ < never)
+            hit.end_gap = std::min(hit.end_gap, std::abs(narrow(t - t_max_)) / size_of_t);
+        hit.spread = spread;
+        hit.condition = spread / size_of_t;
+        hit.margin = margin;
+        found.push_back(hit);
+        return found.back();
     }
 
-    void add_side(const Wide& t, double margin, bool crosses, std::vector<Meeting>& found) const
+    void add_side(const Wide& t, double margin, bool crosses, std::vector<TrueHit>& found) const
     {
         const WideVec own = own_at(t);
         const WideVec g = surface_.gradient(own);
-        const WideVec n = surface_.covector_to_world(g);
-        const Wide slope = abs(dot(g, v_));
+        const double slope = std::abs(narrow(dot(g, v_)));
         // Where the ray only touches, or nearly, t has no first-order uncertainty.
-        const Wide spread = crosses && slope > 0 ? Wide(sensitivity(t) / slope) : Wide(0);
+        const double spread = crosses && slope > 0.0 ? change_at(g, t, own) / slope : 0.0;
         bool exists = crosses;
         if (surface_.z_range) {
-            const Wide blur = reach({0, 0, 1}, t, own) + abs(v_.z) * spread;
+            const double blur = reach({0, 0, 1}, t, own) + std::abs(own_dir_.z) * spread;
             for (const double bound : {surface_.z_range->low, surface_.z_range->high})
-                margin = std::min(margin, static_cast<double>(abs(own.z - bound) / blur));
+                margin = std::min(margin, std::abs(narrow(own.z - bound)) / blur);
             exists = exists && own.z >= surface_.z_range->low && own.z <= surface_.z_range->high;
         }
-        add(t, spread, n, exists, margin, found);
+        TrueHit& hit = add(t, spread, g, exists, margin, found);
+        hit.normal_spread = turn_of_normal(g, t, own, spread);
     }
 
-    void find_sides(std::vector<Meeting>& found) const
+    /// What changes by 1 turn the normal by: as its point moves along the ray, and as it is made
+    /// of the point's terms.
+    [[nodiscard]] double turn_of_normal(const WideVec& g, const Wide& t, const WideVec& own,
+                                        double spread) const
+    {
+        const double size = glm::length(to_world(g));
+        if (size == 0.0)
+            return never;
+        const Vec3 way = sizes(p_) + std::abs(narrow(t)) * sizes(v_) + sizes(own);
+        Vec3 terms = sizes(surface_.linear);
+        for (int row = 0; row < 3; ++row)
+            terms[row] += glm::dot(sizes(surface_.square[row]), own_roundings * way);
+        const double along = glm::length(to_world(surface_.second_order(v_))) * spread;
+        return (along + glm::length(sensitivity_.covector(terms))) / size;
+    }
+
+    void find_sides(std::vector<TrueHit>& found) const
     {
         const Wide discriminant = b_ * b_ - a_ * c_;
         const double touching = touching_margin();
@@ -195,7 +288,7 @@ private:
             add_side(-b_ / a_, std::min(touching, margin_of_no_root()), false, found);
             return;
         }
-        const Wide root = sqrt(discriminant);
+        const Wide root = square_root(discriminant);
         const Wide q = b_ < 0 ? Wide(root - b_) : Wide(-root - b_);
         if (q != 0)
             add_side(c_ / q, touching, true, found);
@@ -203,25 +296,45 @@ private:
             add_side(q / a_, std::min(touching, infinity_margin_), true, found);
     }
 
-    void find_cap(double height, const Wide& side, std::vector<Meeting>& found) const
+    /// One of two crossing planes. Every line that is along neither hits both, so that no change
+    /// of the inputs makes a ray miss their edge; but it may make the normal another.
+    void find_sheet(const WideVec& g, const WideVec& other, std::vector<TrueHit>& found) const
+    {
+        const Wide slope = dot(g, v_);
+        if (slope == 0)
+            return;
+        const Wide t = -dot(g, p_) / slope;
+        const WideVec own = own_at(t);
+        const double steep = std::abs(narrow(slope));
+        const double spread = reach(g, t, own) / steep;
+        const double turn = sensitivity_.of_direction(narrow3(g), to_world(g), own_dir_);
+        const Wide side = dot(other, own);
+        TrueHit& hit = add(t, spread, side > 0 ? g : -g, true, steep / turn, found);
+        const double blur = reach(other, t, own) + std::abs(narrow(dot(other, v_))) * spread;
+        // By the quadratic that the product is, nothing tells the two apart where they nearly meet.
+        hit.side_margin = std::min(std::abs(narrow(side)) / blur, touching_margin());
+    }
+
+    void find_cap(double height, int side, std::vector<TrueHit>& found) const
     {
         if (v_.z == 0)
             return;
         const Wide t = (Wide(height) - p_.z) / v_.z;
         const WideVec own = own_at(t);
-        const WideVec up = surface_.covector_to_world({0, 0, side});
-        const Wide spread = reach({0, 0, side}, t, own) / abs(v_.z);
+        const WideVec up(0, 0, side);
+        const double spread = reach(up, t, own) / std::abs(own_dir_.z);
         const Wide value = surface_.value(own) / 2;
-        const Wide change = abs(dot(surface_.gradient(own), v_)) * spread;
-        const double margin = static_cast<double>(abs(value) / (sensitivity(t) + change));
-        add(t, spread, up, value <= 0, margin, found);
+        const WideVec g = surface_.gradient(own);
+        const double change = std::abs(narrow(dot(g, v_))) * spread;
+        add(t, spread, up, value <= 0, std::abs(narrow(value)) / (change_at(g, t, own) + change),
+            found);
     }
 
     const WideSurface& surface_;
-    WideVec org_;
-    WideVec dir_;
+    Sensitivity sensitivity_;
     WideVec p_;
     WideVec v_;
+    Vec3 own_dir_;
     double t_min_;
     double t_max_;
     Wide a_ = 0;
@@ -232,24 +345,9 @@ private:
 
 }  // namespace
 
-void find_meetings(const WideSurface& surface, const StressRay& ray, std::vector<Meeting>& found)
+void find_true_hits(const WideSurface& surface, const StressRay& ray, std::vector<TrueHit>& found)
 {
     Line(surface, ray).find(found);
-}
-
-double distance_to(const WideSurface& surface, const WideVec& P)
-{
-    const WideVec own = surface.point_to_own(P);
-    const WideVec n = surface.covector_to_world(surface.gradient(own));
-    const Wide size = sqrt(dot(n, n));
-    Wide distance = size > 0 ? Wide(abs(surface.value(own) / (2 * size))) : Wide(0);
-    if (surface.capped) {
-        const WideVec up = surface.covector_to_world({0, 0, 1});
-        const Wide height = sqrt(dot(up, up));
-        for (const double cap : {surface.z_range->low, surface.z_range->high})
-            distance = std::min(distance, Wide(abs(own.z - cap) / height));
-    }
-    return static_cast<double>(distance);
 }
 
 }  // namespace packtrace::study

@@ -5,7 +5,7 @@
 
 #include "study/wide_surface.hpp"
 
-// What a ray really meets, how sensitive that is, and how far it is from being otherwise.
+// What a ray really hits, how sensitive that is, and how far it is from being otherwise.
 namespace packtrace::study {
 
 /// A ray with the bits the kernels are given.
@@ -14,24 +14,26 @@ struct StressRay {
     Vec3 dir{0.0};
     double t_min = 0.0;
     double t_max = 0.0;
+    bool exact = false;  ///< its inputs are meant to the last digit: nothing is undecided
 };
 
-/// A place where a ray meets a surface, or would after a small change of its inputs.
-struct Meeting {
+/// A place where a ray hits a surface, or would after a small change of its inputs.
+struct TrueHit {
     bool exists = false;
     Wide t = 0;
     std::int32_t object = -1;
-    WideVec normal;          ///< unit, outwards
-    double condition = 0.0;  ///< relative change of t for relative changes 1 of every input
+    WideVec normal;          ///< unit, outwards; 0 where there is none
+    double spread = 0.0;     ///< change of t for relative changes 1 of every input
+    double condition = 0.0;  ///< the same over t
     double margin = 0.0;     ///< relative change of the inputs that makes `exists` another
-    /// The same for the ends of the range other than 0, which t is compared with as rounded.
-    double end_margin = std::numeric_limits<double>::infinity();
+    /// How far t is, by its own size, from an end of the range other than 0.
+    double end_gap = std::numeric_limits<double>::infinity();
+    double normal_spread = 0.0;  ///< turn of the normal for relative changes 1 of every input
+    /// Relative change of the inputs that makes the normal another.
+    double side_margin = std::numeric_limits<double>::infinity();
 };
 
-/// Appends the meetings of one ray with one surface.
-void find_meetings(const WideSurface& surface, const StressRay& ray, std::vector<Meeting>& found);
-
-/// How far the world point P is from the surface, to first order.
-[[nodiscard]] double distance_to(const WideSurface& surface, const WideVec& P);
+/// Appends the hits of one ray with one surface, whatever their t.
+void find_true_hits(const WideSurface& surface, const StressRay& ray, std::vector<TrueHit>& found);
 
 }  // namespace packtrace::study

@@ -1,4 +1,4 @@
-#include "study/naive.hpp"
+#include "study/textbook.hpp"
 
 #include <cmath>
 #include <limits>
@@ -85,10 +85,10 @@ Places<Real> roots(const Real (&k)[10], const Vec<Real>& p, const Vec<Real>& v)
 }  // namespace
 
 template <class Real>
-NaiveScene<Real>::NaiveScene(const Scene& scene)
+TextbookScene<Real>::TextbookScene(const Scene& scene)
 {
     for (const Object& object : scene.objects) {
-        NaiveBody<Real> body;
+        TextbookBody<Real> body;
         const auto [coefficients, place] =
             std::visit([](const auto& surface) { return define(surface); }, object.surface);
         const Mat4 inverse = glm::inverse(glm::translate(object.transform, place));
@@ -111,7 +111,7 @@ NaiveScene<Real>::NaiveScene(const Scene& scene)
 namespace {
 
 template <class Real>
-Vec<Real> direction_to_own(const NaiveBody<Real>& body, const Vec<Real>& d)
+Vec<Real> direction_to_own(const TextbookBody<Real>& body, const Vec<Real>& d)
 {
     const auto& m = body.own;
     return {m[0][0] * d.x + m[0][1] * d.y + m[0][2] * d.z,
@@ -121,13 +121,13 @@ Vec<Real> direction_to_own(const NaiveBody<Real>& body, const Vec<Real>& d)
 
 /// `which` of the places is on the clipped side or on a cap.
 template <class Real>
-bool on_surface(const NaiveBody<Real>& body, const Vec<Real>& p, int which)
+bool on_surface(const TextbookBody<Real>& body, const Vec<Real>& p, int which)
 {
     return which < 2 ? p.z >= body.low && p.z <= body.high : value(body.coefficient, p) <= 0;
 }
 
 template <class Real>
-Vec3 normal_at(const NaiveBody<Real>& body, const Vec<Real>& p, int which)
+Vec3 normal_at(const TextbookBody<Real>& body, const Vec<Real>& p, int which)
 {
     const auto& m = body.own;
     const Vec<Real> n = which < 2 ? gradient(body.coefficient, p)
@@ -142,11 +142,11 @@ Vec3 normal_at(const NaiveBody<Real>& body, const Vec<Real>& p, int which)
 }  // namespace
 
 template <class Real>
-Answer NaiveScene<Real>::closest_hit(const StressRay& ray) const
+Answer TextbookScene<Real>::closest_hit(const StressRay& ray) const
 {
     Answer best{-1, ray.t_max, {}};
     for (std::size_t i = 0; i < bodies_.size(); ++i) {
-        const NaiveBody<Real>& body = bodies_[i];
+        const TextbookBody<Real>& body = bodies_[i];
         const Vec<Real> v = direction_to_own(body, Vec<Real>(ray.dir));
         const Vec<Real> p = direction_to_own(body, Vec<Real>(ray.org)) +
                             Vec<Real>(body.own[0][3], body.own[1][3], body.own[2][3]);
@@ -166,7 +166,7 @@ Answer NaiveScene<Real>::closest_hit(const StressRay& ray) const
     return best;
 }
 
-template class NaiveScene<float>;
-template class NaiveScene<double>;
+template class TextbookScene<float>;
+template class TextbookScene<double>;
 
 }  // namespace packtrace::study

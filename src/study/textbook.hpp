@@ -3,12 +3,12 @@
 #include <limits>
 #include <vector>
 
-#include "study/judge.hpp"
+#include "study/evaluate.hpp"
 
 namespace packtrace::study {
 
 template <class Real>
-struct NaiveBody {
+struct TextbookBody {
     Real own[3][4] = {};  ///< world to own space
     Real coefficient[10] = {};
     Real low = -std::numeric_limits<Real>::infinity();
@@ -19,14 +19,14 @@ struct NaiveBody {
 /// What a first book on the subject gives: centre and radius, b² - 4 a c, (-b ± √D) / 2a, a
 /// matrix's inverse applied to points. For comparison only.
 template <class Real>
-class NaiveScene {
+class TextbookScene {
 public:
-    explicit NaiveScene(const Scene& scene);
+    explicit TextbookScene(const Scene& scene);
 
     [[nodiscard]] Answer closest_hit(const StressRay& ray) const;
 
 private:
-    std::vector<NaiveBody<Real>> bodies_;
+    std::vector<TextbookBody<Real>> bodies_;
 };
 
 }  // namespace packtrace::study
