@@ -12,12 +12,12 @@ namespace packtrace {
 
 enum class Kernel { packet, scalar };
 
-/// How packets of floats come by their digits. Packets of doubles and the scalar kernel are the
-/// same in every mode.
+/// How float packets decide and place their hits. Packets of doubles and the scalar kernel are the
+/// same in both modes.
 enum class Accuracy {
-    fast,       ///< float forms that lose no more than their inputs' rounding
-    automatic,  ///< in double what single precision can't hold well in this scene
-    robust      ///< in double all that decides a hit
+    fast,  ///< in single precision alone
+    exact  ///< decided in single precision where error bounds make that certain, in double where
+           ///< not; every hit that shading or the caller asks for is refined in double
 };
 
 /// How secondary and shadow rays keep from meeting the place they start at.
@@ -33,7 +33,7 @@ inline constexpr SelfHits default_self_hits = SelfHits::exact;
 struct RenderOptions {
     Kernel kernel = Kernel::packet;
     std::string isa = "auto";  ///< packet kernel: see choose_isa
-    Accuracy accuracy = Accuracy::automatic;
+    Accuracy accuracy = Accuracy::exact;
     SelfHits self_hits = default_self_hits;
     int width = 0;  ///< packet kernel: float lanes 4, 8 or 16; 0 is any
     Traversal traversal = Traversal::automatic;  ///< packet kernel

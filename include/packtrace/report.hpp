@@ -29,7 +29,7 @@ struct Variant {
     Kernel kernel = Kernel::packet;
     std::string precision = "single";         ///< or "double"
     std::string isa;                          ///< packets only
-    Accuracy accuracy = Accuracy::automatic;  ///< packets of floats only
+    Accuracy accuracy = Accuracy::exact;  ///< packets of floats only
     SelfHits self_hits = default_self_hits;
     bool general = false;  ///< RenderOptions::force_general
     int lanes = 1;         ///< rays in a packet

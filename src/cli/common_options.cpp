@@ -43,9 +43,7 @@ std::string check_size(const std::string& text)
 
 Accuracy accuracy_of(const std::string& name)
 {
-    return name == "fast"     ? Accuracy::fast
-           : name == "robust" ? Accuracy::robust
-                              : Accuracy::automatic;
+    return name == "fast" ? Accuracy::fast : Accuracy::exact;
 }
 
 }  // namespace
@@ -54,10 +52,11 @@ void add_accuracy_option(CLI::App& command, std::optional<std::string>& accuracy
 {
     command
         .add_option("--accuracy", accuracy,
-                    "What is tested in double for rays in single: nothing (fast), what single "
-                    "can't hold well (auto, default), everything (robust)")
-        ->check(one_of({"fast", "auto", "robust"}))
-        ->type_name("fast|auto|robust");
+                    "How single-precision packets find hits. fast: in single precision alone. "
+                    "exact (default): uncertain decisions are made in double, every hit is "
+                    "refined in double")
+        ->check(one_of({"fast", "exact"}))
+        ->type_name("fast|exact");
 }
 
 void add_isa_options(CLI::App& command, IsaArguments& arguments)
@@ -203,7 +202,7 @@ RenderOptions render_options(const KernelArguments& arguments)
         throw CLI::ValidationError(
             "--accuracy: only packets of floats have a choice; leave it out or use "
             "--kernel packet --precision single");
-    options.accuracy = accuracy_of(arguments.accuracy.value_or("auto"));
+    options.accuracy = accuracy_of(arguments.accuracy.value_or("exact"));
     if (arguments.self_hits)
         options.self_hits = arguments.self_hits == "exact" ? SelfHits::exact : SelfHits::note;
     if (arguments.kernel == "scalar") {

@@ -57,8 +57,7 @@ void print_scene(const std::string& file, const Scene& scene, const SceneFeature
               << "\nobjects  " << listed(count_objects(scene)) << "\nlights   "
               << listed(count_lights(scene)) << "\nmodel    " << name_of(scene.illumination)
               << "\ndepth    " << scene.max_depth << "\nshadows  " << name_of(scene.shadows)
-              << "\nstiff    " << features.stiff << (features.stiff == 1 ? " object" : " objects")
-              << ", tested in double with --accuracy auto\n";
+              << '\n';
     print_memory(features.bytes, scene.objects.size());
 }
 
@@ -108,7 +107,6 @@ nlohmann::ordered_json scene_json(const std::string& file, const Scene& scene,
             {"model", name_of(scene.illumination)},
             {"depth", scene.max_depth},
             {"shadows", name_of(scene.shadows)},
-            {"stiff_objects", features.stiff},
             {"memory_bytes", features.bytes}};
 }
 

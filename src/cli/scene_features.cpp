@@ -4,7 +4,6 @@
 
 #include "dispatch/kernels.hpp"
 #include "lower/packed_scene.hpp"
-#include "lower/stiffness.hpp"
 
 namespace packtrace::cli {
 namespace {
@@ -18,7 +17,7 @@ std::vector<std::string> used_features(const LoweredScene& lowered)
     };
     add(frame_traversal(lowered, Traversal::automatic) == Traversal::tree, "hierarchy");
     add(!lowered.spheres.empty(), "spheres");
-    add(!lowered.huge_spheres.empty(), "huge spheres");
+    add(!lowered.anchored_spheres.empty(), "anchored spheres");
     add(!lowered.planes.empty(), "planes");
     add(lowered.features.quadrics, "quadrics");
     add(std::any_of(lowered.quadrics.begin(), lowered.quadrics.end(),
@@ -40,7 +39,6 @@ SceneFeatures scene_features(const Scene& scene, const IsaInfo& isa)
 {
     LoweredScene lowered = lower(scene);
     SceneFeatures features;
-    features.stiff = count_stiff(lowered);
     features.left_out = leave_out(lowered);
     for (LeftOut& unused : unused_features(lowered))
         features.left_out.push_back(std::move(unused));

@@ -15,7 +15,6 @@ struct SceneFeatures {
     std::string kernel;             ///< name of the feature set
     std::vector<std::string> uses;  ///< in the order of a frame's stages
     std::vector<LeftOut> left_out;
-    std::size_t stiff = 0;  ///< objects that --accuracy auto tests in double
     std::size_t bytes = 0;  ///< held for the scene while it is rendered
 };
 

@@ -23,8 +23,11 @@ namespace {
 
 [[maybe_unused]] void add_probes(const abi::ProbeKernels& probes, abi::KernelTable& table)
 {
-    table.single_precision.kernels[abi::probe_set] = probes.single_precision;
-    table.double_precision.kernels[abi::probe_set] = probes.double_precision;
+    // Those of Features::exact come first.
+    constexpr int probe = abi::feature_set_count + abi::probe_set;
+    table.single_precision.kernels[abi::probe_set] = probes.exact;
+    table.single_precision.kernels[probe] = probes.single_precision;
+    table.double_precision.kernels[probe] = probes.double_precision;
 }
 
 std::vector<abi::KernelTable> whole_tables()

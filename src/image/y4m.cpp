@@ -9,14 +9,14 @@ namespace packtrace {
 namespace {
 
 /// A plane's factors for R, G, B and what is added in the end.
-struct Plane {
+struct ColorPlane {
     int r, g, b, offset;
 };
 
-constexpr Plane planes[] = {{66, 129, 25, 16}, {-38, -74, 112, 128}, {112, -94, -18, 128}};
+constexpr ColorPlane planes[] = {{66, 129, 25, 16}, {-38, -74, 112, 128}, {112, -94, -18, 128}};
 constexpr std::string_view frame_line = "FRAME\n";
 
-std::uint8_t sample(const Plane& plane, const std::uint8_t* rgb)
+std::uint8_t sample(const ColorPlane& plane, const std::uint8_t* rgb)
 {
     const int sum = plane.r * rgb[0] + plane.g * rgb[1] + plane.b * rgb[2] + 128;
     return static_cast<std::uint8_t>((sum >> 8) + plane.offset);
@@ -36,7 +36,7 @@ Bytes y4m_frame(const Image<float>& image, double gamma)
     quantise(image.rgb, gamma, rgb.data());
     Bytes frame(frame_line.size() + rgb.size());
     auto to = std::copy(frame_line.begin(), frame_line.end(), frame.begin());
-    for (const Plane& plane : planes)
+    for (const ColorPlane& plane : planes)
         for (std::size_t i = 0; i < rgb.size(); i += 3)
             *to++ = sample(plane, rgb.data() + i);
     return frame;

@@ -2,7 +2,7 @@
 
 #include <cstdint>
 
-#include "kernel_abi/lists.hpp"
+#include "kernel_abi/shapes.hpp"
 
 // A bounding volume hierarchy of eight children a node, as the kernels walk it.
 namespace packtrace::abi {
@@ -48,22 +48,30 @@ constexpr int quadric_count(std::uint32_t child)
     return static_cast<int>(child >> quadric_count_shift & 7) + 1;
 }
 
-/// The spheres of one leaf; unused places have a negative radius2, which nothing hits.
+/// The spheres of one leaf; unused places have a negative radius, which nothing hits.
 template <class Real>
 struct alignas(64) SphereBlock {
     Real center[3][node_width];
-    Real radius2[node_width];
+    Real radius[node_width];
 };
 
 template <class Real>
 struct BvhView {
     const BvhNode* nodes = nullptr;  ///< the first is the root
+    /// Null in the double view of a scene in single precision, whose few rays make them of `shapes`.
     const SphereBlock<Real>* blocks = nullptr;
-    const lane_int<Real>* block_surfaces = nullptr;  ///< eight a block, apart: only hits need them
-    const QuadricRecord<Real>* quadrics = nullptr;
+    const std::int32_t* block_surfaces = nullptr;  ///< eight a block, apart: only hits need them
+    const QuadricRecord<Real>* quadrics = nullptr;  ///< likewise
+    const std::int32_t* quadric_surfaces = nullptr;
+    const ShapesView* shapes = nullptr;
     int node_count = 0;  ///< 0: the scene has no hierarchy, its lists hold everything
     /// Largest magnitude of a coordinate of the root's box.
     float extent = 0;
+    /// Centre of the root's box, and half its diagonal.
+    float middle[3] = {};
+    float radius = 0;
+    /// How far rounding moved a sphere's centre, at most.
+    float center_error = 0;
     /// How far rounding shifts hits at most, as a share of the distances there are.
     float slack = 0;
     /// Rays of a cell whose directions differ by more than this share of their length lead to too

@@ -11,6 +11,8 @@ struct Features {
     bool colored = false;     ///< children whose weight differs from channel to channel
     bool glass = false;       ///< refracted rays, or shadows that let light through
     bool probe = false;       ///< reports of single rays to TileJob::probe
+    /// Rays in single precision are decided by certain tests and refined in double.
+    bool exact = false;
 };
 
 /// A feature set that kernels are compiled for.
@@ -48,13 +50,20 @@ constexpr bool covers(Features set, Features needed)
 {
     return (set.quadrics || !needed.quadrics) && (set.highlights || !needed.highlights) &&
            (set.bounces || !needed.bounces) && (set.colored || !needed.colored) &&
-           (set.glass || !needed.glass) && set.probe == needed.probe;
+           (set.glass || !needed.glass) && set.probe == needed.probe && set.exact == needed.exact;
 }
 
 /// What of a set makes a difference to how rays find objects: kernels share that code.
 constexpr Features tree_features(Features set)
 {
-    return {.quadrics = set.quadrics};
+    return {.quadrics = set.quadrics, .exact = set.exact};
+}
+
+/// A set for rays in the other way of deciding hits.
+constexpr Features with_exact(Features set, bool exact)
+{
+    set.exact = exact;
+    return set;
 }
 
 /// How many numbers a ray's weight takes.

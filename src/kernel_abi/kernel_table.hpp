@@ -64,6 +64,7 @@ struct RayCounts {
     std::uint64_t shadow = 0;
     std::uint64_t reflected = 0;
     std::uint64_t refracted = 0;
+    std::uint64_t unsure = 0;  ///< traced again in double
     std::uint32_t stages = 0;  ///< of Stage
 
     RayCounts& operator+=(const RayCounts& more)
@@ -72,6 +73,7 @@ struct RayCounts {
         shadow += more.shadow;
         reflected += more.reflected;
         refracted += more.refracted;
+        unsure += more.unsure;
         stages |= more.stages;
         return *this;
     }
@@ -91,25 +93,27 @@ struct FeatureKernels {
 template <class Real>
 struct PrecisionTable {
     int lanes = 0;
-    FeatureKernels<Real> kernels[feature_set_count];
+    /// Those of Features::exact first, for floats alone; then for each set the others.
+    FeatureKernels<Real> kernels[2 * feature_set_count];
     // Rays of the caller's own, against surfaces of every kind.
+    // `scratch` is working memory of `stream_scratch_bytes`, 64-byte aligned, for one call at a time.
+    std::size_t (*stream_scratch_bytes)(const SceneView<Real>& scene) = nullptr;
     void (*closest_hits)(const SceneView<Real>& scene, const RaysView<Real>& rays,
-                         const HitsView<Real>& hits) = nullptr;
+                         const HitsView<Real>& hits, void* scratch) = nullptr;
     /// mask[i] is 1 where ray i hits anything, else 0.
-    void (*occluded)(const SceneView<Real>& scene, const RaysView<Real>& rays,
-                     std::uint8_t* mask) = nullptr;
+    void (*occluded)(const SceneView<Real>& scene, const RaysView<Real>& rays, std::uint8_t* mask,
+                     void* scratch) = nullptr;
     void (*all_hits)(const SceneView<Real>& scene, const RaysView<Real>& rays,
                      const HitSink<Real>& sink) = nullptr;
     /// y[i] = x[i]^n[i] as highlights use it: x in [0, 1 + 1e-6], n > 0.
     void (*highlight_power)(const Real* x, const Real* n, Real* y, int count) = nullptr;
-    /// The same as scenes with SceneView::precise_powers have it.
-    void (*precise_power)(const Real* x, const Real* n, Real* y, int count) = nullptr;
     /// Runs one operation of simd.hpp over whole packets; see self_test.hpp.
     void (*self_test)(const SelfTestJob<Real>& job) = nullptr;
 };
 
 /// The kernels of Features::probe, which only src/study asks for.
 struct ProbeKernels {
+    FeatureKernels<float> exact;
     FeatureKernels<float> single_precision;
     FeatureKernels<double> double_precision;
 };

@@ -25,19 +25,23 @@ struct SphereListView {
     const Real* center_z = nullptr;
     const Real* radius = nullptr;
     const Real* radius2 = nullptr;  ///< radius², rounded once from double
+    const Real* center_error = nullptr;  ///< how far rounding moved the centre, at most
     const lane_int<Real>* surface = nullptr;
     int count = 0;
 };
 
-/// A sphere much larger than the scene, by a point of its surface near the scene:
+/// A sphere whose surface passes near the world's origin for its size, such as a ground: by a point
+/// of that surface, so that no term is of the size of the radius:
 /// 2 n·p + k p·p + k0 = 0 with p = P - anchor, where n is the outward normal at the anchor,
 /// k the curvature 1/r and k0 = (|anchor - center|² - r²) / r makes up for the anchor's rounding.
 template <class Real>
-struct HugeSphere {
+struct AnchoredSphere {
     Real anchor[3];
     Real normal[3];
     Real curvature;
     Real offset;  ///< k0
+    Real center[3];
+    Real radius;
     std::int32_t surface;
 };
 

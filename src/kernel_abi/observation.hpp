@@ -23,10 +23,10 @@ enum class Part : std::int32_t {
     ray_generation,  ///< of camera and shadow rays; of others the loading
     boxes,           ///< traversal: nodes of the hierarchy, beams and orders of rays
     spheres,
-    huge_spheres,
+    anchored_spheres,
     planes,
     quadrics,
-    stiff,       ///< objects tested in double
+    retrace,     ///< unsure rays traced again in double
     compaction,  ///< hits to a stream, with those that are solved again
     surface,     ///< normals and materials at hits
     diffuse,     ///< directions and cosines of lights, and all of local light but
@@ -74,8 +74,8 @@ struct TestCounts {
     std::uint64_t pairs = 0;    ///< of a live ray and an object in them
 };
 
-enum class Primitive : std::int32_t { sphere, huge_sphere, plane, quadric, stiff };
-inline constexpr int primitive_count = 5;
+enum class Primitive : std::int32_t { sphere, anchored_sphere, plane, quadric };
+inline constexpr int primitive_count = 4;
 
 /// What happened in a generation.
 struct WorkCounts {

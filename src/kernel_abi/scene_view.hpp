@@ -3,8 +3,6 @@
 #include "kernel_abi/bvh.hpp"
 #include "kernel_abi/lists.hpp"
 #include "kernel_abi/shading.hpp"
-#include "kernel_abi/stiff.hpp"
-#include "kernel_abi/surface_form.hpp"
 
 namespace packtrace::abi {
 
@@ -17,37 +15,29 @@ enum class RayUnits : std::int32_t {
     unit       ///< directions are unit
 };
 
-/// A lowered scene in one precision, as the kernels see it.
+/// What rays can hit, in one precision.
 template <class Real>
-struct SceneView {
-    /// Where shadow rays find their blockers, of which only the lists and the tree count; null
-    /// where that is here, as every object casts shadows.
-    const SceneView* casters = nullptr;
-
+struct GeometryView {
     SphereListView<Real> spheres;
-    RecordList<HugeSphere<Real>> huge_spheres;
+    RecordList<AnchoredSphere<Real>> anchored_spheres;
     RecordList<PlaneRecord<Real>> planes;
     RecordList<QuadricRecord<Real>> quadrics;
-    BvhView<Real> tree;             ///< holds what the lists do not
-    RecordList<StiffObject> stiff;  ///< not in the other lists; none in double precision
+    BvhView<Real> tree;  ///< holds what the lists do not
+};
 
-    const SurfacePlace* places = nullptr;           ///< by surface: where the following have it
-    const SphereShape* sphere_shapes = nullptr;     ///< of many spheres
-    const SurfaceRecord<Real>* surfaces = nullptr;  ///< the others, but quadrics
-    const CurvedSurfaceRecord<Real>* curved_surfaces = nullptr;  ///< the others, every kind
+/// A lowered scene in one precision, as the kernels see it.
+template <class Real>
+struct SceneView : GeometryView<Real> {
+    /// Where shadow rays find their occluders, of which only the geometry counts; null where that
+    /// is here, as every object casts shadows.
+    const SceneView* casters = nullptr;
 
-    /// What hits of rays in single precision on those others are solved again with, in double: a
-    /// place in `finish`, or -1. Null where no hit is solved again, not even on spheres.
-    const std::int32_t* finish_index = nullptr;
-    const StiffObject* finish = nullptr;
-    /// Of the others, too; null where no hit is sharpened and no start is exact.
-    const SurfaceForm* forms = nullptr;
-    bool sharpened = false;    ///< some hits are, by their surface's form
-    bool sharpened_t = false;  ///< with their t
-    /// Those on spheres among many, unless they are solved again.
-    Sharpened sharpened_spheres = Sharpened::nothing;
-    bool met_again_outside = false;  ///< some surface may be, by rays that leave it outwards
-    bool precise_powers = false;     ///< highlights in double, for rays in single precision
+    /// The same geometry in double, list by list in the same order, which rays in single precision
+    /// that are unsure of their hit are traced in again; null in fast mode and for doubles.
+    const GeometryView<double>* wide = nullptr;
+    /// Every coordinate and size is of a magnitude that error bounds in single precision hold for.
+    bool certifiable = false;
+    ShapesView shapes;
 
     const MaterialIndex* material_index = nullptr;  ///< by surface
     bool surfaces_are_objects = false;              ///< each surface has the number of its object
@@ -71,8 +61,8 @@ struct SceneView {
     Real epsilon = 0;
     /// Secondary and shadow rays start this far along their direction.
     Real secondary_t_min = 0;
-    /// Roundoffs by which they start off the surface, of the coordinates there; 0 for none. If
-    /// any, their own surface is solved by `forms`, as one they are on.
+    /// Share of the coordinates there by which they start off the surface; 0 for none. If any, their
+    /// own surface is solved as one they are on.
     Real start_error = 0;
 };
 

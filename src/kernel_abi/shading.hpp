@@ -6,45 +6,6 @@
 // where kernels fetch them by lane, so that a record is an array of its fields.
 namespace packtrace::abi {
 
-/// Where the shape of a surface is kept: among the spheres, or among the others. Spheres are
-/// among the others where there are few of them, or where they are huge.
-using SurfacePlace = std::uint32_t;
-inline constexpr SurfacePlace other_shape_bit = 1u << 31;
-inline constexpr SurfacePlace finished_bit = 1u << 30;      ///< a sphere's hits are solved again
-inline constexpr SurfacePlace faces_viewer_bit = 1u << 29;  ///< as SurfaceRecord has it; spheres
-inline constexpr SurfacePlace place_mask = faces_viewer_bit - 1;
-
-constexpr bool is_other_shape(SurfacePlace place)
-{
-    return (place & other_shape_bit) != 0;
-}
-
-/// A sphere to shade by and to solve hits again by, for kernels of both precisions.
-struct SphereShape {
-    double center[3];
-    double radius;
-};
-
-/// Outward normal of a plane or sphere at P, before normalising: normal + curvature (P - anchor).
-/// A plane has curvature 0; a sphere has its centre as anchor and normal 0.
-template <class Real>
-struct SurfaceRecord {
-    Real anchor[3];
-    Real normal[3];
-    Real curvature;
-    Real faces_viewer;  ///< 1: the normal is turned against the ray; 0: it points outwards
-};
-
-/// The same for surfaces of every kind: normal + curvature (P - anchor) with a symmetric matrix
-/// for curvature, half the gradient of a quadric.
-template <class Real>
-struct CurvedSurfaceRecord {
-    Real anchor[3];
-    Real normal[3];
-    Real curvature[6];  ///< xx, yy, zz, xy, xz, yz
-    Real faces_viewer;
-};
-
 /// I = local (ambient + Σ light (diffuse max(0, N·L) + highlight max(0, R·V)^shininess))
 ///     + reflect I(reflected) + transmit I(refracted); `local` counts only above the depth limit.
 template <class Real>

@@ -7,7 +7,7 @@ namespace packtrace::abi {
 /// What a kernel went through for a tile, as bits: proof of what it left out.
 enum Stage : std::uint32_t {
     stage_hits = 1u << 0,           ///< a camera ray met something
-    stage_solved_again = 1u << 1,   ///< hits were solved again in double
+    stage_refined = 1u << 1,        ///< hits were refined in double
     stage_normals = 1u << 2,        ///< normals of hits were looked at
     stage_blockers = 1u << 3,       ///< blockers of a light were looked for
     stage_shadow_rays = 1u << 4,    ///< shadow rays were traced

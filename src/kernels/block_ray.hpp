@@ -1,7 +1,7 @@
 #pragma once
 
+#include "kernels/leaf_bounds.hpp"
 #include "kernels/occluded.hpp"
-#include "kernels/sphere_leaf.hpp"
 
 // One ray against the spheres of a block side by side, by the operations that test one sphere
 // against a packet of rays, so with the same bits.
@@ -63,13 +63,28 @@ public:
         return blocking;
     }
 
+    /// A bit for each sphere that the ray does not miss for sure.
+    std::uint32_t near(const abi::SphereBlock<Real>& block, const RayGroup<Real>& group) const
+    {
+        std::uint32_t near = 0;
+        for (int first = 0; first < abi::node_width; first += lanes<Real>) {
+            const Vec3v<Real> center{load(block.center[0] + first), load(block.center[1] + first),
+                                     load(block.center[2] + first)};
+            near |= bits(approach(rays_.org - center,
+                                  leaf_outer2(group, load(block.radius + first)), rays_)
+                             .near)
+                    << first;
+        }
+        return near;
+    }
+
 private:
     Quadratic<Real> quadratics(const abi::SphereBlock<Real>& block, int first) const
     {
         const Vec3v<Real> center{load(block.center[0] + first), load(block.center[1] + first),
                                  load(block.center[2] + first)};
         const Vec3v<Real> o = rays_.org - center;
-        const vreal<Real> radius2 = load(block.radius2 + first);
+        const vreal<Real> radius2 = signed_square<Real>(load(block.radius + first));
         return sphere_quadratic<Real>(rays_, o, radius2, sphere_constant<Real>(o, radius2));
     }
 

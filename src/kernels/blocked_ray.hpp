@@ -1,6 +1,6 @@
 #pragma once
 
-#include "kernels/block_ray.hpp"
+#include "kernels/near_spheres.hpp"
 #include "kernels/cell_rays.hpp"
 
 namespace packtrace::PACKTRACE_ISA {
@@ -31,23 +31,59 @@ inline bool goes_behind(RayGroup<Real>& group, int ray, std::int32_t surface,
     return is_active(group, ray);
 }
 
-template <class Real, class Blocker>
-inline bool goes_behind_quadrics(RayGroup<Real>& group, int ray, bool closed,
-                                 const abi::QuadricRecord<Real>* quadric, int count,
-                                 const Blocker& blocker)
+/// What a quadric of a leaf does to a packet until t_end.
+template <abi::Features F, class Real>
+inline Occlusion leaf_quadric_occludes(const abi::BvhView<Real>& tree, int number,
+                                       const RayGroup<Real>& group, const RayPacket<Real>& rays,
+                                       const vreal<Real>& t_end, const vint<Real>& own, bool closed)
+{
+    if constexpr (F.exact) {
+        const abi::QuadricRecord<float>& record = tree.quadrics[number];
+        const abi::QuadricRecord<double>& wide =
+            tree.shapes->quadrics[tree.shapes->index[record.surface].record];
+        const std::uint32_t active =
+            may_hit<false>(leaf_filter(record, wide, group), rays, RayScale(rays));
+        return active == 0 ? Occlusion{} : occludes(wide, rays, t_end, own, active);
+    } else {
+        return {quadric_blocks(Reach<Real>{t_end, closed}, leaf_quadric(tree, number), rays, own),
+                0};
+    }
+}
+
+template <abi::Features F, class Real, class Blocker>
+inline bool goes_behind_quadrics(const abi::BvhView<Real>& tree, RayGroup<Real>& group, int ray,
+                                 bool closed, std::uint32_t child, const Blocker& blocker)
 {
     const PartScope part(abi::Part::quadrics);
     tell_live(1);
     const RayPacket<Real> rays = broadcast_ray(group, ray);
-    const vint<Real> own(group.surface[ray]);
-    const Reach<Real> reach{vreal<Real>(group.t[ray]), closed};
-    for (int i = 0; i < count; ++i) {
+    const vint<Real> own(group.own[ray]);
+    for (int i = 0; i < abi::quadric_count(child); ++i) {
+        const int number = abi::first_quadric(child) + i;
         count_tests(abi::Primitive::quadric, 1);
-        if (quadric_blocks(reach, quadric[i], rays, own) != 0 &&
-            !goes_behind(group, ray, quadric[i].surface, blocker))
+        const Occlusion occlusion = leaf_quadric_occludes<F>(
+            tree, number, group, rays, vreal<Real>(group.t[ray]), own, closed);
+        if (occlusion.unsure != 0)
+            group.unsure[ray / cell_rays] |= static_cast<std::uint16_t>(1u << ray % cell_rays);
+        if (occlusion.blocked != 0 &&
+            !goes_behind(group, ray, leaf_quadric(tree, number).surface, blocker))
             return false;
     }
     return true;
+}
+
+/// A bit for each sphere of a leaf that is in the way of a ray, which is `alone`.
+template <abi::Features F, class Real>
+inline std::uint32_t blocking_spheres_of(RayGroup<Real>& group, int ray,
+                                         const BlockRay<Real>& alone, const SphereLeaf<Real>& leaf,
+                                         bool closed)
+{
+    if constexpr (F.exact) {
+        const std::uint32_t near = alone.near(leaf.block, group);
+        return near == 0 ? 0 : blocking_spheres(group, ray, leaf, near);
+    } else {
+        return alone.blocked_by(leaf.block, group.t[ray], closed);
+    }
 }
 
 /// The ray, which is `alone`, against one leaf.
@@ -57,15 +93,15 @@ inline bool goes_behind_leaf(const abi::BvhView<Real>& tree, RayGroup<Real>& gro
                              const Blocker& blocker)
 {
     if (F.quadrics && abi::is_quadric_leaf(child))
-        return goes_behind_quadrics(group, ray, closed, tree.quadrics + abi::first_quadric(child),
-                                    abi::quadric_count(child), blocker);
+        return goes_behind_quadrics<F>(tree, group, ray, closed, child, blocker);
     const PartScope part(abi::Part::spheres);
-    const SphereLeaf<Real> leaf = sphere_leaf(tree, child);
+    abi::SphereBlock<Real> room;
+    const SphereLeaf<Real> leaf = sphere_leaf(tree, child, room);
     count_block_tests(leaf.block);
-    std::uint32_t blocking = alone.blocked_by(leaf.block, group.t[ray], closed);
+    std::uint32_t blocking = blocking_spheres_of<F>(group, ray, alone, leaf, closed);
     for (; blocking != 0; blocking &= blocking - 1) {
         const std::int32_t surface = leaf.surface_of(__builtin_ctz(blocking));
-        if (surface != group.surface[ray] && !goes_behind(group, ray, surface, blocker))
+        if (surface != group.own[ray] && !goes_behind(group, ray, surface, blocker))
             return false;
     }
     return true;

@@ -12,6 +12,22 @@ struct Box {
     Real high[3];
 };
 
+/// The least of the lanes of one packet and the most of another's.
+template <class Real>
+inline void extent_of_lanes(batch<Real> smallest, batch<Real> largest, Real& low, Real& high)
+{
+    alignas(64) Real smallest_lanes[lanes<Real>];
+    alignas(64) Real largest_lanes[lanes<Real>];
+    store(smallest_lanes, smallest);
+    store(largest_lanes, largest);
+    low = smallest_lanes[0];
+    high = largest_lanes[0];
+    for (int lane = 1; lane < lanes<Real>; ++lane) {
+        low = smallest_lanes[lane] < low ? smallest_lanes[lane] : low;
+        high = largest_lanes[lane] > high ? largest_lanes[lane] : high;
+    }
+}
+
 template <class Real>
 inline void extent(const Real* values, int count, Real& low, Real& high)
 {
@@ -25,16 +41,7 @@ inline void extent(const Real* values, int count, Real& low, Real& high)
         smallest = min(smallest, value);
         largest = max(largest, value);
     }
-    alignas(64) Real smallest_lanes[lanes<Real>];
-    alignas(64) Real largest_lanes[lanes<Real>];
-    store(smallest_lanes, smallest);
-    store(largest_lanes, largest);
-    low = smallest_lanes[0];
-    high = largest_lanes[0];
-    for (int lane = 1; lane < lanes<Real>; ++lane) {
-        low = smallest_lanes[lane] < low ? smallest_lanes[lane] : low;
-        high = largest_lanes[lane] > high ? largest_lanes[lane] : high;
-    }
+    extent_of_lanes<Real>(smallest, largest, low, high);
 }
 
 /// `count` > 0.

@@ -92,7 +92,7 @@ inline void find_parallel_candidates(SharedOriginSpheres<Real>& list, const Beam
 template <class Real>
 inline abi::SphereListView<Real> parallel_candidates(const SharedOriginSpheres<Real>& list)
 {
-    return {list.x, list.y, list.z, nullptr, list.radius2, list.surface, list.count};
+    return {list.x, list.y, list.z, nullptr, list.radius2, nullptr, list.surface, list.count};
 }
 
 }  // namespace

@@ -1,55 +1,54 @@
 #pragma once
 
+#include "kernels/filtered_objects.hpp"
 #include "kernels/object_lists.hpp"
 #include "kernels/observe.hpp"
+#include "kernels/own_surface.hpp"
 
 // Closest hits of a packet among lists of objects.
 namespace packtrace::PACKTRACE_ISA {
 namespace {
 
-template <class Real>
+template <class Real, class Own>
 inline void keep_quadratic(HitPacket<Real>& hit, const Quadratic<Real>& quadratic,
-                           const RayPacket<Real>& rays, std::int32_t surface)
+                           const RayPacket<Real>& rays, std::int32_t surface, const Own& own)
 {
     const auto active = may_hit(quadratic);
     if (any(active))
-        keep_first_root<Real>(hit, quadratic, active, rays.t_min, surface);
+        keep_first_root<Real>(
+            hit, quadratic,
+            from_bits<Real>(bits(active) & own.template lanes_on_others<Real>(surface)),
+            rays.t_min, surface);
 }
 
-template <class Plane, class Real>
-inline void keep_plane(HitPacket<Real>& hit, const Plane& plane, const RayPacket<Real>& rays)
+template <class Plane, class Real, class Own>
+inline void keep_plane(HitPacket<Real>& hit, const Plane& plane, const RayPacket<Real>& rays,
+                       const Own& own)
 {
     const vreal<Real> t = plane_t(plane, rays);
-    keep_closer<Real>(hit, t > rays.t_min, t, plane.surface);
+    const std::uint32_t ahead = bits(t > rays.t_min);
+    keep_closer<Real>(
+        hit, from_bits<Real>(ahead & own.template lanes_on_others<Real>(plane.surface)), t,
+        plane.surface);
 }
 
-template <class Quadric, class Real>
-inline void keep_quadric(HitPacket<Real>& hit, const Quadric& quadric, const RayPacket<Real>& rays)
+template <class Quadric, class Real, class Own>
+inline void keep_quadric(HitPacket<Real>& hit, const Quadric& quadric, const RayPacket<Real>& rays,
+                         const Own& own)
 {
     const std::int32_t surface = record_of<Real>(quadric).surface;
     visit_crossings(quadric, rays, [&](vmask<Real> valid, const vreal<Real>& t, int piece) {
-        keep_closer<Real>(hit, valid & (t > rays.t_min), t, surface + piece);
-    });
-}
-
-/// Apart from the rest, which it would only make larger: most scenes have none.
-template <class Stiff, class Real>
-[[gnu::noinline]] void keep_stiff(HitPacket<Real>& hit, const Stiff& list,
-                                  const RayPacket<Real>& rays)
-{
-    const PartScope part(abi::Part::stiff);
-    for_each_stiff(list, [&](const auto& stiff) {
-        count_tests(abi::Primitive::stiff, 1);
-        visit_stiff(stiff, rays, [&](vmask<Real> valid, const vreal<Real>& t, int piece) {
-            keep_closer<Real>(hit, valid & (t > rays.t_min), t, surface_of(stiff) + piece);
-        });
-        return true;
+        const std::uint32_t ahead = bits(valid & (t > rays.t_min));
+        keep_closer<Real>(
+            hit, from_bits<Real>(ahead & own.template lanes_on_others<Real>(surface + piece)), t,
+            surface + piece);
     });
 }
 
 /// Rays against all objects of a scene, or from their shared origin against those of a beam.
-template <abi::Features F, class Objects, class Real>
-inline void closest_hit(HitPacket<Real>& hit, const Objects& objects, const RayPacket<Real>& rays)
+template <abi::Features F, class Objects, class Real, class Own>
+inline void closest_hit(HitPacket<Real>& hit, const Objects& objects, const RayPacket<Real>& rays,
+                        const Own& own)
 {
     const ObjectLists<Real, Objects> lists{objects};
     const auto& spheres = lists.spheres();
@@ -57,25 +56,86 @@ inline void closest_hit(HitPacket<Real>& hit, const Objects& objects, const RayP
     at.test(abi::Primitive::sphere, spheres.count);
     for (int i = 0; i < spheres.count; ++i)
         keep_quadratic(hit, quadratic_of(spheres, i, rays), rays,
-                       static_cast<std::int32_t>(spheres.surface[i]));
-    at.test(abi::Primitive::huge_sphere, lists.huge_count());
-    for (int i = 0; i < lists.huge_count(); ++i)
-        keep_quadratic(hit, quadratic_of(lists.huge(i), rays), rays, lists.huge(i).surface);
+                       static_cast<std::int32_t>(spheres.surface[i]), own);
+    at.test(abi::Primitive::anchored_sphere, lists.anchored_count());
+    for (int i = 0; i < lists.anchored_count(); ++i)
+        keep_quadratic(hit, quadratic_of(lists.anchored(i), rays), rays, lists.anchored(i).surface,
+                       own);
     at.test(abi::Primitive::plane, lists.plane_count());
     for (int i = 0; i < lists.plane_count(); ++i)
-        keep_plane(hit, lists.plane(i), rays);
+        keep_plane(hit, lists.plane(i), rays, own);
     at.test(abi::Primitive::quadric, lists.quadric_count());
     if constexpr (F.quadrics)
         for (int i = 0; i < lists.quadric_count(); ++i)
-            keep_quadric(hit, lists.quadric(i), rays);
-    if (any_stiff(lists.stiff()))
-        keep_stiff(hit, lists.stiff(), rays);
+            keep_quadric(hit, lists.quadric(i), rays, own);
 }
 
-/// Calls `visit(valid, t, surface)` for every crossing of every surface of a scene; only those
-/// where `valid`, and with a finite t, are one.
+/// A sphere by certain tests, for a packet of rays.
+template <class Own>
+inline void keep_sphere(HitPacket<float>& hit, const SphereTest& test,
+                        const SphereApproach& near, const RayPacket<float>& rays,
+                        const RayScale& scale, std::int32_t surface, const Own& own)
+{
+    const std::uint32_t others = bits(near.near) & own.template lanes_on_others<float>(surface);
+    if (others != 0)
+        keep_near_sphere(hit, test, {near.moment2, from_bits<float>(others)}, rays, scale, surface);
+}
+
+/// A quadric likewise; what may hit it is tested in double.
+template <bool Shared, class Own>
+inline void keep_quadric(HitPacket<float>& hit, const QuadricFilter& filter,
+                         const RayPacket<float>& rays, const RayScale& scale, const Own& own)
+{
+    const std::uint32_t active = may_hit<Shared>(filter, rays, scale);
+    if (active == 0)
+        return;
+    const std::int32_t surface = filter.record->surface;
+    visit_in_double(*filter.wide, rays, active,
+                    [&](std::uint32_t lanes_of, const vreal<float>& low, const vreal<float>& high,
+                        int piece) {
+                        lanes_of &= own.template lanes_on_others<float>(surface + piece);
+                        keep_sure(hit, from_bits<float>(lanes_of), low, high, surface + piece);
+                    });
+}
+
+/// The same by certain tests, for rays of the origins that the objects' bounds are for.
+template <abi::Features F, bool Shared, class Own>
+inline void closest_hit(HitPacket<float>& hit, const FilteredObjects<Shared>& objects,
+                        const RayPacket<float>& rays, const Own& own)
+{
+    const RayScale scale(rays);
+    const SphereFilters& spheres = objects.spheres;
+    const TestScope at;
+    at.test(abi::Primitive::sphere, spheres.count);
+    for (int i = 0; i < spheres.count; ++i) {
+        const Vec3v<float> w = origin_from<Shared>(spheres, i, rays);
+        const SphereApproach near = approach(w, vreal<float>(spheres.bounds.outer2[i]), rays);
+        if (any(near.near))
+            keep_sphere(hit, test_of(spheres, i, w), near, rays, scale, spheres.surface[i], own);
+    }
+    at.test(abi::Primitive::anchored_sphere, objects.anchored_count);
+    for (int i = 0; i < objects.anchored_count; ++i)
+        keep_anchored<Shared>(
+            hit, objects.anchored_spheres[i], rays, scale,
+            own.template lanes_on_others<float>(objects.anchored_spheres[i].surface));
+    at.test(abi::Primitive::plane, objects.plane_count);
+    for (int i = 0; i < objects.plane_count; ++i)
+        keep_plane<Shared>(hit, objects.planes[i], rays, scale,
+                           own.template lanes_on_others<float>(objects.planes[i].surface));
+    at.test(abi::Primitive::quadric, objects.quadric_count);
+    if constexpr (F.quadrics)
+        for (int i = 0; i < objects.quadric_count; ++i)
+            keep_quadric<Shared>(hit, objects.quadrics[i], rays, scale, own);
+    if (!objects.certifiable)
+        doubt_all(hit, from_bits<float>(all_lanes<float>));
+    else
+        doubt_all(hit, from_bits<float>(~bits(certifiable(rays)) & all_lanes<float>));
+}
+
+/// Calls `visit(valid, t, surface)` for every crossing of every surface in a scene's lists; only
+/// those where `valid`, and with a finite t, are one.
 template <abi::Features F, class Real, class Visit>
-inline void visit_all_crossings(const abi::SceneView<Real>& scene, const RayPacket<Real>& rays,
+inline void visit_all_crossings(const abi::GeometryView<Real>& scene, const RayPacket<Real>& rays,
                                 const Visit& visit)
 {
     const auto quadratic_crossings = [&](const Quadratic<Real>& quadratic, std::int32_t surface) {
@@ -85,9 +145,9 @@ inline void visit_all_crossings(const abi::SceneView<Real>& scene, const RayPack
     for (int i = 0; i < scene.spheres.count; ++i)
         quadratic_crossings(quadratic_of(scene.spheres, i, rays),
                             static_cast<std::int32_t>(scene.spheres.surface[i]));
-    for (int i = 0; i < scene.huge_spheres.count; ++i)
-        quadratic_crossings(quadratic_of(scene.huge_spheres.data[i], rays),
-                            scene.huge_spheres.data[i].surface);
+    for (int i = 0; i < scene.anchored_spheres.count; ++i)
+        quadratic_crossings(quadratic_of(scene.anchored_spheres.data[i], rays),
+                            scene.anchored_spheres.data[i].surface);
     for (int i = 0; i < scene.planes.count; ++i)
         visit(from_bits<Real>(all_lanes<Real>), plane_t(scene.planes.data[i], rays),
               scene.planes.data[i].surface);
@@ -97,12 +157,6 @@ inline void visit_all_crossings(const abi::SceneView<Real>& scene, const RayPack
                             [&](vmask<Real> valid, const vreal<Real>& t, int piece) {
                                 visit(valid, t, scene.quadrics.data[i].surface + piece);
                             });
-    for_each_stiff(scene, [&](const auto& stiff) {
-        visit_stiff(stiff, rays, [&](vmask<Real> valid, const vreal<Real>& t, int piece) {
-            visit(valid, t, surface_of(stiff) + piece);
-        });
-        return true;
-    });
 }
 
 }  // namespace

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "kernels/block_ray.hpp"
+#include "kernels/near_spheres.hpp"
 #include "kernels/cell_rays.hpp"
 #include "kernels/closest.hpp"
 
@@ -9,39 +9,54 @@ namespace packtrace::PACKTRACE_ISA {
 namespace {
 
 /// Takes the closest hit on a leaf's spheres, if it comes before that of the ray.
-template <class Real>
+template <abi::Features F, class Real>
 inline void closest_of_spheres(RayGroup<Real>& group, int ray, const BlockRay<Real>& alone,
                                const SphereLeaf<Real>& leaf)
 {
     const PartScope part(abi::Part::spheres);
     count_block_tests(leaf.block);
-    Real t[abi::node_width];
-    std::uint32_t met = alone.first_roots(leaf.block, group.t[ray], t);
-    for (; met != 0; met &= met - 1) {
-        const int slot = __builtin_ctz(met);
-        const lane_int<Real> surface = leaf.surface[slot];
-        if (t[slot] < group.t[ray] || (t[slot] == group.t[ray] && surface < group.surface[ray])) {
-            group.t[ray] = t[slot];
-            group.surface[ray] = surface;
+    if constexpr (F.exact) {
+        const std::uint32_t near = alone.near(leaf.block, group);
+        if (near != 0)
+            keep_near_spheres(group, ray, leaf, near);
+    } else {
+        Real t[abi::node_width];
+        std::uint32_t met = alone.first_roots(leaf.block, group.t[ray], t);
+        for (; met != 0; met &= met - 1) {
+            const int slot = __builtin_ctz(met);
+            const std::int32_t surface = leaf.surface_of(slot);
+            if (surface == group.own[ray])
+                continue;
+            if (t[slot] < group.t[ray] ||
+                (t[slot] == group.t[ray] && surface < group.surface[ray])) {
+                group.t[ray] = t[slot];
+                group.surface[ray] = surface;
+            }
         }
     }
 }
 
-template <class Real>
-inline void closest_of_quadrics(RayGroup<Real>& group, int ray,
-                                const abi::QuadricRecord<Real>* quadrics, int count)
+template <abi::Features F, class Real>
+inline void closest_of_quadrics(const abi::BvhView<Real>& tree, RayGroup<Real>& group, int ray,
+                                int begin, int count)
 {
     const PartScope part(abi::Part::quadrics);
     tell_live(1);
     count_tests(abi::Primitive::quadric, count);
     const RayPacket<Real> rays = broadcast_ray(group, ray);
-    HitPacket<Real> hit{vreal<Real>(group.t[ray]), vint<Real>(group.surface[ray])};
+    HitPacket<Real> hit{vreal<Real>(group.t[ray]), vint<Real>(group.surface[ray]),
+                        vreal<Real>(group.t_low[ray]), vreal<Real>(group.other[ray])};
+    const OwnSurface own{vint<Real>(group.own[ray])};
     for (int i = 0; i < count; ++i)
-        keep_quadric(hit, quadrics[i], rays);
+        keep_leaf_quadric<F>(hit, tree, begin + i, group, rays, own);
     alignas(64) lane_int<Real> surface[lanes<Real>];
     store(surface, hit.surface);
     group.t[ray] = first_lane<Real>(hit.t);
     group.surface[ray] = surface[0];
+    if constexpr (F.exact) {
+        group.t_low[ray] = first_lane<Real>(hit.t_low);
+        group.other[ray] = first_lane<Real>(hit.other);
+    }
 }
 
 /// The ray, which is `alone`, against one leaf.
@@ -50,10 +65,10 @@ inline void closest_of_leaf(const abi::BvhView<Real>& tree, RayGroup<Real>& grou
                             const BlockRay<Real>& alone, std::uint32_t child)
 {
     if (F.quadrics && abi::is_quadric_leaf(child))
-        closest_of_quadrics(group, ray, tree.quadrics + abi::first_quadric(child),
-                            abi::quadric_count(child));
-    else
-        closest_of_spheres(group, ray, alone, sphere_leaf(tree, child));
+        return closest_of_quadrics<F>(tree, group, ray, abi::first_quadric(child),
+                                      abi::quadric_count(child));
+    abi::SphereBlock<Real> room;
+    closest_of_spheres<F>(group, ray, alone, sphere_leaf(tree, child, room));
 }
 
 /// The ray against all below `child`.

@@ -18,19 +18,38 @@ inline void store_misses(abi::TileHits<Real>& hits)
     }
 }
 
+/// With Features::exact each t is refined.
+template <abi::Features F, class Real>
+inline void store_tile_hits(abi::TileHits<Real>& hits, int first,
+                            const abi::SceneView<Real>& scene, const RayPacket<Real>& rays,
+                            const HitPacket<Real>& hit)
+{
+    vreal<Real> t = hit.t;
+    if constexpr (F.exact) {
+        const std::uint32_t found = hit_lanes(hit);
+        if (found != 0)
+            t = select(from_bits<Real>(found),
+                       refined<F>(scene.shapes, rays, hit, no_start<Real>(), found).t, t);
+    }
+    store(hits.t + first, t);
+    store(hits.surface + first, hit.surface);
+}
+
 template <abi::Features F, class Real>
 inline void closest_tile(const abi::TileJob<Real>& job, abi::TileHits<Real>& hits)
 {
     const abi::SceneView<Real>& scene = *job.scene;
     Arena arena(job.scratch);
-    SharedOriginObjects<Real> visible = take_objects(arena, scene);
+    auto visible = take_objects<FromPoint<F, Real>>(arena, scene);
     find_objects<F>(visible, camera_beam(job), scene);
     if (!scene.tree.empty()) {
         auto& group = *arena.take<RayGroup<Real>>(1);
-        gather_camera(job, group);
+        gather_camera<F>(job, group);
         closest_of_group<F>(scene, visible, group);
-        __builtin_memcpy(hits.t, group.t, sizeof hits.t);
-        __builtin_memcpy(hits.surface, group.surface, sizeof hits.surface);
+        settle_camera_group<F>(scene, group);
+        for (int first = 0; first < abi::tile_pixels; first += lanes<Real>)
+            store_tile_hits<F>(hits, first, scene, load_rays(group, first),
+                               load_hits(group, first));
         return;
     }
     if (visible.empty()) {
@@ -41,9 +60,10 @@ inline void closest_tile(const abi::TileJob<Real>& job, abi::TileHits<Real>& hit
     for (int first = 0; first < abi::tile_pixels; first += lanes<Real>) {
         const RayPacket<Real> rays = camera_rays(camera, first, scene.units);
         HitPacket<Real> hit = no_hit<Real>(static_cast<Real>(__builtin_inf()));
-        closest_hit<F>(hit, visible, rays);
-        store(hits.t + first, hit.t);
-        store(hits.surface + first, hit.surface);
+        closest_hit<F>(hit, visible, rays, NoOwn{});
+        settle_packet<F>(scene, rays, hit, no_start<Real>(),
+                         vreal<Real>(static_cast<Real>(__builtin_inf())), all_lanes<Real>);
+        store_tile_hits<F>(hits, first, scene, rays, hit);
     }
 }
 

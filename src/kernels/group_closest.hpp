@@ -38,6 +38,8 @@ template <abi::Features F, class Real>
 [[gnu::noinline]] void closest_in_tree(const abi::BvhView<Real>& tree, RayGroup<Real>& group)
 {
     const PartScope part(abi::Part::boxes);
+    if constexpr (F.exact)
+        bound_origins(group, tree);
     CellBounds bounds;
     bound_cells(bounds, group, tree, tree.spread);
     if (bounds.coherent != 0)
@@ -49,7 +51,7 @@ template <abi::Features F, class Real>
 
 /// The same among all objects of a scene, lists first: what stands in them is large.
 template <abi::Features F, class Objects, class Real>
-inline void closest_of_group(const abi::SceneView<Real>& scene, const Objects& lists,
+inline void closest_of_group(const abi::GeometryView<Real>& scene, const Objects& lists,
                              RayGroup<Real>& group)
 {
     for (int first = 0; first < group_rays; first += lanes<Real>) {
@@ -57,8 +59,8 @@ inline void closest_of_group(const abi::SceneView<Real>& scene, const Objects& l
             continue;
         tell_live(active_lanes(group, first));
         HitPacket<Real> hit = load_hits(group, first);
-        closest_hit<F>(hit, lists, load_rays(group, first));
-        store_hits(group, first, hit);
+        closest_hit<F>(hit, lists, load_rays(group, first), own_of(group, first));
+        store_hits<F>(group, first, hit);
     }
     if (!scene.tree.empty())
         closest_in_tree<abi::tree_features(F)>(scene.tree, group);

@@ -41,6 +41,15 @@ struct alignas(64) LightShadows : LightShares<F.glass, Real> {
         return blocked & ~bright;
     }
 
+    /// Gives some lanes the whole light back.
+    void brighten(int first, std::uint32_t lanes_of)
+    {
+        const vreal<Real> one(Real(1));
+        for (Real(&channel)[group_rays] : this->share)
+            store(channel + first,
+                  select(from_bits<Real>(lanes_of), one, load(channel + first)));
+    }
+
     Vec3v<Real> shares(int first) const
     {
         return {load(this->share[0] + first), load(this->share[1] + first),

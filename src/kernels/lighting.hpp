@@ -4,7 +4,7 @@
 #include "kernels/material.hpp"
 #include "kernels/observe.hpp"
 #include "kernels/occluded.hpp"
-#include "kernels/precise_power.hpp"
+#include "kernels/power.hpp"
 #include "kernels/surface.hpp"
 
 // Local light of a packet of hit points: note 001's diffuse and specular sums, with shadows.
@@ -53,22 +53,11 @@ inline LightPacket<Real> light_at(const abi::LightRecord<Real>& light,
     return result;
 }
 
-/// highlight^n, as exact as the scene asks for.
-template <class Real>
-inline vreal<Real> highlight_of(const abi::SceneView<Real>& scene, const LightPacket<Real>& packet,
-                                const MaterialPacket<Real>& material)
-{
-    if constexpr (sizeof(Real) == sizeof(float))
-        if (scene.precise_powers)
-            return precise_power(packet.highlight, material.shininess);
-    return highlight_power<Real>(packet.highlight, material.shininess);
-}
-
 /// diffuse kd + highlight^n ks, times the light's intensity, in the lanes of `lit`.
 template <abi::Features F, class Real>
-inline Vec3v<Real> lit_color(const abi::SceneView<Real>& scene, const abi::LightRecord<Real>& light,
-                             const LightPacket<Real>& packet, const MaterialPacket<Real>& material,
-                             std::uint32_t lit, abi::RayCounts& counts)
+inline Vec3v<Real> lit_color(const abi::LightRecord<Real>& light, const LightPacket<Real>& packet,
+                             const MaterialPacket<Real>& material, std::uint32_t lit,
+                             abi::RayCounts& counts)
 {
     const vreal<Real> zero(Real(0));
     Vec3v<Real> sum = scale<Real>(packet.diffuse, material.diffuse);
@@ -78,7 +67,8 @@ inline Vec3v<Real> lit_color(const abi::SceneView<Real>& scene, const abi::Light
         count_packet<Real>(abi::PacketWork::highlight, shiny);
         counts.stages |= abi::stage_powers;
         const vreal<Real> power =
-            select(from_bits<Real>(shiny), highlight_of(scene, packet, material), zero);
+            select(from_bits<Real>(shiny),
+                   highlight_power<Real>(packet.highlight, material.shininess), zero);
         sum = madd<Real>(power, material.highlight, sum);
     }
     const Vec3v<Real> color = sum * broadcast(light.intensity);

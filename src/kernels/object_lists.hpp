@@ -10,20 +10,20 @@ template <class Real, class Objects>
 struct ObjectLists;
 
 template <class Real>
-struct ObjectLists<Real, abi::SceneView<Real>> {
-    const abi::SceneView<Real>& scene;
+struct ObjectLists<Real, abi::GeometryView<Real>> {
+    const abi::GeometryView<Real>& scene;
 
     const abi::SphereListView<Real>& spheres() const
     {
         return scene.spheres;
     }
-    int huge_count() const
+    int anchored_count() const
     {
-        return scene.huge_spheres.count;
+        return scene.anchored_spheres.count;
     }
-    const abi::HugeSphere<Real>& huge(int i) const
+    const abi::AnchoredSphere<Real>& anchored(int i) const
     {
-        return scene.huge_spheres.data[i];
+        return scene.anchored_spheres.data[i];
     }
     int plane_count() const
     {
@@ -32,10 +32,6 @@ struct ObjectLists<Real, abi::SceneView<Real>> {
     const abi::PlaneRecord<Real>& plane(int i) const
     {
         return scene.planes.data[i];
-    }
-    const abi::SceneView<Real>& stiff() const
-    {
-        return scene;
     }
     int quadric_count() const
     {
@@ -50,16 +46,16 @@ struct ObjectLists<Real, abi::SceneView<Real>> {
 /// The objects of a scene as parallel rays see them: some of its spheres, and all others.
 template <class Real>
 struct ParallelObjects {
-    const abi::SceneView<Real>& scene;
+    const abi::GeometryView<Real>& scene;
     abi::SphereListView<Real> spheres;
 };
 
 template <class Real>
-struct ObjectLists<Real, ParallelObjects<Real>> : ObjectLists<Real, abi::SceneView<Real>> {
+struct ObjectLists<Real, ParallelObjects<Real>> : ObjectLists<Real, abi::GeometryView<Real>> {
     const abi::SphereListView<Real>& met_spheres;
 
     explicit ObjectLists(const ParallelObjects<Real>& objects)
-        : ObjectLists<Real, abi::SceneView<Real>>{objects.scene}, met_spheres(objects.spheres)
+        : ObjectLists<Real, abi::GeometryView<Real>>{objects.scene}, met_spheres(objects.spheres)
     {
     }
 
@@ -77,13 +73,13 @@ struct ObjectLists<Real, SharedOriginObjects<Real>> {
     {
         return objects.spheres;
     }
-    int huge_count() const
+    int anchored_count() const
     {
-        return objects.huge_count;
+        return objects.anchored_count;
     }
-    const SharedOriginHuge<Real>& huge(int i) const
+    const SharedOriginAnchored<Real>& anchored(int i) const
     {
-        return objects.huge_spheres[i];
+        return objects.anchored_spheres[i];
     }
     int plane_count() const
     {
@@ -92,10 +88,6 @@ struct ObjectLists<Real, SharedOriginObjects<Real>> {
     const SharedOriginPlane<Real>& plane(int i) const
     {
         return objects.planes[i];
-    }
-    const StiffCandidates<Real>& stiff() const
-    {
-        return objects.stiff;
     }
     int quadric_count() const
     {

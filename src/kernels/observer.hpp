@@ -244,14 +244,14 @@ inline void count_block_tests(const abi::SphereBlock<Real>& block)
         return;
     constexpr int packets = lanes<Real> < abi::node_width ? abi::node_width / lanes<Real> : 1;
     tests_of(abi::Primitive::sphere).packets += packets;
-    for (const Real radius2 : block.radius2)
-        tests_of(abi::Primitive::sphere).pairs += radius2 >= 0 ? 1 : 0;
+    for (const Real radius : block.radius)
+        tests_of(abi::Primitive::sphere).pairs += radius >= 0 ? 1 : 0;
 }
 
 constexpr abi::Part part_of(abi::Primitive kind)
 {
-    constexpr abi::Part parts[] = {abi::Part::spheres, abi::Part::huge_spheres, abi::Part::planes,
-                                   abi::Part::quadrics, abi::Part::stiff};
+    constexpr abi::Part parts[] = {abi::Part::spheres, abi::Part::anchored_spheres,
+                                   abi::Part::planes, abi::Part::quadrics};
     return parts[static_cast<int>(kind)];
 }
 

@@ -1,7 +1,9 @@
 #pragma once
 
+#include "kernels/filtered_objects.hpp"
 #include "kernels/object_lists.hpp"
 #include "kernels/observe.hpp"
+#include "kernels/own_surface.hpp"
 
 // Which rays of a packet meet any object on the way to a light.
 namespace packtrace::PACKTRACE_ISA {
@@ -44,13 +46,6 @@ inline std::uint32_t but_own(std::uint32_t blocked, const vint<Real>& own, std::
     return blocked & ~bits(int_equal(own, vint<Real>(static_cast<lane_int<Real>>(surface))));
 }
 
-/// No ray's own surface.
-template <class Real>
-inline vint<Real> no_surface()
-{
-    return vint<Real>(lane_int<Real>(-1));
-}
-
 /// Lanes that any piece of a quadric blocks, but for their own.
 template <class Quadric, class Real>
 inline std::uint32_t quadric_blocks(const Reach<Real>& reach, const Quadric& quadric,
@@ -64,16 +59,21 @@ inline std::uint32_t quadric_blocks(const Reach<Real>& reach, const Quadric& qua
     return blocked;
 }
 
-template <class Stiff, class Real>
-[[gnu::noinline]] std::uint32_t stiff_blocks(const Reach<Real>& reach, const Stiff& stiff,
-                                             const RayPacket<Real>& rays, const vint<Real>& own)
+/// What any piece of a quadric but their own does to the lanes of `active`, in double.
+inline Occlusion occludes(const abi::QuadricRecord<double>& quadric, const RayPacket<float>& rays,
+                          const vreal<float>& t_end, const vint<float>& own, std::uint32_t active)
 {
-    std::uint32_t blocked = 0;
-    visit_stiff(stiff, rays, [&](vmask<Real> valid, const vreal<Real>& t, int piece) {
-        blocked |=
-            but_own<Real>(bits(valid & reach.blocked_at(t, rays)), own, surface_of(stiff) + piece);
-    });
-    return blocked;
+    Occlusion result;
+    visit_in_double(quadric, rays, active,
+                    [&](std::uint32_t lanes_of, const vreal<float>& low, const vreal<float>& high,
+                        int piece) {
+                        lanes_of = but_own<float>(lanes_of, own, quadric.surface + piece);
+                        const Occlusion at = root_between(low, high, lanes_of, rays.t_min, t_end);
+                        result.blocked |= at.blocked;
+                        result.unsure |= at.unsure;
+                    });
+    result.unsure &= ~result.blocked;
+    return result;
 }
 
 /// Calls `blocker(surface, lanes)` for each object with the lanes it blocks, until that returns
@@ -95,10 +95,10 @@ inline void visit_blockers(const Reach<Real>& reach, const Objects& objects,
                      bits(reach.blocked_by(quadratic_of(spheres, i, rays), rays))))
             return;
     }
-    for (int i = 0; i < lists.huge_count(); ++i) {
-        at.test(abi::Primitive::huge_sphere);
-        if (!blocker(lists.huge(i).surface,
-                     bits(reach.blocked_by(quadratic_of(lists.huge(i), rays), rays))))
+    for (int i = 0; i < lists.anchored_count(); ++i) {
+        at.test(abi::Primitive::anchored_sphere);
+        if (!blocker(lists.anchored(i).surface,
+                     bits(reach.blocked_by(quadratic_of(lists.anchored(i), rays), rays))))
             return;
     }
     for (int i = 0; i < lists.plane_count(); ++i) {
@@ -114,10 +114,60 @@ inline void visit_blockers(const Reach<Real>& reach, const Objects& objects,
                              quadric_blocks(reach, lists.quadric(i), rays, own)))
                 return;
         }
-    for_each_stiff(lists.stiff(), [&](const auto& stiff) {
-        at.test(abi::Primitive::stiff);
-        return but_for_own(surface_of(stiff), stiff_blocks(reach, stiff, rays, own));
-    });
+}
+
+/// The same by certain tests, until t_end, for rays of the origins that the objects' bounds are
+/// for. Returns the lanes in which something may be in the way; those blocked may be among them.
+template <abi::Features F, bool Shared, class Blocker>
+inline std::uint32_t visit_blockers(const vreal<float>& t_end,
+                                    const FilteredObjects<Shared>& objects,
+                                    const RayPacket<float>& rays, const vint<float>& own,
+                                    const Blocker& blocker)
+{
+    const RayScale scale(rays);
+    const std::uint32_t certain = objects.certifiable ? bits(certifiable(rays)) : 0;
+    std::uint32_t unsure = ~certain & all_lanes<float>;
+    // Whether to go on.
+    const auto take = [&](std::int32_t surface, const Occlusion& occlusion) {
+        const std::uint32_t blocked = occlusion.blocked & certain;
+        unsure |= but_own<float>(occlusion.unsure, own, surface);
+        return blocked == 0 || blocker(surface, but_own<float>(blocked, own, surface));
+    };
+    const SphereFilters& spheres = objects.spheres;
+    const TestScope at;
+    for (int i = 0; i < spheres.count; ++i) {
+        at.test(abi::Primitive::sphere);
+        const Vec3v<float> w = origin_from<Shared>(spheres, i, rays);
+        const SphereApproach near = approach(w, vreal<float>(spheres.bounds.outer2[i]), rays);
+        if (any(near.near) &&
+            !take(spheres.surface[i], occludes(test_of(spheres, i, w), near, rays, scale, t_end)))
+            return unsure;
+    }
+    for (int i = 0; i < objects.anchored_count; ++i) {
+        at.test(abi::Primitive::anchored_sphere);
+        if (!take(objects.anchored_spheres[i].surface,
+                  occludes<Shared>(objects.anchored_spheres[i], rays, scale, t_end)))
+            return unsure;
+    }
+    for (int i = 0; i < objects.plane_count; ++i) {
+        at.test(abi::Primitive::plane);
+        if (!take(objects.planes[i].surface,
+                  occludes<Shared>(objects.planes[i], rays, scale, t_end)))
+            return unsure;
+    }
+    if constexpr (F.quadrics)
+        for (int i = 0; i < objects.quadric_count; ++i) {
+            at.test(abi::Primitive::quadric);
+            const QuadricFilter& filter = objects.quadrics[i];
+            const std::uint32_t active = may_hit<Shared>(filter, rays, scale);
+            if (active == 0)
+                continue;
+            const Occlusion occlusion = occludes(*filter.wide, rays, t_end, own, active & certain);
+            unsure |= occlusion.unsure;
+            if (occlusion.blocked != 0 && !blocker(filter.record->surface, occlusion.blocked))
+                return unsure;
+        }
+    return unsure;
 }
 
 /// The lanes of `wanted` that are blocked by anything but their own surface.
@@ -132,6 +182,21 @@ inline std::uint32_t occluded(const Reach<Real>& reach, const Objects& objects,
         return open != 0;
     });
     return wanted & ~open;
+}
+
+/// The same by certain tests.
+template <abi::Features F, bool Shared>
+inline Occlusion occluded(const vreal<float>& t_end, const FilteredObjects<Shared>& objects,
+                          const RayPacket<float>& rays, const vint<float>& own,
+                          std::uint32_t wanted)
+{
+    std::uint32_t open = wanted;
+    const std::uint32_t unsure =
+        visit_blockers<F>(t_end, objects, rays, own, [&](std::int32_t, std::uint32_t blocked) {
+            open &= ~blocked;
+            return open != 0;
+        });
+    return {wanted & ~open, open & unsure};
 }
 
 }  // namespace

@@ -14,11 +14,13 @@ struct RayPacket {
     vreal<Real> t_min;  ///< >= 0; hits must lie beyond it
 };
 
-/// The closest hit so far of each lane.
+/// The closest hit so far of each lane. With Features::exact its t is known to an interval.
 template <class Real>
 struct HitPacket {
-    vreal<Real> t;       ///< hits must lie before it
+    vreal<Real> t;       ///< hits must lie before it; with Features::exact the interval's upper end
     vint<Real> surface;  ///< -1: none yet
+    vreal<Real> t_low;   ///< with Features::exact: its lower end
+    vreal<Real> other;   ///< likewise: nothing but the hit lies before it for sure
 };
 
 template <class Real>
@@ -30,7 +32,8 @@ inline RayPacket<Real> make_rays(const Vec3v<Real>& org, const Vec3v<Real>& dir,
 template <class Real>
 inline HitPacket<Real> no_hit(Real t_max)
 {
-    return {vreal<Real>(t_max), vint<Real>(lane_int<Real>(-1))};
+    const vreal<Real> end(t_max);
+    return {end, vint<Real>(lane_int<Real>(-1)), end, vreal<Real>(static_cast<Real>(__builtin_inf()))};
 }
 
 /// Takes the hits at `t` where `valid` and closer; at equal t the lower surface number wins, so

@@ -11,19 +11,21 @@ namespace {
 constexpr abi::FeatureSet probe = abi::feature_sets[abi::probe_set];
 static_assert(probe.features.probe);
 
-template <class Real>
+template <bool Exact, class Real>
 constexpr abi::FeatureKernels<Real> kernels()
 {
-    return {probe, scratch_bytes<probe.features, Real>, render_tile<probe.features, Real>, nullptr};
+    constexpr abi::Features F = abi::with_exact(probe.features, Exact);
+    return {{probe.name, F}, scratch_bytes<F, Real>, render_tile<F, Real>, nullptr};
 }
 
-constexpr abi::ProbeKernels both = {kernels<float>(), kernels<double>()};
+constexpr abi::ProbeKernels all = {
+    kernels<true, float>(), kernels<false, float>(), kernels<false, double>()};
 
 }  // namespace
 
 const abi::ProbeKernels& probe_kernels()
 {
-    return both;
+    return all;
 }
 
 }  // namespace packtrace::PACKTRACE_ISA

@@ -43,9 +43,25 @@ inline vreal<Real> quadric_value(const abi::QuadricRecord<Real>& quadric, const 
     return madd(linear + linear, p.z, dot(squares, p)) + vreal<Real>(quadric.constant);
 }
 
-/// A ray's quadratic from its point nearest to the centre, `start` along it. There no term of
-/// b² - a c and of c is larger than it must be; from a far origin those of an indefinite form
-/// cancel, by some twenty times what the origin's own rounding makes (packtrace stress).
+/// The discriminant by the moment m = p × v (Lagrange's identity), in which no term of the origin's
+/// distance cancels, and which is never negative where no real ray can miss, as with crossing
+/// planes: -k a - Σ s_j s_k m_i² + 2 l (s1 v_y m_x - s0 v_x m_y) + l² v_z².
+template <class Real>
+inline vreal<Real> quadric_discriminant(const abi::QuadricRecord<Real>& quadric,
+                                        const Vec3v<Real>& m, const Vec3v<Real>& v,
+                                        const vreal<Real>& a)
+{
+    const Vec3v<Real> s = broadcast(quadric.square);
+    const vreal<Real> l(quadric.linear);
+    const vreal<Real> squares = madd(s.y * s.z, m.x * m.x,
+                                     madd(s.z * s.x, m.y * m.y, (s.x * s.y) * (m.z * m.z)));
+    const vreal<Real> turn = msub(s.y * v.y, m.x, (s.x * v.x) * m.y);
+    const vreal<Real> lifted = l * v.z;
+    return madd(l + l, turn, msub(lifted, lifted, madd(vreal<Real>(quadric.constant), a, squares)));
+}
+
+/// A ray's quadratic from its point nearest to the centre, `start` along it. There no term is
+/// larger than it must be.
 template <class Real>
 struct NearQuadratic {
     Quadratic<Real> from_start;
@@ -59,16 +75,64 @@ inline NearQuadratic<Real> near_quadratic(const abi::QuadricRecord<Real>& quadri
     const vreal<Real> start = negated(dot(p, v)) / dot(v, v);
     const Vec3v<Real> near = madd<Real>(start, v, p);
     const Vec3v<Real> scaled = broadcast(quadric.square) * v;
+    const vreal<Real> zero(Real(0));
     Quadratic<Real> q;
     q.a = dot(scaled, v);
+    // What is no more than its own rounding is 0: the ray runs along a generator or an asymptote.
+    const vreal<Real> size = madd(abs(scaled.x), abs(v.x),
+                                  madd(abs(scaled.y), abs(v.y), abs(scaled.z) * abs(v.z)));
+    constexpr Real rounding = sizeof(Real) == sizeof(float) ? Real(0x1p-22) : Real(0x1p-51);
+    q.a = select(abs(q.a) <= vreal<Real>(rounding) * size, zero, q.a);
     q.b = madd(vreal<Real>(quadric.linear), v.z, dot(scaled, near));
     q.c = quadric_value<Real>(quadric, near);
-    q.discriminant = msub(q.b, q.b, q.a * q.c);
+    q.discriminant = quadric_discriminant<Real>(quadric, cross(near, v), v, q.a);
     return {q, start};
 }
 
-/// Calls `visit(valid, t, piece)` for the places where the rays of `active` cross the clipped and
-/// capped surface: piece 0 is the side, 1 and 2 the low and the high cap. A t may be infinite.
+/// The part of a line between two of its points, which may be infinitely far.
+template <class Real>
+struct LineInterval {
+    vreal<Real> low, high;
+};
+
+template <class Real>
+inline LineInterval<Real> ordered(const vreal<Real>& a, const vreal<Real>& b)
+{
+    return {min(a, b), max(a, b)};
+}
+
+/// Where the rays are between the clipping planes, and where they cross them. A ray along them is
+/// between them all the way or nowhere.
+template <class Real>
+struct ClipCrossings {
+    vreal<Real> low_t, high_t;
+    LineInterval<Real> between;
+};
+
+template <class Real>
+inline ClipCrossings<Real> clip_crossings(const abi::QuadricRecord<Real>& quadric,
+                                          const vreal<Real>& height, const Vec3v<Real>& dir)
+{
+    const vreal<Real> climb = dot(broadcast(quadric.clip), dir);
+    const vreal<Real> below = vreal<Real>(quadric.clip_low) - height;
+    const vreal<Real> above = vreal<Real>(quadric.clip_high) - height;
+    const vreal<Real> zero(Real(0));
+    const vreal<Real> never(static_cast<Real>(__builtin_inf()));
+    const auto along = climb == zero;
+    const auto inside = (below <= zero) & (above >= zero);
+    ClipCrossings<Real> clip;
+    clip.low_t = select(along, negated(never), below / climb);
+    clip.high_t = select(along, never, above / climb);
+    clip.between = ordered<Real>(clip.low_t, clip.high_t);
+    const auto nowhere = from_bits<Real>(bits(along) & ~bits(inside));
+    clip.between.low = select(nowhere, never, clip.between.low);
+    clip.between.high = select(nowhere, negated(never), clip.between.high);
+    return clip;
+}
+
+/// Calls `visit(valid, t, piece)` for the places where the rays cross the clipped and capped
+/// surface: piece 0 is the side, 1 and 2 the low and the high cap. A t may be infinite. Side and
+/// caps share one decision, the order of their t: at the rim a ray crosses exactly one.
 template <class Real, class Visit>
 inline void visit_crossings(const abi::QuadricRecord<Real>& quadric,
                             const QuadricOrigin<Real>& origin, const RayPacket<Real>& rays,
@@ -76,26 +140,40 @@ inline void visit_crossings(const abi::QuadricRecord<Real>& quadric,
 {
     const Vec3v<Real> v = apply_inverse(quadric, rays.dir);
     const auto [quadratic, start] = near_quadratic<Real>(quadric, origin.p, v);
-    const vreal<Real> climb = dot(broadcast(quadric.clip), rays.dir);
-    const vreal<Real> low(quadric.clip_low);
-    const vreal<Real> high(quadric.clip_high);
-    visit_roots(quadratic, [&, start = start](vmask<Real> crosses, const vreal<Real>& root) {
-        const vreal<Real> t = start + root;
-        auto valid = crosses;
-        if (quadric.clipped) {
-            const vreal<Real> height = madd(t, climb, origin.height);
-            valid = valid & (height >= low) & (height <= high);
-        }
-        visit(valid, t, 0);
-    });
+    const vreal<Real> zero(Real(0));
+    const vreal<Real> root = sqrt(max(quadratic.discriminant, zero));
+    const vreal<Real> minus_q = quadratic.b + with_sign_of(root, quadratic.b);
+    const std::uint32_t crosses =
+        bits(quadratic.discriminant >= zero) & ~bits(minus_q == zero) & all_lanes<Real>;
+    if (crosses == 0 && !quadric.capped)
+        return;
+    // Sums and not products of signs, so that a root at infinity stays there.
+    const vreal<Real> first = start + negated(quadratic.c) / minus_q;
+    const vreal<Real> second = start + negated(minus_q) / quadratic.a;
+    if (!quadric.clipped) {
+        visit(from_bits<Real>(crosses), first, 0);
+        visit(from_bits<Real>(crosses), second, 0);
+        return;
+    }
+    const ClipCrossings<Real> clip = clip_crossings<Real>(quadric, origin.height, rays.dir);
+    const auto between = [&](const vreal<Real>& t) {
+        return (t >= clip.between.low) & (t <= clip.between.high);
+    };
+    visit(from_bits<Real>(crosses & bits(between(first))), first, 0);
+    visit(from_bits<Real>(crosses & bits(between(second))), second, 0);
     if (!quadric.capped)
         return;
+    const LineInterval<Real> side = ordered<Real>(first, second);
+    const std::uint32_t opens = bits(quadratic.a < zero);
+    const std::uint32_t never_crosses =
+        bits((quadratic.a < zero) | ((quadratic.a == zero) & (quadratic.c < zero)));
     for (int cap = 1; cap <= 2; ++cap) {
-        const vreal<Real> t = ((cap == 1 ? low : high) - origin.height) / climb;
-        const vreal<Real> from_start = t - start;
-        const vreal<Real> value =
-            madd(madd(quadratic.a, from_start, quadratic.b + quadratic.b), from_start, quadratic.c);
-        visit(value <= vreal<Real>(Real(0)), t, cap);
+        const vreal<Real> t = cap == 1 ? clip.low_t : clip.high_t;
+        const std::uint32_t within = bits((t > side.low) & (t < side.high));
+        const std::uint32_t beyond = bits(t < side.low) | bits(t > side.high);
+        const std::uint32_t by_order = (opens & beyond) | (~opens & within);
+        visit(from_bits<Real>((crosses & by_order) | (~crosses & never_crosses & all_lanes<Real>)),
+              t, cap);
     }
 }
 

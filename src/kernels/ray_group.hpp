@@ -1,7 +1,7 @@
 #pragma once
 
 #include "kernel_abi/kernel_table.hpp"
-#include "kernels/packet.hpp"
+#include "kernels/own_surface.hpp"
 
 // Rays that go through the hierarchy together: a tile's, or as many of a stream.
 namespace packtrace::PACKTRACE_ISA {
@@ -20,8 +20,29 @@ struct alignas(64) RayGroup {
     Real t_min[group_rays];
     Real t[group_rays];  ///< where the ray ends: at its closest hit so far, or the light
     lane_int<Real> surface[group_rays];
+    lane_int<Real> own[group_rays];     ///< the surface the ray starts on; -1: none
     std::uint16_t active[group_cells];  ///< a bit a ray
+    // With Features::exact, as HitPacket has them; and rays that something may be in the way of.
+    Real t_low[group_rays];
+    Real other[group_rays];
+    std::uint16_t unsure[group_cells];
+    float center_error;  ///< of the hierarchy's spheres
+    float length;        ///< the largest distance of an origin from any of their centres
 };
+
+/// Lanes of the packet at `first` become unsure.
+template <class Real>
+inline void doubt_lanes(RayGroup<Real>& group, int first, std::uint32_t unsure)
+{
+    group.unsure[first / cell_rays] |= static_cast<std::uint16_t>(unsure << first % cell_rays);
+}
+
+/// The unsure lanes of the packet at `first`.
+template <class Real>
+inline std::uint32_t unsure_of(const RayGroup<Real>& group, int first)
+{
+    return group.unsure[first / cell_rays] >> first % cell_rays & all_lanes<Real>;
+}
 
 template <class Real>
 inline RayPacket<Real> load_rays(const RayGroup<Real>& group, int first)
@@ -53,14 +74,25 @@ inline void store_rays(RayGroup<Real>& group, int first, const RayPacket<Real>& 
 template <class Real>
 inline HitPacket<Real> load_hits(const RayGroup<Real>& group, int first)
 {
-    return {load(group.t + first), load(group.surface + first)};
+    return {load(group.t + first), load(group.surface + first), load(group.t_low + first),
+            load(group.other + first)};
 }
 
-template <class Real>
+template <abi::Features F, class Real>
 inline void store_hits(RayGroup<Real>& group, int first, const HitPacket<Real>& hit)
 {
     store(group.t + first, hit.t);
     store(group.surface + first, hit.surface);
+    if constexpr (F.exact) {
+        store(group.t_low + first, hit.t_low);
+        store(group.other + first, hit.other);
+    }
+}
+
+template <class Real>
+inline OwnSurface<vint<Real>> own_of(const RayGroup<Real>& group, int first)
+{
+    return {load(group.own + first)};
 }
 
 /// The lanes of the packet at `first` that are wanted.
@@ -87,18 +119,22 @@ inline void for_each_active(const RayGroup<Real>& group, std::uint32_t cells, co
     }
 }
 
-/// Ends the rays of the packet at `first` at `t_max`, and those not in `active` before they
-/// start.
-template <class Real>
-inline void start_rays(RayGroup<Real>& group, int first, const vreal<Real>& t_max,
-                       std::uint32_t active)
+/// The rays of the packet at `first` have hit `hit` so far, their search passes over `own`, and
+/// those not in `active` end before they start.
+template <abi::Features F, class Real>
+inline void start_rays(RayGroup<Real>& group, int first, const HitPacket<Real>& hit,
+                       const vint<Real>& own, std::uint32_t active)
 {
     const vreal<Real> never(static_cast<Real>(-__builtin_inf()));
-    store(group.t + first, select(from_bits<Real>(active), t_max, never));
-    store(group.surface + first, vint<Real>(lane_int<Real>(-1)));
+    HitPacket<Real> start = hit;
+    start.t = select(from_bits<Real>(active), hit.t, never);
+    store_hits<F>(group, first, start);
+    store(group.own + first, own);
     std::uint16_t& cell = group.active[first / cell_rays];
     const std::uint32_t others = ~(all_lanes<Real> << first % cell_rays);
     cell = static_cast<std::uint16_t>((cell & others) | active << first % cell_rays);
+    if (first % cell_rays == 0)
+        group.unsure[first / cell_rays] = 0;
 }
 
 /// Makes the rays from `count` to the end of its cell like the one before it, and marks them and
@@ -114,6 +150,8 @@ inline void end_group(RayGroup<Real>& group, int count)
         group.t_min[ray] = group.t_min[count - 1];
         group.t[ray] = static_cast<Real>(-__builtin_inf());
         group.surface[ray] = -1;
+        group.own[ray] = -1;
+        group.t_low[ray] = group.other[ray] = static_cast<Real>(__builtin_inf());
         group.active[ray / cell_rays] &= static_cast<std::uint16_t>(~(1u << ray % cell_rays));
     }
     for (int cell = (count + cell_rays - 1) / cell_rays; cell < group_cells; ++cell)

@@ -1,14 +1,14 @@
 #pragma once
 
 #include "kernel_abi/ray_streams.hpp"
-#include "kernels/finish.hpp"
 #include "kernels/group_closest.hpp"
-#include "kernels/second_meeting.hpp"
-#include "kernels/settle_start.hpp"
+#include "kernels/object_sets.hpp"
+#include "kernels/refine.hpp"
+#include "kernels/retrace.hpp"
 #include "kernels/stream_values.hpp"
-#include "kernels/surface.hpp"
 #include "kernels/tree_blockers.hpp"
 #include "kernels/tree_crossings.hpp"
+#include "kernels/workspace.hpp"
 
 // Streams of rays from outside: closest hits, occlusion, all hits.
 namespace packtrace::PACKTRACE_ISA {
@@ -47,26 +47,6 @@ inline vint<Real> objects_of(const abi::SceneView<Real>& scene, const vint<Real>
     return load(number);
 }
 
-/// Outward unit normals and object numbers of the lanes of `active`, whose `t` may become more
-/// exact.
-template <abi::Features F, class Real>
-inline SurfacePacket<Real> outward_surface(const abi::SceneView<Real>& scene,
-                                           const RayPacket<Real>& rays, vreal<Real>& t,
-                                           const vint<Real>& surface, std::uint32_t active)
-{
-    const FinishedHits<Real> exact = finished<F>(scene, rays, t, surface, active);
-    SurfacePacket<Real> result = surface_at<F>(scene, exact.point, rays.dir, surface, active,
-                                               scene.finish != nullptr ? &exact.gradient : nullptr);
-    t = exact.t;
-    // Undo the turn towards the viewer: outward normals of leaving rays go along with them.
-    const vreal<Real> zero(Real(0));
-    const std::uint32_t against = bits(dot(result.normal, rays.dir) < zero);
-    const auto turned = from_bits<Real>(result.leaving & against);
-    result.normal =
-        select(turned, scale<Real>(vreal<Real>(Real(-1)), result.normal), result.normal);
-    return result;
-}
-
 /// Lanes in which nothing is NaN.
 template <class Real>
 inline std::uint32_t numbers(const StreamPacket<Real>& packet)
@@ -78,178 +58,342 @@ inline std::uint32_t numbers(const StreamPacket<Real>& packet)
            is_number(rays.t_min) & is_number(packet.t_max);
 }
 
-/// Fills a group with the rays of a stream from `begin`, and returns their number.
+/// Where a packet of a stream starts, if its caller says so.
 template <class Real>
-inline int gather_stream(const abi::RaysView<Real>& view, int begin, RayGroup<Real>& group)
+inline StartPacket<Real> start_of(const abi::SceneView<Real>& scene,
+                                  const abi::RaysView<Real>& view, int first,
+                                  const Vec3v<Real>& dir)
 {
-    const int count = view.count - begin < group_rays ? view.count - begin : group_rays;
-    for (int first = 0; first < count; first += lanes<Real>) {
-        const StreamPacket<Real> packet(view, begin + first);
-        store_rays(group, first, packet.rays);
-        start_rays(group, first, packet.t_max, first_lanes<Real>(count - first) & numbers(packet));
-    }
-    end_group(group, count);
-    return count;
+    if (view.start_surface == nullptr || !(scene.start_error > 0))
+        return no_start<Real>();
+    const int count = view.count - first;
+    const vint<Real> none(lane_int<Real>(-1));
+    const vint<Real> code = load_numbers<Real>(view.start_surface + first, count);
+    const auto inner = int_less(code, vint<Real>(lane_int<Real>(0)));
+    const auto elsewhere = int_equal(code, vint<Real>(lane_int<Real>{abi::no_start}));
+    const vint<Real> number = select(elsewhere, none, select(inner, none - code, code));
+    const std::uint32_t active = first_lanes<Real>(count) & ~bits(elsewhere);
+    StartPacket<Real> start{load_some3(view.start_point, first, count), number,
+                            vreal<Real>(static_cast<Real>(__builtin_inf()))};
+    start.second =
+        second_root<Real>(scene.shapes, number, start.point, dir, ~bits(inner), active);
+    return start;
 }
 
-/// The same for packets in which no ray may have hit anything; normals of misses are 0.
+/// What is prepared of the lists for one call.
 template <abi::Features F, class Real>
-inline SurfacePacket<Real> surface_or_none(const abi::SceneView<Real>& scene,
-                                           const RayPacket<Real>& rays, vreal<Real>& t,
-                                           const vint<Real>& surface, std::uint32_t found)
+struct StreamWork {
+    FromAnywhere<F, Real> nearby;
+    RayGroup<Real>* group = nullptr;
+    std::size_t bytes = 0;
+
+    /// With no `scratch`, only `bytes` is of use.
+    StreamWork(void* scratch, const abi::SceneView<Real>& scene)
+    {
+        Arena arena(scratch);
+        nearby = take_objects<FromAnywhere<F, Real>>(arena, scene);
+        if (!scene.tree.empty())
+            group = arena.template take<RayGroup<Real>>(1);
+        bytes = arena.used();
+    }
+};
+
+/// Prepares the lists for a chunk of a stream. Origins that no bound holds for count as ones that
+/// are just within.
+template <abi::Features F, class Real>
+inline void find_nearby_of(StreamWork<F, Real>& work, const abi::SceneView<Real>& scene,
+                           const abi::RaysView<Real>& view, int begin, int count)
 {
-    const vreal<Real> zero(Real(0));
-    const Vec3v<Real> none{zero, zero, zero};
-    SurfacePacket<Real> result;
-    result.point = result.normal = result.lift = none;
-    result.object = surface;
-    if (found == 0)
-        return result;
-    result = outward_surface<F>(scene, rays, t, surface, found);
-    result.normal = select(from_bits<Real>(found), result.normal, none);
-    return result;
+    if constexpr (F.exact) {
+        float low[3];
+        float high[3];
+        for (int axis = 0; axis < 3; ++axis) {
+            const vreal<float> most(largest_certain);
+            vreal<float> lows = most;
+            vreal<float> highs = negated(most);
+            for (int first = 0; first < count; first += lanes<float>) {
+                const vreal<float> org =
+                    load_some(view.org[axis] + begin + first, count - first);
+                lows = min(lows, org);
+                highs = max(highs, org);
+            }
+            extent_of_lanes(max(lows, negated(most)), min(highs, most), low[axis], high[axis]);
+        }
+        find_objects<F>(work.nearby, origins_in(low, high), scene);
+    } else {
+        work.nearby.scene = &scene;
+    }
 }
 
 /// Hands out what a packet of rays, of which `live` are left, hit: to `at` and after.
 template <abi::Features F, class Real>
 inline void store_packet_hits(const abi::SceneView<Real>& scene, const RayPacket<Real>& rays,
-                              const HitPacket<Real>& hit, const vreal<Real>& t_max,
-                              const abi::HitsView<Real>& hits, int at, int live)
+                              const HitPacket<Real>& hit, const StartPacket<Real>& start,
+                              const vreal<Real>& t_max, const abi::HitsView<Real>& hits, int at,
+                              int live)
 {
-    const auto missed = int_equal(hit.surface, vint<Real>(lane_int<Real>(-1)));
+    const auto missed = int_equal(hit.surface, no_surface<Real>());
     const std::uint32_t found = ~bits(missed) & first_lanes<Real>(live);
-    if (hits.normal[0] == nullptr && scene.finish == nullptr && !scene.sharpened_t) {
-        store_some(hits.t + at, select(missed, t_max, hit.t), live);
-        store_numbers<Real>(hits.object + at, objects_of(scene, hit.surface, found), live);
-        return;
-    }
-    vreal<Real> t = hit.t;
-    const SurfacePacket<Real> surface = surface_or_none<F>(scene, rays, t, hit.surface, found);
-    store_some(hits.t + at, select(missed, t_max, t), live);
-    store_numbers<Real>(hits.object + at, select(missed, hit.surface, surface.object), live);
-    store_some3(hits.normal, at, surface.normal, live);
-    store_some3(hits.outer_start, at, surface.point + surface.lift, live);
-    store_some3(hits.inner_start, at, surface.point - surface.lift, live);
-    store_some3(hits.point, at, surface.point, live);
+    store_numbers<Real>(hits.object + at, objects_of(scene, hit.surface, found), live);
     if (hits.surface != nullptr)
         store_numbers<Real>(hits.surface + at, hit.surface, live);
-}
-
-/// Puts right what a packet of a stream hit, if it is told where its rays start.
-template <abi::Features F, class Real>
-inline void settle_starts(const abi::SceneView<Real>& scene, const abi::RaysView<Real>& view,
-                          int first, RayPacket<Real>& rays, HitPacket<Real>& hit)
-{
-    if (view.start_surface == nullptr || !(scene.start_error > 0))
+    if (hits.normal[0] == nullptr && (!F.exact || hits.t == nullptr)) {
+        if (hits.t != nullptr)
+            store_some(hits.t + at, select(missed, t_max, hit.t), live);
         return;
-    const int count = view.count - first;
-    const vint<Real> code = load_numbers<Real>(view.start_surface + first, count);
-    const vint<Real> zero(lane_int<Real>(0));
-    const vint<Real> none(lane_int<Real>(-1));
-    const auto inner = int_less(code, zero);
-    const auto elsewhere = int_equal(code, vint<Real>(lane_int<Real>{abi::no_start}));
-    const vint<Real> number = select(elsewhere, none, select(inner, none - code, code));
-    const std::uint32_t active = first_lanes<Real>(count) & ~bits(elsewhere);
-    StartPacket<Real> start{load_some3(view.start_point, first, count), number, hit.t};
-    start.second = second_meeting<Real>(scene, number, start.point, rays.dir, ~bits(inner), active);
-    settle_start<F>(scene, rays, hit, start, load_some(view.t_max + first, count), active);
+    }
+    const vreal<Real> zero(Real(0));
+    const Vec3v<Real> nothing{zero, zero, zero};
+    RefinedHits<Real> places{t_max, nothing, nothing};
+    Vec3v<Real> offset = nothing;
+    if (found != 0) {
+        places = refined<F>(scene.shapes, rays, hit, start, found);
+        places.t = select(missed, t_max, places.t);
+        places.normal = select(missed, nothing, places.normal);
+        if (scene.start_error > 0)
+            offset = origin_offset<Real>(scene.start_error, places.point, places.normal);
+    }
+    if (hits.t != nullptr)
+        store_some(hits.t + at, places.t, live);
+    store_some3(hits.normal, at, places.normal, live);
+    store_some3(hits.outer_start, at, places.point + offset, live);
+    store_some3(hits.inner_start, at, places.point - offset, live);
+    store_some3(hits.point, at, places.point, live);
 }
 
 /// Where the scene has no hierarchy: packet by packet, without a group in between.
 template <abi::Features F, class Real>
-inline void closest_hits_in_lists(const abi::SceneView<Real>& scene,
-                                  const abi::RaysView<Real>& view, const abi::HitsView<Real>& hits)
+inline void closest_chunk_in_lists(const abi::SceneView<Real>& scene,
+                                   const StreamWork<F, Real>& work,
+                                   const abi::RaysView<Real>& view, int begin, int end,
+                                   const abi::HitsView<Real>& hits)
 {
-    for (int first = 0; first < view.count; first += lanes<Real>) {
-        StreamPacket<Real> packet(view, first);
-        HitPacket<Real> hit{packet.t_max, vint<Real>(lane_int<Real>(-1))};
-        closest_hit<F>(hit, scene, packet.rays);
-        settle_starts<F>(scene, view, first, packet.rays, hit);
-        store_packet_hits<F>(scene, packet.rays, hit, packet.t_max, hits, first, packet.count);
+    for (int first = begin; first < end; first += lanes<Real>) {
+        const StreamPacket<Real> packet(view, first);
+        const StartPacket<Real> start = start_of(scene, view, first, packet.rays.dir);
+        HitPacket<Real> hit = start_of_search(start, packet.t_max);
+        if (view.start_surface != nullptr)
+            closest_hit<F>(hit, work.nearby, packet.rays, OwnSurface{start.surface});
+        else
+            closest_hit<F>(hit, work.nearby, packet.rays, NoOwn{});
+        settle_packet<F>(scene, packet.rays, hit, start, packet.t_max,
+                         first_lanes<Real>(packet.count));
+        store_packet_hits<F>(scene, packet.rays, hit, start, packet.t_max, hits, first,
+                             packet.count);
+    }
+}
+
+template <abi::Features F, class Real>
+inline void closest_chunk_in_tree(const abi::SceneView<Real>& scene,
+                                  const StreamWork<F, Real>& work,
+                                  const abi::RaysView<Real>& view, int begin, int end,
+                                  const abi::HitsView<Real>& hits)
+{
+    RayGroup<Real>& group = *work.group;
+    const int count = end - begin;
+    const auto start_at = [&](int first) {
+        return start_of(scene, view, begin + first, load_rays(group, first).dir);
+    };
+    const auto t_max_at = [&](int first) {
+        return load_some(view.t_max + begin + first, count - first);
+    };
+    for (int first = 0; first < count; first += lanes<Real>) {
+        const StreamPacket<Real> packet(view, begin + first);
+        const StartPacket<Real> start = start_of(scene, view, begin + first, packet.rays.dir);
+        store_rays(group, first, packet.rays);
+        start_rays<F>(group, first, start_of_search(start, packet.t_max), start.surface,
+                      first_lanes<Real>(count - first) & numbers(packet));
+    }
+    end_group(group, count);
+    closest_of_group<F>(scene, work.nearby, group);
+    settle_group<F>(scene, group, start_at, t_max_at);
+    for (int first = 0; first < count; first += lanes<Real>)
+        store_packet_hits<F>(scene, load_rays(group, first), load_hits(group, first),
+                             start_at(first), t_max_at(first), hits, begin + first, count - first);
+}
+
+/// Calls `visit(begin, end)` for the chunks of a stream, for which the lists are prepared.
+template <abi::Features F, class Real, class Visit>
+inline void for_each_chunk(StreamWork<F, Real>& work, const abi::SceneView<Real>& scene,
+                           const abi::RaysView<Real>& view, const Visit& visit)
+{
+    for (int begin = 0; begin < view.count; begin += group_rays) {
+        const int end = view.count - begin < group_rays ? view.count : begin + group_rays;
+        find_nearby_of(work, scene, view, begin, end - begin);
+        visit(begin, end);
     }
 }
 
 template <abi::Features F, class Real>
 inline void closest_hits(const abi::SceneView<Real>& scene, const abi::RaysView<Real>& view,
-                         const abi::HitsView<Real>& hits)
+                         const abi::HitsView<Real>& hits, void* scratch)
 {
-    if (scene.tree.empty())
-        return closest_hits_in_lists<F>(scene, view, hits);
-    RayGroup<Real> group;
-    for (int begin = 0; begin < view.count; begin += group_rays) {
-        const int count = gather_stream(view, begin, group);
-        closest_of_group<F>(scene, scene, group);
-        for (int first = 0; first < count; first += lanes<Real>) {
-            RayPacket<Real> rays = load_rays(group, first);
-            HitPacket<Real> hit = load_hits(group, first);
-            settle_starts<F>(scene, view, begin + first, rays, hit);
-            store_packet_hits<F>(scene, rays, hit,
-                                 load_some(view.t_max + begin + first, count - first), hits,
-                                 begin + first, count - first);
-        }
-    }
+    StreamWork<F, Real> work(scratch, scene);
+    for_each_chunk(work, scene, view, [&](int begin, int end) {
+        if (scene.tree.empty())
+            closest_chunk_in_lists(scene, work, view, begin, end, hits);
+        else
+            closest_chunk_in_tree(scene, work, view, begin, end, hits);
+    });
 }
 
 template <abi::Features F, class Real>
-inline void occluded_in_lists(const abi::SceneView<Real>& scene, const abi::RaysView<Real>& view,
-                              std::uint8_t* mask)
+inline void occluded_chunk_in_lists(const abi::SceneView<Real>& scene,
+                                    const StreamWork<F, Real>& work,
+                                    const abi::RaysView<Real>& view, int begin, int end,
+                                    std::uint8_t* mask)
 {
-    for (int first = 0; first < view.count; first += lanes<Real>) {
+    for (int first = begin; first < end; first += lanes<Real>) {
         const StreamPacket<Real> packet(view, first);
         const std::uint32_t wanted = first_lanes<Real>(packet.count);
-        store_mask<Real>(mask + first,
-                         occluded<F>(Reach<Real>{packet.t_max, false}, scene, packet.rays,
-                                     no_surface<Real>(), wanted),
-                         packet.count);
+        const vint<Real> own = no_surface<Real>();
+        std::uint32_t blocked = 0;
+        if constexpr (F.exact) {
+            const Occlusion occlusion =
+                occluded<F>(packet.t_max, work.nearby, packet.rays, own, wanted);
+            blocked = occlusion.blocked;
+            if (occlusion.unsure != 0)
+                blocked |= retrace_occluded<F>(*scene.wide, packet.rays, own, packet.t_max, false,
+                                               occlusion.unsure);
+        } else {
+            blocked = occluded<F>(Reach<Real>{packet.t_max, false}, work.nearby, packet.rays, own,
+                                  wanted);
+        }
+        store_mask<Real>(mask + first, blocked, packet.count);
+    }
+}
+
+/// Blocks the rays of a group by what is in their way in double, where they are unsure.
+template <abi::Features F>
+[[gnu::noinline]] void settle_occluded(const abi::SceneView<float>& scene, RayGroup<float>& group)
+{
+    WideGroup wide;
+    for (int first = 0; first < group_rays; first += lanes<float>) {
+        const std::uint32_t unsure = unsure_of(group, first) & active_lanes(group, first);
+        if (unsure != 0)
+            add_segments(wide, first, load_rays(group, first), load(group.own + first),
+                         load(group.t + first), unsure);
+    }
+    if (wide.count == 0)
+        return;
+    block_wide<F>(*scene.wide, wide, false, [&](int ray, std::int32_t) {
+        const int first = ray / lanes<float> * lanes<float>;
+        finish_lanes(group, first, 1u << (ray - first));
+        return true;
+    });
+}
+
+template <abi::Features F, class Real>
+inline void occluded_chunk_in_tree(const abi::SceneView<Real>& scene,
+                                   const StreamWork<F, Real>& work,
+                                   const abi::RaysView<Real>& view, int begin, int end,
+                                   std::uint8_t* mask)
+{
+    RayGroup<Real>& group = *work.group;
+    const int count = end - begin;
+    for (int first = 0; first < count; first += lanes<Real>) {
+        const StreamPacket<Real> packet(view, begin + first);
+        HitPacket<Real> none = no_hit<Real>(Real(0));
+        none.t = packet.t_max;
+        store_rays(group, first, packet.rays);
+        start_rays<F>(group, first, none, no_surface<Real>(),
+                      first_lanes<Real>(count - first) & numbers(packet));
+    }
+    end_group(group, count);
+    std::uint16_t wanted[group_cells];
+    for (int cell = 0; cell < group_cells; ++cell)
+        wanted[cell] = group.active[cell];
+    visit_blockers_of_group<F>(scene, work.nearby, group, false, EndsRays{});
+    if constexpr (F.exact)
+        settle_occluded<F>(scene, group);
+    for (int first = 0; first < count; first += lanes<Real>) {
+        const std::uint32_t before = wanted[first / cell_rays] >> first % cell_rays;
+        store_mask<Real>(mask + begin + first, before & ~active_lanes(group, first),
+                         count - first);
     }
 }
 
 template <abi::Features F, class Real>
 inline void occluded_rays(const abi::SceneView<Real>& scene, const abi::RaysView<Real>& view,
-                          std::uint8_t* mask)
+                          std::uint8_t* mask, void* scratch)
 {
-    if (scene.tree.empty())
-        return occluded_in_lists<F>(scene, view, mask);
-    RayGroup<Real> group;
-    for (int begin = 0; begin < view.count; begin += group_rays) {
-        const int count = gather_stream(view, begin, group);
-        std::uint16_t wanted[group_cells];
-        for (int cell = 0; cell < group_cells; ++cell)
-            wanted[cell] = group.active[cell];
-        visit_blockers_of_group<F>(scene, scene, group, false, EndsRays{});
-        for (int first = 0; first < count; first += lanes<Real>) {
-            const std::uint32_t before = wanted[first / cell_rays] >> first % cell_rays;
-            store_mask<Real>(mask + begin + first, before & ~active_lanes(group, first),
-                             count - first);
+    StreamWork<F, Real> work(scratch, scene);
+    for_each_chunk(work, scene, view, [&](int begin, int end) {
+        if (scene.tree.empty())
+            occluded_chunk_in_lists(scene, work, view, begin, end, mask);
+        else
+            occluded_chunk_in_tree(scene, work, view, begin, end, mask);
+    });
+}
+
+/// The precision that all hits are found in: with Features::exact in double, as each of them
+/// counts.
+template <abi::Features F, class Real>
+using SearchReal = std::conditional_t<F.exact, double, Real>;
+
+template <abi::Features F, class Real>
+inline const abi::GeometryView<SearchReal<F, Real>>& searched(const abi::SceneView<Real>& scene)
+{
+    if constexpr (F.exact)
+        return *scene.wide;
+    else
+        return scene;
+}
+
+/// Fills a group with the rays of a stream from `begin`.
+template <class Search, class Real>
+inline void gather_all(const abi::RaysView<Real>& view, int begin, RayGroup<Search>& group)
+{
+    const int count = view.count - begin < group_rays ? view.count - begin : group_rays;
+    for (std::uint16_t& cell : group.active)
+        cell = 0;
+    for (int ray = 0; ray < count; ++ray) {
+        bool number = true;
+        for (int axis = 0; axis < 3; ++axis) {
+            group.org[axis][ray] = view.org[axis][begin + ray];
+            group.dir[axis][ray] = view.dir[axis][begin + ray];
+            number = number && group.org[axis][ray] == group.org[axis][ray] &&
+                     group.dir[axis][ray] == group.dir[axis][ray];
         }
+        group.t_min[ray] = view.t_min[begin + ray];
+        group.t[ray] = view.t_max[begin + ray];
+        number = number && group.t_min[ray] == group.t_min[ray] && group.t[ray] == group.t[ray];
+        group.surface[ray] = group.own[ray] = -1;
+        if (number)
+            group.active[ray / cell_rays] |= static_cast<std::uint16_t>(1u << ray % cell_rays);
+        else
+            group.t[ray] = static_cast<Search>(-__builtin_inf());
     }
+    end_group(group, count);
 }
 
 /// Hands the crossings of one surface to the sink.
-template <abi::Features F, class Real>
-inline void report_hits(const abi::SceneView<Real>& scene, const RayGroup<Real>& group, int begin,
-                        int first, const abi::HitSink<Real>& sink, vmask<Real> valid,
-                        const vreal<Real>& t, std::int32_t surface)
+template <class Search, class Real>
+inline void report_hits(const abi::SceneView<Real>& scene, const RayGroup<Search>& group, int begin,
+                        int first, const abi::HitSink<Real>& sink, vmask<Search> valid,
+                        const vreal<Search>& t, std::int32_t surface)
 {
-    const RayPacket<Real> rays = load_rays(group, first);
+    const RayPacket<Search> rays = load_rays(group, first);
     std::uint32_t active =
         bits(valid & (t > rays.t_min) & (t < load(group.t + first))) & active_lanes(group, first);
     if (active == 0)
         return;
-    vreal<Real> exact_t = t;
-    const SurfacePacket<Real> at = outward_surface<F>(
-        scene, rays, exact_t, vint<Real>(static_cast<lane_int<Real>>(surface)), active);
-    alignas(64) Real ts[lanes<Real>];
-    alignas(64) Real normals[3][lanes<Real>];
-    store(ts, exact_t);
-    store(normals[0], at.normal.x);
-    store(normals[1], at.normal.y);
-    store(normals[2], at.normal.z);
+    const Vec3v<Search> normal = surface_normal<Search>(
+        scene.shapes, scene.shapes.index[surface], madd<Search>(t, rays.dir, rays.org), rays.dir);
+    alignas(64) Search ts[lanes<Search>];
+    alignas(64) Search normals[3][lanes<Search>];
+    store(ts, t);
+    store(normals[0], normal.x);
+    store(normals[1], normal.y);
+    store(normals[2], normal.z);
     const std::int32_t object = scene.material_index[surface].object;
     for (; active != 0; active &= active - 1) {
         const int lane = __builtin_ctz(active);
-        const Real normal[3] = {normals[0][lane], normals[1][lane], normals[2][lane]};
-        sink.take(sink.context, begin + first + lane, ts[lane], object, normal);
+        const Real unit_normal[3] = {static_cast<Real>(normals[0][lane]),
+                                     static_cast<Real>(normals[1][lane]),
+                                     static_cast<Real>(normals[2][lane])};
+        sink.take(sink.context, begin + first + lane, static_cast<Real>(ts[lane]), object,
+                  unit_normal);
     }
 }
 
@@ -257,22 +401,25 @@ template <abi::Features F, class Real>
 inline void all_hits(const abi::SceneView<Real>& scene, const abi::RaysView<Real>& view,
                      const abi::HitSink<Real>& sink)
 {
-    RayGroup<Real> group;
+    using Search = SearchReal<F, Real>;
+    constexpr abi::Features search = abi::with_exact(F, false);
+    const abi::GeometryView<Search>& geometry = searched<F>(scene);
+    RayGroup<Search> group;
     for (int begin = 0; begin < view.count; begin += group_rays) {
-        gather_stream(view, begin, group);
-        const auto report = [&](int first, vmask<Real> valid, const vreal<Real>& t,
+        gather_all(view, begin, group);
+        const auto report = [&](int first, vmask<Search> valid, const vreal<Search>& t,
                                 std::int32_t surface) {
-            report_hits<F>(scene, group, begin, first, sink, valid, t, surface);
+            report_hits(scene, group, begin, first, sink, valid, t, surface);
         };
-        for (int first = 0; first < group_rays; first += lanes<Real>)
+        for (int first = 0; first < group_rays; first += lanes<Search>)
             if (active_lanes(group, first) != 0)
-                visit_all_crossings<F>(
-                    scene, load_rays(group, first),
-                    [&](vmask<Real> valid, const vreal<Real>& t, std::int32_t surface) {
+                visit_all_crossings<search>(
+                    geometry, load_rays(group, first),
+                    [&](vmask<Search> valid, const vreal<Search>& t, std::int32_t surface) {
                         report(first, valid, t, surface);
                     });
-        if (!scene.tree.empty())
-            visit_crossings_in_tree<F>(scene.tree, group, report);
+        if (!geometry.tree.empty())
+            visit_crossings_in_tree<search>(geometry.tree, group, report);
     }
 }
 

@@ -2,7 +2,7 @@
 
 #include "kernel_abi/self_test.hpp"
 #include "kernels/float_bits.hpp"
-#include "kernels/halves.hpp"
+#include "kernels/widen.hpp"
 
 // Runs single operations for the tests that hold each against plain scalar code.
 namespace packtrace::PACKTRACE_ISA {
@@ -52,8 +52,8 @@ inline Packet compressed(const Packet& x, std::uint32_t pattern)
 /// a b - c by way of the two halves in double, where there are any.
 inline vreal<float> by_halves(const SelfTestOperands<float>& in)
 {
-    return joined(low_half(in.a) * low_half(in.b) - low_half(in.c),
-                  high_half(in.a) * high_half(in.b) - high_half(in.c));
+    return narrow(widen_low(in.a) * widen_low(in.b) - widen_low(in.c),
+                  widen_high(in.a) * widen_high(in.b) - widen_high(in.c));
 }
 inline vreal<double> by_halves(const SelfTestOperands<double>& in)
 {

@@ -25,14 +25,14 @@ inline Vec3v<Real> light_color(const ShadeContext<F, Real>& context, int number,
             const std::uint32_t lit =
                 count_lit<Real>(packet.wanted, packet.wanted & any_channel(share));
             const Vec3v<Real> color =
-                share * lit_color<F>(*context.scene, light, packet, material, lit, *context.counts);
+                share * lit_color<F>(light, packet, material, lit, *context.counts);
             probe.light(number, packet.wanted, share, color);
             return color;
         }
     }
     const std::uint32_t lit = unshadowed<F>(context, number, packet, surface, packet.wanted, first);
     const Vec3v<Real> color =
-        lit_color<F>(*context.scene, light, packet, material, lit, *context.counts);
+        lit_color<F>(light, packet, material, lit, *context.counts);
     probe.light(number, packet.wanted, lit, color);
     return color;
 }

@@ -2,7 +2,7 @@
 
 #include "kernel_abi/kernel_table.hpp"
 #include "kernels/light_shadows.hpp"
-#include "kernels/object_lists.hpp"
+#include "kernels/object_sets.hpp"
 #include "kernels/surface.hpp"
 
 namespace packtrace::PACKTRACE_ISA {
@@ -19,19 +19,13 @@ inline const abi::SceneView<Real>& casters_of(const abi::SceneView<Real>& scene)
 template <abi::Features F, class Real>
 struct ShadeContext {
     const abi::SceneView<Real>* scene;
-    /// For each light, what may stand between it and the hits; of directional ones spheres alone.
-    const SharedOriginObjects<Real>* blockers;
+    const LightObjects<F, Real>* blockers;  ///< for each light
     /// The surfaces at the hits, by packet; null where shading alone looks at them.
     const SurfacePacket<Real>* surfaces;
     /// For each light, what the hits see of it; null where packets find out by themselves.
     const LightShadows<F, Real>* shadows;
     int depth;  ///< reflections and refractions before these hits
     abi::RayCounts* counts;
-
-    ParallelObjects<Real> parallel_blockers(int light) const
-    {
-        return {casters_of(*scene), parallel_candidates(blockers[light].spheres)};
-    }
 
     bool spawns() const
     {

@@ -2,7 +2,7 @@
 
 #include "kernels/lighting.hpp"
 #include "kernels/occluded.hpp"
-#include "kernels/second_meeting.hpp"
+#include "kernels/retrace.hpp"
 #include "kernels/shade_context.hpp"
 
 // Shadow rays of a packet. Those of a point light are traced from it, where they share their
@@ -58,8 +58,8 @@ inline std::uint32_t own_shadow(const abi::SceneView<Real>& scene,
     if (!(scene.start_error > 0))
         return 0;
     const std::uint32_t outside = ~bits(dot(surface.lift, packet.to_light) < vreal<Real>(Real(0)));
-    const vreal<Real> again = second_meeting<Real>(casters_of(scene), surface.number, surface.point,
-                                                   packet.to_light, outside, wanted);
+    const vreal<Real> again = second_root<Real>(casters_of(scene).shapes, surface.number,
+                                                surface.point, packet.to_light, outside, wanted);
     const Real end =
         light.kind == abi::LightKind::directional ? static_cast<Real>(__builtin_inf()) : Real(1);
     return bits(again < vreal<Real>(end)) & wanted;
@@ -91,20 +91,73 @@ inline bool has_closed_reach(const abi::SceneView<Real>& scene, int light)
     return scene.lights.data[light].kind == abi::LightKind::directional || !(scene.start_error > 0);
 }
 
-/// Calls `trace(reach, objects, rays)` for the shadow rays of one light.
-template <abi::Features F, class Real, class Trace>
-inline auto with_shadow_rays(const ShadeContext<F, Real>& context, int light,
-                             const LightPacket<Real>& packet, const SurfacePacket<Real>& surface,
-                             const Trace& trace)
+/// Calls `visit(objects)` with what may be in the way of a light.
+template <abi::Features F, class Real, class Visit>
+inline auto with_light_objects(const ShadeContext<F, Real>& context, int light, const Visit& visit)
+{
+    const LightObjects<F, Real>& objects = context.blockers[light];
+    if (context.scene->lights.data[light].kind == abi::LightKind::point)
+        return visit(objects.from_point);
+    if constexpr (F.exact)
+        return visit(objects.along);
+    else
+        return visit(ParallelObjects<Real>{casters_of(*context.scene),
+                                           parallel_candidates(objects.from_point.spheres)});
+}
+
+/// The lanes of `open` that anything but their own surface keeps from a light.
+template <abi::Features F, class Real>
+inline std::uint32_t blocked_lanes(const ShadeContext<F, Real>& context, int light,
+                                   const SurfacePacket<Real>& surface, const RayPacket<Real>& rays,
+                                   const vreal<Real>& t_end, std::uint32_t open)
 {
     const abi::SceneView<Real>& scene = *context.scene;
-    return with_shadow_ray(context, light, packet, surface,
-                           [&](const vreal<Real>& t_end, const RayPacket<Real>& rays) {
-                               const Reach<Real> reach{t_end, has_closed_reach(scene, light)};
-                               if (scene.lights.data[light].kind == abi::LightKind::directional)
-                                   return trace(reach, context.parallel_blockers(light), rays);
-                               return trace(reach, context.blockers[light], rays);
-                           });
+    const vint<Real> own = own_of(scene, surface);
+    const bool closed = has_closed_reach(scene, light);
+    return with_light_objects(context, light, [&](const auto& objects) -> std::uint32_t {
+        if constexpr (F.exact) {
+            const Occlusion occlusion = occluded<F>(t_end, objects, rays, own, open);
+            if (occlusion.unsure == 0)
+                return occlusion.blocked;
+            count_unsure(*context.counts, occlusion.unsure);
+            return occlusion.blocked | retrace_occluded<F>(*casters_of(scene).wide, rays, own,
+                                                           t_end, closed, occlusion.unsure);
+        } else {
+            return occluded<F>(Reach<Real>{t_end, closed}, objects, rays, own, open);
+        }
+    });
+}
+
+/// Calls `pass_on(surface, lanes)` for each object in the way of a light with the lanes it blocks,
+/// until that returns false; `start_again(lanes)` for lanes that are looked at again from the start.
+template <abi::Features F, class Real, class PassOn, class StartAgain>
+inline void visit_light_blockers(const ShadeContext<F, Real>& context, int light,
+                                 const SurfacePacket<Real>& surface, const RayPacket<Real>& rays,
+                                 const vreal<Real>& t_end, std::uint32_t wanted,
+                                 const PassOn& pass_on, const StartAgain& start_again)
+{
+    const abi::SceneView<Real>& scene = *context.scene;
+    const vint<Real> own = own_of(scene, surface);
+    const bool closed = has_closed_reach(scene, light);
+    with_light_objects(context, light, [&](const auto& objects) {
+        if constexpr (F.exact) {
+            const std::uint32_t unsure =
+                visit_blockers<F>(t_end, objects, rays, own, pass_on) & wanted;
+            if (unsure == 0)
+                return;
+            count_unsure(*context.counts, unsure);
+            start_again(unsure);
+            WideGroup group;
+            add_segments(group, 0, rays, own, t_end, unsure);
+            block_wide<F>(*casters_of(scene).wide, group, closed,
+                          [&](int lane, std::int32_t blocker) {
+                              pass_on(blocker, 1u << lane);
+                              return false;
+                          });
+        } else {
+            visit_blockers<F>(Reach<Real>{t_end, closed}, objects, rays, own, pass_on);
+        }
+    });
 }
 
 inline void count_shadow_rays(abi::RayCounts& counts, std::uint32_t traced)
@@ -130,12 +183,11 @@ inline std::uint32_t unshadowed(const ShadeContext<F, Real>& context, int light,
     const std::uint32_t open =
         wanted & ~own_shadow(scene, scene.lights.data[light], packet, surface, wanted);
     return count_lit<Real>(
-        wanted,
-        open & ~with_shadow_rays(context, light, packet, surface,
-                                 [&](const auto& reach, const auto& objects, const auto& rays) {
-                                     return occluded<F>(reach, objects, rays,
-                                                        own_of(scene, surface), open);
-                                 }));
+        wanted, open & ~with_shadow_ray(context, light, packet, surface,
+                                        [&](const vreal<Real>& t_end, const RayPacket<Real>& rays) {
+                                            return blocked_lanes(context, light, surface, rays,
+                                                                 t_end, open);
+                                        }));
 }
 
 /// Lanes in which any channel is above 0.
@@ -171,20 +223,28 @@ inline Vec3v<Real> transmitted(const ShadeContext<F, Real>& context, int light,
     };
     const std::uint32_t by_own =
         own_shadow(scene, scene.lights.data[light], packet, surface, wanted);
-    for_each_distinct<Real>(surface.number, by_own, [&](lane_int<Real> number, vmask<Real> same) {
-        pass_on(static_cast<std::int32_t>(number), bits(same) & by_own);
-    });
+    const auto pass_on_own = [&](std::uint32_t lanes_of) {
+        for_each_distinct<Real>(surface.number, lanes_of,
+                                [&](lane_int<Real> number, vmask<Real> same) {
+                                    pass_on(static_cast<std::int32_t>(number),
+                                            bits(same) & lanes_of);
+                                });
+    };
+    pass_on_own(by_own);
     // An object takes its share once, also where its other pieces are in the way.
     const auto pass_on_once = [&](std::int32_t blocker, std::uint32_t blocked) {
         const vint<Real> object(lane_int<Real>{scene.material_index[blocker].object});
         return pass_on(blocker, blocked & ~(by_own & bits(int_equal(surface.object, object))));
     };
-    with_shadow_rays(context, light, packet, surface,
-                     [&](const auto& reach, const auto& objects, const auto& rays) {
-                         visit_blockers<F>(reach, objects, rays, own_of(scene, surface),
-                                           pass_on_once);
-                         return 0;
-                     });
+    const auto start_again = [&](std::uint32_t lanes_of) {
+        share = select(from_bits<Real>(lanes_of), {one, one, one}, share);
+        pass_on_own(by_own & lanes_of);
+    };
+    with_shadow_ray(context, light, packet, surface,
+                    [&](const vreal<Real>& t_end, const RayPacket<Real>& rays) {
+                        visit_light_blockers(context, light, surface, rays, t_end, wanted,
+                                             pass_on_once, start_again);
+                    });
     return share;
 }
 

@@ -25,9 +25,11 @@ inline void gather_shadow_rays(const ShadeContext<F, Real>& context, const HitSt
         with_shadow_ray(context, light, packet, surface,
                         [&](const vreal<Real>& t_end, const RayPacket<Real>& rays) {
                             store_rays(group, first, rays);
-                            start_rays(group, first, t_end, packet.wanted);
+                            HitPacket<Real> none = no_hit<Real>(Real(0));
+                            none.t = t_end;
+                            start_rays<F>(group, first, none, own_of(scene, surface),
+                                          packet.wanted);
                         });
-        store(group.surface + first, own_of(scene, surface));
         const std::uint32_t by_own = own_shadow(scene, record, packet, surface, packet.wanted);
         if (by_own != 0)
             finish_lanes(group, first, keeps_own(first, by_own));
@@ -42,11 +44,40 @@ inline void visit_shadow_blockers(const ShadeContext<F, Real>& context, int ligh
     const abi::SceneView<Real>& scene = *context.scene;
     const abi::SceneView<Real>& casters = casters_of(scene);
     const bool closed = has_closed_reach(scene, light);
-    if (scene.lights.data[light].kind == abi::LightKind::directional)
-        visit_blockers_of_group<F>(casters, context.parallel_blockers(light), group, closed,
-                                   blocker);
-    else
-        visit_blockers_of_group<F>(casters, context.blockers[light], group, closed, blocker);
+    with_light_objects(context, light, [&](const auto& objects) {
+        visit_blockers_of_group<F>(casters, objects, group, closed, blocker);
+    });
+}
+
+/// Looks again, in double, at the active rays of a group that something may be in the way of.
+/// `start_again(first, lanes)` takes back what is known of those of a packet.
+template <abi::Features F, class Real, class Blocker, class StartAgain>
+inline void settle_shadow_group(const ShadeContext<F, Real>& context, int light,
+                                RayGroup<Real>& group, const Blocker& blocker, const StartAgain& start_again)
+{
+    if constexpr (F.exact) {
+        WideGroup wide;
+        for (int first = 0; first < group_rays; first += lanes<Real>) {
+            const std::uint32_t unsure = unsure_of(group, first) & active_lanes(group, first);
+            if (unsure == 0)
+                continue;
+            add_segments(wide, first, load_rays(group, first), load(group.own + first),
+                         load(group.t + first), unsure);
+            start_again(first, unsure);
+        }
+        if (wide.count == 0)
+            return;
+        context.counts->unsure += static_cast<unsigned>(wide.count);
+        block_wide<F>(*casters_of(*context.scene).wide, wide,
+                      has_closed_reach(*context.scene, light),
+                      [&](int ray, std::int32_t surface) {
+                          const int first = ray / lanes<Real> * lanes<Real>;
+                          const std::uint32_t lane = 1u << (ray - first);
+                          const std::uint32_t done = blocker(surface, first, lane);
+                          finish_lanes(group, first, done);
+                          return done != 0;
+                      });
+    }
 }
 
 template <class Real>
@@ -64,7 +95,7 @@ inline std::uint32_t own_pieces(const abi::SceneView<Real>& scene, const RayGrou
     std::uint32_t own = 0;
     for (; active != 0; active &= active - 1) {
         const int lane = __builtin_ctz(active);
-        const bool same = scene.material_index[group.surface[first + lane]].object == object;
+        const bool same = scene.material_index[group.own[first + lane]].object == object;
         own |= std::uint32_t{same} << lane;
     }
     return own;
@@ -80,15 +111,18 @@ inline void find_shares(const ShadeContext<F, Real>& context, const HitStream<F,
         for (Real& share : channel)
             share = Real(1);
     std::uint32_t by_own[group_rays / lanes<Real>] = {};
-    gather_shadow_rays(context, hits, light, group, [&](int first, std::uint32_t own) {
+    const auto dim_by_own = [&](int first, std::uint32_t own) {
         std::uint32_t dark = 0;
-        by_own[first / lanes<Real>] = own;
         for_each_distinct<Real>(
-            load(group.surface + first), own, [&](lane_int<Real> surface, vmask<Real> same) {
+            load(group.own + first), own, [&](lane_int<Real> surface, vmask<Real> same) {
                 dark |=
                     shadows.dim(scene, static_cast<std::int32_t>(surface), first, bits(same) & own);
             });
         return dark;
+    };
+    gather_shadow_rays(context, hits, light, group, [&](int first, std::uint32_t own) {
+        by_own[first / lanes<Real>] = own;
+        return dim_by_own(first, own);
     });
     // An object takes its share once, also where its other pieces are in the way.
     const auto pass_on = [&](std::int32_t surface, int first, std::uint32_t blocked) {
@@ -99,6 +133,10 @@ inline void find_shares(const ShadeContext<F, Real>& context, const HitStream<F,
         return shadows.dim(scene, surface, first, blocked);
     };
     visit_shadow_blockers<F>(context, light, group, pass_on);
+    settle_shadow_group<F>(context, light, group, pass_on, [&](int first, std::uint32_t lanes_of) {
+        shadows.brighten(first, lanes_of);
+        dim_by_own(first, by_own[first / lanes<Real>] & lanes_of);
+    });
     copy_active(group, shadows.lit);
 }
 
@@ -113,6 +151,7 @@ inline void find_shadows(const ShadeContext<F, Real>& context, const HitStream<F
             return find_shares(context, hits, light, group, shadows);
     gather_shadow_rays(context, hits, light, group, [](int, std::uint32_t own) { return own; });
     visit_shadow_blockers<F>(context, light, group, EndsRays{});
+    settle_shadow_group<F>(context, light, group, EndsRays{}, [](int, std::uint32_t) {});
     copy_active(group, shadows.lit);
 }
 

@@ -3,10 +3,9 @@
 #include "kernel_abi/features.hpp"
 #include "kernel_abi/scene_view.hpp"
 #include "kernels/candidates.hpp"
-#include "kernels/huge_sphere.hpp"
+#include "kernels/anchored_sphere.hpp"
 #include "kernels/plane.hpp"
 #include "kernels/quadric.hpp"
-#include "kernels/stiff.hpp"
 
 // All objects as rays see them that start from one point: what depends on the origin alone is
 // computed once a tile, by the operations a single packet would use, so with the same bits.
@@ -16,24 +15,23 @@ namespace {
 template <class Real>
 struct SharedOriginObjects {
     SharedOriginSpheres<Real> spheres;
-    SharedOriginHuge<Real>* huge_spheres = nullptr;
+    SharedOriginAnchored<Real>* anchored_spheres = nullptr;
     SharedOriginPlane<Real>* planes = nullptr;
     SharedOriginQuadric<Real>* quadrics = nullptr;
-    StiffCandidates<Real> stiff;
-    int huge_count = 0;
+    int anchored_count = 0;
     int plane_count = 0;
     int quadric_count = 0;
 
     bool empty() const
     {
-        return spheres.count + huge_count + plane_count + quadric_count + stiff.count == 0;
+        return spheres.count + anchored_count + plane_count + quadric_count == 0;
     }
 };
 
 /// Whether rays of `beam` leave a convex surface behind them: they start outside and go the
 /// way of its outward gradient.
 template <class Real>
-inline bool leaves_behind(const Beam<Real>& beam, const SharedOriginHuge<Real>& sphere)
+inline bool leaves_behind(const Beam<Real>& beam, const SharedOriginAnchored<Real>& sphere)
 {
     const Real inwards[3] = {-sphere.g[0], -sphere.g[1], -sphere.g[2]};
     return sphere.constant > 0 && runs_against(beam, inwards);
@@ -52,7 +50,7 @@ inline bool leaves_behind(const Beam<Real>& beam, const SharedOriginPlane<Real>&
 /// Quadrics are few enough to be looked at one by one.
 template <class Real>
 inline void find_quadrics(SharedOriginObjects<Real>& objects, const Beam<Real>& beam,
-                          const abi::SceneView<Real>& scene)
+                          const abi::GeometryView<Real>& scene)
 {
     const Vec3v<Real> origin = broadcast(beam.base);
     objects.quadric_count = 0;
@@ -67,15 +65,15 @@ inline void find_quadrics(SharedOriginObjects<Real>& objects, const Beam<Real>& 
 /// Fills `objects` with what rays of `beam`, all from its base, may meet.
 template <abi::Features F, class Real>
 inline void find_objects(SharedOriginObjects<Real>& objects, const Beam<Real>& beam,
-                         const abi::SceneView<Real>& scene)
+                         const abi::GeometryView<Real>& scene)
 {
     find_candidates(objects.spheres, beam, scene.spheres);
     const Vec3v<Real> origin = broadcast(beam.base);
-    objects.huge_count = 0;
-    for (int i = 0; i < scene.huge_spheres.count; ++i) {
-        const auto sphere = share_origin<Real>(scene.huge_spheres.data[i], origin);
+    objects.anchored_count = 0;
+    for (int i = 0; i < scene.anchored_spheres.count; ++i) {
+        const auto sphere = share_origin<Real>(scene.anchored_spheres.data[i], origin);
         if (!leaves_behind(beam, sphere))
-            objects.huge_spheres[objects.huge_count++] = sphere;
+            objects.anchored_spheres[objects.anchored_count++] = sphere;
     }
     objects.plane_count = 0;
     for (int i = 0; i < scene.planes.count; ++i) {
@@ -83,7 +81,6 @@ inline void find_objects(SharedOriginObjects<Real>& objects, const Beam<Real>& b
         if (!leaves_behind(beam, plane))
             objects.planes[objects.plane_count++] = plane;
     }
-    find_stiff(objects.stiff, beam, scene);
     if constexpr (F.quadrics)
         find_quadrics(objects, beam, scene);
 }

@@ -33,7 +33,7 @@ inline EightBoxes boxes_of(const abi::BvhNode& node)
 template <class Real>
 inline EightBoxes boxes_of(const abi::SphereBlock<Real>& block)
 {
-    const Eight radius = Eight(1.000001f) * sqrt8(max8(load8(block.radius2), Eight(0.0f)));
+    const Eight radius = Eight(1.000001f) * max8(load8(block.radius), Eight(0.0f));
     EightBoxes boxes;
     for (int axis = 0; axis < 3; ++axis) {
         const Eight center = load8(block.center[axis]);

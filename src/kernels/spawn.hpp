@@ -1,7 +1,7 @@
 #pragma once
 
 #include "kernels/probe.hpp"
-#include "kernels/second_meeting.hpp"
+#include "kernels/leave_surface.hpp"
 
 // Children of a packet of hits: mirrored and refracted rays, appended to streams.
 namespace packtrace::PACKTRACE_ISA {
@@ -57,7 +57,7 @@ inline void append_start(RayStream<F, Real>& next, const abi::SceneView<Real>& s
     compress_store(next.starts->surface + next.count, active, surface.number);
     compress_store(
         next.starts->second + next.count, active,
-        second_meeting<Real>(scene, surface.number, surface.point, dir, outside, active));
+        second_root<Real>(scene.shapes, surface.number, surface.point, dir, outside, active));
 }
 
 template <class Real>

@@ -40,5 +40,12 @@ inline Quadratic<Real> quadratic_of(const abi::SphereListView<Real>& list, int i
     return sphere_quadratic<Real>(rays, o, radius2, sphere_constant<Real>(o, radius2));
 }
 
+/// x |x|, so that no ray meets a sphere of negative radius.
+template <class Real>
+inline batch<Real> signed_square(batch<Real> x)
+{
+    return x * abs(x);
+}
+
 }  // namespace
 }  // namespace packtrace::PACKTRACE_ISA

@@ -11,21 +11,7 @@
 namespace packtrace::PACKTRACE_ISA {
 namespace {
 
-/// Which of the highlights' powers: that of scenes in general, or of those with precise_powers.
-enum class Power { usual, precise };
-
-template <Power P>
-inline vreal<float> power_of(const vreal<float>& x, const vreal<float>& n)
-{
-    return P == Power::precise ? precise_power(x, n) : highlight_power<float>(x, n);
-}
-template <Power P>
-inline vreal<double> power_of(const vreal<double>& x, const vreal<double>& n)
-{
-    return highlight_power<double>(x, n);
-}
-
-template <class Real, Power P>
+template <class Real>
 void power_of_arrays(const Real* x, const Real* n, Real* y, int count)
 {
     alignas(64) Real in[2][lanes<Real>] = {};
@@ -36,38 +22,88 @@ void power_of_arrays(const Real* x, const Real* n, Real* y, int count)
             in[0][lane] = x[first + lane];
             in[1][lane] = n[first + lane];
         }
-        store(out, power_of<P>(load(in[0]), load(in[1])));
+        store(out, highlight_power<Real>(load(in[0]), load(in[1])));
         for (int lane = 0; lane < live; ++lane)
             y[first + lane] = out[lane];
     }
 }
 
-/// Double renders truths to compare with, and does without special kernels. Probes are compiled
-/// in probe_kernels.cpp.
+/// Sets of features are for the default mode; fast mode and double, in which truths are rendered,
+/// have the general ones. Probes are compiled in probe_kernels.cpp.
 template <class Real>
-constexpr bool is_compiled(int set)
+constexpr bool is_compiled(int set, bool exact)
 {
-    return set != abi::probe_set &&
-           ((PACKTRACE_FEATURE_SETS && sizeof(Real) == sizeof(float)) || set == abi::general_set);
+    if (set == abi::probe_set || (exact && sizeof(Real) != sizeof(float)))
+        return false;
+    return (PACKTRACE_FEATURE_SETS && exact) || set == abi::general_set;
 }
 
-template <int Set, class Real>
+template <int Set, bool Exact, class Real>
 constexpr abi::FeatureKernels<Real> feature_kernels()
 {
-    constexpr abi::FeatureSet set = abi::feature_sets[Set];
-    constexpr abi::Features F = set.features;
-    if constexpr (!is_compiled<Real>(Set))
+    constexpr abi::Features F = abi::with_exact(abi::feature_sets[Set].features, Exact);
+    constexpr abi::FeatureSet set{abi::feature_sets[Set].name, F};
+    if constexpr (!is_compiled<Real>(Set, Exact))
         return {};
     else
-        return {set, scratch_bytes<F, Real>, render_tile<F, Real>,
-                closest_tile<abi::tree_features(F), Real>};
+        return {set, scratch_bytes<F, Real>, render_tile<F, Real>, closest_tile<abi::tree_features(F), Real>};
 }
 
 template <class Real, int... Set>
 constexpr void set_feature_kernels(abi::PrecisionTable<Real>& table,
                                    std::integer_sequence<int, Set...>)
 {
-    ((table.kernels[Set] = feature_kernels<Set, Real>()), ...);
+    ((table.kernels[Set] = feature_kernels<Set, true, Real>()), ...);
+    ((table.kernels[abi::feature_set_count + Set] = feature_kernels<Set, false, Real>()), ...);
+}
+
+/// Rays of the caller's own, in the way that the scene was made for.
+template <bool Exact>
+inline constexpr abi::Features any_surface{.quadrics = true, .exact = Exact};
+
+template <class Real>
+constexpr bool is_exact(const abi::SceneView<Real>& scene)
+{
+    return sizeof(Real) == sizeof(float) && scene.wide != nullptr;
+}
+
+template <class Real>
+std::size_t any_stream_bytes(const abi::SceneView<Real>& scene)
+{
+    if constexpr (sizeof(Real) == sizeof(float))
+        if (is_exact(scene))
+            return StreamWork<any_surface<true>, Real>(nullptr, scene).bytes;
+    return StreamWork<any_surface<false>, Real>(nullptr, scene).bytes;
+}
+
+template <class Real>
+void any_closest_hits(const abi::SceneView<Real>& scene, const abi::RaysView<Real>& rays,
+                      const abi::HitsView<Real>& hits, void* scratch)
+{
+    if constexpr (sizeof(Real) == sizeof(float))
+        if (is_exact(scene))
+            return closest_hits<any_surface<true>>(scene, rays, hits, scratch);
+    closest_hits<any_surface<false>>(scene, rays, hits, scratch);
+}
+
+template <class Real>
+void any_occluded(const abi::SceneView<Real>& scene, const abi::RaysView<Real>& rays,
+                  std::uint8_t* mask, void* scratch)
+{
+    if constexpr (sizeof(Real) == sizeof(float))
+        if (is_exact(scene))
+            return occluded_rays<any_surface<true>>(scene, rays, mask, scratch);
+    occluded_rays<any_surface<false>>(scene, rays, mask, scratch);
+}
+
+template <class Real>
+void any_all_hits(const abi::SceneView<Real>& scene, const abi::RaysView<Real>& rays,
+                  const abi::HitSink<Real>& sink)
+{
+    if constexpr (sizeof(Real) == sizeof(float))
+        if (is_exact(scene))
+            return all_hits<any_surface<true>>(scene, rays, sink);
+    all_hits<any_surface<false>>(scene, rays, sink);
 }
 
 template <class Real>
@@ -76,12 +112,11 @@ constexpr abi::PrecisionTable<Real> precision_table()
     abi::PrecisionTable<Real> table;
     table.lanes = lanes<Real>;
     set_feature_kernels(table, std::make_integer_sequence<int, abi::feature_set_count>());
-    constexpr abi::Features any_surface{.quadrics = true};
-    table.closest_hits = closest_hits<any_surface, Real>;
-    table.occluded = occluded_rays<any_surface, Real>;
-    table.all_hits = all_hits<any_surface, Real>;
-    table.highlight_power = power_of_arrays<Real, Power::usual>;
-    table.precise_power = power_of_arrays<Real, Power::precise>;
+    table.stream_scratch_bytes = any_stream_bytes<Real>;
+    table.closest_hits = any_closest_hits<Real>;
+    table.occluded = any_occluded<Real>;
+    table.all_hits = any_all_hits<Real>;
+    table.highlight_power = power_of_arrays<Real>;
     table.self_test = self_test<Real>;
     return table;
 }

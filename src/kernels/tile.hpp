@@ -34,13 +34,16 @@ inline void find_blockers(const TileRun<F, Real>& run)
         if (!light.casts_shadow)
             continue;
         run.counts.stages |= abi::stage_blockers;
-        SharedOriginObjects<Real>& blockers = run.work.blockers[i];
+        LightObjects<F, Real>& blockers = run.work.blockers[i];
         const abi::SceneView<Real>& casters = casters_of(scene);
         if (light.kind == abi::LightKind::point)
-            find_objects<F>(blockers, segment_beam(light.vector, box), casters);
+            find_objects<F>(blockers.from_point, segment_beam(light.vector, box), casters);
+        else if constexpr (F.exact)
+            filter_objects<F, false>(blockers.along, origins_in(box.low, box.high),
+                                     parallel_beam(light.vector, box), casters);
         else
-            find_parallel_candidates(blockers.spheres, parallel_beam(light.vector, box),
-                                     casters.spheres);
+            find_parallel_candidates(blockers.from_point.spheres,
+                                     parallel_beam(light.vector, box), casters.spheres);
     }
 }
 
@@ -94,8 +97,8 @@ inline RayStream<F, Real>* shade_chunk(const TileRun<F, Real>& run, int depth)
     if (hits.count == 0)
         return nullptr;
     run.counts.stages |= abi::stage_normals;
-    if (run.scene.finish != nullptr)
-        run.counts.stages |= abi::stage_solved_again;
+    if constexpr (F.exact)
+        run.counts.stages |= abi::stage_refined;
     if (run.work.surfaces != nullptr) {
         begin_span(abi::Span::shade, depth, abi::Part::surface);
         find_surfaces(run);
@@ -134,10 +137,15 @@ void trace_generation(const TileRun<F, Real>& run, const RayStream<F, Real>& ray
         begin_span(abi::Span::trace, depth, abi::Part::ray_generation);
         if constexpr (F.probe)
             tell_chunk(refracted_rays(rays, begin, end), end - begin);
+        find_nearby<F, Real>(run.work.nearby, {rays.org[0] + begin, rays.org[1] + begin,
+                                               rays.org[2] + begin},
+                             end - begin, run.scene);
         if (run.scene.tree.empty())
-            trace_secondary(run.scene, rays, begin, end, *run.work.memory);
+            trace_secondary(run.scene, rays, begin, end, run.work.nearby, *run.work.memory,
+                            run.counts);
         else
-            trace_secondary_group(run.scene, rays, begin, end, *run.work.group, *run.work.memory);
+            trace_secondary_group(run.scene, rays, begin, end, run.work.nearby, *run.work.group,
+                                  *run.work.memory, run.counts);
         if (const auto* next = shade_chunk<PixelWrite::add>(run, depth))
             trace_generation(run, *next, depth + 1);
     }
@@ -192,9 +200,9 @@ inline abi::RayCounts render_tile(const abi::TileJob<Real>& job)
     begin_span(abi::Span::trace, 0, abi::Part::ray_generation);
     if (!scene.tree.empty()) {
         counts.stages |= abi::stage_hierarchy;
-        trace_camera_group(job, work.visible, *work.group, memory);
+        trace_camera_group(job, work.visible, *work.group, memory, counts);
     } else if (is_probed<F>(job) || !work.visible.empty() || scene.visible_lights) {
-        trace_camera(job, work.visible, memory);
+        trace_camera(job, work.visible, memory, counts);
     } else {
         tell_untraced(counts.camera);
     }

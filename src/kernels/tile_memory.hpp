@@ -48,15 +48,6 @@ template <abi::Features F, class Real>
 struct WeightArrays<0, F, Real> {
 };
 
-/// The gradients that double found at the hits, only for rays in single precision.
-template <abi::Features F, class Real>
-struct GradientArrays {
-};
-template <abi::Features F>
-struct GradientArrays<F, float> {
-    StreamArray<F, float> gradient[3];
-};
-
 /// Where rays started that leave a surface, for SelfHits::exact.
 template <abi::Features F, class Real>
 struct StartArrays {
@@ -81,9 +72,9 @@ struct alignas(64) RayStream : GlassArrays<F.glass, F, Real>,
 template <abi::Features F, class Real>
 struct alignas(64) HitStream : GlassArrays<F.glass, F, Real>,
                                PathArrays<F.probe, F, Real>,
-                               WeightArrays<abi::weight_channels(F), F, Real>,
-                               GradientArrays<F, Real> {
+                               WeightArrays<abi::weight_channels(F), F, Real> {
     StreamArray<F, Real> point[3];
+    StreamArray<F, Real> normal[3];  ///< outwards and unit
     StreamArray<F, Real> dir[3];
     StreamArray<F, lane_int<Real>> pixel;
     StreamArray<F, lane_int<Real>> surface;
@@ -159,6 +150,16 @@ inline vint<Real> load_path(const Stream<F, Real>& stream, int first)
         return vint<Real>(lane_int<Real>(0));
 }
 
+/// Where a packet of a stream starts.
+template <abi::Features F, class Real>
+inline StartPacket<Real> load_start(const RayStream<F, Real>& stream, int first)
+{
+    if (stream.starts == nullptr)
+        return no_start<Real>();
+    return {load3(stream.starts->point, first), load(stream.starts->surface + first),
+            load(stream.starts->second + first)};
+}
+
 /// The surfaces of a packet of a stream of hits.
 template <abi::Features F, class Real>
 inline SurfacePacket<Real> surface_of(const abi::SceneView<Real>& scene,
@@ -167,14 +168,8 @@ inline SurfacePacket<Real> surface_of(const abi::SceneView<Real>& scene,
 {
     const Vec3v<Real> point = load3(hits.point, first);
     const Vec3v<Real> dir = load3(hits.dir, first);
-    const vint<Real> number = load(hits.surface + first);
-    if constexpr (sizeof(Real) == sizeof(float)) {
-        if (scene.finish != nullptr) {
-            const Vec3v<Real> gradient = load3(hits.gradient, first);
-            return surface_at<F>(scene, point, dir, number, active, &gradient);
-        }
-    }
-    return surface_at<F>(scene, point, dir, number, active);
+    return surface_at<Real>(scene, point, load3(hits.normal, first), dir,
+                            load(hits.surface + first), active);
 }
 
 template <class Element>

@@ -1,8 +1,9 @@
 #pragma once
 
 #include "kernels/camera.hpp"
-#include "kernels/finish.hpp"
-#include "kernels/settle_start.hpp"
+#include "kernels/object_sets.hpp"
+#include "kernels/refine.hpp"
+#include "kernels/retrace.hpp"
 #include "kernels/shade.hpp"
 
 // From rays to hit points, one generation at a time.
@@ -15,22 +16,22 @@ struct TracedRays {
     RayPacket<Real> rays;
     PathPacket<Real> path;
     GlassPacket<Real> inside;
+    StartPacket<Real> start;
 };
 
 /// Where the rays hit, as far as the scene's shading asks.
 template <abi::Features F, class Real>
 inline void append_places(const abi::SceneView<Real>& scene, HitStream<F, Real>& hits,
-                          const RayPacket<Real>& rays, const HitPacket<Real>& hit,
+                          const TracedRays<Real>& from, const HitPacket<Real>& hit,
                           std::uint32_t active)
 {
     if (!F.probe && scene.flat && scene.checkers == nullptr)
         return;
-    const FinishedHits<Real> exact = finished<F>(scene, rays, hit.t, hit.surface, active);
-    append3(hits.point, hits.count, active, exact.point);
-    if constexpr (sizeof(Real) == sizeof(float))
-        if (scene.finish != nullptr)
-            append3(hits.gradient, hits.count, active, exact.gradient);
-    append3(hits.dir, hits.count, active, rays.dir);
+    const RefinedHits<Real> places =
+        refined<F>(scene.shapes, from.rays, hit, from.start, active);
+    append3(hits.point, hits.count, active, places.point);
+    append3(hits.normal, hits.count, active, places.normal);
+    append3(hits.dir, hits.count, active, from.rays.dir);
 }
 
 template <abi::Features F, class Real>
@@ -41,7 +42,7 @@ inline void append_hits(const abi::SceneView<Real>& scene, HitStream<F, Real>& h
     if (active == 0)
         return;
     const PartScope part(abi::Part::compaction);
-    append_places(scene, hits, from.rays, hit, active);
+    append_places(scene, hits, from, hit, active);
     append_weight(hits, active, from.path.weight);
     compress_store(hits.pixel + hits.count, active, from.path.pixel);
     compress_store(hits.surface + hits.count, active, hit.surface);
@@ -138,9 +139,10 @@ inline PathPacket<Real> camera_path(int first)
 
 /// The camera rays of a tile.
 template <abi::Features F, class Real>
-inline void trace_camera(const abi::TileJob<Real>& job, const SharedOriginObjects<Real>& visible,
-                         TileMemory<F, Real>& memory)
+inline void trace_camera(const abi::TileJob<Real>& job, const FromPoint<F, Real>& visible,
+                         TileMemory<F, Real>& memory, abi::RayCounts& counts)
 {
+    const vreal<Real> no_end_yet(static_cast<Real>(__builtin_inf()));
     const TileCamera<Real> camera(job);
     const GlassPacket<Real> inside = glass_around_eye(camera.view);
     for (int first = 0; first < abi::tile_pixels; first += lanes<Real>) {
@@ -150,37 +152,50 @@ inline void trace_camera(const abi::TileJob<Real>& job, const SharedOriginObject
         const RayPacket<Real> rays = camera_rays(camera, first, job.scene->units);
         HitPacket<Real> hit = no_hit<Real>(static_cast<Real>(__builtin_inf()));
         tell_live(pixels);
-        closest_hit<F>(hit, visible, rays);
-        take_camera_hits(*job.scene, memory, {rays, camera_path<Real>(first), inside}, hit, pixels);
+        closest_hit<F>(hit, visible, rays, NoOwn{});
+        count_unsure(counts, settle_packet<F>(*job.scene, rays, hit, no_start<Real>(), no_end_yet,
+                                              pixels));
+        take_camera_hits(*job.scene, memory,
+                         {rays, camera_path<Real>(first), inside, no_start<Real>()}, hit, pixels);
     }
 }
 
 /// Fills a group with the camera rays of a tile.
-template <class Real>
+template <abi::Features F, class Real>
 inline void gather_camera(const abi::TileJob<Real>& job, RayGroup<Real>& group)
 {
     const TileCamera<Real> camera(job);
-    const vreal<Real> no_end_yet(static_cast<Real>(__builtin_inf()));
+    const HitPacket<Real> none = no_hit<Real>(static_cast<Real>(__builtin_inf()));
     for (int first = 0; first < group_rays; first += lanes<Real>) {
         store_rays(group, first, camera_rays(camera, first, job.scene->units));
-        start_rays(group, first, no_end_yet, lanes_inside(job, first));
+        start_rays<F>(group, first, none, no_surface<Real>(), lanes_inside(job, first));
     }
+}
+
+template <abi::Features F, class Real>
+inline int settle_camera_group(const abi::SceneView<Real>& scene, RayGroup<Real>& group)
+{
+    return settle_group<F>(
+        scene, group, [](int) { return no_start<Real>(); },
+        [](int) { return vreal<Real>(static_cast<Real>(__builtin_inf())); });
 }
 
 /// The same where the scene has a hierarchy.
 template <abi::Features F, class Real>
 inline void trace_camera_group(const abi::TileJob<Real>& job,
-                               const SharedOriginObjects<Real>& visible, RayGroup<Real>& group,
-                               TileMemory<F, Real>& memory)
+                               const FromPoint<F, Real>& visible, RayGroup<Real>& group,
+                               TileMemory<F, Real>& memory, abi::RayCounts& counts)
 {
-    gather_camera(job, group);
+    gather_camera<F>(job, group);
     closest_of_group<F>(*job.scene, visible, group);
+    counts.unsure += static_cast<unsigned>(settle_camera_group<F>(*job.scene, group));
     const GlassPacket<Real> inside = glass_around_eye(*job.camera);
     for (int first = 0; first < group_rays; first += lanes<Real>) {
         const std::uint32_t pixels = active_lanes(group, first);
         if (pixels != 0)
             take_camera_hits(*job.scene, memory,
-                             {load_rays(group, first), camera_path<Real>(first), inside},
+                             {load_rays(group, first), camera_path<Real>(first), inside,
+                              no_start<Real>()},
                              load_hits(group, first), pixels);
     }
 }
@@ -192,7 +207,8 @@ inline TracedRays<Real> load_stream(const abi::SceneView<Real>& scene,
     return {
         make_rays<Real>(load3(stream.org, first), load3(stream.dir, first), scene.secondary_t_min),
         {load_weight(stream, first), load(stream.pixel + first), load_path(stream, first)},
-        load_glass(stream, first)};
+        load_glass(stream, first),
+        load_start(stream, first)};
 }
 
 /// A packet of secondary rays and what it hit; what those that miss bring goes into the pixels.
@@ -210,31 +226,26 @@ inline void take_secondary_hits(const abi::SceneView<Real>& scene, TileMemory<F,
                                   from.path.weight * escaped(scene, from.rays), active & ~hits);
 }
 
-/// What the packet at `first` of a stream hit, and where from, by SelfHits::exact if it is asked
-/// for.
-template <abi::Features F, class Real>
-inline void settle_secondary(const abi::SceneView<Real>& scene, const RayStream<F, Real>& stream,
-                             int first, int end, TracedRays<Real>& from, HitPacket<Real>& hit)
-{
-    if (stream.starts != nullptr)
-        settle_start<F>(scene, from.rays, hit, load_start(*stream.starts, first),
-                        vreal<Real>(static_cast<Real>(__builtin_inf())),
-                        first_lanes<Real>(end - first));
-}
-
 /// A chunk of a stream of secondary rays.
 template <abi::Features F, class Real>
 inline void trace_secondary(const abi::SceneView<Real>& scene, const RayStream<F, Real>& stream,
-                            int begin, int end, TileMemory<F, Real>& memory)
+                            int begin, int end, const FromAnywhere<F, Real>& nearby,
+                            TileMemory<F, Real>& memory, abi::RayCounts& counts)
 {
     memory.hits.count = 0;
+    const vreal<Real> no_end_yet(static_cast<Real>(__builtin_inf()));
     for (int first = begin; first < end; first += lanes<Real>) {
-        TracedRays<Real> from = load_stream(scene, stream, first);
-        HitPacket<Real> hit = no_hit<Real>(static_cast<Real>(__builtin_inf()));
-        tell_live(first_lanes<Real>(end - first));
-        closest_hit<F>(hit, scene, from.rays);
-        settle_secondary<F>(scene, stream, first, end, from, hit);
-        take_secondary_hits(scene, memory, from, hit, first_lanes<Real>(end - first));
+        const TracedRays<Real> from = load_stream(scene, stream, first);
+        const std::uint32_t active = first_lanes<Real>(end - first);
+        HitPacket<Real> hit = start_of_search(from.start, no_end_yet);
+        tell_live(active);
+        if (stream.starts != nullptr)
+            closest_hit<F>(hit, nearby, from.rays, OwnSurface{from.start.surface});
+        else
+            closest_hit<F>(hit, nearby, from.rays, NoOwn{});
+        count_unsure(counts,
+                     settle_packet<F>(scene, from.rays, hit, from.start, no_end_yet, active));
+        take_secondary_hits(scene, memory, from, hit, active);
     }
 }
 
@@ -242,22 +253,25 @@ inline void trace_secondary(const abi::SceneView<Real>& scene, const RayStream<F
 template <abi::Features F, class Real>
 inline void trace_secondary_group(const abi::SceneView<Real>& scene,
                                   const RayStream<F, Real>& stream, int begin, int end,
-                                  RayGroup<Real>& group, TileMemory<F, Real>& memory)
+                                  const FromAnywhere<F, Real>& nearby, RayGroup<Real>& group,
+                                  TileMemory<F, Real>& memory, abi::RayCounts& counts)
 {
     memory.hits.count = 0;
     const vreal<Real> no_end_yet(static_cast<Real>(__builtin_inf()));
     for (int first = begin; first < end; first += lanes<Real>) {
-        store_rays(group, first - begin, load_stream(scene, stream, first).rays);
-        start_rays(group, first - begin, no_end_yet, first_lanes<Real>(end - first));
+        const TracedRays<Real> from = load_stream(scene, stream, first);
+        store_rays(group, first - begin, from.rays);
+        start_rays<F>(group, first - begin, start_of_search(from.start, no_end_yet),
+                      from.start.surface, first_lanes<Real>(end - first));
     }
     end_group(group, end - begin);
-    closest_of_group<F>(scene, scene, group);
-    for (int first = begin; first < end; first += lanes<Real>) {
-        TracedRays<Real> from = load_stream(scene, stream, first);
-        HitPacket<Real> hit = load_hits(group, first - begin);
-        settle_secondary<F>(scene, stream, first, end, from, hit);
-        take_secondary_hits(scene, memory, from, hit, first_lanes<Real>(end - first));
-    }
+    closest_of_group<F>(scene, nearby, group);
+    counts.unsure += static_cast<unsigned>(settle_group<F>(
+        scene, group, [&](int first) { return load_start(stream, begin + first); },
+        [&](int) { return no_end_yet; }));
+    for (int first = begin; first < end; first += lanes<Real>)
+        take_secondary_hits(scene, memory, load_stream(scene, stream, first),
+                            load_hits(group, first - begin), first_lanes<Real>(end - first));
 }
 
 }  // namespace

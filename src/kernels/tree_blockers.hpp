@@ -9,7 +9,8 @@
 // A `Blocker` is called as blocker(surface, first, lanes) for an object and the lanes it blocks of
 // the packet at `first`, and returns those lanes that nothing further matters to; they are taken
 // out of the group's active rays. The rays' reach ends at the group's `t`, and is `closed` or not
-// (occluded.hpp). A ray's surface in the group is its own, which does not block it; -1 for none.
+// (occluded.hpp). A ray's own surface does not block it. With Features::exact only what blocks for sure
+// is called for, and rays that something else may block are marked as unsure in the group.
 namespace packtrace::PACKTRACE_ISA {
 namespace {
 
@@ -33,7 +34,8 @@ public:
         if constexpr (F.quadrics)
             if (abi::is_quadric_leaf(child))
                 return quadrics(child, cells);
-        spheres(sphere_leaf(tree_, child), cells);
+        abi::SphereBlock<Real> room;
+        spheres(sphere_leaf(tree_, child, room), cells);
     }
 
     void few_rays(std::uint32_t child, int cell, std::uint32_t rays) const
@@ -58,35 +60,60 @@ private:
     {
         const PartScope part(abi::Part::spheres);
         visit_spheres(bounds_, leaf.block, cells, [&](int slot, int cell) {
-            const std::int32_t surface = leaf.surface_of(slot);
-            object(
-                abi::Primitive::sphere, cell, surface,
-                [&](const Reach<Real>& reach, const RayPacket<Real>& rays, const vint<Real>& own) {
-                    return but_own<Real>(
-                        bits(reach.blocked_by(quadratic_of(leaf.block, slot, rays), rays)), own,
-                        surface);
-                });
+            object(abi::Primitive::sphere, cell, leaf.surface_of(slot),
+                   [&](int first) { return sphere_occludes(leaf, slot, first); });
         });
         join_t_max(bounds_);
+    }
+
+    Occlusion sphere_occludes(const SphereLeaf<Real>& leaf, int slot, int first) const
+    {
+        const RayPacket<Real> rays = load_rays(group_, first);
+        const vint<Real> own = load(group_.own + first);
+        const std::int32_t surface = leaf.surface_of(slot);
+        if constexpr (F.exact) {
+            const Vec3v<float> center{vreal<float>(leaf.block.center[0][slot]),
+                                      vreal<float>(leaf.block.center[1][slot]),
+                                      vreal<float>(leaf.block.center[2][slot])};
+            const vreal<float> radius(leaf.block.radius[slot]);
+            const Vec3v<float> w = rays.org - center;
+            const SphereApproach near = approach(w, leaf_outer2(group_, radius), rays);
+            if (none(near.near))
+                return {};
+            const Occlusion occlusion =
+                occludes({w, radius * radius, leaf_bounds(group_, radius)}, near, rays,
+                         RayScale(rays), load(group_.t + first));
+            return {but_own<Real>(occlusion.blocked, own, surface),
+                    but_own<Real>(occlusion.unsure, own, surface)};
+        } else {
+            const Reach<Real> reach{load(group_.t + first), closed_};
+            return {but_own<Real>(
+                        bits(reach.blocked_by(quadratic_of(leaf.block, slot, rays), rays)), own,
+                        surface),
+                    0};
+        }
     }
 
     void quadrics(std::uint32_t child, std::uint32_t cells) const
     {
         const PartScope part(abi::Part::quadrics);
-        const abi::QuadricRecord<Real>* quadric = tree_.quadrics + abi::first_quadric(child);
-        for (int i = 0; i < abi::quadric_count(child); ++i)
+        for (int i = 0; i < abi::quadric_count(child); ++i) {
+            const int number = abi::first_quadric(child) + i;
+            const std::int32_t surface = leaf_quadric(tree_, number).surface;
             for (std::uint32_t left = cells; left != 0; left &= left - 1)
-                object(abi::Primitive::quadric, __builtin_ctz(left), quadric[i].surface,
-                       [&](const Reach<Real>& reach, const RayPacket<Real>& rays,
-                           const vint<Real>& own) {
-                           return quadric_blocks(reach, quadric[i], rays, own);
-                       });
+                object(abi::Primitive::quadric, __builtin_ctz(left), surface, [&](int first) {
+                    return leaf_quadric_occludes<F>(tree_, number, group_,
+                                                    load_rays(group_, first),
+                                                    load(group_.t + first),
+                                                    load(group_.own + first), closed_);
+                });
+        }
         join_t_max(bounds_);
     }
 
-    /// `blocks(reach, rays, own)` tells the lanes of a packet that one object blocks.
-    template <class Blocks>
-    void object(abi::Primitive kind, int cell, std::int32_t surface, const Blocks& blocks) const
+    /// `occludes(first)` tells what one object does to the packet at `first`.
+    template <class Occludes>
+    void object(abi::Primitive kind, int cell, std::int32_t surface, const Occludes& occludes) const
     {
         for (int first = cell * cell_rays; first < (cell + 1) * cell_rays; first += lanes<Real>) {
             const std::uint32_t active = active_lanes(group_, first);
@@ -94,9 +121,10 @@ private:
                 continue;
             tell_live(active);
             count_tests(kind, 1);
-            const Reach<Real> reach{load(group_.t + first), closed_};
-            const std::uint32_t blocked =
-                blocks(reach, load_rays(group_, first), load(group_.surface + first)) & active;
+            const Occlusion occlusion = occludes(first);
+            if ((occlusion.unsure & active) != 0)
+                doubt_lanes(group_, first, occlusion.unsure & active);
+            const std::uint32_t blocked = occlusion.blocked & active;
             if (blocked != 0)
                 finish_lanes(group_, first, blocker_(surface, first, blocked));
         }
@@ -187,26 +215,37 @@ template <abi::Features F, class Real, class Blocker>
 
 /// The same among all objects of a scene, lists first.
 template <abi::Features F, class Objects, class Real, class Blocker>
-inline void visit_blockers_of_group(const abi::SceneView<Real>& scene, const Objects& lists,
+inline void visit_blockers_of_group(const abi::GeometryView<Real>& scene, const Objects& lists,
                                     RayGroup<Real>& group, bool closed, const Blocker& blocker)
 {
     std::uint32_t left = 0;
     for (int first = 0; first < group_rays; first += lanes<Real>) {
-        if (active_lanes(group, first) == 0)
+        const std::uint32_t wanted = active_lanes(group, first);
+        if (wanted == 0)
             continue;
-        tell_live(active_lanes(group, first));
-        const Reach<Real> reach{load(group.t + first), closed};
-        visit_blockers<F>(reach, lists, load_rays(group, first), load(group.surface + first),
-                          [&](std::int32_t surface, std::uint32_t lanes_of) {
-                              const std::uint32_t blocked = lanes_of & active_lanes(group, first);
-                              if (blocked != 0)
-                                  finish_lanes(group, first, blocker(surface, first, blocked));
-                              return active_lanes(group, first) != 0;
-                          });
+        tell_live(wanted);
+        const auto take = [&](std::int32_t surface, std::uint32_t lanes_of) {
+            const std::uint32_t blocked = lanes_of & active_lanes(group, first);
+            if (blocked != 0)
+                finish_lanes(group, first, blocker(surface, first, blocked));
+            return active_lanes(group, first) != 0;
+        };
+        const RayPacket<Real> rays = load_rays(group, first);
+        const vint<Real> own = load(group.own + first);
+        if constexpr (F.exact) {
+            const std::uint32_t unsure =
+                visit_blockers<F>(load(group.t + first), lists, rays, own, take);
+            doubt_lanes(group, first, unsure & wanted);
+        } else {
+            visit_blockers<F>(Reach<Real>{load(group.t + first), closed}, lists, rays, own, take);
+        }
         left |= active_lanes(group, first);
     }
-    if (left != 0 && !scene.tree.empty())
-        visit_blockers_in_tree<abi::tree_features(F)>(scene.tree, group, closed, blocker);
+    if (left == 0 || scene.tree.empty())
+        return;
+    if constexpr (F.exact)
+        bound_origins(group, scene.tree);
+    visit_blockers_in_tree<abi::tree_features(F)>(scene.tree, group, closed, blocker);
 }
 
 }  // namespace

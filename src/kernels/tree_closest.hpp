@@ -14,7 +14,8 @@ inline Quadratic<Real> quadratic_of(const abi::SphereBlock<Real>& block, int slo
     const Vec3v<Real> center{vreal<Real>(block.center[0][slot]), vreal<Real>(block.center[1][slot]),
                              vreal<Real>(block.center[2][slot])};
     const Vec3v<Real> o = rays.org - center;
-    const vreal<Real> radius2(block.radius2[slot]);
+    const Real radius = block.radius[slot];
+    const vreal<Real> radius2(radius * (radius < 0 ? -radius : radius));
     return sphere_quadratic<Real>(rays, o, radius2, sphere_constant<Real>(o, radius2));
 }
 
@@ -80,7 +81,8 @@ public:
         if constexpr (F.quadrics)
             if (abi::is_quadric_leaf(child))
                 return quadrics(child, cells);
-        spheres(sphere_leaf(tree_, child), cells);
+        abi::SphereBlock<Real> room;
+        spheres(sphere_leaf(tree_, child, room), cells);
     }
 
     /// Whatever is below a child that few rays of one cell may meet.
@@ -116,39 +118,59 @@ private:
         for (int first = cell * cell_rays; first < (cell + 1) * cell_rays; first += lanes<Real>) {
             tell_live(active_lanes(group_, first));
             count_tests(abi::Primitive::sphere, 1);
-            const RayPacket<Real> rays = load_rays(group_, first);
-            const Quadratic<Real> quadratic = quadratic_of(leaf.block, slot, rays);
-            const auto active = may_hit(quadratic);
-            if (none(active))
-                continue;
-            HitPacket<Real> hit = load_hits(group_, first);
-            keep_first_root<Real>(hit, quadratic, active, rays.t_min, leaf.surface_of(slot));
-            store_hits(group_, first, hit);
-            any_closer = true;
+            any_closer |= keep_sphere_of(leaf, slot, first);
         }
         if (any_closer)
             bounds_.t_max[cell] = furthest(group_, cell);
         return any_closer;
     }
 
+    /// Whether the packet at `first` may have a closer hit now.
+    bool keep_sphere_of(const SphereLeaf<Real>& leaf, int slot, int first) const
+    {
+        const RayPacket<Real> rays = load_rays(group_, first);
+        if constexpr (F.exact) {
+            const Vec3v<float> center{vreal<float>(leaf.block.center[0][slot]),
+                                      vreal<float>(leaf.block.center[1][slot]),
+                                      vreal<float>(leaf.block.center[2][slot])};
+            const vreal<float> radius(leaf.block.radius[slot]);
+            const Vec3v<float> w = rays.org - center;
+            const SphereApproach near = approach(w, leaf_outer2(group_, radius), rays);
+            if (none(near.near))
+                return false;
+            HitPacket<float> hit = load_hits(group_, first);
+            keep_sphere(hit, {w, radius * radius, leaf_bounds(group_, radius)}, near, rays,
+                        RayScale(rays), leaf.surface_of(slot), own_of(group_, first));
+            store_hits<F>(group_, first, hit);
+        } else {
+            const Quadratic<Real> quadratic = quadratic_of(leaf.block, slot, rays);
+            if (none(may_hit(quadratic)))
+                return false;
+            HitPacket<Real> hit = load_hits(group_, first);
+            keep_quadratic(hit, quadratic, rays, leaf.surface_of(slot), own_of(group_, first));
+            store_hits<F>(group_, first, hit);
+        }
+        return true;
+    }
+
     void quadrics(std::uint32_t child, std::uint32_t cells) const
     {
         const PartScope part(abi::Part::quadrics);
-        const abi::QuadricRecord<Real>* quadric = tree_.quadrics + abi::first_quadric(child);
         for (int i = 0; i < abi::quadric_count(child); ++i)
             for (std::uint32_t left = cells; left != 0; left &= left - 1)
-                keep_quadric_of(quadric[i], __builtin_ctz(left));
+                keep_quadric_of(abi::first_quadric(child) + i, __builtin_ctz(left));
         join_t_max(bounds_);
     }
 
-    void keep_quadric_of(const abi::QuadricRecord<Real>& quadric, int cell) const
+    void keep_quadric_of(int number, int cell) const
     {
         for (int first = cell * cell_rays; first < (cell + 1) * cell_rays; first += lanes<Real>) {
             tell_live(active_lanes(group_, first));
             count_tests(abi::Primitive::quadric, 1);
             HitPacket<Real> hit = load_hits(group_, first);
-            keep_quadric(hit, quadric, load_rays(group_, first));
-            store_hits(group_, first, hit);
+            keep_leaf_quadric<F>(hit, tree_, number, group_, load_rays(group_, first),
+                                 own_of(group_, first));
+            store_hits<F>(group_, first, hit);
         }
         bounds_.t_max[cell] = furthest(group_, cell);
     }

@@ -20,10 +20,11 @@ public:
         if (F.quadrics && abi::is_quadric_leaf(child)) {
             for (int i = 0; i < abi::quadric_count(child); ++i)
                 for (std::uint32_t left = cells; left != 0; left &= left - 1)
-                    quadric(tree_.quadrics[abi::first_quadric(child) + i], __builtin_ctz(left));
+                    quadric(leaf_quadric(tree_, abi::first_quadric(child) + i), __builtin_ctz(left));
             return;
         }
-        const SphereLeaf<Real> leaf = sphere_leaf(tree_, child);
+        abi::SphereBlock<Real> room;
+        const SphereLeaf<Real> leaf = sphere_leaf(tree_, child, room);
         visit_spheres(bounds_, leaf.block, cells,
                       [&](int slot, int cell) { sphere(leaf, slot, cell); });
     }

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <type_traits>
+
 #include "kernels/light_shadows.hpp"
 #include "kernels/shade_context.hpp"
 #include "kernels/shared_origin.hpp"
@@ -35,7 +37,8 @@ private:
 };
 
 template <class Real>
-inline SharedOriginObjects<Real> take_objects(Arena& arena, const abi::SceneView<Real>& scene)
+inline SharedOriginObjects<Real> take_candidates(Arena& arena,
+                                                 const abi::GeometryView<Real>& scene)
 {
     const std::size_t spheres = static_cast<std::size_t>(scene.spheres.count) + abi::padding;
     SharedOriginObjects<Real> objects;
@@ -45,16 +48,46 @@ inline SharedOriginObjects<Real> take_objects(Arena& arena, const abi::SceneView
     objects.spheres.radius2 = arena.take<Real>(spheres);
     objects.spheres.constant = arena.take<Real>(spheres);
     objects.spheres.surface = arena.take<lane_int<Real>>(spheres);
-    objects.huge_spheres =
-        arena.take<SharedOriginHuge<Real>>(static_cast<std::size_t>(scene.huge_spheres.count));
+    objects.anchored_spheres = arena.take<SharedOriginAnchored<Real>>(
+        static_cast<std::size_t>(scene.anchored_spheres.count));
     objects.planes =
         arena.take<SharedOriginPlane<Real>>(static_cast<std::size_t>(scene.planes.count));
     objects.quadrics =
         arena.take<SharedOriginQuadric<Real>>(static_cast<std::size_t>(scene.quadrics.count));
-    if constexpr (sizeof(Real) == sizeof(float))
-        objects.stiff.list =
-            arena.take<SharedOriginStiff>(static_cast<std::size_t>(scene.stiff.count));
     return objects;
+}
+
+template <bool Shared>
+inline FilteredObjects<Shared> take_filters(Arena& arena, const abi::GeometryView<float>& scene)
+{
+    const std::size_t spheres = static_cast<std::size_t>(scene.spheres.count) + abi::padding;
+    FilteredObjects<Shared> objects;
+    objects.spheres.x = arena.take<float>(spheres);
+    objects.spheres.y = arena.take<float>(spheres);
+    objects.spheres.z = arena.take<float>(spheres);
+    objects.spheres.radius2 = arena.take<float>(spheres);
+    objects.spheres.bounds.outer2 = arena.take<float>(spheres);
+    objects.spheres.bounds.inner2 = arena.take<float>(spheres);
+    objects.spheres.bounds.t_error = arena.take<float>(spheres);
+    objects.spheres.bounds.root_error = arena.take<float>(spheres);
+    objects.spheres.bounds.band = arena.take<float>(spheres);
+    objects.spheres.surface = arena.take<std::int32_t>(spheres);
+    objects.anchored_spheres =
+        arena.take<AnchoredFilter>(static_cast<std::size_t>(scene.anchored_spheres.count));
+    objects.planes = arena.take<PlaneFilter>(static_cast<std::size_t>(scene.planes.count));
+    objects.quadrics = arena.take<QuadricFilter>(static_cast<std::size_t>(scene.quadrics.count));
+    return objects;
+}
+
+template <class Objects, class Real>
+inline Objects take_objects(Arena& arena, const abi::GeometryView<Real>& scene)
+{
+    if constexpr (std::is_same_v<Objects, SharedOriginObjects<Real>>)
+        return take_candidates(arena, scene);
+    else if constexpr (std::is_same_v<Objects, AllObjects<Real>>)
+        return {&scene};
+    else
+        return take_filters<Objects::shared>(arena, scene);
 }
 
 template <class Real>
@@ -87,8 +120,9 @@ struct Workspace {
     RayGroup<Real>* group = nullptr;                ///< where the scene has a hierarchy
     SurfacePacket<Real>* surfaces = nullptr;        ///< at a chunk's hits, likewise
     LightShadows<F, Real>* shadows = nullptr;       ///< of each light, likewise
-    SharedOriginObjects<Real> visible;              ///< from the camera
-    SharedOriginObjects<Real>* blockers = nullptr;  ///< from each light
+    FromPoint<F, Real> visible;                     ///< from the camera
+    FromAnywhere<F, Real> nearby;                   ///< from a chunk's rays
+    LightObjects<F, Real>* blockers = nullptr;      ///< from each light
     std::size_t bytes = 0;
 
     /// With no `scratch`, only `bytes` is of use.
@@ -108,11 +142,14 @@ struct Workspace {
             surfaces = arena.take<SurfacePacket<Real>>(chunk_rays / lanes<Real>);
             shadows = arena.take<LightShadows<F, Real>>(lights);
         }
-        visible = take_objects(arena, scene);
+        visible = take_objects<FromPoint<F, Real>>(arena, scene);
+        nearby = take_objects<FromAnywhere<F, Real>>(arena, scene);
         if (shadowed > 0)
-            blockers = arena.take<SharedOriginObjects<Real>>(lights);
+            blockers = arena.take<LightObjects<F, Real>>(lights);
         for (std::size_t light = 0; shadowed > 0 && light < lights; ++light) {
-            const SharedOriginObjects<Real> objects = take_objects(arena, casters_of(scene));
+            const LightObjects<F, Real> objects{
+                take_objects<FromPoint<F, Real>>(arena, casters_of(scene)),
+                take_objects<FromAnywhere<F, Real>>(arena, casters_of(scene))};
             if (scratch != nullptr)
                 blockers[light] = objects;
         }

@@ -21,7 +21,7 @@ auto key_of(const LoweredSphere& sphere)
 {
     return std::tuple_cat(key_of(sphere.center), std::tuple(sphere.radius));
 }
-auto key_of(const LoweredHugeSphere& sphere)
+auto key_of(const LoweredAnchoredSphere& sphere)
 {
     return std::tuple_cat(key_of(sphere.center), std::tuple(sphere.radius));
 }
@@ -102,7 +102,7 @@ std::size_t remove_duplicates(LoweredScene& lowered)
     if (lowered.features.glass)
         return 0;
     return remove_duplicates_of(lowered.spheres, lowered.casts_shadow) +
-           remove_duplicates_of(lowered.huge_spheres, lowered.casts_shadow) +
+           remove_duplicates_of(lowered.anchored_spheres, lowered.casts_shadow) +
            remove_duplicates_of(lowered.planes, lowered.casts_shadow) +
            remove_duplicates_of(lowered.quadrics, lowered.casts_shadow);
 }

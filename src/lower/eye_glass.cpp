@@ -41,7 +41,7 @@ Exit exit_of(const LoweredSphere& sphere, const Vec3& eye, const Vec3& forward)
     return exit_of_sphere(sphere.center, sphere.radius, eye, forward);
 }
 
-Exit exit_of(const LoweredHugeSphere& sphere, const Vec3& eye, const Vec3& forward)
+Exit exit_of(const LoweredAnchoredSphere& sphere, const Vec3& eye, const Vec3& forward)
 {
     return exit_of_sphere(sphere.center, sphere.radius, eye, forward);
 }
@@ -90,7 +90,7 @@ std::vector<std::int32_t> glass_around(const Vec3& eye, const Vec3& forward,
         }
     };
     look(lowered.spheres);
-    look(lowered.huge_spheres);
+    look(lowered.anchored_spheres);
     look(lowered.planes);
     look(lowered.quadrics);
     std::sort(exits.begin(), exits.end());

@@ -31,7 +31,7 @@ std::vector<bool> used_materials(const LoweredScene& lowered)
     };
     for (const LoweredSphere& sphere : lowered.spheres)
         mark(sphere);
-    for (const LoweredHugeSphere& sphere : lowered.huge_spheres)
+    for (const LoweredAnchoredSphere& sphere : lowered.anchored_spheres)
         mark(sphere);
     for (const LoweredPlane& plane : lowered.planes)
         mark(plane);

@@ -4,7 +4,6 @@
 
 #include "lower/duplicates.hpp"
 #include "lower/packed_scene.hpp"
-#include "lower/stiffness.hpp"
 
 namespace packtrace {
 namespace {
@@ -56,14 +55,10 @@ void narrow_shadows(LoweredScene& lowered)
         lowered.casts_shadow.clear();
 }
 
-/// Hits of a flat scene show their ambient light. Only the squares of a checker ask where they are.
+/// Hits of a flat scene show their ambient light.
 void narrow_hits(LoweredScene& lowered)
 {
     lowered.flat = lowered.lights.empty() && !lowered.features.bounces;
-    if (lowered.flat && lowered.checkers.empty()) {
-        std::fill(lowered.finished.begin(), lowered.finished.end(), std::uint8_t{0});
-        lowered.sharpened.clear();
-    }
 }
 
 }  // namespace
@@ -73,9 +68,10 @@ std::vector<LeftOut> leave_out(LoweredScene& lowered)
     std::vector<LeftOut> left_out;
     add(left_out, remove_dark_lights(lowered), "light", "of no intensity");
     add(left_out, remove_duplicates(lowered), "surface", "in the very place of an earlier one");
-    const bool probe = lowered.features.probe;
+    const abi::Features before = lowered.features;
     lowered.features = features_of(lowered);
-    lowered.features.probe = probe;
+    lowered.features.probe = before.probe;
+    lowered.features.exact = before.exact;
     lowered.features.highlights &= !lowered.lights.empty();
     narrow_shadows(lowered);
     narrow_bounces(lowered);
@@ -94,8 +90,7 @@ std::vector<LeftOut> unused_features(const LoweredScene& lowered)
     unless(frame_traversal(lowered, Traversal::automatic) == Traversal::tree, "hierarchy",
            "lists are quicker for so few");
     unless(uses.quadrics, "quadrics", "all surfaces are spheres and planes");
-    unless(count_stiff(lowered) > 0, "tests in double",
-           "single precision holds every surface well");
+    unless(uses.exact, "certain tests and refinement", "--accuracy fast does without");
     unless(!lowered.checkers.empty(), "checkers", "no plane has one");
     unless(!lowered.lights.empty(), "lights", "none shines from a place or a direction");
     unless(!lowered.flat, "normals", "no light and no mirror asks for them");

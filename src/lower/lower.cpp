@@ -11,7 +11,6 @@
 #include "lower/lower_model.hpp"
 #include "lower/lower_surface.hpp"
 #include "lower/lowered_scene.hpp"
-#include "lower/stiffness.hpp"
 
 namespace packtrace {
 namespace {
@@ -89,14 +88,12 @@ LoweredScene lower(const Scene& scene, Accuracy accuracy, SelfHits self_hits)
     LoweredScene lowered;
     lower_model_rules(scene, lowered);
     lower_objects(scene, lowered);
-    part_huge_spheres(scene.camera.position, lowered);
-    mark_stiff(accuracy, lowered);
-    mark_finished(accuracy, self_hits, lowered);
-    lowered.precise_powers = accuracy == Accuracy::robust;
+    part_anchored_spheres(lowered);
     lowered.self_hits = self_hits;
     lowered.casts_shadow = shadow_casters(scene, lowered);
 
     lowered.features = features_of(lowered);
+    lowered.features.exact = accuracy == Accuracy::exact;
     lowered.transparent_shadows =
         scene.shadows == ShadowKind::transparent && lowered.features.glass;
     if (lowered.features.glass)

@@ -8,8 +8,8 @@ namespace packtrace {
 /// Returns how many surface numbers it takes.
 [[nodiscard]] int lower_surface(const Object& object, std::int32_t surface, LoweredScene& lowered);
 
-/// Moves the spheres whose radius dwarfs the rest of the scene seen from `eye` to a list of their
-/// own, and finds their anchors.
-void part_huge_spheres(const Vec3& eye, LoweredScene& lowered);
+/// Moves the spheres whose surface passes near the world's origin for their size, such as grounds,
+/// to a list of their own, and finds their anchors.
+void part_anchored_spheres(LoweredScene& lowered);
 
 }  // namespace packtrace

@@ -16,24 +16,21 @@ struct LoweredSphere {
     Vec3 center{0.0};
     double radius = 1.0;
     std::int32_t surface = 0;
-    bool stiff = false;  ///< tested in double for rays in single
 };
 
-/// A sphere so large against the scene that kernels use its curvature at `anchor`, the point of its
-/// surface nearest the scene, in place of its centre.
-struct LoweredHugeSphere {
+/// A sphere whose surface passes so near the world's origin for its size that kernels use its
+/// curvature at `anchor`, the point of its surface nearest there, in place of its centre.
+struct LoweredAnchoredSphere {
     Vec3 center{0.0};
     double radius = 1.0;
     Vec3 anchor{0.0};
     std::int32_t surface = 0;
-    bool stiff = false;
 };
 
 struct LoweredPlane {
     Vec3 point{0.0};
     Vec3 normal{0.0, 1.0, 0.0};  ///< unit
     std::int32_t surface = 0;
-    bool stiff = false;
 };
 
 /// s0 x² + s1 y² + s2 z² + 2 linear z + constant = 0 at p = inverse (P - center), negative inside.
@@ -55,7 +52,6 @@ struct LoweredQuadric {
     /// How much canonical space is stretched: its longest against its shortest length.
     double condition = 1.0;
     std::int32_t surface = 0;  ///< with caps, the next two numbers are theirs, low and high
-    bool stiff = false;
 
     [[nodiscard]] bool clipped() const
     {
@@ -86,7 +82,7 @@ struct LoweredChecker {
 /// world space, double precision.
 struct LoweredScene {
     std::vector<LoweredSphere> spheres;  ///< rising surface numbers, as in every list
-    std::vector<LoweredHugeSphere> huge_spheres;
+    std::vector<LoweredAnchoredSphere> anchored_spheres;
     std::vector<LoweredPlane> planes;
     std::vector<LoweredQuadric> quadrics;
     std::vector<abi::MaterialIndex> material_index;  ///< by surface
@@ -105,15 +101,9 @@ struct LoweredScene {
     abi::RayUnits units = abi::RayUnits::as_given;
     double epsilon = 0.0;  ///< start of secondary and shadow rays with SelfHits::note
     SelfHits self_hits = SelfHits::note;
-    /// By surface: hits of rays in single precision are solved again in double.
-    std::vector<std::uint8_t> finished;
-    /// By surface: what of its hits gets one more step in double, unless they are finished; empty
-    /// for nothing of any.
-    std::vector<abi::Sharpened> sharpened;
-    bool precise_powers = false;           ///< highlights are computed in double
     double camera_t_min = 0.0;             ///< start of camera rays
     std::vector<std::int32_t> eye_inside;  ///< glass objects around the eye, innermost first
-    abi::Features features;
+    abi::Features features;  ///< `exact` as the accuracy asked for has it
 };
 
 /// What of the features a scene uses, whatever its lights and depth are.
@@ -121,7 +111,7 @@ struct LoweredScene {
 
 /// Lowers a scene on the threads of the TBB arena the call runs in; the result does not depend on
 /// their number. Throws SceneError for what it can't hold: a quadric without a surface.
-[[nodiscard]] LoweredScene lower(const Scene& scene, Accuracy accuracy = Accuracy::automatic,
+[[nodiscard]] LoweredScene lower(const Scene& scene, Accuracy accuracy = Accuracy::exact,
                                  SelfHits self_hits = default_self_hits);
 
 /// The accuracy that counts for kernels of `Real`: doubles need nothing wider.

@@ -30,11 +30,19 @@ Real highlight_floor(const LoweredMaterial& material)
 
 }  // namespace
 
+template <class Real>
+double center_error(const LoweredSphere& sphere)
+{
+    Real rounded[3];
+    round_to(rounded, sphere.center);
+    return 1.000001 * glm::length(widen(rounded) - sphere.center);
+}
+
 /// The curvature form around the anchor as rounded: what rounding moved goes into the offset.
 template <class Real>
-abi::HugeSphere<Real> pack_huge(const LoweredHugeSphere& sphere)
+abi::AnchoredSphere<Real> pack_anchored(const LoweredAnchoredSphere& sphere)
 {
-    abi::HugeSphere<Real> packed;
+    abi::AnchoredSphere<Real> packed;
     round_to(packed.anchor, sphere.anchor);
     const Vec3 outwards = widen(packed.anchor) - sphere.center;
     const double distance = glm::length(outwards);
@@ -42,6 +50,8 @@ abi::HugeSphere<Real> pack_huge(const LoweredHugeSphere& sphere)
     packed.curvature = static_cast<Real>(1.0 / sphere.radius);
     packed.offset =
         static_cast<Real>((distance - sphere.radius) * (distance + sphere.radius) / sphere.radius);
+    round_to(packed.center, sphere.center);
+    packed.radius = static_cast<Real>(sphere.radius);
     packed.surface = sphere.surface;
     return packed;
 }
@@ -94,48 +104,15 @@ abi::QuadricRecord<Real> pack_quadric(const LoweredQuadric& quadric)
     return packed;
 }
 
-template <class Real>
-abi::CurvedSurfaceRecord<Real> side_normal(const LoweredQuadric& quadric)
-{
-    const Mat3& inverse = quadric.inverse;
-    Mat3 diagonal(0.0);
-    for (int axis = 0; axis < 3; ++axis)
-        diagonal[axis][axis] = quadric.square[axis];
-    const Mat3 curvature = glm::transpose(inverse) * diagonal * inverse;
-    // Lengths do not matter: scaled so that no entry leaves the range of Real.
-    double scale = std::abs(quadric.linear) * glm::length(glm::row(inverse, 2));
-    for (int axis = 0; axis < 3; ++axis)
-        scale = std::max(scale, glm::length(curvature[axis]));
-
-    abi::CurvedSurfaceRecord<Real> packed{};
-    round_to(packed.anchor, quadric.center);
-    round_to(packed.normal, quadric.linear * glm::row(inverse, 2) / scale);
-    const double entries[6] = {curvature[0][0], curvature[1][1], curvature[2][2],
-                               curvature[1][0], curvature[2][0], curvature[2][1]};
-    for (int i = 0; i < 6; ++i)
-        packed.curvature[i] = static_cast<Real>(entries[i] / scale);
-    return packed;
-}
-
-template <class Real>
-abi::CurvedSurfaceRecord<Real> cap_normal(const LoweredQuadric& quadric, int cap)
-{
-    abi::CurvedSurfaceRecord<Real> packed{};
-    round_to(packed.normal, glm::normalize(cap == 1 ? -quadric.clip : quadric.clip));
-    return packed;
-}
-
-template abi::HugeSphere<float> pack_huge(const LoweredHugeSphere&);
-template abi::HugeSphere<double> pack_huge(const LoweredHugeSphere&);
+template double center_error<float>(const LoweredSphere&);
+template double center_error<double>(const LoweredSphere&);
+template abi::AnchoredSphere<float> pack_anchored(const LoweredAnchoredSphere&);
+template abi::AnchoredSphere<double> pack_anchored(const LoweredAnchoredSphere&);
 template abi::PlaneRecord<float> pack_plane(const LoweredPlane&);
 template abi::PlaneRecord<double> pack_plane(const LoweredPlane&);
 template abi::QuadricRecord<float> pack_quadric(const LoweredQuadric&);
 template abi::QuadricRecord<double> pack_quadric(const LoweredQuadric&);
 template abi::MaterialRecord<float> pack_material(const LoweredMaterial&);
 template abi::MaterialRecord<double> pack_material(const LoweredMaterial&);
-template abi::CurvedSurfaceRecord<float> side_normal(const LoweredQuadric&);
-template abi::CurvedSurfaceRecord<double> side_normal(const LoweredQuadric&);
-template abi::CurvedSurfaceRecord<float> cap_normal(const LoweredQuadric&, int);
-template abi::CurvedSurfaceRecord<double> cap_normal(const LoweredQuadric&, int);
 
 }  // namespace packtrace

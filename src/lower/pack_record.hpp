@@ -13,8 +13,12 @@ void round_to(Real (&to)[3], const Vec3& from)
         to[axis] = static_cast<Real>(from[axis]);
 }
 
+/// How far rounding to Real moves a sphere's centre, at most.
 template <class Real>
-[[nodiscard]] abi::HugeSphere<Real> pack_huge(const LoweredHugeSphere& sphere);
+[[nodiscard]] double center_error(const LoweredSphere& sphere);
+
+template <class Real>
+[[nodiscard]] abi::AnchoredSphere<Real> pack_anchored(const LoweredAnchoredSphere& sphere);
 
 template <class Real>
 [[nodiscard]] abi::PlaneRecord<Real> pack_plane(const LoweredPlane& plane);
@@ -24,11 +28,5 @@ template <class Real>
 
 template <class Real>
 [[nodiscard]] abi::MaterialRecord<Real> pack_material(const LoweredMaterial& material);
-
-/// The gradients of a quadric's side and of its caps.
-template <class Real>
-[[nodiscard]] abi::CurvedSurfaceRecord<Real> side_normal(const LoweredQuadric& quadric);
-template <class Real>
-[[nodiscard]] abi::CurvedSurfaceRecord<Real> cap_normal(const LoweredQuadric& quadric, int cap);
 
 }  // namespace packtrace

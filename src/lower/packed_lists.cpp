@@ -3,7 +3,6 @@
 #include <algorithm>
 
 #include "lower/pack_record.hpp"
-#include "lower/pack_stiff.hpp"
 #include "lower/packed_tree.hpp"
 
 namespace packtrace {
@@ -17,32 +16,6 @@ std::vector<const Object*> chosen(const std::vector<Object>& objects, const Want
         if (want(object))
             list.push_back(&object);
     return list;
-}
-
-template <class Real, class Object>
-std::vector<const Object*> not_stiff(const std::vector<const Object*>& objects)
-{
-    std::vector<const Object*> list;
-    for (const Object* object : objects)
-        if (!goes_to_stiff<Real>(*object))
-            list.push_back(object);
-    return list;
-}
-
-/// All that is stiff, in double whatever Real is; nothing where Real is double itself.
-template <class Real, class... Objects>
-AlignedArray<abi::StiffObject> pack_stiff(const std::vector<const Objects*>&... lists)
-{
-    std::vector<abi::StiffObject> packed;
-    const auto pack = [&](const auto& objects) {
-        for (const auto* object : objects)
-            if (goes_to_stiff<Real>(*object))
-                packed.push_back(pack_stiff_object(*object));
-    };
-    (pack(lists), ...);
-    AlignedArray<abi::StiffObject> array(packed.size());
-    std::copy(packed.begin(), packed.end(), array.data());
-    return array;
 }
 
 template <class Object, class Record>
@@ -69,14 +42,13 @@ PackedLists<Real>::PackedLists(const LoweredScene& lowered, bool is_tree)
     const auto listed = [&](const auto& object) { return !is_tree || !fits_tree(object); };
     const auto every = [](const auto&) { return true; };
     const auto spheres = chosen(lowered.spheres, listed);
-    const auto huge_spheres = chosen(lowered.huge_spheres, every);
+    const auto anchored_spheres = chosen(lowered.anchored_spheres, every);
     const auto planes = chosen(lowered.planes, every);
     const auto quadrics = chosen(lowered.quadrics, listed);
-    stiff_ = pack_stiff<Real>(spheres, huge_spheres, planes, quadrics);
-    pack_spheres(not_stiff<Real>(spheres));
-    huge_spheres_ = pack_all(not_stiff<Real>(huge_spheres), pack_huge<Real>);
-    planes_ = pack_all(not_stiff<Real>(planes), pack_plane<Real>);
-    quadrics_ = pack_all(not_stiff<Real>(quadrics), pack_quadric<Real>);
+    pack_spheres(spheres);
+    anchored_spheres_ = pack_all(anchored_spheres, pack_anchored<Real>);
+    planes_ = pack_all(planes, pack_plane<Real>);
+    quadrics_ = pack_all(quadrics, pack_quadric<Real>);
 }
 
 template <class Real>
@@ -84,7 +56,7 @@ void PackedLists<Real>::pack_spheres(const std::vector<const LoweredSphere*>& sp
 {
     sphere_count_ = static_cast<int>(spheres.size());
     sphere_stride_ = spheres.size() + abi::padding;
-    sphere_reals_ = AlignedArray<Real>(5 * sphere_stride_);
+    sphere_reals_ = AlignedArray<Real>(6 * sphere_stride_);
     sphere_surfaces_ = AlignedArray<abi::lane_int<Real>>(sphere_stride_);
     for (std::size_t i = 0; i < spheres.size(); ++i) {
         const LoweredSphere& sphere = *spheres[i];
@@ -94,12 +66,13 @@ void PackedLists<Real>::pack_spheres(const std::vector<const LoweredSphere*>& sp
                 static_cast<Real>(sphere.center[axis]);
         place[3 * sphere_stride_] = static_cast<Real>(sphere.radius);
         place[4 * sphere_stride_] = static_cast<Real>(sphere.radius * sphere.radius);
+        place[5 * sphere_stride_] = static_cast<Real>(center_error<Real>(sphere));
         sphere_surfaces_[i] = sphere.surface;
     }
 }
 
 template <class Real>
-void PackedLists<Real>::show(abi::SceneView<Real>& view) const
+void PackedLists<Real>::show(abi::GeometryView<Real>& view) const
 {
     const Real* const reals = sphere_reals_.data();
     const std::size_t stride = sphere_stride_;
@@ -108,12 +81,12 @@ void PackedLists<Real>::show(abi::SceneView<Real>& view) const
                     reals + 2 * stride,
                     reals + 3 * stride,
                     reals + 4 * stride,
+                    reals + 5 * stride,
                     sphere_surfaces_.data(),
                     sphere_count_};
-    view.huge_spheres = list_of(huge_spheres_);
+    view.anchored_spheres = list_of(anchored_spheres_);
     view.planes = list_of(planes_);
     view.quadrics = list_of(quadrics_);
-    view.stiff = list_of(stiff_);
 }
 
 template class PackedLists<float>;

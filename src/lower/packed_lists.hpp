@@ -15,12 +15,12 @@ public:
     PackedLists(const LoweredScene& lowered, bool is_tree);
 
     /// Points `view` to the lists, valid as long as this object.
-    void show(abi::SceneView<Real>& view) const;
+    void show(abi::GeometryView<Real>& view) const;
 
     [[nodiscard]] std::size_t bytes() const
     {
-        return sphere_reals_.bytes() + sphere_surfaces_.bytes() + huge_spheres_.bytes() +
-               planes_.bytes() + quadrics_.bytes() + stiff_.bytes();
+        return sphere_reals_.bytes() + sphere_surfaces_.bytes() + anchored_spheres_.bytes() +
+               planes_.bytes() + quadrics_.bytes();
     }
 
 private:
@@ -30,10 +30,9 @@ private:
     std::size_t sphere_stride_ = 0;
     AlignedArray<Real> sphere_reals_;
     AlignedArray<abi::lane_int<Real>> sphere_surfaces_;
-    AlignedArray<abi::HugeSphere<Real>> huge_spheres_;
+    AlignedArray<abi::AnchoredSphere<Real>> anchored_spheres_;
     AlignedArray<abi::PlaneRecord<Real>> planes_;
     AlignedArray<abi::QuadricRecord<Real>> quadrics_;
-    AlignedArray<abi::StiffObject> stiff_;
 };
 
 }  // namespace packtrace

@@ -1,7 +1,12 @@
 #include "lower/packed_scene.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
+
+#include <glm/common.hpp>
+#include <glm/geometric.hpp>
+#include <glm/gtc/matrix_access.hpp>
 
 #include "lower/in_parallel.hpp"
 #include "lower/pack_record.hpp"
@@ -15,15 +20,56 @@ namespace {
 constexpr std::size_t stream_tree_objects = 32;
 constexpr std::size_t frame_tree_objects = 128;
 
-/// From this round number on a sphere's record is made of its shape when it is hit: memory counts
-/// more then than the few operations, which slow a frame of four spheres by 4 %.
-constexpr std::size_t fewest_to_share = 1024;
-
-/// How many roundoffs rays start off a surface by. Hits in single precision are solved again or
-/// sharpened in double and rounded once; those in double are as the search found them. Measured in
-/// docs/numerics.md.
+/// How many roundoffs rays start off a surface by. Hits in single precision are refined in double
+/// and rounded once, their offset start once more; those in double are as the search found them.
+/// Measured in docs/numerics.md.
 template <class Real>
-constexpr Real start_roundoffs = sizeof(Real) == sizeof(float) ? Real(8) : Real(32);
+constexpr Real start_roundoffs = sizeof(Real) == sizeof(float) ? Real(4) : Real(32);
+
+/// The magnitudes that error bounds in single precision hold for; kernels/error_bounds.hpp.
+constexpr double largest_certain = 1e9;
+constexpr double smallest_certain = 1e-9;
+
+bool certifiable(const Vec3& center, double radius)
+{
+    const Vec3 size = glm::abs(center);
+    return std::max({size.x, size.y, size.z}) + radius <= largest_certain &&
+           radius >= smallest_certain;
+}
+bool certifiable(const LoweredSphere& sphere)
+{
+    return certifiable(sphere.center, sphere.radius);
+}
+bool certifiable(const LoweredAnchoredSphere& sphere)
+{
+    return certifiable(sphere.center, sphere.radius);
+}
+bool certifiable(const LoweredPlane& plane)
+{
+    return certifiable(plane.point, 1.0);
+}
+bool certifiable(const LoweredQuadric& quadric)
+{
+    for (int row = 0; row < 3; ++row)
+        if (!certifiable(Vec3(0.0), glm::length(glm::row(quadric.inverse, row))))
+            return false;
+    return certifiable(quadric.center, 1.0) &&
+           (!std::isfinite(quadric.bound_radius) ||
+            certifiable(quadric.bound, quadric.bound_radius));
+}
+
+template <class Objects>
+bool all_certifiable(const Objects& objects)
+{
+    return std::all_of(objects.begin(), objects.end(),
+                       [](const auto& object) { return certifiable(object); });
+}
+
+bool certifiable(const LoweredScene& lowered)
+{
+    return all_certifiable(lowered.spheres) && all_certifiable(lowered.anchored_spheres) &&
+           all_certifiable(lowered.planes) && all_certifiable(lowered.quadrics);
+}
 
 Traversal chosen(Traversal traversal, const LoweredScene& lowered, std::size_t tree_objects)
 {
@@ -59,11 +105,14 @@ template <class Real>
 PackedScene<Real>::PackedScene(const LoweredScene& lowered, Traversal traversal)
     : tree_(pack_tree<Real>(lowered, traversal)),
       lists_(lowered, !tree_.view().empty()),
-      shapes_(lowered, lowered.spheres.size() >= fewest_to_share)
+      shapes_(lowered)
 {
+    tree_.set_shapes(shapes_.view());
     view_.tree = tree_.view();
     lists_.show(view_);
-    shapes_.show(view_);
+    view_.shapes = shapes_.view();
+    if (sizeof(Real) == sizeof(float) && lowered.features.exact)
+        pack_wide(lowered);
     pack_materials(lowered);
     pack_ior(lowered);
     pack_lights(lowered);
@@ -74,13 +123,23 @@ PackedScene<Real>::PackedScene(const LoweredScene& lowered, Traversal traversal)
     view_.flat = lowered.flat;
     view_.transparent_shadows = lowered.transparent_shadows;
     view_.visible_lights = lowered.visible_lights;
-    view_.precise_powers = sizeof(Real) == sizeof(float) && lowered.precise_powers;
     view_.units = lowered.units;
     view_.epsilon = static_cast<Real>(lowered.epsilon);
     if (lowered.self_hits == SelfHits::note)
         view_.secondary_t_min = view_.epsilon;
     else
         view_.start_error = start_roundoffs<Real> * std::numeric_limits<Real>::epsilon() / 2;
+}
+
+template <class Real>
+void PackedScene<Real>::pack_wide(const LoweredScene& lowered)
+{
+    wide_lists_ = std::make_unique<PackedLists<double>>(lowered, !tree_.view().empty());
+    wide_lists_->show(wide_);
+    if (!tree_.view().empty())
+        wide_.tree = tree_.wide_view(shapes_.view());
+    view_.wide = &wide_;
+    view_.certifiable = certifiable(lowered);
 }
 
 template <class Real>
@@ -149,7 +208,7 @@ void PackedScene<Real>::pack_casters(const LoweredScene& lowered)
         return !casts[static_cast<std::size_t>(surface.surface)];
     };
     std::erase_if(casters.spheres, casts_none);
-    std::erase_if(casters.huge_spheres, casts_none);
+    std::erase_if(casters.anchored_spheres, casts_none);
     std::erase_if(casters.planes, casts_none);
     std::erase_if(casters.quadrics, casts_none);
     // Without a hierarchy for the camera's rays there are no groups of shadow rays either.

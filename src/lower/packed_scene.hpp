@@ -23,6 +23,8 @@ template <class Real>
 class PackedScene {
 public:
     explicit PackedScene(const LoweredScene& lowered, Traversal traversal = Traversal::automatic);
+    PackedScene(const PackedScene&) = delete;
+    PackedScene& operator=(const PackedScene&) = delete;
 
     /// Valid as long as this object.
     [[nodiscard]] const abi::SceneView<Real>& view() const
@@ -34,11 +36,13 @@ public:
     [[nodiscard]] std::size_t bytes() const
     {
         return sizeof *this + tree_.bytes() + lists_.bytes() + shapes_.bytes() +
+               (wide_lists_ ? wide_lists_->bytes() : 0) +
                material_index_.bytes() + materials_.bytes() + checkers_.bytes() + ior_.bytes() +
                lights_.bytes() + (casters_ ? casters_->bytes() : 0);
     }
 
 private:
+    void pack_wide(const LoweredScene& lowered);
     void pack_materials(const LoweredScene& lowered);
     void pack_ior(const LoweredScene& lowered);
     void pack_lights(const LoweredScene& lowered);
@@ -46,7 +50,9 @@ private:
 
     PackedTree<Real> tree_;
     PackedLists<Real> lists_;
-    PackedShapes<Real> shapes_;
+    PackedShapes shapes_;
+    std::unique_ptr<PackedLists<double>> wide_lists_;  // where rays may be traced again in double
+    abi::GeometryView<double> wide_;
     AlignedArray<abi::MaterialIndex> material_index_;
     AlignedArray<abi::MaterialRecord<Real>> materials_;
     AlignedArray<abi::CheckerRecord<Real>> checkers_;

@@ -128,12 +128,12 @@ double worst_slack(const LoweredScene& lowered)
 
 bool fits_tree(const LoweredSphere& sphere)
 {
-    return !sphere.stiff && within_tree(sphere.center, Vec3(sphere.radius));
+    return within_tree(sphere.center, Vec3(sphere.radius));
 }
 
 bool fits_tree(const LoweredQuadric& quadric)
 {
-    return !quadric.stiff && std::isfinite(quadric.bound_radius) &&
+    return std::isfinite(quadric.bound_radius) &&
            quadric.condition < worst_condition && within_tree(quadric.bound, quadric.box_half);
 }
 
@@ -154,14 +154,55 @@ PackedTree<Real>::PackedTree(const LoweredScene& lowered)
     pack_leaves(lowered, bvh);
     nodes_ = AlignedArray<abi::BvhNode>::unset(bvh.nodes.size());
     std::copy(bvh.nodes.begin(), bvh.nodes.end(), nodes_.data());
-    view_ = {nodes_.data(),
-             blocks_.data(),
-             block_surfaces_.data(),
-             quadrics_.data(),
-             static_cast<int>(bvh.nodes.size()),
-             extent_of(nodes_[0]),
-             static_cast<float>(worst_slack(lowered)),
-             coherent_spread(bvh.nodes, extent_of(nodes_[0]))};
+    view_.nodes = nodes_.data();
+    view_.blocks = blocks_.data();
+    view_.block_surfaces = block_surfaces_.data();
+    view_.quadrics = quadrics_.data();
+    view_.quadric_surfaces = quadric_surfaces_.data();
+    view_.node_count = static_cast<int>(bvh.nodes.size());
+    view_.extent = extent_of(nodes_[0]);
+    view_.slack = static_cast<float>(worst_slack(lowered));
+    view_.spread = coherent_spread(bvh.nodes, view_.extent);
+    bound_root(nodes_[0]);
+    for (const LoweredSphere& sphere : lowered.spheres)
+        view_.center_error =
+            std::max(view_.center_error, round_up(center_error<Real>(sphere)));
+}
+
+/// The ball around the root's box.
+template <class Real>
+void PackedTree<Real>::bound_root(const abi::BvhNode& root)
+{
+    Vec3 low(std::numeric_limits<double>::infinity());
+    Vec3 high(-std::numeric_limits<double>::infinity());
+    for (int slot = 0; slot < abi::node_width; ++slot)
+        for (int axis = 0; axis < 3; ++axis)
+            if (root.low[axis][slot] <= root.high[axis][slot]) {
+                low[axis] = std::min(low[axis], double{root.low[axis][slot]});
+                high[axis] = std::max(high[axis], double{root.high[axis][slot]});
+            }
+    Vec3 rounded;
+    for (int axis = 0; axis < 3; ++axis) {
+        view_.middle[axis] = static_cast<float>(0.5 * low[axis] + 0.5 * high[axis]);
+        rounded[axis] = double{view_.middle[axis]};
+    }
+    view_.radius = round_up(1.000001 * std::max(glm::length(high - rounded),
+                                                glm::length(low - rounded)));
+}
+
+template <class Real>
+abi::BvhView<double> PackedTree<Real>::wide_view(const abi::ShapesView& shapes) const
+{
+    abi::BvhView<double> wide;
+    wide.nodes = view_.nodes;
+    wide.block_surfaces = view_.block_surfaces;
+    wide.quadric_surfaces = view_.quadric_surfaces;
+    wide.shapes = &shapes;
+    wide.node_count = view_.node_count;
+    wide.extent = view_.extent;
+    wide.slack = view_.slack;
+    wide.spread = view_.spread;
+    return wide;
 }
 
 /// Also points the nodes' leaves to where they are packed.
@@ -183,14 +224,15 @@ void PackedTree<Real>::pack_leaves(const LoweredScene& lowered, Bvh& bvh)
         }
     }
     blocks_ = AlignedArray<abi::SphereBlock<Real>>::unset(block_count);
-    block_surfaces_ = AlignedArray<abi::lane_int<Real>>::unset(block_count * abi::node_width);
+    block_surfaces_ = AlignedArray<std::int32_t>::unset(block_count * abi::node_width);
+    quadric_surfaces_ = AlignedArray<std::int32_t>::unset(quadric_count);
     quadrics_ = AlignedArray<abi::QuadricRecord<Real>>::unset(quadric_count);
     for_each_in_parallel(bvh.leaves, [&](const BvhLeaf& leaf) {
         const std::uint32_t at = packed_at[static_cast<std::size_t>(&leaf - bvh.leaves.data())];
         if (leaf.kind == sphere_item)
             pack_block(lowered, bvh, leaf, at & abi::block_mask);
         else
-            pack_run(lowered, bvh, leaf, &quadrics_[at & abi::quadric_mask]);
+            pack_run(lowered, bvh, leaf, at & abi::quadric_mask);
     });
     for (abi::BvhNode& node : bvh.nodes)
         for (int slot = 0; slot < abi::node_width; ++slot)
@@ -200,10 +242,13 @@ void PackedTree<Real>::pack_leaves(const LoweredScene& lowered, Bvh& bvh)
 
 template <class Real>
 void PackedTree<Real>::pack_run(const LoweredScene& lowered, const Bvh& bvh, const BvhLeaf& leaf,
-                                abi::QuadricRecord<Real>* run)
+                                std::uint32_t first)
 {
-    for (std::uint32_t i = 0; i < leaf.count; ++i)
-        run[i] = pack_quadric<Real>(lowered.quadrics[bvh.order[leaf.first + i]]);
+    for (std::uint32_t i = 0; i < leaf.count; ++i) {
+        const LoweredQuadric& quadric = lowered.quadrics[bvh.order[leaf.first + i]];
+        quadrics_[first + i] = pack_quadric<Real>(quadric);
+        quadric_surfaces_[first + i] = quadric.surface;
+    }
 }
 
 template <class Real>
@@ -211,7 +256,7 @@ void PackedTree<Real>::pack_block(const LoweredScene& lowered, const Bvh& bvh, c
                                   std::uint32_t index)
 {
     abi::SphereBlock<Real>& block = blocks_[index];
-    abi::lane_int<Real>* const surfaces = &block_surfaces_[std::size_t{index} * abi::node_width];
+    std::int32_t* const surfaces = &block_surfaces_[std::size_t{index} * abi::node_width];
     // Unused places: a sphere of negative size where nothing is.
     constexpr Real nowhere = Real(1e15);
     for (std::uint32_t i = 0; i < abi::node_width; ++i) {
@@ -220,7 +265,7 @@ void PackedTree<Real>::pack_block(const LoweredScene& lowered, const Bvh& bvh, c
         const LoweredSphere& sphere = used ? lowered.spheres[bvh.order[leaf.first + i]] : unused;
         for (int axis = 0; axis < 3; ++axis)
             block.center[axis][i] = used ? static_cast<Real>(sphere.center[axis]) : nowhere;
-        block.radius2[i] = used ? static_cast<Real>(sphere.radius * sphere.radius) : Real(-1);
+        block.radius[i] = used ? static_cast<Real>(sphere.radius) : Real(-1);
         surfaces[i] = used ? sphere.surface : -1;
     }
 }

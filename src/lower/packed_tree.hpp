@@ -28,21 +28,33 @@ public:
         return view_;
     }
 
+    /// The same hierarchy for rays in double, whose leaves are made of `shapes`.
+    [[nodiscard]] abi::BvhView<double> wide_view(const abi::ShapesView& shapes) const;
+
+    /// Tells the leaves' quadrics where their records in double are.
+    void set_shapes(const abi::ShapesView& shapes)
+    {
+        view_.shapes = &shapes;
+    }
+
     [[nodiscard]] std::size_t bytes() const
     {
-        return nodes_.bytes() + blocks_.bytes() + block_surfaces_.bytes() + quadrics_.bytes();
+        return nodes_.bytes() + blocks_.bytes() + block_surfaces_.bytes() + quadrics_.bytes() +
+               quadric_surfaces_.bytes();
     }
 
 private:
     void pack_leaves(const LoweredScene& lowered, Bvh& bvh);
-    static void pack_run(const LoweredScene& lowered, const Bvh& bvh, const BvhLeaf& leaf,
-                         abi::QuadricRecord<Real>* run);
+    void bound_root(const abi::BvhNode& root);
+    void pack_run(const LoweredScene& lowered, const Bvh& bvh, const BvhLeaf& leaf,
+                  std::uint32_t first);
     void pack_block(const LoweredScene& lowered, const Bvh& bvh, const BvhLeaf& leaf,
                     std::uint32_t index);
 
     AlignedArray<abi::BvhNode> nodes_;
     AlignedArray<abi::SphereBlock<Real>> blocks_;
-    AlignedArray<abi::lane_int<Real>> block_surfaces_;
+    AlignedArray<std::int32_t> block_surfaces_;
+    AlignedArray<std::int32_t> quadric_surfaces_;
     AlignedArray<abi::QuadricRecord<Real>> quadrics_;
     abi::BvhView<Real> view_;
 };

@@ -4,6 +4,9 @@
 
 #include <packtrace/isa.hpp>
 
+#include <tbb/enumerable_thread_specific.h>
+
+#include "core/aligned_array.hpp"
 #include "dispatch/kernels.hpp"
 #include "lower/packed_scene.hpp"
 #include "render/ray_backend.hpp"
@@ -79,7 +82,9 @@ class PacketBackend final : public RayBackend<Real> {
 public:
     PacketBackend(const Scene& scene, const RenderOptions& options)
         : packed_(lower(scene, accuracy_in<Real>(options), options.self_hits), options.traversal),
-          kernels_(precision<Real>(kernels_of(choose_isa(options.isa, options.width).name)))
+          kernels_(precision<Real>(kernels_of(choose_isa(options.isa, options.width).name))),
+          scratch_bytes_(kernels_.stream_scratch_bytes(packed_.view())),
+          scratch_([this] { return AlignedArray<std::byte>::unset(scratch_bytes_); })
     {
     }
 
@@ -90,14 +95,16 @@ public:
             auto piece = piece_of(rays, first, longest_stream);
             if (starts != nullptr)
                 add_starts(piece, *starts, first);
-            kernels_.closest_hits(packed_.view(), piece, piece_of(hits, first));
+            kernels_.closest_hits(packed_.view(), piece, piece_of(hits, first),
+                                  scratch_.local().data());
         }
     }
 
     void occluded(const RaysView<Real>& rays, std::uint8_t* mask) const override
     {
         for (std::size_t first = 0; first < rays.count; first += longest_stream)
-            kernels_.occluded(packed_.view(), piece_of(rays, first, longest_stream), mask + first);
+            kernels_.occluded(packed_.view(), piece_of(rays, first, longest_stream), mask + first,
+                              scratch_.local().data());
     }
 
     void all_hits(const RaysView<Real>& rays,
@@ -121,6 +128,8 @@ public:
 private:
     PackedScene<Real> packed_;
     const abi::PrecisionTable<Real>& kernels_;
+    std::size_t scratch_bytes_;
+    mutable tbb::enumerable_thread_specific<AlignedArray<std::byte>> scratch_;
 };
 
 }  // namespace

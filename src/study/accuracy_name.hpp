@@ -7,7 +7,7 @@ namespace packtrace {
 /// As the command line has it.
 [[nodiscard]] inline const char* name_of(Accuracy accuracy)
 {
-    return accuracy == Accuracy::fast ? "fast" : accuracy == Accuracy::robust ? "robust" : "auto";
+    return accuracy == Accuracy::fast ? "fast" : "exact";
 }
 
 }  // namespace packtrace

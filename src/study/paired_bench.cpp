@@ -40,7 +40,7 @@ std::vector<Variant> variants_of(const ReportScene& scene, const BenchOptions& o
 {
     std::vector<Variant> variants;
     for (const Variant& variant : report_variants(scene.scene, one_thread(options)))
-        if (variant.study == Study::arithmetic && variant.accuracy == Accuracy::automatic &&
+        if (variant.study == Study::arithmetic && variant.accuracy == Accuracy::exact &&
             !variant.general && variant.self_hits == default_self_hits)
             variants.push_back(variant);
     return variants;

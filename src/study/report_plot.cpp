@@ -24,7 +24,7 @@ std::string point_label(const Variant& variant)
     if (variant.study != Study::arithmetic)
         return variant.name;
     const std::string isa = variant.kernel == Kernel::scalar ? "" : variant.isa + " ";
-    const bool usual = variant.accuracy == Accuracy::automatic;
+    const bool usual = variant.accuracy == Accuracy::exact;
     return isa + (usual ? "" : std::string(name_of(variant.accuracy)) + " ") + "x" +
            std::to_string(variant.threads);
 }

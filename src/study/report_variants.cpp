@@ -101,8 +101,7 @@ std::vector<Variant> report_variants(const Scene& scene, const ReportOptions& op
             add_arithmetic(variants, packets(isa, precision, scene.max_depth), options);
     }
     Variant widest = packets(isas.back(), "single", scene.max_depth);
-    for (const Accuracy accuracy : {Accuracy::fast, Accuracy::robust})
-        variants.push_back(in_mode(widest, accuracy, options));
+    variants.push_back(in_mode(widest, Accuracy::fast, options));
     variants.push_back(by_note(widest, options));
     variants.push_back(by_general(widest, options));
     widest.study = Study::depth;

@@ -17,8 +17,7 @@ struct StressMode {
 };
 
 inline constexpr StressMode stress_modes[] = {{"fast", Accuracy::fast, false},
-                                              {"auto", Accuracy::automatic, false},
-                                              {"robust", Accuracy::robust, true}};
+                                              {"exact", Accuracy::exact, true}};
 
 /// A kernel in one mode, on one instruction set.
 struct StressSubject {

@@ -122,15 +122,15 @@ inline void store_pixels(float* to, vreal<float> r, vreal<float> g, vreal<float>
     _mm256_storeu_ps(to + 24, _mm256_permute2f128_ps(third, fourth, 0x31));
 }
 
-inline vreal<double> low_half(vreal<float> x)
+inline vreal<double> widen_low(vreal<float> x)
 {
     return _mm256_cvtps_pd(_mm256_castps256_ps128(x));
 }
-inline vreal<double> high_half(vreal<float> x)
+inline vreal<double> widen_high(vreal<float> x)
 {
     return _mm256_cvtps_pd(_mm256_extractf128_ps(x, 1));
 }
-inline vreal<float> joined(vreal<double> low, vreal<double> high)
+inline vreal<float> narrow(vreal<double> low, vreal<double> high)
 {
     return _mm256_set_m128(_mm256_cvtpd_ps(high), _mm256_cvtpd_ps(low));
 }

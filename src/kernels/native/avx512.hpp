@@ -114,15 +114,15 @@ inline void store_pixels(float* to, vreal<float> r, vreal<float> g, vreal<float>
     _mm512_storeu_ps(to + 48, _mm512_shuffle_f32x4(high, high_more, 0xdd));
 }
 
-inline vreal<double> low_half(vreal<float> x)
+inline vreal<double> widen_low(vreal<float> x)
 {
     return _mm512_cvtps_pd(_mm512_castps512_ps256(x));
 }
-inline vreal<double> high_half(vreal<float> x)
+inline vreal<double> widen_high(vreal<float> x)
 {
     return _mm512_cvtps_pd(_mm512_extractf32x8_ps(x, 1));
 }
-inline vreal<float> joined(vreal<double> low, vreal<double> high)
+inline vreal<float> narrow(vreal<double> low, vreal<double> high)
 {
     return _mm512_insertf32x8(_mm512_castps256_ps512(_mm512_cvtpd_ps(low)), _mm512_cvtpd_ps(high),
                               1);

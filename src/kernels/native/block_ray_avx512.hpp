@@ -50,7 +50,27 @@ public:
         return closed ? root_between(q, end) : any_root(q, end);
     }
 
+    std::uint32_t near(const abi::SphereBlock<float>& block, const RayGroup<float>& group) const
+    {
+        __m256 o[3];
+        for (int axis = 0; axis < 3; ++axis)
+            o[axis] = _mm256_sub_ps(org_[axis], _mm256_load_ps(block.center[axis]));
+        const __m256 moment[3] = {cross(o, 1, 2), cross(o, 2, 0), cross(o, 0, 1)};
+        // leaf_outer2() in eight lanes.
+        const __m256 shift =
+            _mm256_set1_ps(roundoffs(2.5f) * group.length + group.center_error);
+        const __m256 outer = _mm256_fmadd_ps(_mm256_load_ps(block.radius),
+                                             _mm256_set1_ps(1.0f + roundoffs(12.0f)), shift);
+        const __m256 limit = _mm256_mul_ps(signed_square(outer), dir2_);
+        return static_cast<__mmask8>(
+            ~_mm256_cmp_ps_mask(dot(moment, moment), limit, _CMP_GT_OQ));
+    }
+
 private:
+    static __m256 signed_square(__m256 x)
+    {
+        return _mm256_mul_ps(x, _mm256_andnot_ps(_mm256_set1_ps(-0.0f), x));
+    }
     struct Eights {
         __m256 b, c, discriminant;
     };
@@ -69,7 +89,7 @@ private:
         __m256 o[3];
         for (int axis = 0; axis < 3; ++axis)
             o[axis] = _mm256_sub_ps(org_[axis], _mm256_load_ps(block.center[axis]));
-        const __m256 radius2 = _mm256_load_ps(block.radius2);
+        const __m256 radius2 = signed_square(_mm256_load_ps(block.radius));
         const __m256 moment[3] = {cross(o, 1, 2), cross(o, 2, 0), cross(o, 0, 1)};
         return {dot(o, dir_), _mm256_sub_ps(dot(o, o), radius2),
                 _mm256_fmsub_ps(dir2_, radius2, dot(moment, moment))};

@@ -108,15 +108,15 @@ inline void store_pixels(float* to, vreal<float> r, vreal<float> g, vreal<float>
     vst4q_f32(to, (float32x4x4_t{{r, g, b, vdupq_n_f32(0.0f)}}));
 }
 
-inline vreal<double> low_half(vreal<float> x)
+inline vreal<double> widen_low(vreal<float> x)
 {
     return vcvt_f64_f32(vget_low_f32(x));
 }
-inline vreal<double> high_half(vreal<float> x)
+inline vreal<double> widen_high(vreal<float> x)
 {
     return vcvt_high_f64_f32(x);
 }
-inline vreal<float> joined(vreal<double> low, vreal<double> high)
+inline vreal<float> narrow(vreal<double> low, vreal<double> high)
 {
     return vcvt_high_f32_f64(vcvt_f32_f64(low), high);
 }

@@ -138,15 +138,15 @@ inline void store_pixels(float* to, vreal<float> r, vreal<float> g, vreal<float>
     _mm_storeu_ps(to + 12, _mm_movehl_ps(b_high, rg_high));
 }
 
-inline vreal<double> low_half(vreal<float> x)
+inline vreal<double> widen_low(vreal<float> x)
 {
     return _mm_cvtps_pd(x);
 }
-inline vreal<double> high_half(vreal<float> x)
+inline vreal<double> widen_high(vreal<float> x)
 {
     return _mm_cvtps_pd(_mm_movehl_ps(x, x));
 }
-inline vreal<float> joined(vreal<double> low, vreal<double> high)
+inline vreal<float> narrow(vreal<double> low, vreal<double> high)
 {
     return _mm_movelh_ps(_mm_cvtpd_ps(low), _mm_cvtpd_ps(high));
 }

@@ -6,9 +6,9 @@
 namespace packtrace::PACKTRACE_ISA {
 namespace {
 
-/// What a huge sphere's quadratic needs of the ray's origin alone.
+/// What an anchored sphere's quadratic needs of the ray's origin alone.
 template <class Real>
-struct HugeOrigin {
+struct AnchoredOrigin {
     Vec3v<Real> g;
     vreal<Real> constant;
 };
@@ -17,7 +17,7 @@ struct HugeOrigin {
 /// (g + n)·p + k0 the form's value: no term is of the size of the radius, which a ground
 /// sphere's would drown in.
 template <class Real>
-inline HugeOrigin<Real> huge_origin(const abi::HugeSphere<Real>& sphere, const Vec3v<Real>& org)
+inline AnchoredOrigin<Real> anchored_origin(const abi::AnchoredSphere<Real>& sphere, const Vec3v<Real>& org)
 {
     const Vec3v<Real> normal = broadcast(sphere.normal);
     const Vec3v<Real> p = org - broadcast(sphere.anchor);
@@ -25,10 +25,10 @@ inline HugeOrigin<Real> huge_origin(const abi::HugeSphere<Real>& sphere, const V
     return {g, dot(g + normal, p) + vreal<Real>(sphere.offset)};
 }
 
-/// The ray against a sphere given by a surface point and its curvature (abi::HugeSphere):
+/// The ray against a sphere given by a surface point and its curvature (abi::AnchoredSphere):
 /// F(t) = k a t² + 2 (g·d) t + F(0). `curved` is k F(0).
 template <class Real>
-inline Quadratic<Real> huge_quadratic(const HugeOrigin<Real>& origin, const vreal<Real>& curvature,
+inline Quadratic<Real> anchored_quadratic(const AnchoredOrigin<Real>& origin, const vreal<Real>& curvature,
                                       const vreal<Real>& curved, const RayPacket<Real>& rays)
 {
     Quadratic<Real> q;
@@ -40,17 +40,17 @@ inline Quadratic<Real> huge_quadratic(const HugeOrigin<Real>& origin, const vrea
 }
 
 template <class Real>
-inline Quadratic<Real> quadratic_of(const abi::HugeSphere<Real>& sphere,
+inline Quadratic<Real> quadratic_of(const abi::AnchoredSphere<Real>& sphere,
                                     const RayPacket<Real>& rays)
 {
-    const HugeOrigin<Real> origin = huge_origin<Real>(sphere, rays.org);
+    const AnchoredOrigin<Real> origin = anchored_origin<Real>(sphere, rays.org);
     const vreal<Real> curvature(sphere.curvature);
-    return huge_quadratic<Real>(origin, curvature, curvature * origin.constant, rays);
+    return anchored_quadratic<Real>(origin, curvature, curvature * origin.constant, rays);
 }
 
 /// A huge sphere seen from an origin that all rays share.
 template <class Real>
-struct SharedOriginHuge {
+struct SharedOriginAnchored {
     Real g[3];
     Real constant;
     Real curvature;
@@ -59,10 +59,10 @@ struct SharedOriginHuge {
 };
 
 template <class Real>
-inline SharedOriginHuge<Real> share_origin(const abi::HugeSphere<Real>& sphere,
+inline SharedOriginAnchored<Real> share_origin(const abi::AnchoredSphere<Real>& sphere,
                                            const Vec3v<Real>& origin)
 {
-    const HugeOrigin<Real> at = huge_origin<Real>(sphere, origin);
+    const AnchoredOrigin<Real> at = anchored_origin<Real>(sphere, origin);
     return {{first_lane<Real>(at.g.x), first_lane<Real>(at.g.y), first_lane<Real>(at.g.z)},
             first_lane<Real>(at.constant),
             sphere.curvature,
@@ -71,10 +71,10 @@ inline SharedOriginHuge<Real> share_origin(const abi::HugeSphere<Real>& sphere,
 }
 
 template <class Real>
-inline Quadratic<Real> quadratic_of(const SharedOriginHuge<Real>& sphere,
+inline Quadratic<Real> quadratic_of(const SharedOriginAnchored<Real>& sphere,
                                     const RayPacket<Real>& rays)
 {
-    return huge_quadratic<Real>({broadcast(sphere.g), vreal<Real>(sphere.constant)},
+    return anchored_quadratic<Real>({broadcast(sphere.g), vreal<Real>(sphere.constant)},
                                 vreal<Real>(sphere.curvature), vreal<Real>(sphere.curved), rays);
 }
 

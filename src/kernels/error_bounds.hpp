@@ -1,0 +1,80 @@
+#pragma once
+
+#include "kernels/widen.hpp"
+
+// What rounding to single precision can do to a test, as bounds that hold for all rays of a group:
+// the origins of a group lie in a ball, which bounds every length that enters a test.
+// docs/numerics.md derives the constants, which stand in the files of the surfaces.
+namespace packtrace::PACKTRACE_ISA {
+namespace {
+
+/// Half a unit in the last place of 1.
+inline constexpr float roundoff = 0x1p-24f;
+/// Makes up for the rounding of the bounds' own computation.
+inline constexpr float inflation = 1.0001f;
+#if defined(__FMA__) || defined(__aarch64__)
+inline constexpr float product_roundings = 1.0f;
+#else
+/// Without fused operations each product of a dot or cross product rounds once more.
+inline constexpr float product_roundings = 2.0f;
+#endif
+/// Roundings of a group of operations, in roundoffs.
+inline constexpr float roundoffs(float count)
+{
+    return count * product_roundings * roundoff * inflation;
+}
+
+/// Where the rays of a group start.
+struct Origins {
+    float center[3] = {};
+    float radius = 0;  ///< 0: all at the centre, exactly
+};
+
+/// Beyond these magnitudes squares of single precision overflow or lose digits to underflow, and
+/// no test is certain.
+inline constexpr float largest_certain = 1e9f;
+inline constexpr float largest_direction2 = 1e18f;
+inline constexpr float smallest_direction2 = 1e-18f;
+
+/// Lanes whose rays are of magnitudes that the bounds hold for.
+inline vmask<float> certifiable(const RayPacket<float>& rays)
+{
+    const vreal<float> reach = max(max(abs(rays.org.x), abs(rays.org.y)), abs(rays.org.z));
+    return (reach <= vreal<float>(largest_certain)) &
+           (rays.dir2 <= vreal<float>(largest_direction2)) &
+           (rays.dir2 >= vreal<float>(smallest_direction2));
+}
+
+/// The ball around a box of origins, and around places that are off them by offset_origin().
+inline Origins origins_in(const float (&low)[3], const float (&high)[3])
+{
+    Origins origins;
+    float radius2 = 0;
+    float size = 0;
+    for (int axis = 0; axis < 3; ++axis) {
+        const float half = 0.5f * (high[axis] - low[axis]);
+        origins.center[axis] = low[axis] + half;
+        radius2 += half * half;
+        const float magnitude = origins.center[axis];
+        size += (magnitude < 0 ? -magnitude : magnitude) + half;
+    }
+    origins.radius = __builtin_sqrtf(radius2) * inflation + roundoffs(16.0f) * size;
+    return origins;
+}
+
+/// What bounds of one ray need of it, which is the same for all surfaces.
+struct RayScale {
+    vreal<float> inverse2;  ///< 1 / d·d
+    vreal<float> inverse;   ///< 1 / |d|
+    vreal<float> length;    ///< |d|
+
+    explicit RayScale(const RayPacket<float>& rays)
+        : inverse2(vreal<float>(1.0f) / rays.dir2),
+          inverse(sqrt(inverse2)),
+          length(rays.dir2 * inverse)
+    {
+    }
+};
+
+}  // namespace
+}  // namespace packtrace::PACKTRACE_ISA

@@ -1,0 +1,114 @@
+#pragma once
+
+#include "kernels/error_bounds.hpp"
+
+// A floating-point filter (Brönnimann, Burnikel and Pion, "Interval arithmetic yields efficient
+// dynamic filters", 2001) for the closest hit: each test gives the interval that its t is in, or
+// says that it cannot tell. The search keeps the hit that ends first, and where anything else may
+// begin; where those overlap the ray is unsure, and is traced again in double (retrace.hpp).
+namespace packtrace::PACKTRACE_ISA {
+namespace {
+
+/// The hits in [low, high] of the lanes of `active` are there for sure.
+inline void keep_sure(HitPacket<float>& hit, vmask<float> active, const vreal<float>& low,
+                      const vreal<float>& high, std::int32_t surface)
+{
+    const auto first = active & (high < hit.t);
+    const vreal<float> behind = select(first, hit.t_low, low);
+    hit.other = select(active & (behind < hit.other), behind, hit.other);
+    hit.t = select(first, high, hit.t);
+    hit.t_low = select(first, low, hit.t_low);
+    hit.surface = select(first, vint<float>(lane_int<float>{surface}), hit.surface);
+}
+
+/// The lanes of `active` may have a hit, not before `low`.
+inline void keep_doubt(HitPacket<float>& hit, vmask<float> active, const vreal<float>& low)
+{
+    // A NaN says that it may be anywhere.
+    const vreal<float> from = select(low == low, low, vreal<float>(-__builtin_inff()));
+    hit.other = select(active & (from < hit.other), from, hit.other);
+}
+
+/// Nothing is certain of the lanes of `active`.
+inline void doubt_all(HitPacket<float>& hit, vmask<float> active)
+{
+    hit.other = select(active, vreal<float>(-__builtin_inff()), hit.other);
+}
+
+/// Lanes whose hit is not certain.
+inline std::uint32_t unsure_lanes(const HitPacket<float>& hit)
+{
+    const vreal<float> never(__builtin_inff());
+    return bits((hit.other <= hit.t) & (hit.other < never));
+}
+
+/// The interval of a t that was rounded once.
+inline vreal<float> rounded_low(const vreal<float>& t)
+{
+    return nmadd(vreal<float>(roundoffs(2.0f)), abs(t), t);
+}
+inline vreal<float> rounded_high(const vreal<float>& t)
+{
+    return madd(vreal<float>(roundoffs(2.0f)), abs(t), t);
+}
+
+/// The two roots of a surface along the rays, each with the most it may be off by.
+struct RootIntervals {
+    vreal<float> near, near_error;
+    vreal<float> far, far_error;
+};
+
+/// Keeps the first root beyond t_min in the lanes of `sure`, whose rays cross the surface.
+inline void keep_first_of(HitPacket<float>& hit, const RootIntervals& roots, vmask<float> sure,
+                          const vreal<float>& t_min, std::int32_t surface)
+{
+    const vreal<float> near_low = roots.near - roots.near_error;
+    const vreal<float> near_high = roots.near + roots.near_error;
+    const auto near_counts = sure & (near_low > t_min);
+    if (bits(near_counts) == bits(sure))
+        return keep_sure(hit, sure, near_low, near_high, surface);
+    const vreal<float> far_low = roots.far - roots.far_error;
+    const vreal<float> far_high = roots.far + roots.far_error;
+    const auto near_behind = near_high < t_min;
+    const auto far_counts = sure & near_behind & (far_low > t_min);
+    const auto none_counts = near_behind & (far_high < t_min);
+    keep_sure(hit, near_counts | far_counts, select(near_counts, near_low, far_low),
+              select(near_counts, near_high, far_high), surface);
+    const std::uint32_t certain = bits(near_counts) | bits(far_counts) | bits(none_counts);
+    keep_doubt(hit, from_bits<float>(bits(sure) & ~certain),
+               select(near_behind, far_low, near_low));
+}
+
+/// What certain tests say of occlusion.
+struct Occlusion {
+    std::uint32_t blocked = 0;  ///< lanes
+    std::uint32_t unsure = 0;   ///< lanes, not among the blocked
+};
+
+/// Whether a root of the lanes of `sure` lies between t_min and t_end.
+inline Occlusion root_between(const RootIntervals& roots, vmask<float> sure,
+                              const vreal<float>& t_min, const vreal<float>& t_end)
+{
+    const vreal<float> near_low = roots.near - roots.near_error;
+    const vreal<float> near_high = roots.near + roots.near_error;
+    const vreal<float> far_low = roots.far - roots.far_error;
+    const vreal<float> far_high = roots.far + roots.far_error;
+    const std::uint32_t inside = bits((near_low > t_min) & (near_high < t_end)) |
+                                 bits((far_low > t_min) & (far_high < t_end));
+    const std::uint32_t outside = (bits(near_high < t_min) | bits(near_low > t_end)) &
+                                  (bits(far_high < t_min) | bits(far_low > t_end));
+    return {inside & bits(sure), bits(sure) & ~inside & ~outside};
+}
+
+/// The same of a single root in [low, high].
+inline Occlusion root_between(const vreal<float>& low, const vreal<float>& high,
+                              std::uint32_t active, const vreal<float>& t_min,
+                              const vreal<float>& t_end)
+{
+    const std::uint32_t inside = bits((low > t_min) & (high < t_end));
+    const std::uint32_t outside = bits(high < t_min) | bits(low > t_end);
+    return {active & inside, active & ~inside & ~outside};
+}
+
+}  // namespace
+}  // namespace packtrace::PACKTRACE_ISA

@@ -1,0 +1,86 @@
+#pragma once
+
+#include "kernels/closest.hpp"
+#include "kernels/sphere_leaf.hpp"
+
+// Error bounds of the objects of a hierarchy for a group of rays, by where those start.
+namespace packtrace::PACKTRACE_ISA {
+namespace {
+
+/// Sets what a group's bounds of the hierarchy's spheres hang on: where its rays start.
+inline void bound_origins(RayGroup<float>& group, const abi::BvhView<float>& tree)
+{
+    float distance2 = 0;
+    for (int axis = 0; axis < 3; ++axis) {
+        vreal<float> low(__builtin_inff());
+        vreal<float> high(-__builtin_inff());
+        for (int first = 0; first < group_rays; first += lanes<float>) {
+            if (active_lanes(group, first) == 0)
+                continue;
+            const vmask<float> active = from_bits<float>(active_lanes(group, first));
+            const vreal<float> org = load(group.org[axis] + first);
+            low = select(active, min(low, org), low);
+            high = select(active, max(high, org), high);
+        }
+        alignas(64) float lows[lanes<float>];
+        alignas(64) float highs[lanes<float>];
+        store(lows, low);
+        store(highs, high);
+        float most = 0;
+        for (int lane = 0; lane < lanes<float>; ++lane) {
+            const float below = tree.middle[axis] - lows[lane];
+            const float above = highs[lane] - tree.middle[axis];
+            most = below > most ? below : most;
+            most = above > most ? above : most;
+        }
+        distance2 += most * most;
+    }
+    group.center_error = tree.center_error;
+    group.length = (__builtin_sqrtf(distance2) + tree.radius) * inflation;
+}
+
+/// The bounds of a quadric of a hierarchy for a group's rays.
+inline QuadricFilter leaf_filter(const abi::QuadricRecord<float>& record,
+                                 const abi::QuadricRecord<double>& wide,
+                                 const RayGroup<float>& group)
+{
+    Origins origins;
+    for (int axis = 0; axis < 3; ++axis)
+        origins.center[axis] = record.bound[axis];
+    origins.radius = group.length;
+    return quadric_filter<false>(record, wide, origins);
+}
+
+/// The bounds of spheres of a hierarchy for a group's rays.
+inline SphereBounds<vreal<float>> leaf_bounds(const RayGroup<float>& group,
+                                              const vreal<float>& radius)
+{
+    return sphere_bounds(radius, vreal<float>(group.center_error), vreal<float>(group.length));
+}
+
+/// The outer bound alone, above the one of sphere_bounds().
+inline vreal<float> leaf_outer2(const RayGroup<float>& group, const vreal<float>& radius)
+{
+    const vreal<float> moment(roundoffs(2.5f) * group.length + group.center_error);
+    const vreal<float> outer = madd(radius, vreal<float>(1.0f + roundoffs(12.0f)), moment);
+    return signed_square<float>(outer);
+}
+
+/// A quadric of a leaf.
+template <abi::Features F, class Real, class Own>
+inline void keep_leaf_quadric(HitPacket<Real>& hit, const abi::BvhView<Real>& tree, int number,
+                              const RayGroup<Real>& group, const RayPacket<Real>& rays,
+                              const Own& own)
+{
+    if constexpr (F.exact) {
+        const abi::QuadricRecord<float>& record = tree.quadrics[number];
+        const abi::QuadricRecord<double>& wide =
+            tree.shapes->quadrics[tree.shapes->index[record.surface].record];
+        keep_quadric<false>(hit, leaf_filter(record, wide, group), rays, RayScale(rays), own);
+    } else {
+        keep_quadric(hit, leaf_quadric(tree, number), rays, own);
+    }
+}
+
+}  // namespace
+}  // namespace packtrace::PACKTRACE_ISA

@@ -1,0 +1,43 @@
+#pragma once
+
+#include "kernels/packet.hpp"
+
+// The surface each ray starts on, which its search passes over: where the ray meets that surface
+// again is known before (leave_surface.hpp).
+namespace packtrace::PACKTRACE_ISA {
+namespace {
+
+/// Rays of which none starts on a surface.
+struct NoOwn {
+    template <class Real>
+    std::uint32_t lanes_on_others(std::int32_t) const
+    {
+        return all_lanes<Real>;
+    }
+};
+
+/// -1 for a ray that starts on none.
+template <class Packet>
+struct OwnSurface {
+    Packet surface;
+
+    /// Lanes whose rays start elsewhere than on `surface`.
+    template <class Real>
+    std::uint32_t lanes_on_others(std::int32_t number) const
+    {
+        return ~bits(int_equal(surface, vint<Real>(static_cast<lane_int<Real>>(number)))) &
+               all_lanes<Real>;
+    }
+};
+template <class Packet>
+OwnSurface(Packet) -> OwnSurface<Packet>;
+
+/// No ray's own surface.
+template <class Real>
+inline vint<Real> no_surface()
+{
+    return vint<Real>(lane_int<Real>(-1));
+}
+
+}  // namespace
+}  // namespace packtrace::PACKTRACE_ISA

@@ -1,0 +1,118 @@
+#pragma once
+
+#include "kernels/filter.hpp"
+#include "kernels/plane.hpp"
+
+// Certain tests of planes in single precision. Each group of rays sees the plane by the point
+// nearest its origins, so that heights are as small as they can be.
+namespace packtrace::PACKTRACE_ISA {
+namespace {
+
+/// A plane for the origins of one group: t = height / (normal·d), height = normal·(point - o).
+struct PlaneFilter {
+    float point[3];
+    float normal[3];
+    float height;        ///< over a shared origin, rounded once from double
+    float height_error;  ///< at most
+    float slope_error;   ///< of normal·d, per |d|
+    std::int32_t surface;
+};
+
+template <bool Shared>
+[[gnu::noinline]] PlaneFilter plane_filter(const abi::PlaneRecord<double>& plane, const Origins& origins)
+{
+    PlaneFilter filter{};
+    double height = 0;
+    double size = 0;
+    for (int axis = 0; axis < 3; ++axis) {
+        const double to_plane = plane.point[axis] - double{origins.center[axis]};
+        height += plane.normal[axis] * to_plane;
+        size += to_plane < 0 ? -to_plane : to_plane;
+    }
+    double off = 0;
+    double distance2 = 0;
+    double normal_error2 = 0;
+    for (int axis = 0; axis < 3; ++axis) {
+        const double point = double{origins.center[axis]} + height * plane.normal[axis];
+        filter.point[axis] = static_cast<float>(point);
+        filter.normal[axis] = static_cast<float>(plane.normal[axis]);
+        const double moved = double{filter.point[axis]} - point;
+        const double turned = double{filter.normal[axis]} - plane.normal[axis];
+        off += moved < 0 ? -moved : moved;
+        normal_error2 += turned * turned;
+        const double from = double{filter.point[axis]} - double{origins.center[axis]};
+        distance2 += from * from;
+    }
+    const double u = roundoffs(1.0f);
+    const double normal_error = __builtin_sqrt(normal_error2);
+    const double reach = __builtin_sqrt(distance2) * 1.000001 + double{origins.radius};
+    const double magnitude = height < 0 ? -height : height;
+    // Doubles lose 2^-50 of what enters the height.
+    const double of_double = size * 0x1p-50;
+    const double error = Shared ? 1.1 * u * magnitude + of_double
+                                : off + (4.2 * u + normal_error) * reach + of_double;
+    filter.height = static_cast<float>(height);
+    filter.height_error = static_cast<float>(error) * (1.0f + roundoffs(4.0f));
+    filter.slope_error = static_cast<float>(normal_error + 3.1 * u) * (1.0f + roundoffs(4.0f));
+    filter.surface = plane.surface;
+    return filter;
+}
+
+/// Where a plane is along the rays.
+struct PlaneCrossing {
+    vreal<float> low, high;
+    std::uint32_t sure;  ///< lanes whose crossing is in [low, high]; of the others it is not before
+    vreal<float> from;   ///< this, if ahead at all
+};
+
+template <bool Shared>
+inline PlaneCrossing crossing(const PlaneFilter& filter, const RayPacket<float>& rays,
+                              const RayScale& scale)
+{
+    const Vec3v<float> normal = broadcast(filter.normal);
+    const vreal<float> height =
+        Shared ? vreal<float>(filter.height) : dot(normal, broadcast(filter.point) - rays.org);
+    const vreal<float> slope = dot(normal, rays.dir);
+    const vreal<float> slope_error = vreal<float>(filter.slope_error) * scale.length;
+    const vreal<float> height_error(filter.height_error);
+    const vreal<float> t = height / slope;
+    const vreal<float> least_slope = abs(slope) - slope_error;
+    const vreal<float> error =
+        madd(abs(t), slope_error, height_error) / least_slope * vreal<float>(inflation) +
+        abs(t) * vreal<float>(roundoffs(3.0f));
+    PlaneCrossing result;
+    result.low = t - error;
+    result.high = t + error;
+    result.sure = bits(least_slope > slope_error);
+    const vreal<float> from = max(abs(height) - height_error, vreal<float>(0.0f)) /
+                              (abs(slope) + slope_error) * vreal<float>(1.0f - roundoffs(8.0f));
+    result.from = from;
+    return result;
+}
+
+template <bool Shared>
+inline void keep_plane(HitPacket<float>& hit, const PlaneFilter& filter,
+                       const RayPacket<float>& rays, const RayScale& scale, std::uint32_t not_own)
+{
+    const PlaneCrossing at = crossing<Shared>(filter, rays, scale);
+    const std::uint32_t ahead = at.sure & bits(at.low > rays.t_min);
+    const std::uint32_t behind = at.sure & bits(at.high < rays.t_min);
+    keep_sure(hit, from_bits<float>(ahead & not_own), at.low, at.high, filter.surface);
+    const std::uint32_t rest = ~ahead & ~behind & not_own;
+    if (rest != 0)
+        keep_doubt(hit, from_bits<float>(rest),
+                   select(from_bits<float>(at.sure), at.low, at.from));
+}
+
+template <bool Shared>
+inline Occlusion occludes(const PlaneFilter& filter, const RayPacket<float>& rays,
+                          const RayScale& scale, const vreal<float>& t_end)
+{
+    const PlaneCrossing at = crossing<Shared>(filter, rays, scale);
+    Occlusion result = root_between(at.low, at.high, at.sure, rays.t_min, t_end);
+    result.unsure |= ~at.sure & ~bits(at.from > t_end) & all_lanes<float>;
+    return result;
+}
+
+}  // namespace
+}  // namespace packtrace::PACKTRACE_ISA

@@ -1,0 +1,218 @@
+#pragma once
+
+#include "kernels/group_closest.hpp"
+#include "kernels/leave_surface.hpp"
+#include "kernels/tree_blockers.hpp"
+
+// Rays in single precision that are unsure of their hit, traced again in double, together however
+// few they are. Their places are found afterwards as those of all others (refine.hpp).
+namespace packtrace::PACKTRACE_ISA {
+namespace {
+
+inline void count_unsure(abi::RayCounts& counts, std::uint32_t unsure)
+{
+    counts.unsure += static_cast<unsigned>(__builtin_popcount(unsure));
+}
+
+/// The features of the kernels that rays are traced again by.
+template <abi::Features F>
+inline constexpr abi::Features wide_features{.quadrics = F.quadrics};
+
+/// Rays of a group of floats as a group of doubles.
+struct WideGroup {
+    RayGroup<double> rays;
+    std::uint8_t from[group_rays];  ///< their numbers in the group of floats
+    int count = 0;
+
+    WideGroup()
+    {
+        for (std::uint16_t& cell : rays.active)
+            cell = 0;
+    }
+
+    /// `t` and `surface` are what the search begins with.
+    void add(int ray, const float (&org)[3], const float (&dir)[3], float t_min, float t,
+             std::int32_t surface, std::int32_t own)
+    {
+        for (int axis = 0; axis < 3; ++axis) {
+            rays.org[axis][count] = org[axis];
+            rays.dir[axis][count] = dir[axis];
+        }
+        rays.t_min[count] = t_min;
+        rays.t[count] = t;
+        rays.surface[count] = surface;
+        rays.own[count] = own;
+        rays.t_low[count] = rays.other[count] = __builtin_inf();
+        rays.active[count / cell_rays] |= static_cast<std::uint16_t>(1u << count % cell_rays);
+        from[count++] = static_cast<std::uint8_t>(ray);
+    }
+};
+
+/// Adds the lanes of `unsure` of a packet, whose first ray has the number `first`.
+inline void add_lanes(WideGroup& group, int first, const RayPacket<float>& rays,
+                      const StartPacket<float>& start, const vreal<float>& t_max,
+                      std::uint32_t unsure)
+{
+    alignas(64) float value[9][lanes<float>];
+    alignas(64) std::int32_t own[lanes<float>];
+    store(value[0], rays.org.x);
+    store(value[1], rays.org.y);
+    store(value[2], rays.org.z);
+    store(value[3], rays.dir.x);
+    store(value[4], rays.dir.y);
+    store(value[5], rays.dir.z);
+    store(value[6], rays.t_min);
+    store(value[7], t_max);
+    store(value[8], start.second);
+    store(own, start.surface);
+    for (; unsure != 0; unsure &= unsure - 1) {
+        const int lane = __builtin_ctz(unsure);
+        const bool again = value[8][lane] < value[7][lane];
+        group.add(first + lane, {value[0][lane], value[1][lane], value[2][lane]},
+                  {value[3][lane], value[4][lane], value[5][lane]}, value[6][lane],
+                  again ? value[8][lane] : value[7][lane], again ? own[lane] : -1, own[lane]);
+    }
+}
+
+/// Finds their closest hits in double, and calls `take(ray, t, surface)` for each.
+template <abi::Features F, class Take>
+inline void find_wide(const abi::GeometryView<double>& wide, WideGroup& group, const Take& take)
+{
+    end_group(group.rays, group.count);
+    closest_of_group<wide_features<F>>(wide, wide, group.rays);
+    for (int i = 0; i < group.count; ++i)
+        take(group.from[i], static_cast<float>(group.rays.t[i]),
+             static_cast<std::int32_t>(group.rays.surface[i]));
+}
+
+/// The closest hits of the lanes of `unsure`, by double.
+template <abi::Features F>
+[[gnu::noinline]] void retrace_packet(const abi::GeometryView<double>& wide,
+                                      const RayPacket<float>& rays, HitPacket<float>& hit,
+                                      const StartPacket<float>& start, const vreal<float>& t_max,
+                                      std::uint32_t unsure)
+{
+    alignas(64) float t[lanes<float>];
+    alignas(64) std::int32_t surface[lanes<float>];
+    store(t, hit.t);
+    store(surface, hit.surface);
+    WideGroup group;
+    add_lanes(group, 0, rays, start, t_max, unsure);
+    find_wide<F>(wide, group, [&](int lane, float closest, std::int32_t number) {
+        t[lane] = closest;
+        surface[lane] = number;
+    });
+    hit.t = load(t);
+    hit.surface = load(surface);
+}
+
+/// Puts right what a packet hit where it is unsure; counts those lanes.
+template <abi::Features F, class Real>
+inline std::uint32_t settle_packet(const abi::SceneView<Real>& scene, const RayPacket<Real>& rays,
+                                   HitPacket<Real>& hit, const StartPacket<Real>& start,
+                                   const vreal<Real>& t_max, std::uint32_t active)
+{
+    if constexpr (F.exact) {
+        const std::uint32_t unsure = unsure_lanes(hit) & active;
+        if (unsure != 0)
+            retrace_packet<F>(*scene.wide, rays, hit, start, t_max, unsure);
+        return unsure;
+    } else {
+        return 0;
+    }
+}
+
+/// The closest hits of the rays of `unsure` of a group, by double; returns their number.
+template <abi::Features F, class StartOf, class EndOf>
+[[gnu::noinline]] int retrace_group(const abi::SceneView<float>& scene, RayGroup<float>& group,
+                                    const std::uint16_t (&unsure)[group_cells],
+                                    const StartOf& start_of, const EndOf& t_max_of)
+{
+    WideGroup again;
+    for (int first = 0; first < group_rays; first += lanes<float>) {
+        const std::uint32_t lanes_of =
+            unsure[first / cell_rays] >> first % cell_rays & all_lanes<float>;
+        if (lanes_of != 0)
+            add_lanes(again, first, load_rays(group, first), start_of(first), t_max_of(first),
+                      lanes_of);
+    }
+    find_wide<F>(*scene.wide, again, [&](int ray, float t, std::int32_t surface) {
+        group.t[ray] = t;
+        group.surface[ray] = surface;
+    });
+    return again.count;
+}
+
+/// The same of a group. `start_of(first)` tells where the rays of a packet start, `t_max_of(first)`
+/// where they end.
+template <abi::Features F, class Real, class StartOf, class EndOf>
+inline int settle_group(const abi::SceneView<Real>& scene, RayGroup<Real>& group,
+                        const StartOf& start_of, const EndOf& t_max_of)
+{
+    if constexpr (F.exact) {
+        std::uint16_t unsure[group_cells];
+        std::uint32_t any_unsure = 0;
+        for (int first = 0; first < group_rays; first += lanes<Real>) {
+            std::uint16_t& cell = unsure[first / cell_rays];
+            if (first % cell_rays == 0)
+                cell = 0;
+            const std::uint32_t active = active_lanes(group, first);
+            if (active == 0)
+                continue;
+            const std::uint32_t lanes_of = unsure_lanes(load_hits(group, first)) & active;
+            cell = static_cast<std::uint16_t>(cell | lanes_of << first % cell_rays);
+            any_unsure |= lanes_of;
+        }
+        return any_unsure == 0 ? 0 : retrace_group<F>(scene, group, unsure, start_of, t_max_of);
+    } else {
+        return 0;
+    }
+}
+
+/// What is in the way of rays up to their end, in double: calls `blocked(ray, surface)` for each
+/// object until it returns true.
+template <abi::Features F, class Blocked>
+inline void block_wide(const abi::GeometryView<double>& wide, WideGroup& group, bool closed,
+                       const Blocked& blocked)
+{
+    end_group(group.rays, group.count);
+    visit_blockers_of_group<wide_features<F>>(
+        wide, wide, group.rays, closed,
+        [&](std::int32_t surface, int first, std::uint32_t lanes_of) {
+            std::uint32_t done = 0;
+            for (; lanes_of != 0; lanes_of &= lanes_of - 1) {
+                const int lane = __builtin_ctz(lanes_of);
+                done |= blocked(int{group.from[first + lane]}, surface) ? 1u << lane : 0;
+            }
+            return done;
+        });
+}
+
+/// Adds the lanes of `unsure` of a packet of rays that end at t_end.
+inline void add_segments(WideGroup& group, int first, const RayPacket<float>& rays,
+                         const vint<float>& own, const vreal<float>& t_end, std::uint32_t unsure)
+{
+    StartPacket<float> start = no_start<float>();
+    start.surface = own;
+    add_lanes(group, first, rays, start, t_end, unsure);
+}
+
+/// The lanes of `unsure` that are blocked, by double.
+template <abi::Features F>
+[[gnu::noinline]] std::uint32_t retrace_occluded(const abi::GeometryView<double>& wide,
+                                                 const RayPacket<float>& rays,
+                                                 const vint<float>& own, const vreal<float>& t_end,
+                                                 bool closed, std::uint32_t unsure)
+{
+    WideGroup group;
+    add_segments(group, 0, rays, own, t_end, unsure);
+    std::uint32_t lanes_blocked = 0;
+    block_wide<F>(wide, group, closed, [&](int lane, std::int32_t) {
+        lanes_blocked |= 1u << lane;
+        return true;
+    });
+    return lanes_blocked;
+}
+
+}  // namespace
+}  // namespace packtrace::PACKTRACE_ISA
