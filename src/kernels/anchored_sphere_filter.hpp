@@ -152,6 +152,8 @@ inline AnchoredHit first_root(const AnchoredLine& line)
     AnchoredHit hit;
     hit.sure = crosses & ((outside & towards) | inside);
     hit.nothing = misses | (outside & away);
+    if (hit.nothing == all_lanes<float>)
+        return hit;
 
     const vreal<float> root = sqrt(max(line.discriminant, zero));
     // From outside, or from inside along the gradient: F(0) over what does not cancel. From inside

@@ -42,7 +42,7 @@ inline Occlusion leaf_quadric_occludes(const abi::BvhView<Real>& tree, int numbe
         const abi::QuadricRecord<double>& wide =
             tree.shapes->quadrics[tree.shapes->index[record.surface].record];
         const std::uint32_t active =
-            may_hit<false>(leaf_filter(record, wide, group), rays, RayScale(rays));
+            may_hit<false>(leaf_filter(record, wide, group), rays, RayScale(rays), t_end);
         return active == 0 ? Occlusion{} : occludes(wide, rays, t_end, own, active);
     } else {
         return {quadric_blocks(Reach<Real>{t_end, closed}, leaf_quadric(tree, number), rays, own),

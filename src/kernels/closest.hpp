@@ -86,7 +86,7 @@ template <bool Shared, class Own>
 inline void keep_quadric(HitPacket<float>& hit, const QuadricFilter& filter,
                          const RayPacket<float>& rays, const RayScale& scale, const Own& own)
 {
-    const std::uint32_t active = may_hit<Shared>(filter, rays, scale);
+    const std::uint32_t active = may_hit<Shared>(filter, rays, scale, hit.t);
     if (active == 0)
         return;
     const std::int32_t surface = filter.record->surface;

@@ -69,9 +69,13 @@ struct RayScale {
     vreal<float> length;    ///< |d|
 
     explicit RayScale(const RayPacket<float>& rays)
-        : inverse2(vreal<float>(1.0f) / rays.dir2),
-          inverse(sqrt(inverse2)),
-          length(rays.dir2 * inverse)
+        : RayScale(rays, sqrt(vreal<float>(1.0f) / rays.dir2))
+    {
+    }
+    RayScale(const RayPacket<float>& rays, const vreal<float>& inverse_length)
+        : inverse2(inverse_length * inverse_length),
+          inverse(inverse_length),
+          length(rays.dir2 * inverse_length)
     {
     }
 };

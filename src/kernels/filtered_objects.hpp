@@ -52,7 +52,7 @@ inline void append_bounds(SphereFilters& list, std::uint32_t kept,
     compress_store(list.bounds.inner2 + list.count, kept, bounds.inner2);
     compress_store(list.bounds.t_error + list.count, kept, bounds.t_error);
     compress_store(list.bounds.root_error + list.count, kept, bounds.root_error);
-    compress_store(list.bounds.band + list.count, kept, bounds.band);
+    compress_store(list.bounds.band2 + list.count, kept, bounds.band2);
 }
 
 /// A shared origin relative to a packet of centres, rounded once.
@@ -179,7 +179,7 @@ inline SphereTest test_of(const SphereFilters& list, int i, const Vec3v<float>& 
             vreal<float>(list.radius2[i]),
             {vreal<float>(list.bounds.outer2[i]), vreal<float>(list.bounds.inner2[i]),
              vreal<float>(list.bounds.t_error[i]), vreal<float>(list.bounds.root_error[i]),
-             vreal<float>(list.bounds.band[i])}};
+             vreal<float>(list.bounds.band2[i])}};
 }
 
 }  // namespace

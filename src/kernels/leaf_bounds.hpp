@@ -35,8 +35,16 @@ inline void bound_origins(RayGroup<float>& group, const abi::BvhView<float>& tre
         }
         distance2 += most * most;
     }
+    for (int first = 0; first < group_rays; first += lanes<float>)
+        if (active_lanes(group, first) != 0)
+            store(group.inverse + first, RayScale(load_rays(group, first)).inverse);
     group.center_error = tree.center_error;
     group.length = (__builtin_sqrtf(distance2) + tree.radius) * inflation;
+}
+
+inline RayScale scale_of(const RayGroup<float>& group, int first, const RayPacket<float>& rays)
+{
+    return {rays, load(group.inverse + first)};
 }
 
 /// The bounds of a quadric of a hierarchy for a group's rays.

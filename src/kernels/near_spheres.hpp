@@ -70,7 +70,7 @@ inline void keep_doubt(RayGroup<float>& group, int ray, float low)
 {
     near = without_own(group, ray, leaf, near);
     const RayPacket<float> rays = broadcast_ray(group, ray);
-    const RayScale scale(rays);
+    const RayScale scale(rays, vreal<float>(group.inverse[ray]));
     for (int first = 0; first < abi::node_width && near != 0; first += BlockLanes::step) {
         const std::uint32_t active = near >> first & ((1u << BlockLanes::step) - 1u);
         if (active == 0)
@@ -107,7 +107,7 @@ inline void keep_doubt(RayGroup<float>& group, int ray, float low)
 {
     near = without_own(group, ray, leaf, near);
     const RayPacket<float> rays = broadcast_ray(group, ray);
-    const RayScale scale(rays);
+    const RayScale scale(rays, vreal<float>(group.inverse[ray]));
     std::uint32_t blocking = 0;
     for (int first = 0; first < abi::node_width && near != 0; first += BlockLanes::step) {
         const std::uint32_t active = near >> first & ((1u << BlockLanes::step) - 1u);

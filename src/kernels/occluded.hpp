@@ -159,7 +159,7 @@ inline std::uint32_t visit_blockers(const vreal<float>& t_end,
         for (int i = 0; i < objects.quadric_count; ++i) {
             at.test(abi::Primitive::quadric);
             const QuadricFilter& filter = objects.quadrics[i];
-            const std::uint32_t active = may_hit<Shared>(filter, rays, scale);
+            const std::uint32_t active = may_hit<Shared>(filter, rays, scale, t_end);
             if (active == 0)
                 continue;
             const Occlusion occlusion = occludes(*filter.wide, rays, t_end, own, active & certain);

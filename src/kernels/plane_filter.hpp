@@ -61,9 +61,17 @@ template <bool Shared>
 /// Where a plane is along the rays.
 struct PlaneCrossing {
     vreal<float> low, high;
-    std::uint32_t sure;  ///< lanes whose crossing is in [low, high]; of the others it is not before
-    vreal<float> from;   ///< this, if ahead at all
+    std::uint32_t sure;  ///< lanes whose crossing is in [low, high]
+    vreal<float> height, slope, slope_error;
 };
+
+/// Where it is not before in the other lanes, if ahead at all.
+inline vreal<float> not_before(const PlaneFilter& filter, const PlaneCrossing& at)
+{
+    const vreal<float> height = abs(at.height) - vreal<float>(filter.height_error);
+    return max(height, vreal<float>(0.0f)) / (abs(at.slope) + at.slope_error) *
+           vreal<float>(1.0f - roundoffs(8.0f));
+}
 
 template <bool Shared>
 inline PlaneCrossing crossing(const PlaneFilter& filter, const RayPacket<float>& rays,
@@ -75,18 +83,15 @@ inline PlaneCrossing crossing(const PlaneFilter& filter, const RayPacket<float>&
     const vreal<float> slope = dot(normal, rays.dir);
     const vreal<float> slope_error = vreal<float>(filter.slope_error) * scale.length;
     const vreal<float> height_error(filter.height_error);
-    const vreal<float> t = height / slope;
-    const vreal<float> least_slope = abs(slope) - slope_error;
-    const vreal<float> error =
-        madd(abs(t), slope_error, height_error) / least_slope * vreal<float>(inflation) +
-        abs(t) * vreal<float>(roundoffs(3.0f));
-    PlaneCrossing result;
-    result.low = t - error;
-    result.high = t + error;
-    result.sure = bits(least_slope > slope_error);
-    const vreal<float> from = max(abs(height) - height_error, vreal<float>(0.0f)) /
-                              (abs(slope) + slope_error) * vreal<float>(1.0f - roundoffs(8.0f));
-    result.from = from;
+    const vreal<float> inverse = vreal<float>(1.0f) / slope;
+    const vreal<float> t = height * inverse;
+    const vreal<float> size = abs(t);
+    // The true slope is half of this one at least in the lanes that are sure.
+    const vreal<float> error = madd(madd(size, slope_error, height_error),
+                                    vreal<float>(2.0f * inflation) * abs(inverse),
+                                    size * vreal<float>(roundoffs(4.0f)));
+    PlaneCrossing result{t - error, t + error, 0, height, slope, slope_error};
+    result.sure = bits(abs(slope) > slope_error + slope_error);
     return result;
 }
 
@@ -101,7 +106,7 @@ inline void keep_plane(HitPacket<float>& hit, const PlaneFilter& filter,
     const std::uint32_t rest = ~ahead & ~behind & not_own;
     if (rest != 0)
         keep_doubt(hit, from_bits<float>(rest),
-                   select(from_bits<float>(at.sure), at.low, at.from));
+                   select(from_bits<float>(at.sure), at.low, not_before(filter, at)));
 }
 
 template <bool Shared>
@@ -110,7 +115,9 @@ inline Occlusion occludes(const PlaneFilter& filter, const RayPacket<float>& ray
 {
     const PlaneCrossing at = crossing<Shared>(filter, rays, scale);
     Occlusion result = root_between(at.low, at.high, at.sure, rays.t_min, t_end);
-    result.unsure |= ~at.sure & ~bits(at.from > t_end) & all_lanes<float>;
+    const std::uint32_t flat = ~at.sure & all_lanes<float>;
+    if (flat != 0)
+        result.unsure |= flat & ~bits(not_before(filter, at) > t_end);
     return result;
 }
 

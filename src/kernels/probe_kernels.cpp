@@ -18,14 +18,14 @@ constexpr abi::FeatureKernels<Real> kernels()
     return {{probe.name, F}, scratch_bytes<F, Real>, render_tile<F, Real>, nullptr};
 }
 
-constexpr abi::ProbeKernels all = {
+constexpr abi::ProbeKernels probes = {
     kernels<true, float>(), kernels<false, float>(), kernels<false, double>()};
 
 }  // namespace
 
 const abi::ProbeKernels& probe_kernels()
 {
-    return all;
+    return probes;
 }
 
 }  // namespace packtrace::PACKTRACE_ISA

@@ -60,20 +60,11 @@ inline vreal<Real> quadric_discriminant(const abi::QuadricRecord<Real>& quadric,
     return madd(l + l, turn, msub(lifted, lifted, madd(vreal<Real>(quadric.constant), a, squares)));
 }
 
-/// A ray's quadratic from its point nearest to the centre, `start` along it. There no term is
-/// larger than it must be.
+/// The ray p + t v in canonical space against the unclipped side.
 template <class Real>
-struct NearQuadratic {
-    Quadratic<Real> from_start;
-    vreal<Real> start;
-};
-
-template <class Real>
-inline NearQuadratic<Real> near_quadratic(const abi::QuadricRecord<Real>& quadric,
-                                          const Vec3v<Real>& p, const Vec3v<Real>& v)
+inline Quadratic<Real> side_quadratic(const abi::QuadricRecord<Real>& quadric,
+                                      const Vec3v<Real>& p, const Vec3v<Real>& v)
 {
-    const vreal<Real> start = negated(dot(p, v)) / dot(v, v);
-    const Vec3v<Real> near = madd<Real>(start, v, p);
     const Vec3v<Real> scaled = broadcast(quadric.square) * v;
     const vreal<Real> zero(Real(0));
     Quadratic<Real> q;
@@ -83,10 +74,10 @@ inline NearQuadratic<Real> near_quadratic(const abi::QuadricRecord<Real>& quadri
                                   madd(abs(scaled.y), abs(v.y), abs(scaled.z) * abs(v.z)));
     constexpr Real rounding = sizeof(Real) == sizeof(float) ? Real(0x1p-22) : Real(0x1p-51);
     q.a = select(abs(q.a) <= vreal<Real>(rounding) * size, zero, q.a);
-    q.b = madd(vreal<Real>(quadric.linear), v.z, dot(scaled, near));
-    q.c = quadric_value<Real>(quadric, near);
-    q.discriminant = quadric_discriminant<Real>(quadric, cross(near, v), v, q.a);
-    return {q, start};
+    q.b = madd(vreal<Real>(quadric.linear), v.z, dot(scaled, p));
+    q.c = quadric_value<Real>(quadric, p);
+    q.discriminant = quadric_discriminant<Real>(quadric, cross(p, v), v, q.a);
+    return q;
 }
 
 /// The part of a line between two of its points, which may be infinitely far.
@@ -121,8 +112,9 @@ inline ClipCrossings<Real> clip_crossings(const abi::QuadricRecord<Real>& quadri
     const auto along = climb == zero;
     const auto inside = (below <= zero) & (above >= zero);
     ClipCrossings<Real> clip;
-    clip.low_t = select(along, negated(never), below / climb);
-    clip.high_t = select(along, never, above / climb);
+    const vreal<Real> inverse = vreal<Real>(Real(1)) / climb;
+    clip.low_t = select(along, negated(never), below * inverse);
+    clip.high_t = select(along, never, above * inverse);
     clip.between = ordered<Real>(clip.low_t, clip.high_t);
     const auto nowhere = from_bits<Real>(bits(along) & ~bits(inside));
     clip.between.low = select(nowhere, never, clip.between.low);
@@ -139,7 +131,7 @@ inline void visit_crossings(const abi::QuadricRecord<Real>& quadric,
                             const Visit& visit)
 {
     const Vec3v<Real> v = apply_inverse(quadric, rays.dir);
-    const auto [quadratic, start] = near_quadratic<Real>(quadric, origin.p, v);
+    const Quadratic<Real> quadratic = side_quadratic<Real>(quadric, origin.p, v);
     const vreal<Real> zero(Real(0));
     const vreal<Real> root = sqrt(max(quadratic.discriminant, zero));
     const vreal<Real> minus_q = quadratic.b + with_sign_of(root, quadratic.b);
@@ -147,9 +139,8 @@ inline void visit_crossings(const abi::QuadricRecord<Real>& quadric,
         bits(quadratic.discriminant >= zero) & ~bits(minus_q == zero) & all_lanes<Real>;
     if (crosses == 0 && !quadric.capped)
         return;
-    // Sums and not products of signs, so that a root at infinity stays there.
-    const vreal<Real> first = start + negated(quadratic.c) / minus_q;
-    const vreal<Real> second = start + negated(minus_q) / quadratic.a;
+    const vreal<Real> first = negated(quadratic.c) / minus_q;
+    const vreal<Real> second = negated(minus_q) / quadratic.a;
     if (!quadric.clipped) {
         visit(from_bits<Real>(crosses), first, 0);
         visit(from_bits<Real>(crosses), second, 0);

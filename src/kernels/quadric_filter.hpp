@@ -15,13 +15,52 @@ struct QuadricFilter {
     float p[3];            ///< a shared origin in canonical space, rounded once from double
     float ball[3];         ///< centre of the bounding ball; for a shared origin from there to it
     float ball_outer2;     ///< infinite for an unbounded quadric
+    float ball_reach;      ///< half the way of a ray through the ball at most, times |d|
     float moment_error[3]; ///< of m = p × v, per |d|
     float dir_error[3];    ///< of v, per |d|
+    float most_error;      ///< of the discriminant, per d·d
 };
 
 inline float row_length(const float (&row)[3])
 {
     return __builtin_sqrtf(row[0] * row[0] + row[1] * row[1] + row[2] * row[2]) * inflation;
+}
+
+inline float square_error(float x, float dx)
+{
+    return (2 * x + dx) * dx + roundoffs(9.0f) * x * x;
+}
+inline float product_error(float x, float dx, float y, float dy)
+{
+    return x * dy + y * dx + dx * dy + roundoffs(9.0f) * x * y;
+}
+
+/// The error of the discriminant of any ray, at most: by the largest |v| and |m| there are.
+inline float most_error(const QuadricFilter& filter, const float (&row)[3], float reach)
+{
+    const abi::QuadricRecord<float>& quadric = *filter.record;
+    float size[3];
+    float moment[3];
+    for (int axis = 0; axis < 3; ++axis) {
+        size[axis] = magnitude(quadric.square[axis]);
+        moment[axis] = row[(axis + 1) % 3] * row[(axis + 2) % 3] * reach;
+    }
+    float error = 0;
+    for (int axis = 0; axis < 3; ++axis) {
+        error += size[(axis + 1) % 3] * size[(axis + 2) % 3] *
+                 square_error(moment[axis], filter.moment_error[axis]);
+        error += magnitude(quadric.constant) * size[axis] *
+                 square_error(row[axis], filter.dir_error[axis]);
+    }
+    const float linear = magnitude(quadric.linear);
+    if (linear > 0) {
+        for (int axis = 0; axis < 2; ++axis)
+            error += 2 * linear * size[1 - axis] *
+                     product_error(row[1 - axis], filter.dir_error[1 - axis], moment[axis],
+                                   filter.moment_error[axis]);
+        error += linear * linear * square_error(row[2], filter.dir_error[2]);
+    }
+    return error * inflation;
 }
 
 template <bool Shared>
@@ -58,12 +97,15 @@ template <bool Shared>
     for (int axis = 0; axis < 3; ++axis)
         filter.moment_error[axis] =
             roundoffs(26.0f) * row[(axis + 1) % 3] * row[(axis + 2) % 3] * reach;
+    filter.most_error = most_error(filter, row, reach);
     const float to_ball =
         (static_cast<float>(__builtin_sqrt(to_ball2)) + origins.radius) * inflation;
     const SphereBounds<vreal<float>> ball =
         sphere_bounds(vreal<float>(record.bound_radius * inflation),
                       vreal<float>(ball_error * inflation), vreal<float>(to_ball));
     filter.ball_outer2 = first_lane<float>(ball.outer2);
+    filter.ball_reach =
+        (__builtin_sqrtf(filter.ball_outer2) + first_lane<float>(ball.t_error)) * inflation;
     return filter;
 }
 
@@ -82,8 +124,11 @@ template <bool Shared>
     const vreal<float> k(quadric.constant);
     const vreal<float> a = dot(s * v, v);
     const vreal<float> discriminant = quadric_discriminant<float>(quadric, m, v, a);
-    if (none(discriminant < vreal<float>(0.0f)))
-        return 0;
+    const std::uint32_t negative = bits(discriminant < vreal<float>(0.0f));
+    const std::uint32_t by_most =
+        bits(discriminant < negated(vreal<float>(filter.most_error) * rays.dir2));
+    if (negative == 0 || (by_most == negative && !quadric.capped))
+        return by_most;
     // The error of each product of two values x, y known to dx, dy: |x| dy + |y| dx + dx dy, and
     // the rounding of the sums.
     const vreal<float> l(quadric.linear);
@@ -121,19 +166,30 @@ template <bool Shared>
     return quadric.capped ? misses & bits(a > of_a * vreal<float>(inflation)) : misses;
 }
 
-/// Lanes that may hit the quadric, in double to be looked at.
+/// Lanes that may hit the quadric's bounding ball between t_min and t_end.
+template <bool Shared>
+inline std::uint32_t may_hit_ball(const QuadricFilter& filter, const RayPacket<float>& rays,
+                                  const RayScale& scale, const vreal<float>& t_end)
+{
+    const Vec3v<float> w = Shared ? broadcast(filter.ball) : rays.org - broadcast(filter.ball);
+    const std::uint32_t near = bits(approach(w, vreal<float>(filter.ball_outer2), rays).near);
+    if (near == 0)
+        return 0;
+    const vreal<float> middle = negated(dot(w, rays.dir)) * scale.inverse2;
+    const vreal<float> reach = madd(vreal<float>(filter.ball_reach), scale.inverse,
+                                    vreal<float>(roundoffs(8.0f)) * abs(middle));
+    return near & ~bits(middle + reach < rays.t_min) & ~bits(middle - reach > t_end);
+}
+
+/// Lanes that may hit the quadric between t_min and t_end, in double to be looked at.
 template <bool Shared>
 inline std::uint32_t may_hit(const QuadricFilter& filter, const RayPacket<float>& rays,
-                             const RayScale& scale)
+                             const RayScale& scale, const vreal<float>& t_end)
 {
-    if (filter.ball_outer2 < __builtin_inff()) {
-        const Vec3v<float> w =
-            Shared ? broadcast(filter.ball) : rays.org - broadcast(filter.ball);
-        const std::uint32_t near =
-            bits(approach(w, vreal<float>(filter.ball_outer2), rays).near);
-        return near == 0 ? 0 : near & ~surely_misses<Shared>(filter, rays, scale);
-    }
-    return all_lanes<float> & ~surely_misses<Shared>(filter, rays, scale);
+    std::uint32_t near = all_lanes<float>;
+    if (filter.ball_outer2 < __builtin_inff())
+        near = may_hit_ball<Shared>(filter, rays, scale, t_end);
+    return near == 0 ? 0 : near & ~surely_misses<Shared>(filter, rays, scale);
 }
 
 /// Where half a packet crosses a quadric beyond t_min: roots 0 and 1 are the side's, 2 and 3 the
@@ -163,8 +219,12 @@ template <class Visit>
 inline void visit_in_double(const abi::QuadricRecord<double>& quadric,
                             const RayPacket<float>& rays, std::uint32_t active, const Visit& visit)
 {
-    const HalfCrossings low = half_crossings(quadric, widen_low(rays));
-    const HalfCrossings high = half_crossings(quadric, widen_high(rays));
+    HalfCrossings low;
+    HalfCrossings high;
+    if ((active & all_lanes<double>) != 0)
+        low = half_crossings(quadric, widen_low(rays));
+    if (active >> lanes<double> != 0)
+        high = half_crossings(quadric, widen_high(rays));
     for (int at = 0; at < 4; ++at) {
         const std::uint32_t valid = narrow_bits(low.valid[at], high.valid[at]) & active;
         if (valid == 0)

@@ -26,8 +26,10 @@ struct alignas(64) RayGroup {
     Real t_low[group_rays];
     Real other[group_rays];
     std::uint16_t unsure[group_cells];
-    float center_error;  ///< of the hierarchy's spheres
-    float length;        ///< the largest distance of an origin from any of their centres
+    // With Features::exact, for the objects of the hierarchy.
+    Real inverse[group_rays];  ///< 1 / |d|
+    float center_error;        ///< of the hierarchy's spheres
+    float length;              ///< the largest distance of an origin from any of their centres
 };
 
 /// Lanes of the packet at `first` become unsure.

@@ -34,12 +34,12 @@ inline vreal<double> first_root(const Quadratic<double>& quadratic, const vreal<
 {
     const vreal<double> root = sqrt(max(quadratic.discriminant, vreal<double>(0.0)));
     const vreal<double> minus_q = quadratic.b + with_sign_of(root, quadratic.b);
-    const vreal<double> one = negated(quadratic.c) / minus_q;
-    const vreal<double> two = negated(minus_q) / quadratic.a;
-    const auto one_counts = one > t_min;
-    const auto two_counts = two > t_min;
-    const auto take_two = two_counts & ((two < one) | !one_counts);
-    return select(take_two, two, one);
+    const vreal<double> first = negated(quadratic.c) / minus_q;
+    // For t_min >= 0 this is the first root that can count.
+    const auto counts = first > t_min;
+    if (all(counts))
+        return first;
+    return select(counts, first, negated(minus_q) / quadratic.a);
 }
 
 inline RefinedHalf refine(const abi::SphereShape& sphere, const RayPacket<double>& rays)

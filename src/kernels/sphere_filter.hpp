@@ -17,7 +17,8 @@ struct SphereBounds {
     Value inner2;      ///< (r - h)², rounded down; negative for none
     Value t_error;     ///< of t, times |d|, but for what a small discriminant adds
     Value root_error;  ///< that is this over the root of the discriminant
-    Value band;        ///< half the way in the sphere of a ray in between, at most, times |d|
+    Value band2;       ///< the square of a quarter of the way in the sphere, times d·d, of a ray in
+                       ///< between, at most
 };
 
 /// `center_error` is how far w may be off by but for the rounding of a subtraction, `length` the
@@ -38,8 +39,7 @@ inline SphereBounds<vreal<float>> sphere_bounds(const vreal<float>& radius,
     bounds.inner2 = signed_square<float>(inner) * vreal<float>(1.0f - roundoffs(16.0f));
     bounds.t_error = madd(vreal<float>(roundoffs(2.0f)), size, along);
     bounds.root_error = vreal<float>(1.31f) * size * discriminant;
-    bounds.band = madd(vreal<float>(2.0f * inflation),
-                       sqrt(max(size * (size - min(inner, size)), vreal<float>(0.0f))), along);
+    bounds.band2 = max(size * (size - min(inner, size)), vreal<float>(0.0f));
     return bounds;
 }
 
@@ -80,7 +80,7 @@ inline SphereCrossing crossing(const SphereTest& test, const SphereApproach& nea
     const vreal<float> root = sqrt(max(discriminant, vreal<float>(0.0f)));
     const vreal<float> error =
         madd(test.bounds.t_error, scale.inverse, test.bounds.root_error / root);
-    const vreal<float> per_t(roundoffs(8.0f));
+    const vreal<float> per_t(roundoffs(12.0f));
     SphereCrossing result;
     result.middle = negated(b) * scale.inverse2;
     result.roots.near = (negated(b) - root) * scale.inverse2;
@@ -95,7 +95,9 @@ inline SphereCrossing crossing(const SphereTest& test, const SphereApproach& nea
 inline vreal<float> band_error(const SphereTest& test, const SphereCrossing& at,
                                const RayScale& scale)
 {
-    return madd(test.bounds.band, scale.inverse, vreal<float>(roundoffs(8.0f)) * abs(at.middle));
+    const vreal<float> half =
+        madd(vreal<float>(2.0f * inflation), sqrt(test.bounds.band2), test.bounds.t_error);
+    return madd(half, scale.inverse, vreal<float>(roundoffs(12.0f)) * abs(at.middle));
 }
 
 /// The closest hit of a packet that is near the sphere, but for the lanes that start on it.

@@ -82,7 +82,7 @@ private:
                 return {};
             const Occlusion occlusion =
                 occludes({w, radius * radius, leaf_bounds(group_, radius)}, near, rays,
-                         RayScale(rays), load(group_.t + first));
+                         scale_of(group_, first, rays), load(group_.t + first));
             return {but_own<Real>(occlusion.blocked, own, surface),
                     but_own<Real>(occlusion.unsure, own, surface)};
         } else {

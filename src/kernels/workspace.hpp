@@ -70,7 +70,7 @@ inline FilteredObjects<Shared> take_filters(Arena& arena, const abi::GeometryVie
     objects.spheres.bounds.inner2 = arena.take<float>(spheres);
     objects.spheres.bounds.t_error = arena.take<float>(spheres);
     objects.spheres.bounds.root_error = arena.take<float>(spheres);
-    objects.spheres.bounds.band = arena.take<float>(spheres);
+    objects.spheres.bounds.band2 = arena.take<float>(spheres);
     objects.spheres.surface = arena.take<std::int32_t>(spheres);
     objects.anchored_spheres =
         arena.take<AnchoredFilter>(static_cast<std::size_t>(scene.anchored_spheres.count));
