@@ -34,11 +34,12 @@ struct HitsView {
     std::int32_t* surface = nullptr;  ///< likewise
 };
 
-/// Takes the hits of all rays one by one, those of a ray in no order.
+/// Takes the hits of all rays one by one, those of a ray in no order. `t` is as the search had it,
+/// so that hits sort right that round to one t in `Real`.
 template <class Real>
 struct HitSink {
     void* context = nullptr;
-    void (*take)(void* context, int ray, Real t, std::int32_t object,
+    void (*take)(void* context, int ray, double t, std::int32_t object,
                  const Real (&normal)[3]) = nullptr;
 };
 

@@ -392,7 +392,7 @@ inline void report_hits(const abi::SceneView<Real>& scene, const RayGroup<Search
         const Real unit_normal[3] = {static_cast<Real>(normals[0][lane]),
                                      static_cast<Real>(normals[1][lane]),
                                      static_cast<Real>(normals[2][lane])};
-        sink.take(sink.context, begin + first + lane, static_cast<Real>(ts[lane]), object,
+        sink.take(sink.context, begin + first + lane, static_cast<double>(ts[lane]), object,
                   unit_normal);
     }
 }

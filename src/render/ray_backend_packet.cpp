@@ -67,14 +67,28 @@ void add_starts(abi::RaysView<Real>& piece, const StartsView<Real>& starts, std:
     piece.start_surface = starts.surface + first;
 }
 
+/// A hit as it is sorted: by its t before rounding.
 template <class Real>
-using HitsByRay = std::vector<std::vector<SurfaceHit<Real>>>;
+struct FoundHit {
+    double t;
+    std::int32_t object;
+    SurfaceHit<Real> hit;
+
+    bool operator<(const FoundHit& other) const
+    {
+        return std::pair(t, object) < std::pair(other.t, other.object);
+    }
+};
 
 template <class Real>
-void gather(void* by_ray, int ray, Real t, std::int32_t object, const Real (&normal)[3])
+using HitsByRay = std::vector<std::vector<FoundHit<Real>>>;
+
+template <class Real>
+void gather(void* by_ray, int ray, double t, std::int32_t object, const Real (&normal)[3])
 {
     auto& hits = (*static_cast<HitsByRay<Real>*>(by_ray))[static_cast<std::size_t>(ray)];
-    hits.push_back({t, object, {normal[0], normal[1], normal[2]}});
+    hits.push_back(
+        {t, object, {static_cast<Real>(t), object, {normal[0], normal[1], normal[2]}}});
 }
 
 template <class Real>
@@ -111,15 +125,17 @@ public:
                   const typename RayScene<Real>::TakeHits& take) const override
     {
         HitsByRay<Real> by_ray(std::min(rays.count, longest_gathering));
+        std::vector<SurfaceHit<Real>> sorted;
         for (std::size_t first = 0; first < rays.count; first += longest_gathering) {
             const auto piece = piece_of(rays, first, longest_gathering);
             kernels_.all_hits(packed_.view(), piece, {&by_ray, gather<Real>});
             for (int ray = 0; ray < piece.count; ++ray) {
                 auto& hits = by_ray[static_cast<std::size_t>(ray)];
-                std::sort(hits.begin(), hits.end(), [](const auto& a, const auto& b) {
-                    return std::pair(a.t, a.object) < std::pair(b.t, b.object);
-                });
-                take(first + static_cast<std::size_t>(ray), hits);
+                std::sort(hits.begin(), hits.end());
+                sorted.clear();
+                for (const FoundHit<Real>& found : hits)
+                    sorted.push_back(found.hit);
+                take(first + static_cast<std::size_t>(ray), sorted);
                 hits.clear();
             }
         }
