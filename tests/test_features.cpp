@@ -62,8 +62,9 @@ abi::Features features_of(const Scene& scene)
 /// The name of the narrowest kernel that renders a scene.
 std::string kernel_of(const Scene& scene)
 {
+    const abi::Features needed = features_of(scene);
     for (const abi::FeatureSet& set : abi::feature_sets)
-        if (abi::covers(set.features, features_of(scene)))
+        if (abi::covers(abi::with_exact(set.features, needed.exact), needed))
             return set.name;
     return "none";
 }
@@ -71,7 +72,7 @@ std::string kernel_of(const Scene& scene)
 /// Whether kernels for sets of features are compiled for an instruction set.
 bool has_special_kernels(const std::string& isa)
 {
-    return kernels_for(precision<float>(kernels_of(isa)), {}).set.name == std::string("matt");
+    return kernels_for(precision<float>(kernels_of(isa)), {.exact = true}).set.name == std::string("matt");
 }
 
 Scene scene_named(const std::string& name)

@@ -221,11 +221,11 @@ TEST_CASE("reflected rays are tested against every object of a list, each once",
             REQUIRE(traced.live > 0);
             const auto& tests = at.tests[static_cast<int>(abi::Role::own)];
             const auto of = [&](abi::Primitive kind) { return tests[static_cast<int>(kind)]; };
-            // Single precision can't hold the ground.
+            // The ground is an anchored sphere.
             CHECK(of(abi::Primitive::sphere).pairs == 3 * traced.live);
             CHECK(of(abi::Primitive::sphere).packets == 3 * traced.packets);
-            CHECK(of(abi::Primitive::stiff).pairs == traced.live);
-            CHECK(of(abi::Primitive::stiff).packets == traced.packets);
+            CHECK(of(abi::Primitive::anchored_sphere).pairs == traced.live);
+            CHECK(of(abi::Primitive::anchored_sphere).packets == traced.packets);
             CHECK(all_pairs(at, abi::Role::own) == 4 * traced.live);
         }
         CHECK(all_pairs(frame.counts[0], abi::Role::own) <= 4 * frame.rays.camera);
