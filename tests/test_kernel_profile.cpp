@@ -129,6 +129,7 @@ void check_pictures(const Scene& scene, const std::string& isa)
 {
     const Image<Real> own = picture_of<Real>(scene, isa, false);
     const Image<Real> plain = picture_of<Real>(scene, isa, true);
+    CAPTURE(isa, scene.objects.size(), sizeof(Real));
     CHECK((own.rgb == plain.rgb));
     auto frame = observed_frame<Real>(scene, isa);
     const auto check = [&](abi::Observation* observation) {

@@ -44,7 +44,7 @@ struct ColumnsOfRays {
     }
 };
 
-std::string text_of(const StressRay& ray, const TrueHit& truth, std::int32_t object, float t)
+std::string text_of(const StressRay& ray, const AimedTruth& truth, std::int32_t object, float t)
 {
     std::ostringstream text;
     text << std::hexfloat << "ray " << ray.org.x << ' ' << ray.org.y << ' ' << ray.org.z << " -> "
@@ -55,14 +55,14 @@ std::string text_of(const StressRay& ray, const TrueHit& truth, std::int32_t obj
     return text.str();
 }
 
-bool right_t(const TrueHit& truth, float t)
+bool right_t(const AimedTruth& truth, float t)
 {
     const double ulp = std::ldexp(1.0, std::ilogb(truth.t) - 23);
     return std::abs(static_cast<double>(t) - truth.t) <=
            ulp + double_band * truth.condition * truth.t;
 }
 
-WrongAnswers wrong_answers(const AimedRays& aimed, const std::vector<TrueHit>& truths,
+WrongAnswers wrong_answers(const AimedRays& aimed, const std::vector<AimedTruth>& truths,
                            const RenderOptions& options)
 {
     const RayScene<float> scene(aimed.scene, options);
@@ -77,7 +77,7 @@ WrongAnswers wrong_answers(const AimedRays& aimed, const std::vector<TrueHit>& t
     scene.occluded(columns.view(), mask.data());
     WrongAnswers wrong;
     for (std::size_t i = 0; i < n; ++i) {
-        const TrueHit& truth = truths[i];
+        const AimedTruth& truth = truths[i];
         const bool wrong_object = truth.decidable && object[i] != truth.object;
         const bool wrong_t = truth.decidable && object[i] == truth.object && object[i] >= 0 &&
                              !right_t(truth, t[i]);
@@ -105,7 +105,7 @@ void check_aimed(const AimedFamily& family, int scenes, int rays, std::uint64_t 
             study::round_to_precision<float>(ray);
         }
         const Truth truth(aimed.scene);
-        std::vector<TrueHit> truths;
+        std::vector<AimedTruth> truths;
         for (const StressRay& ray : aimed.rays) {
             truths.push_back(truth.of(ray, random));
             decidable += truths.back().decidable;

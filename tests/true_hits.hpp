@@ -14,7 +14,7 @@ namespace packtrace::test {
 /// Relative changes of the inputs, in roundoffs of double, within which nothing is held to.
 inline constexpr double double_band = 16.0 * 0x1p-53;
 
-struct TrueHit {
+struct AimedTruth {
     std::int32_t object = -1;  ///< -1: none
     double t = 0.0;
     double condition = 0.0;
@@ -34,53 +34,51 @@ public:
             surfaces_.emplace_back(scene.objects[i], static_cast<std::int32_t>(i));
     }
 
-    [[nodiscard]] TrueHit of(const StressRay& ray, StressRandom& random) const
+    [[nodiscard]] AimedTruth of(const StressRay& ray, StressRandom& random) const
     {
-        std::vector<study::Meeting> meetings;
+        std::vector<study::TrueHit> hits;
         for (const study::WideSurface& surface : surfaces_)
-            study::find_meetings(surface, ray, meetings);
-        TrueHit hit = closest(meetings);
+            study::find_true_hits(surface, ray, hits);
+        AimedTruth hit = closest(hits);
         if (hit.object >= 0)
             hit.t_max = static_cast<float>(hit.t * (1.0 + aim_error(random)));
-        set_occlusion(hit, meetings);
+        set_occlusion(hit, hits);
         return hit;
     }
 
 private:
-    static TrueHit closest(const std::vector<study::Meeting>& meetings)
+    static AimedTruth closest(const std::vector<study::TrueHit>& hits)
     {
-        const study::Meeting* first = nullptr;
-        TrueHit hit;
-        for (const study::Meeting& meeting : meetings) {
-            hit.decidable = hit.decidable && meeting.margin >= double_band;
-            if (meeting.exists && (first == nullptr || meeting.t < first->t))
-                first = &meeting;
+        const study::TrueHit* first = nullptr;
+        AimedTruth hit;
+        for (const study::TrueHit& other : hits) {
+            hit.decidable = hit.decidable && other.margin >= double_band;
+            if (other.exists && (first == nullptr || other.t < first->t))
+                first = &other;
         }
         if (first == nullptr)
             return hit;
         hit.object = first->object;
         hit.t = static_cast<double>(first->t);
         hit.condition = first->condition;
-        for (const study::Meeting& meeting : meetings) {
-            const double apart = double_band * (meeting.condition + first->condition) * hit.t;
-            if (meeting.exists && meeting.object != first->object)
-                hit.decidable =
-                    hit.decidable && static_cast<double>(meeting.t - first->t) > apart;
+        for (const study::TrueHit& other : hits) {
+            const double apart = double_band * (other.condition + first->condition) * hit.t;
+            if (other.exists && other.object != first->object)
+                hit.decidable = hit.decidable && static_cast<double>(other.t - first->t) > apart;
         }
         return hit;
     }
 
-    static void set_occlusion(TrueHit& hit, const std::vector<study::Meeting>& meetings)
+    static void set_occlusion(AimedTruth& hit, const std::vector<study::TrueHit>& hits)
     {
-        for (const study::Meeting& meeting : meetings) {
-            hit.occluded = hit.occluded || (meeting.exists && meeting.t < study::Wide(hit.t_max));
-            const double t = static_cast<double>(meeting.t);
-            const double from_end =
-                std::abs(static_cast<double>(meeting.t - study::Wide(hit.t_max)));
-            if (meeting.exists && std::isfinite(hit.t_max))
+        for (const study::TrueHit& other : hits) {
+            hit.occluded = hit.occluded || (other.exists && other.t < study::Wide(hit.t_max));
+            const double t = static_cast<double>(other.t);
+            const double from_end = std::abs(static_cast<double>(other.t - study::Wide(hit.t_max)));
+            if (other.exists && std::isfinite(hit.t_max))
                 hit.occlusion_decidable =
-                    hit.occlusion_decidable && from_end > double_band * meeting.condition * t;
-            hit.occlusion_decidable = hit.occlusion_decidable && meeting.margin >= double_band;
+                    hit.occlusion_decidable && from_end > double_band * other.condition * t;
+            hit.occlusion_decidable = hit.occlusion_decidable && other.margin >= double_band;
         }
     }
 
