@@ -20,7 +20,7 @@ template <class Real>
 class ClosestHits {
 public:
     ClosestHits(const Scene& scene, const std::string& isa)
-        : lowered_(lower(scene)),
+        : lowered_(lower(scene, accuracy_in<Real>({}))),
           packed_(lowered_),
           camera_(camera_view<Real>(scene, lowered_)),
           kernels_(kernels_for(precision<Real>(kernels_of(isa)), lowered_.features)),

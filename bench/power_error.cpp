@@ -19,19 +19,15 @@ void append_errors(nlohmann::ordered_json& errors)
         const auto samples = test::power_samples<Real>(decade, 1e-4, 4000);
         for (const std::string& isa : supported_isas()) {
             const auto& kernels = kernels_of(isa);
-            for (const bool robust : {false, true}) {
-                const auto error =
-                    test::power_error(samples, robust ? test::precise_powers(kernels, samples)
-                                                      : test::highlight_powers(kernels, samples));
-                errors.push_back({{"isa", isa},
-                                  {"precision", precision_name<Real>()},
-                                  {"mode", robust ? "robust" : "fast, auto"},
-                                  {"exponents", {decade.first, decade.last}},
-                                  {"max_ulp", error.max_ulp},
-                                  {"p99_ulp", error.p99_ulp},
-                                  {"max_abs", error.max_abs},
-                                  {"samples", error.counted}});
-            }
+            const auto error =
+                test::power_error(samples, test::highlight_powers(kernels, samples));
+            errors.push_back({{"isa", isa},
+                              {"precision", precision_name<Real>()},
+                              {"exponents", {decade.first, decade.last}},
+                              {"max_ulp", error.max_ulp},
+                              {"p99_ulp", error.p99_ulp},
+                              {"max_abs", error.max_abs},
+                              {"samples", error.counted}});
         }
     }
 }

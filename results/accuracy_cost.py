@@ -13,7 +13,7 @@ import sys
 import tempfile
 
 ROOT = pathlib.Path(__file__).resolve().parents[1]
-MODES = ("fast", "auto", "robust")
+MODES = ("fast", "exact")
 
 
 def milliseconds(program, scene, size, rule, mode, folder):

@@ -52,8 +52,11 @@ struct TracingSetup {
     PackedScene<Real> packed;
     abi::CameraView<Real> camera;
 
-    explicit TracingSetup(const Scene& scene)
-        : lowered(lower(scene)), packed(lowered), camera(camera_view<Real>(scene, lowered))
+    /// For floats in a mode; doubles have but one.
+    explicit TracingSetup(const Scene& scene, Accuracy accuracy = Accuracy::exact)
+        : lowered(lower(scene, sizeof(Real) == sizeof(float) ? accuracy : Accuracy::fast)),
+          packed(lowered),
+          camera(camera_view<Real>(scene, lowered))
     {
     }
 };

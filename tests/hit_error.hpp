@@ -7,39 +7,46 @@
 // Holds closest hits of the kernels against long double ones.
 namespace packtrace::test {
 
-/// Everything a ray could hit, as exact as the inputs the kernels were given.
+/// Everything a ray could hit, as exact as the inputs the kernels were given: in exact mode the
+/// scene's own numbers, else those rounded to Real.
 template <class Real>
 [[nodiscard]] std::vector<ExactHit> exact_hits(const LongRay& ray, const LoweredScene& scene)
 {
+    const bool exact = scene.features.exact;
+    const auto given = [=](const Vec3& v) {
+        return exact ? LongVec(v) : LongVec(glm::vec<3, Real>(v));
+    };
     std::vector<ExactHit> hits(scene.material_index.size());
     for (const LoweredSphere& sphere : scene.spheres) {
-        const LongVec center(glm::vec<3, Real>(sphere.center));
-        const long double radius2 = static_cast<Real>(sphere.radius * sphere.radius);
+        const auto radius = static_cast<long double>(sphere.radius);
+        const long double radius2 =
+            exact ? radius * radius : static_cast<Real>(sphere.radius * sphere.radius);
         hits[static_cast<std::size_t>(sphere.surface)] =
-            exact_sphere(ray, center, radius2, LongVec(sphere.center));
+            exact_sphere(ray, given(sphere.center), radius2, LongVec(sphere.center));
     }
-    // A huge sphere's centre is not rounded to float: it is given by a point of its surface, and
-    // held against the scene's own numbers. For doubles those are rounded too.
-    for (const LoweredHugeSphere& sphere : scene.huge_spheres) {
+    // An anchored sphere's centre is not rounded to float: it is given by a point of its surface,
+    // and held against the scene's own numbers. For doubles those are rounded too.
+    for (const LoweredAnchoredSphere& sphere : scene.anchored_spheres) {
         const long double radius2 = static_cast<long double>(sphere.radius) * sphere.radius;
         const LongVec place(sizeof(Real) < sizeof(double) ? sphere.anchor : sphere.center);
         hits[static_cast<std::size_t>(sphere.surface)] =
             exact_sphere(ray, LongVec(sphere.center), radius2, place);
     }
     for (const LoweredPlane& plane : scene.planes)
-        hits[static_cast<std::size_t>(plane.surface)] = exact_plane(
-            ray, LongVec(glm::vec<3, Real>(plane.point)), LongVec(glm::vec<3, Real>(plane.normal)));
+        hits[static_cast<std::size_t>(plane.surface)] =
+            exact_plane(ray, given(plane.point), given(plane.normal));
     return hits;
 }
 
-/// How many rays are wrong, and in what. Errors count in the unit roundoff of Real.
+/// How many rays are wrong, and in what. The band and `worst_t` count in the unit roundoff of what
+/// decides: of double in exact mode, else of Real.
 struct HitErrors {
     int rays = 0;
     int hits = 0;
     int undecidable = 0;  ///< rays that had an object within `band` of being hit or missed
     int wrong_object = 0;
     double worst_t = 0.0;    ///< of t's relative error over what the condition allows
-    double worst_ulp = 0.0;  ///< of t's error in units of its last place
+    double worst_ulp = 0.0;  ///< of t's error in units of Real's last place
 };
 
 /// Relative changes of the inputs, in roundoffs, within which hit or miss is not held to.
@@ -51,7 +58,8 @@ inline constexpr long double stability = 4.0L;
 template <class Real>
 class HitJudge {
 public:
-    explicit HitJudge(const LoweredScene& scene) : scene_(scene)
+    explicit HitJudge(const LoweredScene& scene)
+        : scene_(scene), roundoff_(scene.features.exact ? 0x1p-53L : own_roundoff)
     {
     }
 
@@ -61,7 +69,7 @@ public:
         errors.rays += 1;
         errors.hits += traced.object >= 0;
         errors.undecidable += std::any_of(exact.begin(), exact.end(),
-                                          [](const ExactHit& hit) { return undecidable(hit); });
+                                          [&](const ExactHit& hit) { return undecidable(hit); });
         errors.wrong_object += !is_closest(traced, exact);
         if (traced.object >= 0)
             judge_t(traced.t, exact[static_cast<std::size_t>(traced.object)]);
@@ -70,28 +78,32 @@ public:
     HitErrors errors;
 
 private:
-    static constexpr long double roundoff = std::numeric_limits<Real>::epsilon() / 2;
+    static constexpr long double own_roundoff = std::numeric_limits<Real>::epsilon() / 2;
 
-    static bool undecidable(const ExactHit& hit)
+    [[nodiscard]] bool undecidable(const ExactHit& hit) const
     {
-        return !(hit.margin >= band * roundoff);
+        return !(hit.margin >= band * roundoff_);
     }
-    static long double allowed(const ExactHit& hit)
+    [[nodiscard]] long double allowed(const ExactHit& hit) const
     {
-        return stability * hit.condition * roundoff * hit.t;
+        return stability * hit.condition * roundoff_ * hit.t;
     }
 
     /// The object found is hit, and no other one surely nearer; none is found where all miss.
-    static bool is_closest(const TracedRay<Real>& traced, const std::vector<ExactHit>& exact)
+    [[nodiscard]] bool is_closest(const TracedRay<Real>& traced,
+                                  const std::vector<ExactHit>& exact) const
     {
         const auto found = static_cast<std::size_t>(traced.object);
         if (traced.object >= 0 && !exact[found].hit && !undecidable(exact[found]))
             return false;
+        // What decides in exact mode has more digits than t is answered with.
+        const bool known = scene_.features.exact && traced.object >= 0 && exact[found].hit;
+        const long double t = known ? exact[found].t : static_cast<long double>(traced.t);
         for (std::size_t other = 0; other < exact.size(); ++other) {
             const ExactHit& hit = exact[other];
             if (other == found || !hit.hit || undecidable(hit))
                 continue;
-            if (traced.object < 0 || hit.t + allowed(hit) < static_cast<long double>(traced.t))
+            if (traced.object < 0 || hit.t + allowed(hit) < t)
                 return false;
         }
         return true;
@@ -102,19 +114,21 @@ private:
         if (!exact.hit || undecidable(exact))
             return;
         const long double error = std::abs(static_cast<long double>(t) - exact.t);
-        const long double ulp = std::ldexp(2 * roundoff, std::ilogb(exact.t));
+        const long double ulp = std::ldexp(2 * own_roundoff, std::ilogb(exact.t));
         errors.worst_t = std::max(
-            errors.worst_t, static_cast<double>(error / (exact.condition * roundoff * exact.t)));
+            errors.worst_t, static_cast<double>(error / (exact.condition * roundoff_ * exact.t)));
         errors.worst_ulp = std::max(errors.worst_ulp, static_cast<double>(error / ulp));
     }
 
     const LoweredScene& scene_;
+    long double roundoff_;
 };
 
 template <class Real>
-[[nodiscard]] HitErrors hit_errors(const abi::KernelTable& table, const Scene& scene)
+[[nodiscard]] HitErrors hit_errors(const abi::KernelTable& table, const Scene& scene,
+                                   Accuracy accuracy = Accuracy::exact)
 {
-    const TracingSetup<Real> setup(scene);
+    const TracingSetup<Real> setup(scene, accuracy);
     HitJudge<Real> judge(setup.lowered);
     for (const TracedRay<Real>& traced : trace_closest(table, setup, scene))
         judge.judge(traced);

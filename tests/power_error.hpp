@@ -77,17 +77,6 @@ template <class Real>
     return y;
 }
 
-/// The same as the robust mode has it.
-template <class Real>
-[[nodiscard]] std::vector<Real> precise_powers(const abi::KernelTable& table,
-                                               const PowerSamples<Real>& samples)
-{
-    std::vector<Real> y(samples.x.size());
-    precision<Real>(table).precise_power(samples.x.data(), samples.n.data(), y.data(),
-                                         static_cast<int>(y.size()));
-    return y;
-}
-
 [[nodiscard]] inline long double exact_power(long double x, long double n)
 {
     return std::pow(x, n);

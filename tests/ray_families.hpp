@@ -2,7 +2,7 @@
 
 #include "scenes.hpp"
 
-// Scenes whose camera rays are hard on ray tests: far, tiny, huge and grazed objects.
+// Scenes whose camera rays are hard on ray tests: far, tiny, anchored and grazed objects.
 namespace packtrace::test {
 
 struct RayFamily {
@@ -80,7 +80,7 @@ struct RayFamily {
     return {{"planes", planes(17)}, {"more planes", planes(18)}, {"a room", checkered_room(19)}};
 }
 
-[[nodiscard]] inline std::vector<RayFamily> huge_families()
+[[nodiscard]] inline std::vector<RayFamily> anchored_families()
 {
     return {
         {"note 001", four_spheres(160, 160)},

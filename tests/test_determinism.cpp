@@ -51,7 +51,7 @@ TEST_CASE("the picture is the same for every width and number of threads in ever
           "[determinism]")
 {
     const Parallelism seven(7);
-    for (const Accuracy accuracy : {Accuracy::fast, Accuracy::automatic, Accuracy::robust})
+    for (const Accuracy accuracy : {Accuracy::fast, Accuracy::exact})
         for (const SelfHits self_hits : {SelfHits::note, SelfHits::exact})
             for (const NamedScene& named : packet_scenes()) {
                 Image<float> first;

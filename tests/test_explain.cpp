@@ -250,9 +250,16 @@ TEST_CASE("no scene gets the kernels with the probe unless it asks for them", "[
                 const abi::Features needed{.quadrics = quadrics, .glass = glass};
                 abi::Features probed = needed;
                 probed.probe = true;
-                CHECK_FALSE(kernels_for(table->single_precision, needed).set.features.probe);
+                const auto& floats = table->single_precision;
+                for (const bool exact : {false, true}) {
+                    const auto& usual = kernels_for(floats, abi::with_exact(needed, exact));
+                    CHECK_FALSE(usual.set.features.probe);
+                    CHECK(usual.set.features.exact == exact);
+                    const auto& probe = kernels_for(floats, abi::with_exact(probed, exact));
+                    CHECK(probe.set.features.probe);
+                    CHECK(probe.set.features.exact == exact);
+                }
                 CHECK_FALSE(kernels_for(table->double_precision, needed).set.features.probe);
-                CHECK(kernels_for(table->single_precision, probed).set.features.probe);
             }
 }
 

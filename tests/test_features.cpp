@@ -36,12 +36,13 @@ struct Work {
     std::size_t bytes = 0;
 };
 
-Work work_of(const Scene& scene, bool force_general = false)
+Work work_of(const Scene& scene, bool force_general = false,
+             Accuracy accuracy = Accuracy::exact)
 {
     const abi::KernelTable& table = kernels_of(choose_isa().name);
     RenderOptions options;
     options.force_general = force_general;
-    LoweredScene lowered = lower(scene);
+    LoweredScene lowered = lower(scene, accuracy);
     const TileRenderer<float> tiles(scene, lowered, table, options);
     Image<float> image(scene.width, scene.height);
     Work work;
@@ -62,8 +63,9 @@ abi::Features features_of(const Scene& scene)
 /// The name of the narrowest kernel that renders a scene.
 std::string kernel_of(const Scene& scene)
 {
+    const abi::Features needed = features_of(scene);
     for (const abi::FeatureSet& set : abi::feature_sets)
-        if (abi::covers(set.features, features_of(scene)))
+        if (abi::covers(abi::with_exact(set.features, needed.exact), needed))
             return set.name;
     return "none";
 }
@@ -71,7 +73,7 @@ std::string kernel_of(const Scene& scene)
 /// Whether kernels for sets of features are compiled for an instruction set.
 bool has_special_kernels(const std::string& isa)
 {
-    return kernels_for(precision<float>(kernels_of(isa)), {}).set.name == std::string("matt");
+    return kernels_for(precision<float>(kernels_of(isa)), {.exact = true}).set.name == std::string("matt");
 }
 
 Scene scene_named(const std::string& name)
@@ -145,12 +147,20 @@ TEST_CASE("where kernels for sets of features are compiled in, they run", "[feat
 TEST_CASE("what is left out does not run", "[features]")
 {
     const auto stages = [](const Scene& scene) { return work_of(scene).counts.stages; };
-    CHECK(stages(matt_scene()) ==
-          (abi::stage_hits | abi::stage_normals | abi::stage_blockers | abi::stage_shadow_rays));
+    const auto fast_stages = [](const Scene& scene) {
+        return work_of(scene, false, Accuracy::fast).counts.stages;
+    };
+    // In exact mode hits are refined where anything but their object counts.
+    const std::uint32_t shown = abi::stage_hits | abi::stage_normals;
+    const std::uint32_t shaded = shown | abi::stage_blockers | abi::stage_shadow_rays;
+    CHECK(stages(matt_scene()) == (shaded | abi::stage_refined));
+    CHECK(fast_stages(matt_scene()) == shaded);
     CHECK(stages(scene_named("ambient light alone")) == abi::stage_hits);
     CHECK(stages(scene_named("ambient light on a quadric")) == abi::stage_hits);
-    CHECK(stages(scene_named("no shadows")) == (abi::stage_hits | abi::stage_normals));
-    CHECK(stages(scene_named("no object with a shadow")) == (abi::stage_hits | abi::stage_normals));
+    for (const char* name : {"no shadows", "no object with a shadow"}) {
+        CHECK(stages(scene_named(name)) == (shown | abi::stage_refined));
+        CHECK(fast_stages(scene_named(name)) == shown);
+    }
     CHECK((stages(scene_named("highlights")) & abi::stage_powers) != 0);
     CHECK((stages(scene_named("mirrors")) & (abi::stage_powers | abi::stage_mirrored)) ==
           abi::stage_mirrored);

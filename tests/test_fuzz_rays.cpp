@@ -131,7 +131,7 @@ TEMPLATE_TEST_CASE("rays of any bit pattern get an answer that is in range", "[f
                    double)
 {
     for (const IsaInfo& isa : list_isas())
-        for (const Accuracy accuracy : {Accuracy::fast, Accuracy::automatic, Accuracy::robust})
+        for (const Accuracy accuracy : {Accuracy::fast, Accuracy::exact})
             for (const SelfHits self_hits : {SelfHits::note, SelfHits::exact})
                 for (const bool many : {false, true}) {
                     if (!isa.supported)

@@ -129,6 +129,7 @@ void check_pictures(const Scene& scene, const std::string& isa)
 {
     const Image<Real> own = picture_of<Real>(scene, isa, false);
     const Image<Real> plain = picture_of<Real>(scene, isa, true);
+    CAPTURE(isa, scene.objects.size(), sizeof(Real));
     CHECK((own.rgb == plain.rgb));
     auto frame = observed_frame<Real>(scene, isa);
     const auto check = [&](abi::Observation* observation) {
@@ -221,11 +222,11 @@ TEST_CASE("reflected rays are tested against every object of a list, each once",
             REQUIRE(traced.live > 0);
             const auto& tests = at.tests[static_cast<int>(abi::Role::own)];
             const auto of = [&](abi::Primitive kind) { return tests[static_cast<int>(kind)]; };
-            // Single precision can't hold the ground.
+            // The ground is an anchored sphere.
             CHECK(of(abi::Primitive::sphere).pairs == 3 * traced.live);
             CHECK(of(abi::Primitive::sphere).packets == 3 * traced.packets);
-            CHECK(of(abi::Primitive::stiff).pairs == traced.live);
-            CHECK(of(abi::Primitive::stiff).packets == traced.packets);
+            CHECK(of(abi::Primitive::anchored_sphere).pairs == traced.live);
+            CHECK(of(abi::Primitive::anchored_sphere).packets == traced.packets);
             CHECK(all_pairs(at, abi::Role::own) == 4 * traced.live);
         }
         CHECK(all_pairs(frame.counts[0], abi::Role::own) <= 4 * frame.rays.camera);

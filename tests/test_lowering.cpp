@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cstring>
 
+#include <glm/geometric.hpp>
 #include <tbb/task_arena.h>
 
 #include "catch.hpp"
@@ -146,7 +147,6 @@ TEST_CASE("what a scene lowers to does not depend on the number of threads", "[l
     CHECK(same_bytes(one.materials, two.materials));
     CHECK(same_bytes(one.checkers, two.checkers));
     CHECK(same_bytes(one.faces_viewer, two.faces_viewer));
-    CHECK(same_bytes(one.finished, two.finished));
     CHECK(surfaces_of(one.spheres) == surfaces_of(two.spheres));
 }
 
@@ -170,9 +170,8 @@ TEST_CASE("objects of one material share its record", "[lowering]")
 TEST_CASE("a sphere among many costs a hundred bytes at most", "[lowering]")
 {
     constexpr int count = 50'000;
-    // Small ones far from the origin are solved again in double, large ones are not.
     for (const double radius : {0.001, 0.01})
-        for (const Accuracy accuracy : {Accuracy::automatic, Accuracy::robust}) {
+        for (const Accuracy accuracy : {Accuracy::fast, Accuracy::exact}) {
             RenderOptions options;
             options.accuracy = accuracy;
             const Renderer<float> renderer(
@@ -200,7 +199,7 @@ Image<Real> picture_of(std::size_t count, const RenderOptions& options)
 
 TEMPLATE_TEST_CASE("many spheres look as few do, to the bit", "[lowering]", float, double)
 {
-    for (const Accuracy accuracy : {Accuracy::fast, Accuracy::automatic, Accuracy::robust})
+    for (const Accuracy accuracy : {Accuracy::fast, Accuracy::exact})
         for (const SelfHits self_hits : {SelfHits::note, SelfHits::exact}) {
             RenderOptions options;
             options.accuracy = accuracy;
@@ -212,21 +211,61 @@ TEMPLATE_TEST_CASE("many spheres look as few do, to the bit", "[lowering]", floa
         }
 }
 
-TEST_CASE("spheres of every size are told huge or not as one by one", "[lowering]")
+TEST_CASE("a sphere is anchored where its surface passes near the origin for its size",
+          "[lowering]")
 {
     Scene scene;
-    scene.camera.position = Vec3(0.0, 0.0, -1.0);
-    const double radii[] = {3000.0, 1.0, 200.0, 1.0, 3000.0, 0.5, 1e6};
-    for (const double radius : radii) {
-        Object& object = scene.objects.emplace_back();
-        object.surface = Sphere{Vec3(0.0, -radius, 0.0), radius};
-    }
+    const auto add = [&](const Vec3& center, double radius) {
+        scene.objects.emplace_back().surface = Sphere{center, radius};
+    };
+    add({0.0, -3000.0, 0.0}, 3000.0);  // through the origin
+    add({0.0, 1.0, 0.0}, 1.0);
+    add({0.0, -5001.0, 0.0}, 5000.0);
+    add({3.0, 0.0, 4.0}, 1e6);      // around the origin, which is off its middle
+    add({0.0, 0.0, 200.0}, 100.0);  // large, but as far off
+    add({0.0, 65.2, 0.0}, 64.2);    // a little more than 64 times as large as it is far off
+    add({0.0, 64.8, 0.0}, 63.8);    // a little less
+    add({0.0, 0.0, 0.0}, 5.0);      // its surface is a radius away
     const LoweredScene lowered = lower(scene);
-    // 200 stands out of a scene of 1 and 0.5, all others out of that.
-    CHECK(surfaces_of(lowered.huge_spheres) == std::vector<std::int32_t>{0, 2, 4, 6});
-    CHECK(surfaces_of(lowered.spheres) == std::vector<std::int32_t>{1, 3, 5});
-    for (const LoweredHugeSphere& sphere : lowered.huge_spheres)
-        CHECK(sphere.anchor.y == Approx(0.0).margin(3.0));
+    CHECK(surfaces_of(lowered.anchored_spheres) == std::vector<std::int32_t>{0, 1, 2, 5});
+    CHECK(surfaces_of(lowered.spheres) == std::vector<std::int32_t>{3, 4, 6, 7});
+    for (const LoweredAnchoredSphere& sphere : lowered.anchored_spheres) {
+        // On the surface, as near the origin as that comes.
+        CHECK(glm::length(sphere.anchor - sphere.center) == Approx(sphere.radius));
+        CHECK(glm::length(sphere.anchor) < sphere.radius / 64.0);
+    }
+}
+
+/// Which objects of a scene are anchored spheres.
+std::vector<std::int32_t> anchored_objects(const Scene& scene)
+{
+    const LoweredScene lowered = lower(scene);
+    std::vector<std::int32_t> objects;
+    for (const std::int32_t surface : surfaces_of(lowered.anchored_spheres))
+        objects.push_back(lowered.material_index.at(static_cast<std::size_t>(surface)).object);
+    return objects;
+}
+
+TEST_CASE("whether a sphere is anchored depends on nothing else of its scene", "[lowering]")
+{
+    Scene scene;
+    const double radii[] = {3000.0, 1.0, 200.0, 0.5, 1e6};
+    for (const double radius : radii)
+        scene.objects.emplace_back().surface = Sphere{{0.0, -0.5 - radius, 0.1}, radius};
+    const std::vector<std::int32_t> anchored{0, 2, 4};
+    REQUIRE(anchored_objects(scene) == anchored);
+    for (const double far : {1.0, 250.0, 1e5, 1e9}) {
+        CAPTURE(far);
+        Scene other = scene;
+        other.camera.position = Vec3(0.0, far, -far);
+        CHECK(anchored_objects(other) == anchored);
+        other.lights.push_back({LightType::point, Rgb(0.001), {0.0, far, 0.0}});
+        CHECK(anchored_objects(other) == anchored);
+        other.objects.emplace_back().surface = Plane{{0.0, -far, 0.0}};
+        other.objects.emplace_back().surface = Sphere{{far, 0.0, far}, 0.25 * far};
+        other.objects.emplace_back().surface = capped_cylinder();
+        CHECK(anchored_objects(other) == anchored);
+    }
 }
 
 }  // namespace packtrace

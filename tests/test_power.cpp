@@ -83,22 +83,6 @@ TEMPLATE_TEST_CASE("highlight powers keep their bound in units of the last place
     }
 }
 
-TEST_CASE("powers in double for floats are within half a unit in the last place", "[power]")
-{
-    for (const ExponentDecade& decade : exponent_decades) {
-        const auto samples = power_samples<float>(decade, 1e-4);
-        for (const abi::KernelTable* table : supported_kernels()) {
-            CAPTURE(table->isa, decade.first);
-            const PowerError error = power_error(samples, precise_powers(*table, samples));
-            CHECK(error.counted > 10000);
-            CHECK(error.max_ulp <= 0.51);
-        }
-    }
-    const auto small = around_underflow<float>();
-    for (const abi::KernelTable* table : supported_kernels())
-        CHECK(wrong_underflows(small, precise_powers(*table, small)) == 0);
-}
-
 TEMPLATE_TEST_CASE("small highlight powers are wrong by no more than large ones", "[power]", float,
                    double)
 {

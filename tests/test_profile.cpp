@@ -221,7 +221,7 @@ TEST_CASE("profile prints tables and JSON, and writes a heat map and a trace",
          {"64 x 48, ", "scene load", "lowering", "encoding as PNG", "depth 3", "without highlights",
           "without shadows", "ns/ray", "lanes filled", "inside the kernels, on one thread",
           "stage in the kernels", "highlight powers", "rays to their hits", "Mrays/s", "live lanes",
-          "coherent", "single/ray", "objects tested in double"})
+          "coherent", "single/ray", "anchored spheres"})
         CHECK_THAT(text.out, ContainsSubstring(part));
     CHECK(std::filesystem::file_size(map) > 100);
     const auto events = nlohmann::json::parse(read_text(trace))["traceEvents"];

@@ -85,14 +85,17 @@ TEST_CASE("a report runs every kernel, precision, instruction set and number of 
                              "spp 64", "adaptive 16 at 0.01"})
         CHECK(names.count(name) == 1);
     CHECK(names.count("depth 4") == 0);
-    for (const char* mode : {"fast", "robust", "from 0.001", "general kernel"})
+    for (const char* mode : {"fast", "from 0.001", "general kernel"})
         CHECK(names.count("packets " + supported_isas().back() + " single " + mode +
                           ", 1 thread") == 1);
 }
 
 TEST_CASE("a report's errors are those of the pictures against the truth", "[report]")
 {
-    const ReportScene scene = small_scene();
+    ReportScene scene = small_scene();
+    // Of 48 x 40 pixels two look along tangents of a ball to the last digit, which rounding a
+    // direction to single precision decides.
+    set_size(scene.scene, 47, 41);
     const SceneReport whole = report(scene, short_options());
     REQUIRE(whole.studies.size() == 3);
     const StudyReport& arithmetic = whole.studies.front();
@@ -109,7 +112,7 @@ TEST_CASE("a report's errors are those of the pictures against the truth", "[rep
             const auto picture = convert<double>(render<float>(scene.scene, options));
             CHECK(run.error.rmse == compare(picture, truth).rmse);
             CHECK((arithmetic.pictures[run.picture].image.rgb == picture.rgb));
-            CHECK(run.rays > 48 * 40);
+            CHECK(run.rays > 47 * 41);
         }
     const ReportRun& full_depth = whole.studies[1].runs.back();
     CHECK(full_depth.variant.depth == 3);
@@ -301,8 +304,8 @@ TEST_CASE("the JSON says what was run, how, and what came of it", "[report]")
             CHECK(run["isa"].is_null() == (run["kernel"] == "scalar"));
             CHECK(run["accuracy"].is_null() ==
                   (run["kernel"] == "scalar" || run["precision"] == "double"));
-            CHECK((run["accuracy"] == "robust") ==
-                  (run["name"].get<std::string>().find("robust") != std::string::npos));
+            CHECK((run["accuracy"] == "fast") ==
+                  (run["name"].get<std::string>().find("fast") != std::string::npos));
             CHECK(run["adaptive"].is_null() ==
                   (run["name"].get<std::string>().find("adaptive") == std::string::npos));
             for (const auto& kind : run["error"]["classes"])

@@ -43,7 +43,7 @@ template <class Change>
 Subject wrongly_lowered(const Scene& scene, const Change& change,
                         SelfHits self_hits = default_self_hits)
 {
-    LoweredScene lowered = lower(scene, Accuracy::automatic, self_hits);
+    LoweredScene lowered = lower(scene, Accuracy::exact, self_hits);
     change(lowered);
     const auto& table = kernels_of(choose_isa().name);
     return packet_subject<float>(scene, lowered, table, variant_named("defect", scene));

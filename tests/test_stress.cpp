@@ -497,7 +497,7 @@ TEST_CASE("the textbook breaks on what packets hold", "[stress]")
     const auto ground = rows_of(options);
     CHECK(row_of(ground, "textbook", "").ulp.max > 1e4);
     CHECK(row_of(ground, "packet", "fast").ulp.max < 200.0);
-    CHECK(row_of(ground, "packet", "auto").ulp.max < 4.0);
+    CHECK(row_of(ground, "packet", "exact").ulp.max < 4.0);
 }
 
 TEST_CASE("all instruction sets with fused multiply-add answer alike in every mode", "[stress]")
@@ -580,7 +580,7 @@ TEST_CASE("accuracy is refused where it means nothing", "[stress]")
         more.insert(more.begin(), {"render", scene, "-o", "/nowhere/x.png"});
         return run_packtrace(more);
     };
-    const ProgramResult scalar = render_with({"--kernel", "scalar", "--accuracy", "robust"});
+    const ProgramResult scalar = render_with({"--kernel", "scalar", "--accuracy", "exact"});
     CHECK(scalar.exit_code == 2);
     CHECK(scalar.err.find("--accuracy") != std::string::npos);
     const ProgramResult doubles = render_with({"--precision", "double", "--accuracy", "fast"});

@@ -211,7 +211,7 @@ void compare_on_every_isa(int scenes, int rays, unsigned seed)
             const Scene scene = mixed_scene(objects, number);
             RenderOptions options;
             options.isa = isa.name;
-            options.accuracy = i % 2 == 0 ? Accuracy::fast : Accuracy::automatic;
+            options.accuracy = i % 2 == 0 ? Accuracy::fast : Accuracy::exact;
             compare_traversals(scene, many_rays<float>(rays, number), options);
             compare_traversals(scene, many_rays<double>(rays, number), options);
             compare_frames<float>(scene, options);

@@ -24,7 +24,7 @@ struct Arguments {
     std::vector<std::string> scenes = scene_names();
     std::vector<std::string> kinds{"camera", "shadow", "bounce"};
     std::vector<std::string> isas{"avx512", "avx2"};
-    std::vector<std::string> accuracies{"fast", "auto"};
+    std::vector<std::string> accuracies{"fast", "exact"};
     std::string json;
     int repetitions = 9;
     int size = 1024;
@@ -49,7 +49,7 @@ std::vector<PacktraceMode> modes_of(const Arguments& arguments)
         for (const std::string& accuracy : arguments.accuracies)
             if (is_supported(isa))
                 modes.push_back({isa + " " + accuracy, isa,
-                                 accuracy == "fast" ? Accuracy::fast : Accuracy::automatic});
+                                 accuracy == "fast" ? Accuracy::fast : Accuracy::exact});
     return modes;
 }
 
@@ -213,9 +213,9 @@ void add_options(CLI::App& app, Arguments& arguments)
         ->check(CLI::IsMember({"avx512", "avx2", "sse_fma", "sse42"}))
         ->delimiter(',');
     app.add_option("--accuracies", arguments.accuracies,
-                   "Accuracy modes of packtrace (fast,auto); Embree's single precision compares "
+                   "Accuracy modes of packtrace (fast,exact); Embree's single precision compares "
                    "with fast")
-        ->check(CLI::IsMember({"fast", "auto"}))
+        ->check(CLI::IsMember({"fast", "exact"}))
         ->delimiter(',');
     app.add_option("--repetitions", arguments.repetitions, "Passes that count (default 9)")
         ->check(CLI::Range(1, 1000));

@@ -11,10 +11,10 @@ render() {
 }
 
 render horizon horizon_textbook --kernel scalar --precision single
-render horizon horizon_robust --accuracy robust --self-hits exact
+render horizon horizon_exact --accuracy exact --self-hits exact
 for scene in miniature colossus pancake; do
-    render "$scene" "${scene}_note" --accuracy robust --self-hits note
-    render "$scene" "${scene}_exact" --accuracy robust --self-hits exact
+    render "$scene" "${scene}_note" --accuracy exact --self-hits note
+    render "$scene" "${scene}_exact" --accuracy exact --self-hits exact
 done
 render needle needle_fast --accuracy fast
-render needle needle_robust --accuracy robust
+render needle needle_exact --accuracy exact

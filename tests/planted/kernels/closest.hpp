@@ -28,10 +28,11 @@ inline bool is_lost(Real x, Real y, Real z)
     return (hash ^ (hash >> 16)) % 10000u == 0;
 }
 
-template <abi::Features F, class Objects, class Real>
-inline void closest_hit(HitPacket<Real>& hit, const Objects& objects, const RayPacket<Real>& rays)
+template <abi::Features F, class Objects, class Real, class Own>
+inline void closest_hit(HitPacket<Real>& hit, const Objects& objects, const RayPacket<Real>& rays,
+                        const Own& own)
 {
-    closest_hit_of_all<F>(hit, objects, rays);
+    closest_hit_of_all<F>(hit, objects, rays, own);
     alignas(64) Real dir[3][lanes<Real>];
     store(dir[0], rays.dir.x);
     store(dir[1], rays.dir.y);
@@ -43,6 +44,8 @@ inline void closest_hit(HitPacket<Real>& hit, const Objects& objects, const RayP
     const HitPacket<Real> miss = no_hit<Real>(static_cast<Real>(__builtin_inf()));
     hit.t = select(from_bits<Real>(lost), miss.t, hit.t);
     hit.surface = select(from_bits<Real>(lost), miss.surface, hit.surface);
+    hit.t_low = select(from_bits<Real>(lost), miss.t_low, hit.t_low);
+    hit.other = select(from_bits<Real>(lost), miss.other, hit.other);
 }
 
 }  // namespace

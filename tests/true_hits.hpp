@@ -1,0 +1,88 @@
+#pragma once
+
+#include <cmath>
+#include <cstdint>
+#include <limits>
+#include <vector>
+
+#include "aimed_rays.hpp"
+#include "study/wide_truth.hpp"
+
+// What rays hit, in 113 bits, and whether doubles can tell.
+namespace packtrace::test {
+
+/// Relative changes of the inputs, in roundoffs of double, within which nothing is held to.
+inline constexpr double double_band = 16.0 * 0x1p-53;
+
+struct AimedTruth {
+    std::int32_t object = -1;  ///< -1: none
+    double t = 0.0;
+    double condition = 0.0;
+    bool decidable = true;  ///< by double: whether there is a hit, and of which object
+    /// An end of the ray near the hit, if any, whether anything is before it, and whether double
+    /// can tell.
+    float t_max = std::numeric_limits<float>::infinity();
+    bool occluded = false;
+    bool occlusion_decidable = true;
+};
+
+class Truth {
+public:
+    explicit Truth(const Scene& scene)
+    {
+        for (std::size_t i = 0; i < scene.objects.size(); ++i)
+            surfaces_.emplace_back(scene.objects[i], static_cast<std::int32_t>(i));
+    }
+
+    [[nodiscard]] AimedTruth of(const StressRay& ray, StressRandom& random) const
+    {
+        std::vector<study::TrueHit> hits;
+        for (const study::WideSurface& surface : surfaces_)
+            study::find_true_hits(surface, ray, hits);
+        AimedTruth hit = closest(hits);
+        if (hit.object >= 0)
+            hit.t_max = static_cast<float>(hit.t * (1.0 + aim_error(random)));
+        set_occlusion(hit, hits);
+        return hit;
+    }
+
+private:
+    static AimedTruth closest(const std::vector<study::TrueHit>& hits)
+    {
+        const study::TrueHit* first = nullptr;
+        AimedTruth hit;
+        for (const study::TrueHit& other : hits) {
+            hit.decidable = hit.decidable && other.margin >= double_band;
+            if (other.exists && (first == nullptr || other.t < first->t))
+                first = &other;
+        }
+        if (first == nullptr)
+            return hit;
+        hit.object = first->object;
+        hit.t = static_cast<double>(first->t);
+        hit.condition = first->condition;
+        for (const study::TrueHit& other : hits) {
+            const double apart = double_band * (other.condition + first->condition) * hit.t;
+            if (other.exists && other.object != first->object)
+                hit.decidable = hit.decidable && static_cast<double>(other.t - first->t) > apart;
+        }
+        return hit;
+    }
+
+    static void set_occlusion(AimedTruth& hit, const std::vector<study::TrueHit>& hits)
+    {
+        for (const study::TrueHit& other : hits) {
+            hit.occluded = hit.occluded || (other.exists && other.t < study::Wide(hit.t_max));
+            const double t = static_cast<double>(other.t);
+            const double from_end = std::abs(static_cast<double>(other.t - study::Wide(hit.t_max)));
+            if (other.exists && std::isfinite(hit.t_max))
+                hit.occlusion_decidable =
+                    hit.occlusion_decidable && from_end > double_band * other.condition * t;
+            hit.occlusion_decidable = hit.occlusion_decidable && other.margin >= double_band;
+        }
+    }
+
+    std::vector<study::WideSurface> surfaces_;
+};
+
+}  // namespace packtrace::test
