@@ -36,6 +36,12 @@ inline Quadratic<Real> anchored_quadratic(const AnchoredOrigin<Real>& origin, co
     q.b = dot(origin.g, rays.dir);
     q.c = origin.constant;
     q.discriminant = msub(q.b, q.b, curved * rays.dir2);
+    // From afar both terms are large; as |g|² - k F(0) = 1, their difference is a - |g × d|² too.
+    const auto far = dot(origin.g, origin.g) > vreal<Real>(Real(4));
+    if (none(far))
+        return q;
+    const Vec3v<Real> moment = cross(origin.g, rays.dir);
+    q.discriminant = select(far, rays.dir2 - dot(moment, moment), q.discriminant);
     return q;
 }
 
@@ -48,7 +54,7 @@ inline Quadratic<Real> quadratic_of(const abi::AnchoredSphere<Real>& sphere,
     return anchored_quadratic<Real>(origin, curvature, curvature * origin.constant, rays);
 }
 
-/// A huge sphere seen from an origin that all rays share.
+/// An anchored sphere seen from an origin that all rays share.
 template <class Real>
 struct SharedOriginAnchored {
     Real g[3];
