@@ -19,8 +19,7 @@ void append_errors(nlohmann::ordered_json& errors)
         const auto samples = test::power_samples<Real>(decade, 1e-4, 4000);
         for (const std::string& isa : supported_isas()) {
             const auto& kernels = kernels_of(isa);
-            const auto error =
-                test::power_error(samples, test::highlight_powers(kernels, samples));
+            const auto error = test::power_error(samples, test::highlight_powers(kernels, samples));
             errors.push_back({{"isa", isa},
                               {"precision", precision_name<Real>()},
                               {"exponents", {decade.first, decade.last}},

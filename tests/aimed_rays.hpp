@@ -43,8 +43,7 @@ struct AimedFamily {
     const Vec3 towards = glm::normalize(center - org);
     const double sine = std::min(distance / glm::length(center - org), 1.0);
     const double cosine = std::sqrt((1.0 - sine) * (1.0 + sine));
-    return study::ray_towards(
-        org, org + cosine * towards + sine * study::across(random, towards));
+    return study::ray_towards(org, org + cosine * towards + sine * study::across(random, towards));
 }
 
 /// Rays of one origin, or each of its own.
@@ -93,8 +92,7 @@ struct AimedFamily {
     for (int i = 0; i < 3; ++i) {
         const Vec3 up = glm::normalize(random.box(10.0) - center);
         const double size = random.between(0.2, 2.0);
-        result.scene.objects.push_back(
-            study::sphere_object(center + (radius + size) * up, size));
+        result.scene.objects.push_back(study::sphere_object(center + (radius + size) * up, size));
     }
     const auto above = [&] {
         const Vec3 up = glm::normalize(random.box(10.0) - center);
@@ -121,11 +119,10 @@ struct AimedFamily {
                             study::sphere_object(second, second_radius)};
     // Where the plane of the circle is along the way between the centres.
     const double apart = glm::length(second - first);
-    const double height = (apart * apart + first_radius * first_radius -
-                           second_radius * second_radius) /
-                          (2.0 * apart);
-    const double size =
-        std::sqrt((first_radius - height) * (first_radius + height));
+    const double height =
+        (apart * apart + first_radius * first_radius - second_radius * second_radius) /
+        (2.0 * apart);
+    const double size = std::sqrt((first_radius - height) * (first_radius + height));
     result.rays = aim_from(
         random, count, [&] { return second + random.between(2.0, 9.0) * random.unit(); },
         [&](const Vec3& org) {
@@ -163,8 +160,8 @@ struct AimedFamily {
     const double thin = random.below(2) == 0 ? 1.0 : random.power(1e-3, 1.0);
     Mat4 transform = glm::translate(Mat4(1.0), random.power(0.1, 100.0) * random.unit());
     transform = glm::rotate(transform, random.between(0.0, 6.28), random.unit());
-    object.transform = glm::scale(
-        transform, Vec3(random.between(0.5, 2.0), random.between(0.5, 2.0), thin));
+    object.transform =
+        glm::scale(transform, Vec3(random.between(0.5, 2.0), random.between(0.5, 2.0), thin));
     return object;
 }
 
@@ -187,8 +184,8 @@ struct AimedFamily {
         const auto& c = std::get<Quadric>(object.surface).coefficients;
         const Vec3 gradient(2.0 * c[0] * own.x + c[6], 2.0 * c[1] * own.y + c[7],
                             2.0 * c[2] * own.z + c[8]);
-        const Vec3 normal = glm::normalize(
-            glm::transpose(glm::inverse(Mat3(object.transform))) * gradient);
+        const Vec3 normal =
+            glm::normalize(glm::transpose(glm::inverse(Mat3(object.transform))) * gradient);
         const Vec3 way = study::across(random, normal);
         const Vec3 moved = at + aim_error(random) * normal;
         const Vec3 org(glm::vec3(moved - random.power(0.5, 20.0) * way));
@@ -201,8 +198,7 @@ struct AimedFamily {
 [[nodiscard]] inline AimedRays at_rims(StressRandom& random, int count)
 {
     AimedRays result;
-    const QuadricKind kind =
-        random.below(2) == 0 ? QuadricKind::cylinder : QuadricKind::cone;
+    const QuadricKind kind = random.below(2) == 0 ? QuadricKind::cylinder : QuadricKind::cone;
     Object object = placed_quadric(random, kind);
     auto& quadric = std::get<Quadric>(object.surface);
     quadric.z_range = ZRange{0.25, 1.0};

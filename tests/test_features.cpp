@@ -36,8 +36,7 @@ struct Work {
     std::size_t bytes = 0;
 };
 
-Work work_of(const Scene& scene, bool force_general = false,
-             Accuracy accuracy = Accuracy::exact)
+Work work_of(const Scene& scene, bool force_general = false, Accuracy accuracy = Accuracy::exact)
 {
     const abi::KernelTable& table = kernels_of(choose_isa().name);
     RenderOptions options;
@@ -73,7 +72,8 @@ std::string kernel_of(const Scene& scene)
 /// Whether kernels for sets of features are compiled for an instruction set.
 bool has_special_kernels(const std::string& isa)
 {
-    return kernels_for(precision<float>(kernels_of(isa)), {.exact = true}).set.name == std::string("matt");
+    return kernels_for(precision<float>(kernels_of(isa)), {.exact = true}).set.name ==
+           std::string("matt");
 }
 
 Scene scene_named(const std::string& name)

@@ -5,8 +5,8 @@
 #include <algorithm>
 #include <cstring>
 
-#include <glm/geometric.hpp>
 #include <tbb/task_arena.h>
+#include <glm/geometric.hpp>
 
 #include "catch.hpp"
 #include "lower/packed_scene.hpp"

@@ -79,11 +79,10 @@ WrongAnswers wrong_answers(const AimedRays& aimed, const std::vector<AimedTruth>
     for (std::size_t i = 0; i < n; ++i) {
         const AimedTruth& truth = truths[i];
         const bool wrong_object = truth.decidable && object[i] != truth.object;
-        const bool wrong_t = truth.decidable && object[i] == truth.object && object[i] >= 0 &&
-                             !right_t(truth, t[i]);
+        const bool wrong_t =
+            truth.decidable && object[i] == truth.object && object[i] >= 0 && !right_t(truth, t[i]);
         const bool wrong_mask = truth.occlusion_decidable && (mask[i] == 1) != truth.occluded;
-        if ((wrong_object || wrong_t || wrong_mask) &&
-            wrong.object + wrong.t + wrong.occluded < 3)
+        if ((wrong_object || wrong_t || wrong_mask) && wrong.object + wrong.t + wrong.occluded < 3)
             wrong.examples += text_of(aimed.rays[i], truth, object[i], t[i]);
         wrong.object += wrong_object;
         wrong.t += wrong_t;

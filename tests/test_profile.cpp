@@ -224,6 +224,9 @@ TEST_CASE("profile prints tables and JSON, and writes a heat map and a trace",
           "coherent", "single/ray", "anchored spheres"})
         CHECK_THAT(text.out, ContainsSubstring(part));
     CHECK(std::filesystem::file_size(map) > 100);
+    auto doubles = more;
+    doubles.insert(doubles.end(), {"--precision", "double"});
+    CHECK(run_packtrace(doubles).exit_code == 0);
     const auto events = nlohmann::json::parse(read_text(trace))["traceEvents"];
     CHECK(events.size() == 4 * 3);
     CHECK(events[0]["ph"] == "X");
