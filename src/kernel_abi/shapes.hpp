@@ -8,7 +8,7 @@
 // point and normal come from, and what a ray that starts on a surface is held against.
 namespace packtrace::abi {
 
-enum class SurfaceKind : std::uint8_t {
+enum class SurfaceKind : std::uint32_t {
     none,  ///< no object of this view, as where those that cast no shadow are left out
     sphere,
     anchored_sphere,
@@ -20,9 +20,9 @@ enum class SurfaceKind : std::uint8_t {
 
 /// Where the record of a surface is: in the array of its kind (caps: of quadrics).
 struct SurfaceIndex {
-    std::uint32_t record;
-    SurfaceKind kind;
-    std::uint8_t faces_viewer;  ///< 1: the normal is turned against the ray; 0: it points outwards
+    std::uint32_t record : 28;
+    SurfaceKind kind : 3;
+    std::uint32_t faces_viewer : 1;  ///< the normal is turned against the ray, else outwards
 };
 
 struct SphereShape {

@@ -67,6 +67,8 @@ inline Quadratic<Real> side_quadratic(const abi::QuadricRecord<Real>& quadric,
 {
     const Vec3v<Real> scaled = broadcast(quadric.square) * v;
     const vreal<Real> zero(Real(0));
+    // The moment from the point nearest to the centre, where it is as exact as it can be.
+    const Vec3v<Real> near = madd<Real>(negated(dot(p, v)) / dot(v, v), v, p);
     Quadratic<Real> q;
     q.a = dot(scaled, v);
     // What is no more than its own rounding is 0: the ray runs along a generator or an asymptote.
@@ -76,7 +78,7 @@ inline Quadratic<Real> side_quadratic(const abi::QuadricRecord<Real>& quadric,
     q.a = select(abs(q.a) <= vreal<Real>(rounding) * size, zero, q.a);
     q.b = madd(vreal<Real>(quadric.linear), v.z, dot(scaled, p));
     q.c = quadric_value<Real>(quadric, p);
-    q.discriminant = quadric_discriminant<Real>(quadric, cross(p, v), v, q.a);
+    q.discriminant = quadric_discriminant<Real>(quadric, cross(near, v), v, q.a);
     return q;
 }
 

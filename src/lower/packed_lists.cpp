@@ -65,7 +65,8 @@ void PackedLists<Real>::pack_spheres(const std::vector<const LoweredSphere*>& sp
             place[static_cast<std::size_t>(axis) * sphere_stride_] =
                 static_cast<Real>(sphere.center[axis]);
         place[3 * sphere_stride_] = static_cast<Real>(sphere.radius);
-        place[4 * sphere_stride_] = static_cast<Real>(sphere.radius * sphere.radius);
+        // Of the rounded radius, as a hierarchy has it.
+        place[4 * sphere_stride_] = place[3 * sphere_stride_] * place[3 * sphere_stride_];
         place[5 * sphere_stride_] = static_cast<Real>(center_error<Real>(sphere));
         sphere_surfaces_[i] = sphere.surface;
     }

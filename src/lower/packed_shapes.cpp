@@ -8,6 +8,8 @@
 namespace packtrace {
 namespace {
 
+constexpr std::uint32_t largest_record = (1u << 28) - 1;
+
 abi::SphereShape pack_shape(const LoweredSphere& sphere)
 {
     abi::SphereShape shape;
@@ -68,9 +70,9 @@ AlignedArray<Shape> pack_kind(const std::vector<Object>& objects,
         for (int piece = 0; piece < pieces_of(object); ++piece) {
             const auto surface = static_cast<std::size_t>(object.surface + piece);
             index[surface] = {
-                static_cast<std::uint32_t>(number),
+                static_cast<std::uint32_t>(number) & largest_record,
                 static_cast<abi::SurfaceKind>(static_cast<int>(kind_of(object)) + piece),
-                faces_viewer[surface]};
+                faces_viewer[surface] != 0};
         }
     });
     view = shapes.data();

@@ -7,7 +7,7 @@
 namespace packtrace {
 
 /// The shapes that hits are refined and shaded by, in double whatever the precision of the rays, as
-/// the kernels find them by surface number. A sphere costs 40 bytes.
+/// the kernels find them by surface number. A sphere costs 36 bytes.
 class PackedShapes {
 public:
     explicit PackedShapes(const LoweredScene& lowered);
