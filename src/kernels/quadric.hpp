@@ -79,8 +79,8 @@ inline void visit_crossings(const abi::QuadricRecord<Real>& quadric,
     const vreal<Real> climb = dot(broadcast(quadric.clip), rays.dir);
     const vreal<Real> low(quadric.clip_low);
     const vreal<Real> high(quadric.clip_high);
-    visit_roots(quadratic, [&, start = start](vmask<Real> crosses, const vreal<Real>& root) {
-        const vreal<Real> t = start + root;
+    visit_roots(quadratic, [&, from = start](vmask<Real> crosses, const vreal<Real>& root) {
+        const vreal<Real> t = from + root;
         auto valid = crosses;
         if (quadric.clipped) {
             const vreal<Real> height = madd(t, climb, origin.height);
