@@ -103,6 +103,7 @@ struct LoweredScene {
     bool transparent_shadows = false;
     bool visible_lights = false;
     abi::RayUnits units = abi::RayUnits::as_given;
+    bool highlights_behind = false;  ///< lights behind a surface make highlights on it too
     double epsilon = 0.0;  ///< start of secondary and shadow rays with SelfHits::note
     SelfHits self_hits = SelfHits::note;
     /// By surface: hits of rays in single precision are solved again in double.

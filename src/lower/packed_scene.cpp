@@ -76,6 +76,8 @@ PackedScene<Real>::PackedScene(const LoweredScene& lowered, Traversal traversal)
     view_.visible_lights = lowered.visible_lights;
     view_.precise_powers = sizeof(Real) == sizeof(float) && lowered.precise_powers;
     view_.units = lowered.units;
+    view_.highlight_above =
+        lowered.highlights_behind ? -std::numeric_limits<Real>::infinity() : Real(0);
     view_.epsilon = static_cast<Real>(lowered.epsilon);
     if (lowered.self_hits == SelfHits::note)
         view_.secondary_t_min = view_.epsilon;
