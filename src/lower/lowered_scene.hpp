@@ -121,7 +121,7 @@ struct LoweredScene {
 [[nodiscard]] abi::Features features_of(const LoweredScene& lowered);
 
 /// Lowers a scene on the threads of the TBB arena the call runs in; the result does not depend on
-/// their number. Throws SceneError for what it can't hold: a quadric without a surface.
+/// their number. Throws as check_scene() does.
 [[nodiscard]] LoweredScene lower(const Scene& scene, Accuracy accuracy = Accuracy::automatic,
                                  SelfHits self_hits = default_self_hits);
 

@@ -7,6 +7,7 @@
 
 #include "dispatch/kernels.hpp"
 #include "kernel_abi/probe.hpp"
+#include "lower/check_scene.hpp"
 #include "study/ray_trees.hpp"
 
 namespace packtrace {
@@ -44,6 +45,7 @@ RayNode explain_pixel(const Scene& scene, int x, int y, const RenderOptions& opt
     }
     if constexpr (!std::is_same_v<Real, double>)
         throw std::invalid_argument("explain: the scalar kernel is explained in double only");
+    check_scene(scene);
     return reference_trees<double>(scene)(x, y);
 }
 
