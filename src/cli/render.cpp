@@ -7,12 +7,12 @@
 #include <string>
 
 #include <packtrace/image_io.hpp>
-#include <packtrace/read_scene.hpp>
 
 #include "cli/command.hpp"
 #include "cli/progress_bar.hpp"
 #include "cli/render_animation.hpp"
 #include "cli/render_picture.hpp"
+#include "cli/scene_input.hpp"
 #include "cli/thread_limit.hpp"
 #include "cli/validators.hpp"
 #include "image/format.hpp"
@@ -64,7 +64,7 @@ void run_render(const RenderArguments& arguments)
     // Before the work, so that a wrong name doesn't cost it.
     if (!arguments.animation.many())
         check_image_writable(arguments.output);
-    Scene scene = read_scene(arguments.scene);
+    Scene scene = read_scene_input(arguments.scene).scene;
     apply(arguments.picture, scene);
     const ThreadLimit limit(options.threads);
     if (arguments.animation.many())
@@ -80,7 +80,7 @@ void add_render(CLI::App& app)
 {
     CLI::App* command = app.add_subcommand("render", "Render a scene to a picture");
     const auto arguments = std::make_shared<RenderArguments>();
-    command->add_option("SCENE", arguments->scene, "Scene file")->required()->type_name("");
+    add_scene_option(*command, arguments->scene);
     command->add_option("-o,--output", arguments->output, "Picture to write: .png, .pfm or .hdr")
         ->required()
         ->type_name("IMAGE");
