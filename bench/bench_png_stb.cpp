@@ -38,7 +38,7 @@ std::size_t encode_png_stb(const Image<float>& image, int filter, int level)
     stbi_write_force_png_filter = filter;
     stbi_write_png_compression_level = level;
     Bytes bytes(image.rgb.size());
-    quantise(image.rgb, 1.0, bytes.data());
+    quantise<float>(image.rgb, 1.0, bytes.data());
     int length = 0;
     unsigned char* file =
         stbi_write_png_to_mem(bytes.data(), 3 * image.width, image.width, image.height, 3, &length);

@@ -88,10 +88,12 @@ TEST_CASE("every command has a help text", "[cli]")
 TEST_CASE("a command's help names its options", "[cli]")
 {
     const std::vector<std::pair<std::string, std::string>> options{
-        {"render", "--precision"},  {"compare", "--max-error"}, {"info", "--json"},
-        {"intersect", "--any"},     {"explain", "--pixel"},     {"demo", "--rounds"},
-        {"onedim", "--keep-going"}, {"stress", "--family"},     {"render", "--accuracy"},
-        {"render", "--self-hits"}};
+        {"render", "--precision"},   {"compare", "--max-error"}, {"info", "--json"},
+        {"intersect", "--any"},      {"explain", "--pixel"},     {"demo", "--rounds"},
+        {"onedim", "--keep-going"},  {"stress", "--family"},     {"render", "--accuracy"},
+        {"render", "--self-hits"},   {"explain", "--accuracy"},  {"explain", "--self-hits"},
+        {"profile", "--accuracy"},   {"profile", "--self-hits"}, {"intersect", "--self-hits"},
+        {"intersect", "--traversal"}};
     for (const auto& [command, option] : options)
         CHECK_THAT(run_packtrace({command, "--help"}).out, ContainsSubstring(option));
 }
@@ -178,7 +180,7 @@ TEST_CASE("wrong use exits 2 with one line and leaves no file", "[cli]")
     const std::string out = folder / "a.png";
     const std::vector<std::pair<Words, std::string>> wrong{
         {{}, "subcommand is required"},
-        {{"rendr"}, "not expected: rendr"},
+        {{"rendr"}, "unknown subcommand 'rendr'"},
         {{"render"}, "SCENE is required"},
         {{"render", four_spheres}, "--output is required"},
         {{"render", four_spheres, "-o", out, "--kernel", "gpu"}, "'gpu' is not packet or scalar"},
@@ -217,6 +219,100 @@ TEST_CASE("wrong use exits 2 with one line and leaves no file", "[cli]")
         CHECK_THAT(result.err, ContainsSubstring(reason));
         CHECK(folder.names().empty());
     }
+}
+
+TEST_CASE("a mistyped word is answered with what may have been meant, and whose help to see",
+          "[cli]")
+{
+    const std::vector<std::pair<Words, std::string>> wrong{
+        {{"rendr", "x"},
+         "packtrace: unknown subcommand 'rendr'; did you mean render? See packtrace --help\n"},
+        {{"x.scene", "-o", "x.png"},
+         "packtrace: unknown subcommand 'x.scene'; see packtrace --help\n"},
+        {{"generate", "latice"},
+         "packtrace generate: unknown subcommand 'latice'; did you mean lattice? See packtrace "
+         "generate --help\n"},
+        {{"generate", "lattice", "--egde", "3"},
+         "packtrace generate lattice: unknown option '--egde'; did you mean --edge? See packtrace "
+         "generate lattice --help\n"},
+        {{"render", four_spheres, "--ouput=x.png"},
+         "packtrace render: unknown option '--ouput'; did you mean --output? See packtrace render "
+         "--help\n"},
+        {{"render", four_spheres, "-o", "x.png", "second", "third"},
+         "packtrace render: unexpected argument 'second'; see packtrace render --help\n"},
+        {{"explain", four_spheres},
+         "packtrace explain: --pixel is required; see packtrace explain "
+         "--help\n"}};
+    for (const auto& [words, message] : wrong) {
+        const ProgramResult result = run_packtrace(words);
+        CHECK(result.exit_code == 2);
+        CHECK(result.out.empty());
+        CHECK(result.err == message);
+    }
+}
+
+TEST_CASE("every command that reads a scene reads it from standard input too", "[cli]")
+{
+    const TempFolder folder;
+    const std::string rays = folder / "rays.csv";
+    write_text(rays, "0,0,0,0,0,1\n");
+    const std::vector<Words> commands{
+        {"render", "-", "-q", "--size", "40x30", "-o", folder / "piped.png"},
+        {"info", "-"},
+        {"intersect", "-", rays},
+        {"explain", "-", "--size", "40x30", "--pixel", "3,4"},
+        {"profile", "-", "--size", "8x8", "--repetitions", "1", "--json"},
+        {"bench", "-", "--size", "8x8", "--repetitions", "1"},
+        {"demo", "-", "--size", "8x8", "--rounds", "1", "-o", folder / "demo"}};
+    for (const Words& words : commands) {
+        CAPTURE(words);
+        const ProgramResult result = run_packtrace(words, "", four_spheres);
+        CHECK(result.exit_code == 0);
+        CHECK(result.err.empty());
+    }
+    CHECK(render_small(four_spheres, folder / "named.png", {"-q"}).exit_code == 0);
+    CHECK(read_text(folder / "piped.png") == read_text(folder / "named.png"));
+    CHECK(std::filesystem::exists(folder / "demo" / "stdin.png"));
+    CHECK_THAT(run_packtrace({"info", "-"}, "", four_spheres).out,
+               ContainsSubstring("scene    standard input\n"));
+}
+
+TEST_CASE("a scene from standard input that can't be used is told so", "[cli]")
+{
+    const TempFolder folder;
+    const std::string out = folder / "a.png";
+    write_text(folder / "bad.scene", "\nsphere { radius = -1 }\n");
+    const ProgramResult bad = run_packtrace({"render", "-", "-o", out}, "", folder / "bad.scene");
+    CHECK(bad.exit_code == 1);
+    CHECK(is_one_line(bad.err));
+    CHECK(bad.err.starts_with("standard input:2:"));
+    const ProgramResult nothing = run_packtrace({"render", "-", "-o", out});
+    CHECK(nothing.exit_code == 1);
+    CHECK(is_one_line(nothing.err));
+    const ProgramResult twice =
+        run_packtrace({"report", "-", "-", "-o", folder / "report"}, "", four_spheres);
+    CHECK(twice.exit_code == 1);
+    CHECK(twice.err == "standard input: has been read already; give - for one scene only\n");
+    const ProgramResult both = run_packtrace({"intersect", "-", "-"}, "", four_spheres);
+    CHECK(both.exit_code == 2);
+    CHECK(is_one_line(both.err));
+    CHECK_THAT(both.err, ContainsSubstring("the scene or the rays, not both"));
+    CHECK(folder.names() == Words{"bad.scene"});
+}
+
+TEST_CASE("a rotation of four digits is rendered with one warning", "[cli]")
+{
+    const TempFolder folder;
+    write_text(folder / "turned.scene",
+               "sphere { center = (0,0,5) radius = 1 }\n"
+               "camera { rotation = (0.7071,0,-0.7071, 0,1,0, 0.7071,0,0.7071) }\n");
+    const Words words{"render", folder / "turned.scene", "-q", "--size", "8x8",
+                      "-o",     folder / "a.png"};
+    const ProgramResult result = run_packtrace(words);
+    CHECK(result.exit_code == 0);
+    CHECK(is_one_line(result.err));
+    CHECK(result.err.starts_with("warning: " + (folder / "turned.scene").string() + ":2:10: "));
+    CHECK_THAT(result.err, ContainsSubstring("the nearest one is used"));
 }
 
 TEST_CASE("a wrong PACKTRACE_ISA exits 2 and names the variable", "[cli]")

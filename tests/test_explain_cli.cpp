@@ -139,6 +139,33 @@ TEST_CASE("explain takes the depth, the instruction set and the width", "[explai
     CHECK(explain({"--pixel", "1,1", "--width", "5"}).exit_code == 2);
 }
 
+TEST_CASE("explain takes the accuracy and the rule of self-hits", "[explain_cli]")
+{
+    const auto trees = [](const std::string& scene, const std::vector<std::string>& more) {
+        std::vector<std::string> words{"explain", scene,   "--size", "40x30",
+                                       "--pixel", "20,15", "--json"};
+        words.insert(words.end(), more.begin(), more.end());
+        const ProgramResult result = run_packtrace(words);
+        CHECK(result.exit_code == 0);
+        return nlohmann::json::parse(result.out);
+    };
+    // Rays within thin glass start outside of it by the notes' rule.
+    const std::string glass = PACKTRACE_SOURCE_DIR "/docs/numerics/pancake.scene";
+    const auto exact = trees(glass, {"--precision", "double"});
+    const auto note = trees(glass, {"--precision", "double", "--self-hits", "note"});
+    CHECK(exact == trees(glass, {"--precision", "double", "--self-hits", "exact"}));
+    for (const char* const side : {"reference", "packets"})
+        CHECK(exact[side] != note[side]);
+    CHECK(exact["first_difference"].is_null());
+    CHECK(note["first_difference"].is_null());
+
+    CHECK(trees(four_spheres_file, {"--accuracy", "fast"})["packets"] !=
+          trees(four_spheres_file, {"--accuracy", "robust"})["packets"]);
+    CHECK(explain({"--pixel", "1,1", "--accuracy", "most"}).exit_code == 2);
+    CHECK(explain({"--pixel", "1,1", "--precision", "double", "--accuracy", "fast"}).exit_code ==
+          2);
+}
+
 TEST_CASE("explain names the picture's size for a pixel outside it", "[explain_cli]")
 {
     for (const char* const pixel : {"40,0", "0,30", "99999,99999"}) {

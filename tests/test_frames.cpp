@@ -75,8 +75,9 @@ TEST_CASE("--frames writes each frame as its camera sees it", "[frames]")
     const ProgramResult result = studio.render("f%02d.pfm", {"--frames", "1..3"});
     CHECK(result.exit_code == 0);
     CHECK_THAT(result.err, ContainsSubstring("3 frames rendered in "));
-    CHECK((studio.folder.names() ==
-           Words{"f01.pfm", "f02.pfm", "f03.pfm", "still.scene", "turning.scene"}));
+    CHECK((studio.folder.names() == Words{"f01.pfm", "f01.pfm.recipe", "f02.pfm", "f02.pfm.recipe",
+                                          "f03.pfm", "f03.pfm.recipe", "still.scene",
+                                          "turning.scene"}));
     for (const int number : {1, 2, 3}) {
         const std::string name = "f0" + std::to_string(number) + ".pfm";
         CHECK((read_image(studio.folder / name).rgb == studio.frame(number).rgb));
@@ -86,19 +87,93 @@ TEST_CASE("--frames writes each frame as its camera sees it", "[frames]")
 
 TEST_CASE("--frames goes on where it stopped, --overwrite starts again", "[frames]")
 {
-    const Studio studio;
-    write_text(studio.folder / "f1.pfm", "finished");
-    const ProgramResult result = studio.render("f%d.pfm", {"--frames", "0..2"});
-    CHECK(result.exit_code == 0);
-    CHECK_THAT(result.err, ContainsSubstring("2 frames rendered"));
-    CHECK_THAT(result.err, ContainsSubstring("1 were there already"));
-    CHECK(read_text(studio.folder / "f1.pfm") == "finished");
-    CHECK((read_image(studio.folder / "f2.pfm").rgb == studio.frame(2).rgb));
+    for (const std::string ending : {".png", ".pfm", ".hdr"}) {
+        CAPTURE(ending);
+        const Studio studio;
+        CHECK(studio.render("f%d" + ending, {"--frames", "1..1"}).exit_code == 0);
+        const std::string first = read_text(studio.folder / ("f1" + ending));
+        const ProgramResult result = studio.render("f%d" + ending, {"--frames", "0..2"});
+        CHECK(result.exit_code == 0);
+        CHECK_THAT(result.err, ContainsSubstring("2 frames rendered"));
+        CHECK_THAT(result.err, ContainsSubstring("1 were there already"));
+        CHECK_THAT(result.err, !ContainsSubstring("in place of"));
+        CHECK(read_text(studio.folder / ("f1" + ending)) == first);
 
-    const ProgramResult again = studio.render("f%d.pfm", {"--frames", "0..2", "--overwrite"});
-    CHECK(again.exit_code == 0);
-    CHECK_THAT(again.err, ContainsSubstring("3 frames rendered"));
-    CHECK((read_image(studio.folder / "f1.pfm").rgb == studio.frame(1).rgb));
+        const ProgramResult again =
+            studio.render("f%d" + ending, {"--frames", "0..2", "--overwrite"});
+        CHECK(again.exit_code == 0);
+        CHECK_THAT(again.err, ContainsSubstring("3 frames rendered"));
+        CHECK(read_text(studio.folder / ("f1" + ending)) == first);
+    }
+}
+
+TEST_CASE("--frames renders again what another scene or other options made", "[frames]")
+{
+    // What each run adds to the command line, and how many of frames 0..1 it renders.
+    struct Run {
+        const char* why;
+        Words words;
+        std::string scene;
+        int rendered;
+    };
+    const std::string s = "turning.scene";
+    const std::vector<Run> runs = {
+        {"none is there", {}, s, 2},
+        {"no pixel depends on threads", {"--threads", "1"}, s, 0},
+        {"nor on how objects are found", {"--traversal", "tree"}, s, 0},
+        {"nor on comments", {}, "commented.scene", 0},
+        {"another size", {"--size", "9x5"}, s, 2},
+        {"the size of the scene again", {}, s, 2},
+        {"more samples", {"--spp", "4"}, s, 2},
+        {"fewer again", {}, s, 2},
+        {"another depth", {"--depth", "0"}, s, 2},
+        {"another precision", {"--precision", "double"}, s, 2},
+        {"another kernel", {"--kernel", "scalar", "--precision", "double"}, s, 2},
+        {"starts as the notes have them", {"--self-hits", "note"}, s, 2},
+        {"another scene", {"--self-hits", "note"}, "redder.scene", 2},
+    };
+    for (const std::string ending : {".png", ".pfm"}) {
+        const Studio studio;
+        const std::string text = turning;
+        write_text(studio.folder / "commented.scene", "# the same\n" + text);
+        std::string redder = text;
+        redder.replace(redder.find("(200, 40, 30)"), 13, "(201, 40, 30)");
+        write_text(studio.folder / "redder.scene", redder);
+        for (const Run& run : runs) {
+            CAPTURE(ending, run.why);
+            Words words{"--frames", "0..1"};
+            words.insert(words.end(), run.words.begin(), run.words.end());
+            const ProgramResult result = studio.render("f%d" + ending, words, run.scene);
+            CHECK(result.exit_code == 0);
+            CHECK_THAT(result.err,
+                       ContainsSubstring(std::to_string(run.rendered) + " frames rendered"));
+            if (run.rendered == 0)
+                CHECK_THAT(result.err, ContainsSubstring("2 were there already"));
+            else if (&run != &runs.front())
+                CHECK_THAT(result.err,
+                           ContainsSubstring("2 in place of pictures of another scene"));
+        }
+    }
+}
+
+TEST_CASE("--frames renders again what is no picture, or no longer the one it was", "[frames]")
+{
+    for (const std::string ending : {".png", ".pfm"}) {
+        CAPTURE(ending);
+        const Studio studio;
+        write_text(studio.folder / ("f0" + ending), "finished");
+        const ProgramResult first = studio.render("f%d" + ending, {"--frames", "0..1"});
+        CHECK_THAT(first.err, ContainsSubstring("2 frames rendered"));
+        CHECK_THAT(first.err, ContainsSubstring("1 in place of pictures"));
+        const std::string frame = read_text(studio.folder / ("f0" + ending));
+        CHECK(frame != "finished");
+        // One frame under a plain name says nothing of what made it.
+        CHECK(studio.render("f0" + ending, {"--frame", "3", "-q"}).exit_code == 0);
+        const ProgramResult second = studio.render("f%d" + ending, {"--frames", "0..1"});
+        CHECK_THAT(second.err, ContainsSubstring("1 frames rendered"));
+        CHECK_THAT(second.err, ContainsSubstring("1 were there already"));
+        CHECK(read_text(studio.folder / ("f0" + ending)) == frame);
+    }
 }
 
 TEST_CASE("a frame that can't be written stops the run and leaves no half of it", "[frames]")
@@ -108,7 +183,8 @@ TEST_CASE("a frame that can't be written stops the run and leaves no half of it"
     const ProgramResult result = studio.render("f%d.pfm", {"--frames", "0..2"});
     CHECK(result.exit_code == 1);
     CHECK_THAT(result.err, ContainsSubstring("f1.pfm: can't write"));
-    CHECK((studio.folder.names() == Words{"f0.pfm", "f1.pfm", "still.scene", "turning.scene"}));
+    CHECK((studio.folder.names() ==
+           Words{"f0.pfm", "f0.pfm.recipe", "f1.pfm", "still.scene", "turning.scene"}));
 }
 
 TEST_CASE("--frame renders one frame under a plain name", "[frames]")

@@ -392,4 +392,48 @@ TEST_CASE("an atomic file appears only with its commit", "[image]")
     CHECK(read_text(folder / "a") == "new");
 }
 
+TEST_CASE("wider values are rounded once, to what the file holds", "[image]")
+{
+    // Just below halfway between two bytes: the nearest float is often above.
+    Image<double> image(255, 1);
+    for (int x = 0; x < 255; ++x)
+        for (int channel = 0; channel < 3; ++channel)
+            image.pixel(x, 0)[channel] = (x + 0.5) / 255.0 - 1e-12;
+    const TempFolder folder;
+    write_image(folder / "a.png", image);
+    const Image<float> png = read_image(folder / "a.png");
+    for (int x = 0; x < 255; ++x)
+        CHECK(png.pixel(x, 0)[0] == static_cast<float>(x) / 255.0f);
+    write_image(folder / "b.png", convert<long double>(image));
+    CHECK(read_text(folder / "b.png") == read_text(folder / "a.png"));
+    write_image(folder / "a.pfm", image);
+    CHECK((read_image(folder / "a.pfm").rgb == convert<float>(image).rgb));
+    write_image(folder / "a.hdr", image);
+    write_image(folder / "b.hdr", convert<float>(image));
+    CHECK(read_text(folder / "a.hdr") == read_text(folder / "b.hdr"));
+}
+
+TEST_CASE("a picture keeps the recipe it was written with", "[image]")
+{
+    for (const std::string name : {"a.png", "a.pfm", "a.hdr"}) {
+        CAPTURE(name);
+        const TempFolder folder;
+        CHECK(read_recipe(folder / name).empty());
+        write_image(folder / name, gradient(5, 4));
+        CHECK(read_recipe(folder / name).empty());
+        const Image<float> plain = read_image(folder / name);
+        write_image(folder / name, gradient(5, 4), {.recipe = "eggs, 2 of them"});
+        CHECK(read_recipe(folder / name) == "eggs, 2 of them");
+        CHECK((read_image(folder / name).rgb == plain.rgb));
+        write_image(folder / name, gradient(5, 4), {.recipe = std::string(2000, 'x')});
+        CHECK(read_recipe(folder / name) == std::string(2000, 'x'));
+        // Another picture in its place has none.
+        write_image(folder / name, gradient(4, 5));
+        CHECK(read_recipe(folder / name).empty());
+        for (const std::string& bad : {std::string(2001, 'x'), "two\nlines"s, "\xc3\xa4"s})
+            CHECK_THROWS_AS(write_image(folder / name, gradient(4, 5), {.recipe = bad}),
+                            std::invalid_argument);
+    }
+}
+
 }  // namespace packtrace

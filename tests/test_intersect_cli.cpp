@@ -286,6 +286,20 @@ TEST_CASE("rays come from standard input, hits leave by standard output", "[inte
     CHECK(read_text(folder / "err") == "standard output: can't write: No space left on device\n");
 }
 
+TEST_CASE("intersect answers alike by either traversal and rule of self-hits", "[intersect_cli]")
+{
+    for (const char* const traversal : {"auto", "list", "tree"})
+        for (const char* const rule : {"note", "exact"}) {
+            const ProgramResult result =
+                intersect(hand_rays(), {"--traversal", traversal, "--self-hits", rule});
+            CHECK(result.exit_code == 0);
+            CHECK(result.out == hand_rows());
+        }
+    CHECK(intersect("", {"--traversal", "none"}).exit_code == 2);
+    CHECK(intersect("", {"--self-hits", "none"}).exit_code == 2);
+    CHECK(intersect("", {"--kernel", "scalar", "--traversal", "tree"}).exit_code == 2);
+}
+
 TEST_CASE("the help of intersect names the columns and every option", "[intersect_cli]")
 {
     const ProgramResult result = run_packtrace({"intersect", "--help"});
@@ -293,7 +307,7 @@ TEST_CASE("the help of intersect names the columns and every option", "[intersec
     for (const std::string word :
          {"ox,oy,oz,dx,dy,dz[,t_min,t_max]", "hit,t,object,nx,ny,nz", "--all", "--any",
           "--kernel packet|scalar", "--precision single|double", "--isa", "--width", "--threads",
-          "--output"})
+          "--output", "--accuracy", "--self-hits note|exact", "--traversal auto|list|tree"})
         CHECK_THAT(result.out, ContainsSubstring(word));
 }
 

@@ -1,6 +1,7 @@
 #include <packtrace/isa.hpp>
 #include <packtrace/render.hpp>
 
+#include <algorithm>
 #include <cmath>
 
 #include <packtrace/compare.hpp>
@@ -175,6 +176,47 @@ TEST_CASE("packets render the general equation to either depth limit", "[models]
         scene.shadows = ShadowKind::transparent;
         check_scene(scene);
     }
+}
+
+TEST_CASE("lights behind a surface make highlights in the notes that do not ask", "[models]")
+{
+    // A floor seen at a low angle, and a light as low beneath it, opposite the eye.
+    struct Model {
+        Illumination illumination;
+        Material material;
+        bool highlight;
+    };
+    Material scratch = matte(Rgb(1));
+    scratch.model = ScratchMaterial{4.0, 0.0};
+    const std::vector<Model> models{
+        {Illumination::scratch, scratch, true},
+        {Illumination::sketch, shaded(SketchMaterial{Rgb(0), Rgb(0), Rgb(0.5), Rgb(0), 4, 1}),
+         true},
+        {Illumination::whitted, shaded(WhittedMaterial{Rgb(0), Rgb(1), Rgb(0.5), Rgb(0), 4, 1}),
+         false},
+        {Illumination::shader, shaded(ShaderMaterial{{0, 0, 0.5, 4}}), true},
+        {Illumination::general,
+         shaded(GeneralMaterial{Rgb(0), Rgb(1), Rgb(0.5), Rgb(0), Rgb(0), 4, 1}), false}};
+    for (const Model& model : models)
+        for (const Light& light : {directional({0, -0.1, 1}, 1), point_light({0, -1.1, 6}, 1)})
+            for (const double side : {1.0, -1.0}) {
+                Scene scene;
+                scene.width = scene.height = 8;
+                scene.illumination = model.illumination;
+                scene.max_depth = 0;
+                scene.camera.position = {0, 0.5, 0};
+                scene.camera.rotation = look_at({0, 0.5, 0}, {0, 0, 3}, {0, 1, 0});
+                scene.camera.viewport = {0.1, 0.1};
+                scene.objects.push_back(plane({0, 0, 0}, {0, 1, 0}, model.material));
+                scene.lights = {light};
+                scene.lights[0].vector.y *= side;
+                CAPTURE(static_cast<int>(model.illumination), static_cast<int>(light.type), side);
+                const Image<double> picture = scalar(scene);
+                const bool lit = model.highlight || side < 0;
+                CHECK(*std::min_element(picture.rgb.begin(), picture.rgb.end()) >= 0.0);
+                CHECK((*std::max_element(picture.rgb.begin(), picture.rgb.end()) > 0.05) == lit);
+                check_scene(scene);
+            }
 }
 
 TEST_CASE("a camera inside nested glass starts with the bodies around it", "[models]")

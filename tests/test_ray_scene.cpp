@@ -2,11 +2,14 @@
 
 #include <array>
 #include <cmath>
+#include <functional>
 #include <limits>
 #include <random>
 #include <vector>
 
+#include <packtrace/explain.hpp>
 #include <packtrace/isa.hpp>
+#include <packtrace/render.hpp>
 
 #include <glm/gtc/matrix_transform.hpp>
 
@@ -173,6 +176,137 @@ TEST_CASE("a ray with a NaN hits nothing", "[ray_scene]")
     for (const IsaInfo& isa : list_isas())
         if (isa.supported)
             CHECK(closest(on(isa.name), rays).object == std::vector<std::int32_t>(8, -1));
+}
+
+namespace {
+
+struct Refused {
+    const char* why;
+    Object object;
+    const char* what;
+};
+
+Object quadric_with(const std::function<void(Quadric&)>& change)
+{
+    Quadric surface;
+    surface.coefficients = {1, 1, 1, 0, 0, 0, 0, 0, 0, -1};
+    change(surface);
+    Object object;
+    object.surface = surface;
+    return object;
+}
+
+/// As somebody may write it who thinks that the kind is enough.
+Quadric quadric_kind_alone(QuadricKind kind)
+{
+    Quadric quadric;
+    quadric.kind = kind;
+    return quadric;
+}
+
+Object moved(const Mat4& transform)
+{
+    Object object = sphere({0, 0, 0}, 1);
+    object.transform = transform;
+    return object;
+}
+
+std::vector<Refused> refused_objects()
+{
+    constexpr double nan = std::numeric_limits<double>::quiet_NaN();
+    constexpr double inf = std::numeric_limits<double>::infinity();
+    Object of_another_model = sphere({0, 0, 0}, 1);
+    of_another_model.material.model = WhittedMaterial{};
+    return {
+        {"radius -1", sphere({0, 0, 0}, -1), "radius"},
+        {"radius 0", sphere({0, 0, 0}, 0), "radius"},
+        {"radius NaN", sphere({0, 0, 0}, nan), "radius"},
+        {"radius infinite", sphere({0, 0, 0}, inf), "radius"},
+        {"center NaN", sphere({0, nan, 0}, 1), "center"},
+        {"no normal", plane({0, 0, 0}, {0, 0, 0}), "normal"},
+        {"point infinite", plane({0, inf, 0}, {0, 1, 0}), "point"},
+        {"a kind alone",
+         quadric_with([](Quadric& q) { q = quadric_kind_alone(QuadricKind::ellipsoid); }),
+         "kind, ellipsoid"},
+        {"another kind", quadric_with([](Quadric& q) { q.kind = QuadricKind::cone; }),
+         "kind, cone"},
+        {"coefficient NaN", quadric_with([](Quadric& q) { q.coefficients[3] = nan; }),
+         "coefficient"},
+        {"no point", quadric_with([](Quadric& q) { q.coefficients[9] = 1; }), "no surface"},
+        {"one point", quadric_with([](Quadric& q) { q.coefficients[9] = 0; }), "no surface"},
+        {"nothing at all", quadric_with([](Quadric& q) { q.coefficients = {}; }), "no surface"},
+        {"range upside down", quadric_with([](Quadric& q) {
+             q.z_range = ZRange{1, -1};
+         }),
+         "z_range"},
+        {"capped at no end", quadric_with([](Quadric& q) { q.capped = true; }), "capped"},
+        {"flat", moved(glm::scale(Mat4(1.0), Vec3(1, 0, 1))), "flattens"},
+        {"moved to NaN", moved(glm::translate(Mat4(1.0), Vec3(nan, 0, 0))), "transform"},
+        {"another model", of_another_model, "illumination model"},
+    };
+}
+
+/// What `call` is refused with.
+std::string message_of(const std::function<void()>& call)
+{
+    try {
+        call();
+    } catch (const std::exception& error) {
+        return error.what();
+    }
+    return "nothing";
+}
+
+/// The message that every kernel, precision and entry refuses the scene with.
+std::string common_message(const Scene& scene)
+{
+    std::string message;
+    for (const Kernel kernel : {Kernel::scalar, Kernel::packet}) {
+        RenderOptions options;
+        options.kernel = kernel;
+        for (const auto& call : std::vector<std::function<void()>>{
+                 [&] { (void)render<float>(scene, options); },
+                 [&] { (void)render<double>(scene, options); },
+                 [&] { (void)RayScene<float>(scene, options); },
+                 [&] { (void)RayScene<double>(scene, options); },
+                 [&] { (void)explain_pixel<double>(scene, 0, 0, options); }}) {
+            const std::string own = message_of(call);
+            if (message.empty())
+                message = own;
+            CHECK(own == message);
+        }
+    }
+    return message;
+}
+
+}  // namespace
+
+TEST_CASE("every kernel refuses the same objects with the same words", "[ray_scene]")
+{
+    for (const Refused& refused : refused_objects()) {
+        INFO(refused.why);
+        Scene scene;
+        scene.width = scene.height = 4;
+        scene.objects = {sphere({0, 0, 3}, 1), refused.object};
+        scene.objects[1].name = "odd one";
+        const std::string message = common_message(scene);
+        CHECK(message.starts_with("object 'odd one': "));
+        CHECK(message.find(refused.what) != std::string::npos);
+        CHECK(message.find('\n') == std::string::npos);
+        scene.objects[1].name.clear();
+        CHECK(common_message(scene).starts_with("object number 1: "));
+    }
+}
+
+TEST_CASE("every kernel refuses a light that shines from nowhere", "[ray_scene]")
+{
+    for (const Vec3 vector : {Vec3(0.0), Vec3(0, std::nan(""), 1)}) {
+        Scene scene;
+        scene.width = scene.height = 4;
+        scene.objects = {sphere({0, 0, 3}, 1)};
+        scene.lights = {ambient(1), directional(vector, 1)};
+        CHECK(common_message(scene).starts_with("light number 1: "));
+    }
 }
 
 }  // namespace packtrace::test

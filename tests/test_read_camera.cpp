@@ -2,7 +2,10 @@
 
 #include <cmath>
 
+#include <packtrace/write_scene.hpp>
+
 #include <glm/geometric.hpp>
+#include <glm/matrix.hpp>
 
 #include "catch.hpp"
 #include "scene_text.hpp"
@@ -75,6 +78,32 @@ TEST_CASE("a rotation rounded to seven digits is taken", "[read_camera]")
     CHECK(read.rotation[2][0] == 0.7071068);
 }
 
+TEST_CASE("a rotation rounded to four digits is mended, with one warning", "[read_camera]")
+{
+    std::vector<std::string> warnings;
+    const auto take = [&](const std::string& line) { warnings.push_back(line); };
+    const std::string text = std::string(test::any_sphere) +
+                             "camera {\n"
+                             "  rotation = (0.7071, 0, -0.7071,  0, 1, 0,  0.7071, 0, 0.7071) }\n";
+    const Scene read = parse_scene(text, "x.scene", take);
+    const Mat3& rotation = read.camera.rotation;
+    const Mat3 square = glm::transpose(rotation) * rotation;
+    for (int column = 0; column < 3; ++column)
+        for (int row = 0; row < 3; ++row) {
+            CHECK(std::abs(square[column][row] - (column == row ? 1.0 : 0.0)) < 1e-15);
+        }
+    CHECK(std::abs(rotation[0][0] - std::sqrt(0.5)) < 1e-15);
+    REQUIRE(warnings.size() == 1);
+    CHECK(warnings[0] ==
+          "x.scene:3:3: 'rotation' is a rotation only within 2e-05; the nearest one is used; write "
+          "its numbers with seven digits or use look_at");
+    // Without anybody to warn, too.
+    CHECK(test::parse(text).camera.rotation == rotation);
+    // What is written of it reads back without a warning.
+    CHECK(parse_scene(scene_text(read), "y.scene", take).camera.rotation == rotation);
+    CHECK(warnings.size() == 1);
+}
+
 TEST_CASE("an angle of view is read in degrees", "[read_camera]")
 {
     CHECK(camera("fov = 45").fov == 45.0);
@@ -84,10 +113,11 @@ TEST_CASE("nine numbers that are no rotation are refused", "[read_camera]")
 {
     const std::string message =
         "x.scene:3:1: 'rotation' is not a rotation: its rows have to be perpendicular, of length 1 "
-        "and unmirrored within 1e-6; correct its numbers or use look_at";
-    CHECK(camera_error("rotation = (1, 0, 0,  0, 1, 0,  0, 0, 1.00001)") == message);
-    CHECK(camera_error("rotation = (1, 0.00001, 0,  0, 1, 0,  0, 0, 1)") == message);
+        "and unmirrored within 1e-3; correct its numbers or use look_at";
+    CHECK(camera_error("rotation = (1, 0, 0,  0, 1, 0,  0, 0, 1.001)") == message);
+    CHECK(camera_error("rotation = (1, 0.0011, 0,  0, 1, 0,  0, 0, 1)") == message);
     CHECK(camera_error("rotation = (1, 0, 0,  0, 1, 0,  0, 0, -1)") == message);
+    CHECK(camera_error("rotation = (0.71, 0, -0.71,  0, 1, 0,  0.71, 0, 0.71)") == message);
     CHECK(camera_error("rotation = (1, 0, 0,  0, 1, 0)") ==
           "x.scene:3:12: 'rotation' wants 9 numbers, not 6; write rotation = (1, 0, 0, 0, 1, 0, 0, "
           "0, 1)");

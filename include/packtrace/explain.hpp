@@ -45,10 +45,10 @@ struct RayNode {
 
 /// The ray tree of the pixel in column `x` and row `y`, as the packets of `Real` (float or
 /// double) trace it, or with the scalar kernel the reference, which comes in double only. Of the
-/// options `kernel`, `isa` and `width` count. Packets are those of render(), with all features
+/// options `kernel`, `isa`, `width`, `accuracy` and `self_hits` count. Packets are those of render(), with all features
 /// compiled in and reports of this one pixel's rays added. Throws std::invalid_argument for a pixel
 /// outside the picture, impossible options, and a Scene::max_depth that packets cannot number
-/// (over 28 in float, 60 in double); SceneError as render() does.
+/// (over 28 in float, 60 in double); else as render() does.
 template <class Real>
 [[nodiscard]] RayNode explain_pixel(const Scene& scene, int x, int y,
                                     const RenderOptions& options = {});

@@ -2,6 +2,7 @@
 
 #include <filesystem>
 #include <stdexcept>
+#include <string>
 
 #include <packtrace/image.hpp>
 
@@ -15,13 +16,24 @@ struct ImageError : std::runtime_error {
 struct ImageWriteOptions {
     /// PNG only: values are raised to 1 / gamma before rounding; 1 writes them linear.
     double gamma = 1.0;
+    /// At most 2000 printable ASCII characters that say what made the picture; empty for none. A
+    /// PNG keeps it in a text chunk, other formats in a file beside the picture, named as the
+    /// picture with
+    /// `.recipe` added.
+    std::string recipe = {};
 };
 
 /// Writes `image` by the file's extension: `.png` (8 bits, clamped and rounded), `.pfm`
-/// (32-bit float) or `.hdr` (Radiance RGBE). Writes to a temporary name beside `file` and
-/// renames it when complete. Throws ImageError.
-void write_image(const std::filesystem::path& file, const Image<float>& image,
+/// (32-bit float) or `.hdr` (Radiance RGBE). Values are rounded once, from `Real` (float, double or
+/// long double) to what the file holds; a Radiance file is made from floats. Writes to a temporary
+/// name beside `file` and renames it when complete. Throws ImageError.
+template <class Real>
+void write_image(const std::filesystem::path& file, const Image<Real>& image,
                  const ImageWriteOptions& options = {});
+
+/// The recipe that a picture was written with; empty when there is none, when the picture is not
+/// the one that was written with it, or when there is no picture.
+[[nodiscard]] std::string read_recipe(const std::filesystem::path& file);
 
 /// Throws the ImageError that `write_image` would throw for `file` whatever the picture: its
 /// extension is unknown, its folder is missing or can't be written to. Leaves nothing behind.

@@ -73,8 +73,7 @@ template <class Real>
 class RayScene {
 public:
     /// Of the options `kernel`, `isa`, `width`, `accuracy`, `self_hits` and `traversal` count.
-    /// Throws SceneError for a scene that cannot be held, std::invalid_argument for impossible
-    /// options.
+    /// Throws as render() does.
     explicit RayScene(const Scene& scene, const RenderOptions& options = {});
     ~RayScene();
     RayScene(RayScene&&) noexcept;

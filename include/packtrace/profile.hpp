@@ -18,6 +18,8 @@ struct ProfileOptions {
     int threads = 1;
     int samples = 1;  ///< as RenderOptions has them, and adaptive
     std::optional<double> adaptive = {};
+    Accuracy accuracy = RenderOptions{}.accuracy;
+    SelfHits self_hits = default_self_hits;
     int repetitions = 9;
 };
 

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <filesystem>
+#include <functional>
 #include <stdexcept>
 #include <string>
 #include <string_view>
@@ -14,10 +15,14 @@ struct SceneError : std::runtime_error {
     using std::runtime_error::runtime_error;
 };
 
+/// Is called with one line, `file:line:column: what`, for what a reader had to mend.
+using TakeWarning = std::function<void(const std::string& line)>;
+
 /// Reads a scene file (docs/scene.md). Throws SceneError for unreadable or wrong input.
-[[nodiscard]] Scene read_scene(const std::filesystem::path& file);
+[[nodiscard]] Scene read_scene(const std::filesystem::path& file, const TakeWarning& warn = {});
 
 /// Reads a scene from text; `name` stands for the file in messages.
-[[nodiscard]] Scene parse_scene(std::string_view text, const std::string& name);
+[[nodiscard]] Scene parse_scene(std::string_view text, const std::string& name,
+                                const TakeWarning& warn = {});
 
 }  // namespace packtrace

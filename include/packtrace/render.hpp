@@ -56,7 +56,9 @@ struct RenderOptions {
 
 /// Renders a scene in the precision of `Real` (float or double; the scalar kernel also long
 /// double). The picture is the same, bit for bit, whatever the width and number of threads on
-/// a machine with fused multiply-add. Throws std::invalid_argument for impossible options.
+/// a machine with fused multiply-add. Throws std::invalid_argument for impossible options and for
+/// a scene whose numbers mean nothing (a radius of -1, coefficients that are not those of the
+/// quadric's kind), SceneError for a quadric without a surface; every kernel refuses the same.
 template <class Real>
 [[nodiscard]] Image<Real> render(const Scene& scene, const RenderOptions& options = {});
 

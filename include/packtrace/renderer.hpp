@@ -29,8 +29,7 @@ struct FrameCounts {
 template <class Real>
 class Renderer {
 public:
-    /// Throws SceneError for a scene the kernels cannot hold, std::invalid_argument for
-    /// impossible options. `options.kernel` is not looked at.
+    /// Throws as render() does. `options.kernel` is not looked at.
     explicit Renderer(const Scene& scene, const RenderOptions& options = {});
     ~Renderer();
     Renderer(Renderer&&) noexcept;

@@ -45,7 +45,8 @@ struct ZRange {
 /// Ax² + By² + Cz² + Dxy + Exz + Fyz + Gx + Hy + Iz + J = 0 in its own space.
 struct Quadric {
     QuadricKind kind = QuadricKind::general;
-    /// A … J in the order of the equation above; filled in for every kind.
+    /// A … J in the order of the equation above; filled in for every kind, with those of its
+    /// equation.
     std::array<double, 10> coefficients{};
     /// Keeps only the part with z in this range, in the quadric's own space.
     std::optional<ZRange> z_range;

@@ -1,15 +1,14 @@
 #include <charconv>
-#include <filesystem>
 #include <iostream>
 #include <memory>
 #include <optional>
-
-#include <packtrace/read_scene.hpp>
+#include <utility>
 
 #include <nlohmann/json.hpp>
 
 #include "cli/command.hpp"
 #include "cli/common_options.hpp"
+#include "cli/scene_input.hpp"
 #include "cli/text_output.hpp"
 #include "cli/text_table.hpp"
 #include "cli/validators.hpp"
@@ -156,7 +155,8 @@ void run_bench_command(const BenchArguments& arguments)
         baseline = read_baseline(arguments.baseline);
     std::vector<ReportScene> scenes;
     for (const std::string& file : arguments.scenes) {
-        scenes.push_back({std::filesystem::path(file).stem().string(), {}, read_scene(file)});
+        SceneInput input = read_scene_input(file);
+        scenes.push_back({input.stem, {}, std::move(input.scene)});
         apply(arguments.picture, scenes.back().scene);
     }
     BenchResult result;
@@ -184,7 +184,9 @@ void add_bench(CLI::App& app)
     CLI::App* command = app.add_subcommand(
         "bench", "Time kernels against the scalar reference; compare with a baseline");
     const auto arguments = std::make_shared<BenchArguments>();
-    command->add_option("SCENE", arguments->scenes, "Scene files")->required()->type_name("");
+    command->add_option("SCENE", arguments->scenes, "Scene files; - is standard input")
+        ->required()
+        ->type_name("");
     add_picture_options(*command, arguments->picture);
     command
         ->add_option("--isa", arguments->isa, "Only this instruction set (default all there are)")

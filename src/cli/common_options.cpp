@@ -48,15 +48,33 @@ Accuracy accuracy_of(const std::string& name)
 
 }  // namespace
 
-void add_accuracy_option(CLI::App& command, std::optional<std::string>& accuracy)
+void add_accuracy_options(CLI::App& command, AccuracyArguments& arguments)
 {
     command
-        .add_option("--accuracy", accuracy,
+        .add_option("--accuracy", arguments.accuracy,
                     "How single-precision packets find hits. fast: in single precision alone. "
                     "exact (default): uncertain decisions are made in double, every hit is "
                     "refined in double")
         ->check(one_of({"fast", "exact"}))
         ->type_name("fast|exact");
+    command
+        .add_option("--self-hits", arguments.self_hits,
+                    "How rays keep off the place they start at: 0.001 along their way, as the "
+                    "notes have it (note), or (exact) by solving their own surface as one they are "
+                    "on, and others from as far off as rounding can do (default " +
+                        std::string(default_self_hits == SelfHits::note ? "note" : "exact") + ")")
+        ->check(one_of({"note", "exact"}))
+        ->type_name("note|exact");
+}
+
+void add_traversal_option(CLI::App& command, std::optional<std::string>& traversal)
+{
+    command
+        .add_option("--traversal", traversal,
+                    "How packets find objects: one by one, through a hierarchy of boxes, or "
+                    "(default) as their number suggests")
+        ->check(one_of({"auto", "list", "tree"}))
+        ->type_name("auto|list|tree");
 }
 
 void add_isa_options(CLI::App& command, IsaArguments& arguments)
@@ -122,21 +140,8 @@ void add_kernel_options(CLI::App& command, KernelArguments& arguments)
                     "single (default), double, or extended (scalar only)")
         ->check(one_of({"single", "double", "extended"}))
         ->type_name("single|double|extended");
-    command
-        .add_option("--traversal", arguments.traversal,
-                    "How packets find objects: one by one, through a hierarchy of boxes, or "
-                    "(default) as their number suggests")
-        ->check(one_of({"auto", "list", "tree"}))
-        ->type_name("auto|list|tree");
-    add_accuracy_option(command, arguments.accuracy);
-    command
-        .add_option("--self-hits", arguments.self_hits,
-                    "How rays keep off the place they start at: 0.001 along their way, as the "
-                    "notes have it (note), or (exact) by solving their own surface as one they are "
-                    "on, and others from as far off as rounding can do (default " +
-                        std::string(default_self_hits == SelfHits::note ? "note" : "exact") + ")")
-        ->check(one_of({"note", "exact"}))
-        ->type_name("note|exact");
+    add_traversal_option(command, arguments.traversal);
+    add_accuracy_options(command, arguments.accuracy);
     command.add_flag("--force-general", arguments.force_general,
                      "Run the packet kernel that knows everything, and leave nothing of the scene "
                      "out; the picture is the same");
@@ -194,17 +199,24 @@ void apply(const SamplingArguments& arguments, RenderOptions& options)
             "--spp or give it more");
 }
 
+void apply(const AccuracyArguments& arguments, const std::string& kernel,
+           const std::string& precision, RenderOptions& options)
+{
+    if (arguments.accuracy && (kernel == "scalar" || precision != "single"))
+        throw CLI::ValidationError(
+            "--accuracy: only packets of floats have a choice; leave it out or use "
+            "--kernel packet --precision single");
+    if (arguments.accuracy)
+        options.accuracy = accuracy_of(*arguments.accuracy);
+    if (arguments.self_hits)
+        options.self_hits = arguments.self_hits == "exact" ? SelfHits::exact : SelfHits::note;
+}
+
 RenderOptions render_options(const KernelArguments& arguments)
 {
     RenderOptions options;
     options.threads = arguments.threads;
-    if (arguments.accuracy && (arguments.kernel == "scalar" || arguments.precision != "single"))
-        throw CLI::ValidationError(
-            "--accuracy: only packets of floats have a choice; leave it out or use "
-            "--kernel packet --precision single");
-    options.accuracy = accuracy_of(arguments.accuracy.value_or("exact"));
-    if (arguments.self_hits)
-        options.self_hits = arguments.self_hits == "exact" ? SelfHits::exact : SelfHits::note;
+    apply(arguments.accuracy, arguments.kernel, arguments.precision, options);
     if (arguments.kernel == "scalar") {
         options.kernel = Kernel::scalar;
         if (const std::string option = packet_option(arguments); !option.empty())

@@ -23,14 +23,19 @@ struct PictureArguments {
     std::optional<int> depth;
 };
 
-/// How to render it: `--kernel`, `--precision`, `--traversal`, `--accuracy`, `--self-hits`,
-/// `--force-general`, `--threads` and those of IsaArguments.
+/// How exact hits are: `--accuracy` and `--self-hits`.
+struct AccuracyArguments {
+    std::optional<std::string> accuracy;
+    std::optional<std::string> self_hits;
+};
+
+/// How to render it: `--kernel`, `--precision`, `--traversal`, `--force-general`, `--threads` and
+/// those of AccuracyArguments and IsaArguments.
 struct KernelArguments {
     std::string kernel = "packet";
     std::optional<std::string> traversal;
     std::string precision = "single";
-    std::optional<std::string> accuracy;
-    std::optional<std::string> self_hits;
+    AccuracyArguments accuracy;
     bool force_general = false;
     IsaArguments isa;
     int threads = 0;
@@ -42,7 +47,8 @@ struct SamplingArguments {
     std::optional<double> adaptive;
 };
 
-void add_accuracy_option(CLI::App& command, std::optional<std::string>& accuracy);
+void add_accuracy_options(CLI::App& command, AccuracyArguments& arguments);
+void add_traversal_option(CLI::App& command, std::optional<std::string>& traversal);
 void add_sampling_options(CLI::App& command, SamplingArguments& arguments);
 void add_isa_options(CLI::App& command, IsaArguments& arguments);
 /// `--size` alone.
@@ -60,6 +66,11 @@ void apply(const PictureArguments& arguments, Scene& scene);
 /// Puts the sampling asked for into the options. Throws CLI::ValidationError for `--adaptive` with
 /// one sample.
 void apply(const SamplingArguments& arguments, RenderOptions& options);
+
+/// Puts the accuracy asked for into the options. Throws CLI::ValidationError where there is no
+/// choice: the kernel is not packets, or the precision not "single".
+void apply(const AccuracyArguments& arguments, const std::string& kernel,
+           const std::string& precision, RenderOptions& options);
 
 /// Throws CLI::ValidationError for options that contradict each other.
 [[nodiscard]] RenderOptions render_options(const KernelArguments& arguments);

@@ -95,8 +95,11 @@ void run_compare(const CompareArguments& arguments)
         print_json(arguments, a, result);
     else
         print_text(result, arguments.options);
-    if (arguments.max_error >= 0.0 && result.max_abs > arguments.max_error)
+    if (arguments.max_error >= 0.0 && result.max_abs > arguments.max_error) {
+        std::cerr << std::setprecision(6) << "packtrace: the largest error is " << result.max_abs
+                  << ", above --max-error " << arguments.max_error << '\n';
         throw Failed{};
+    }
 }
 
 }  // namespace
@@ -124,7 +127,7 @@ void add_compare(CLI::App& app)
         ->type_name("IMAGE");
     command
         ->add_option("--max-error", arguments->max_error,
-                     "Exit 1 when the largest error exceeds this")
+                     "Exit 1, and say why, when the largest error exceeds this")
         ->check(non_negative_number())
         ->type_name("X");
     command->add_flag("--json", arguments->json, "Print JSON; infinite numbers become null");

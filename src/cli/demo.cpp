@@ -7,13 +7,13 @@
 
 #include <packtrace/compare.hpp>
 #include <packtrace/image_io.hpp>
-#include <packtrace/read_scene.hpp>
 
 #include <tbb/info.h>
 
 #include "cli/command.hpp"
 #include "cli/common_options.hpp"
 #include "cli/demo_entry.hpp"
+#include "cli/scene_input.hpp"
 #include "cli/text_table.hpp"
 #include "cli/thread_limit.hpp"
 #include "cli/validators.hpp"
@@ -89,22 +89,22 @@ void write_pictures(const std::filesystem::path& folder, const std::string& stem
 
 void run_demo(const DemoArguments& arguments)
 {
-    Scene scene = read_scene(arguments.scene);
+    SceneInput input = read_scene_input(arguments.scene);
+    Scene& scene = input.scene;
     apply(arguments.picture, scene);
     // A folder that can't be made shows when the picture is written into it.
     std::error_code ignored;
     std::filesystem::create_directories(arguments.folder, ignored);
-    const std::string stem = std::filesystem::path(arguments.scene).stem().string();
-    check_image_writable(arguments.folder / (stem + ".png"));
+    check_image_writable(arguments.folder / (input.stem + ".png"));
 
     const ThreadLimit limit(arguments.threads);
     std::vector<DemoEntry> entries = demo_entries(arguments.threads);
     render_rounds(scene, arguments.rounds, entries);
-    std::cout << arguments.scene << ", " << scene.width << " x " << scene.height << ", median of "
+    std::cout << input.name << ", " << scene.width << " x " << scene.height << ", median of "
               << arguments.rounds << " renders; errors against the scalar reference in double\n\n";
     print_table(entries);
     std::cout << '\n';
-    write_pictures(arguments.folder, stem, entries);
+    write_pictures(arguments.folder, input.stem, entries);
 }
 
 }  // namespace
@@ -114,7 +114,9 @@ void add_demo(CLI::App& app)
     CLI::App* command = app.add_subcommand(
         "demo", "Render a scene with every kernel; print speed and error of each");
     const auto arguments = std::make_shared<DemoArguments>();
-    command->add_option("SCENE", arguments->scene, "Scene file (default scenes/four_spheres.scene)")
+    command
+        ->add_option("SCENE", arguments->scene,
+                     "Scene file (default scenes/four_spheres.scene); - is standard input")
         ->type_name("");
     command->add_option("-o,--output", arguments->folder, "Folder for the pictures (default demo)")
         ->type_name("DIR");

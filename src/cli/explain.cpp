@@ -6,11 +6,10 @@
 #include <string>
 #include <utility>
 
-#include <packtrace/read_scene.hpp>
-
 #include "cli/command.hpp"
 #include "cli/common_options.hpp"
 #include "cli/explain_print.hpp"
+#include "cli/scene_input.hpp"
 #include "cli/validators.hpp"
 
 namespace packtrace::cli {
@@ -20,6 +19,7 @@ struct ExplainArguments {
     std::string scene;
     std::string pixel;
     std::string precision = "single";
+    AccuracyArguments accuracy;
     IsaArguments isa;
     PictureArguments picture;
     bool json = false;
@@ -59,16 +59,22 @@ void check_inside(const ExplainArguments& arguments, const Scene& scene)
                                    std::to_string(scene.height - 1));
 }
 
-Explanation explain(const ExplainArguments& arguments, const Scene& scene)
+RenderOptions packet_options(const ExplainArguments& arguments)
 {
+    RenderOptions options;
+    options.isa = chosen_isa(arguments.isa).name;
+    apply(arguments.accuracy, "packet", arguments.precision, options);
+    return options;
+}
+
+Explanation explain(const ExplainArguments& arguments, const std::string& name, const Scene& scene)
+{
+    RenderOptions options = packet_options(arguments);
     Explanation result;
-    result.file = arguments.scene;
+    result.file = name;
     std::tie(result.x, result.y) = parse_pixel(arguments.pixel);
     result.precision = arguments.precision;
-    result.isa = chosen_isa(arguments.isa).name;
-
-    RenderOptions options;
-    options.isa = result.isa;
+    result.isa = options.isa;
     const bool single = arguments.precision == "single";
     result.tolerance = single ? single_tree_tolerance : double_tree_tolerance;
     result.packets = single ? explain_pixel<float>(scene, result.x, result.y, options)
@@ -81,11 +87,12 @@ Explanation explain(const ExplainArguments& arguments, const Scene& scene)
 
 void run_explain(const ExplainArguments& arguments)
 {
-    (void)chosen_isa(arguments.isa);
-    Scene scene = read_scene(arguments.scene);
+    (void)packet_options(arguments);
+    SceneInput input = read_scene_input(arguments.scene);
+    Scene& scene = input.scene;
     apply(arguments.picture, scene);
     check_inside(arguments, scene);
-    const Explanation explanation = explain(arguments, scene);
+    const Explanation explanation = explain(arguments, input.name, scene);
     if (arguments.json)
         std::cout << explanation_json(scene, explanation)
                          .dump(2, ' ', false, nlohmann::json::error_handler_t::replace)
@@ -101,7 +108,7 @@ void add_explain(CLI::App& app)
     CLI::App* command = app.add_subcommand(
         "explain", "Show the rays of one pixel, of the reference and of packets");
     const auto arguments = std::make_shared<ExplainArguments>();
-    command->add_option("SCENE", arguments->scene, "Scene file")->required()->type_name("");
+    add_scene_option(*command, arguments->scene);
     command->add_option("--pixel", arguments->pixel, "Column and row, from 0 at the top left")
         ->required()
         ->check(CLI::Validator(check_pixel, ""))
@@ -111,6 +118,7 @@ void add_explain(CLI::App& app)
                      "Of the packets: single (default) or double")
         ->check(one_of({"single", "double"}))
         ->type_name("single|double");
+    add_accuracy_options(*command, arguments->accuracy);
     add_isa_options(*command, arguments->isa);
     add_picture_options(*command, arguments->picture);
     command->add_flag("--json", arguments->json, "Print both trees as JSON");

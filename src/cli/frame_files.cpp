@@ -2,6 +2,7 @@
 #include <system_error>
 
 #include "cli/frame_output.hpp"
+#include "cli/frame_recipe.hpp"
 #include "render/frame_pattern.hpp"
 
 namespace packtrace::cli {
@@ -9,23 +10,24 @@ namespace {
 
 class FrameFiles final : public FrameOutput {
 public:
-    explicit FrameFiles(const RenderArguments& arguments)
-        : pattern_(arguments.output),
-          options_(arguments.write),
-          overwrite_(arguments.animation.overwrite)
+    FrameFiles(const RenderArguments& arguments, const Scene& scene, const RenderOptions& options)
+        : pattern_(arguments.output), options_(arguments.write), recipe_(arguments, scene, options)
     {
     }
 
     // Pictures are renamed into place when complete, so that what is there is finished.
-    [[nodiscard]] bool has(int frame) const override
+    [[nodiscard]] Found find(int frame, const Camera& camera) const override
     {
         std::error_code error;
-        return !overwrite_ && std::filesystem::is_regular_file(pattern_.name(frame), error);
+        if (!std::filesystem::is_regular_file(pattern_.name(frame), error))
+            return Found::nothing;
+        return read_recipe(pattern_.name(frame)) == recipe_.of(camera) ? Found::same : Found::other;
     }
 
-    void write(int frame, const Image<float>& image) override
+    void write(int frame, const Camera& camera, const AnyImage& image) override
     {
-        write_image(pattern_.name(frame), image, options_);
+        options_.recipe = recipe_.of(camera);
+        write_picture(pattern_.name(frame), image, options_);
     }
 
     void finish() override
@@ -35,14 +37,15 @@ public:
 private:
     FramePattern pattern_;
     ImageWriteOptions options_;
-    bool overwrite_;
+    FrameRecipe recipe_;
 };
 
 }  // namespace
 
-std::unique_ptr<FrameOutput> frame_files(const RenderArguments& arguments)
+std::unique_ptr<FrameOutput> frame_files(const RenderArguments& arguments, const Scene& scene,
+                                         const RenderOptions& options)
 {
-    auto files = std::make_unique<FrameFiles>(arguments);
+    auto files = std::make_unique<FrameFiles>(arguments, scene, options);
     // Before the work, so that a wrong folder doesn't cost it.
     check_image_writable(FramePattern(arguments.output).name(0));
     return files;

@@ -3,9 +3,10 @@
 #include <memory>
 #include <string>
 
-#include <packtrace/image.hpp>
+#include <packtrace/camera.hpp>
 
 #include "cli/render_arguments.hpp"
+#include "cli/render_picture.hpp"
 
 namespace packtrace::cli {
 
@@ -14,15 +15,22 @@ class FrameOutput {
 public:
     virtual ~FrameOutput() = default;
 
-    /// The frame is there already, from an earlier run.
-    [[nodiscard]] virtual bool has(int frame) const = 0;
-    virtual void write(int frame, const Image<float>& image) = 0;
+    /// What an earlier run left in a frame's place.
+    enum class Found {
+        nothing,
+        other,  ///< a picture made of another scene, by other options or another version
+        same    ///< the frame
+    };
+    [[nodiscard]] virtual Found find(int frame, const Camera& camera) const = 0;
+    virtual void write(int frame, const Camera& camera, const AnyImage& image) = 0;
     /// After the last frame.
     virtual void finish() = 0;
 };
 
-/// A picture file a frame, named by the pattern of `--output`.
-[[nodiscard]] std::unique_ptr<FrameOutput> frame_files(const RenderArguments& arguments);
+/// A picture file a frame, named by the pattern of `--output`. Each keeps its recipe.
+[[nodiscard]] std::unique_ptr<FrameOutput> frame_files(const RenderArguments& arguments,
+                                                       const Scene& scene,
+                                                       const RenderOptions& options);
 
 /// A YUV4MPEG2 stream on standard output for `-`, else in a file that appears when complete.
 [[nodiscard]] std::unique_ptr<FrameOutput> frame_stream(const RenderArguments& arguments);

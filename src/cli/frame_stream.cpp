@@ -47,12 +47,24 @@ public:
     {
     }
 
-    [[nodiscard]] bool has(int) const override
+    [[nodiscard]] Found find(int, const Camera&) const override
     {
-        return false;
+        return Found::nothing;
     }
 
-    void write(int, const Image<float>& image) override
+    void write(int, const Camera&, const AnyImage& any) override
+    {
+        std::visit([this](const auto& image) { write_frame(image); }, any);
+    }
+
+    void finish() override
+    {
+        sink_.finish();
+    }
+
+private:
+    template <class Real>
+    void write_frame(const Image<Real>& image)
     {
         if (!started_) {
             const std::string header = y4m_header(image.width, image.height, frames_per_second_);
@@ -63,12 +75,6 @@ public:
         sink_.write(std::as_bytes(std::span(frame)));
     }
 
-    void finish() override
-    {
-        sink_.finish();
-    }
-
-private:
     ByteSink sink_;
     double gamma_;
     int frames_per_second_;

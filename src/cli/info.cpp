@@ -4,13 +4,13 @@
 #include <string>
 
 #include <packtrace/isa.hpp>
-#include <packtrace/read_scene.hpp>
 
 #include <nlohmann/json.hpp>
 
 #include "cli/command.hpp"
 #include "cli/common_options.hpp"
 #include "cli/scene_features.hpp"
+#include "cli/scene_input.hpp"
 #include "cli/scene_summary.hpp"
 #include "cli/text_table.hpp"
 
@@ -110,7 +110,7 @@ nlohmann::ordered_json scene_json(const std::string& file, const Scene& scene,
             {"memory_bytes", features.bytes}};
 }
 
-void print_json(const IsaInfo& chosen, const std::string& file, const std::optional<Scene>& scene)
+void print_json(const IsaInfo& chosen, const std::optional<SceneInput>& input)
 {
     nlohmann::ordered_json json;
     json["version"] = PACKTRACE_VERSION;
@@ -121,9 +121,9 @@ void print_json(const IsaInfo& chosen, const std::string& file, const std::optio
                                 {"lanes_double", isa.lanes_double},
                                 {"supported", isa.supported}});
     json["chosen"] = chosen.name;
-    if (scene) {
-        const SceneFeatures features = scene_features(*scene, chosen);
-        json["scene"] = scene_json(file, *scene, features);
+    if (input) {
+        const SceneFeatures features = scene_features(input->scene, chosen);
+        json["scene"] = scene_json(input->name, input->scene, features);
         json["scene"]["features"] = features_json(features);
     }
     std::cout << json.dump(2, ' ', false, nlohmann::json::error_handler_t::replace) << '\n';
@@ -132,16 +132,16 @@ void print_json(const IsaInfo& chosen, const std::string& file, const std::optio
 void run_info(const InfoArguments& arguments)
 {
     const IsaInfo chosen = chosen_isa(arguments.isa);
-    std::optional<Scene> scene;
+    std::optional<SceneInput> input;
     if (!arguments.scene.empty())
-        scene = read_scene(arguments.scene);
+        input = read_scene_input(arguments.scene);
     if (arguments.json)
-        return print_json(chosen, arguments.scene, scene);
+        return print_json(chosen, input);
     std::cout << "packtrace " PACKTRACE_VERSION "\n\n";
     print_isas(chosen);
-    if (scene) {
-        const SceneFeatures features = scene_features(*scene, chosen);
-        print_scene(arguments.scene, *scene, features);
+    if (input) {
+        const SceneFeatures features = scene_features(input->scene, chosen);
+        print_scene(input->name, input->scene, features);
         print_features(features, chosen);
     }
 }
@@ -153,7 +153,8 @@ void add_info(CLI::App& app)
     CLI::App* command =
         app.add_subcommand("info", "Show what this machine can run, and what a scene holds");
     const auto arguments = std::make_shared<InfoArguments>();
-    command->add_option("SCENE", arguments->scene, "Scene file to look into")->type_name("");
+    command->add_option("SCENE", arguments->scene, "Scene file to look into; - is standard input")
+        ->type_name("");
     add_isa_options(*command, arguments->isa);
     command->add_flag("--json", arguments->json, "Print JSON");
     command->callback([arguments] { run_info(*arguments); });

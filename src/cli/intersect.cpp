@@ -1,11 +1,10 @@
 #include <memory>
 #include <string>
 
-#include <packtrace/read_scene.hpp>
-
 #include "cli/command.hpp"
 #include "cli/common_options.hpp"
 #include "cli/intersect_rays.hpp"
+#include "cli/scene_input.hpp"
 #include "cli/thread_limit.hpp"
 #include "cli/validators.hpp"
 
@@ -29,10 +28,13 @@ RayQuery query_of(const IntersectArguments& arguments)
 void run_intersect(const IntersectArguments& arguments)
 {
     const RenderOptions options = render_options(arguments.kernel);
+    if (arguments.scene == "-" && arguments.rays == "-")
+        throw CLI::ValidationError(
+            "RAYS: standard input holds the scene or the rays, not both; give a file for one");
     const ThreadLimit limit(options.threads);
     // Before the work, so that a wrong name doesn't cost it.
     TextOutput output(arguments.output);
-    const Scene scene = read_scene(arguments.scene);
+    const Scene scene = read_scene_input(arguments.scene).scene;
     RayBlocks rays(arguments.rays);
     if (arguments.kernel.precision == "single")
         intersect_rays<float>(scene, options, query_of(arguments), rays, output);
@@ -50,7 +52,8 @@ void add_options(CLI::App& command, KernelArguments& arguments)
     command.add_option("--precision", arguments.precision, "double (default) or single")
         ->check(one_of({"single", "double"}))
         ->type_name("single|double");
-    add_accuracy_option(command, arguments.accuracy);
+    add_traversal_option(command, arguments.traversal);
+    add_accuracy_options(command, arguments.accuracy);
     add_isa_options(command, arguments.isa);
     add_threads_option(command, arguments.threads);
 }
@@ -62,7 +65,7 @@ void add_intersect(CLI::App& app)
     CLI::App* command =
         app.add_subcommand("intersect", "Say where rays of your own meet a scene's objects");
     const auto arguments = std::make_shared<IntersectArguments>();
-    command->add_option("SCENE", arguments->scene, "Scene file")->required()->type_name("");
+    add_scene_option(*command, arguments->scene);
     command
         ->add_option("RAYS", arguments->rays,
                      "CSV of ox,oy,oz,dx,dy,dz[,t_min,t_max]; - is standard input")

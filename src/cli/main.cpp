@@ -3,16 +3,17 @@
 #include <new>
 
 #include "cli/command.hpp"
+#include "cli/usage_error.hpp"
 
 namespace packtrace::cli {
 namespace {
 
 // CLI11 prints help and version itself; a wrong use becomes one line.
-int report_parse_end(const CLI::App& app, const CLI::ParseError& end)
+int report_parse_end(const CLI::App& app, const CLI::ParseError& end, int argc, char** argv)
 {
     if (end.get_exit_code() == 0)
         return app.exit(end);
-    std::cerr << "packtrace: " << end.what() << "; see packtrace --help\n";
+    std::cerr << usage_error(app, end, argc, argv) << '\n';
     return exit_usage;
 }
 
@@ -39,7 +40,7 @@ int run(int argc, char** argv)
         if (app.get_subcommands().empty())
             throw CLI::RequiredError::Subcommand(1);
     } catch (const CLI::ParseError& end) {
-        return report_parse_end(app, end);
+        return report_parse_end(app, end, argc, argv);
     } catch (const Failed&) {
         return exit_failed;
     } catch (const std::bad_alloc&) {

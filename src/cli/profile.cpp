@@ -4,16 +4,15 @@
 #include <memory>
 
 #include <packtrace/image_io.hpp>
-#include <packtrace/read_scene.hpp>
 
 #include "cli/command.hpp"
 #include "cli/common_options.hpp"
 #include "cli/profile_print.hpp"
+#include "cli/scene_input.hpp"
 #include "cli/text_output.hpp"
 #include "cli/thread_limit.hpp"
 #include "cli/validators.hpp"
 #include "core/atomic_file.hpp"
-#include "core/read_file.hpp"
 
 namespace packtrace::cli {
 namespace {
@@ -21,6 +20,7 @@ namespace {
 struct ProfileArguments {
     std::string scene;
     std::string precision = "single";
+    AccuracyArguments accuracy;
     IsaArguments isa;
     PictureArguments picture;
     SamplingArguments sampling;
@@ -35,11 +35,14 @@ ProfileOptions profile_options(const ProfileArguments& arguments)
 {
     RenderOptions sampling;
     apply(arguments.sampling, sampling);
+    apply(arguments.accuracy, "packet", arguments.precision, sampling);
     ProfileOptions options;
     options.isa = chosen_isa(arguments.isa).name;
     options.threads = arguments.threads;
     options.samples = sampling.samples;
     options.adaptive = sampling.adaptive;
+    options.accuracy = sampling.accuracy;
+    options.self_hits = sampling.self_hits;
     options.repetitions = arguments.repetitions;
     return options;
 }
@@ -59,18 +62,19 @@ void write_extras(const ProfileArguments& arguments, const Scene& scene,
 }
 
 template <class Real>
-void profile_as(const ProfileArguments& arguments, const std::string& text, const Scene& scene)
+void profile_as(const ProfileArguments& arguments, const SceneInput& input)
 {
+    const Scene& scene = input.scene;
     const ProfileOptions options = profile_options(arguments);
     const ThreadLimit limit(options.threads);
-    const Profile result = profile<Real>(text, scene, options);
+    const Profile result = profile<Real>(input.text, scene, options);
     write_extras<Real>(arguments, scene, options);
     if (arguments.json)
-        std::cout << profile_json(arguments.scene, result)
+        std::cout << profile_json(input.name, result)
                          .dump(2, ' ', false, nlohmann::json::error_handler_t::replace)
                   << '\n';
     else
-        print_profile(std::cout, arguments.scene, result);
+        print_profile(std::cout, input.name, result);
 }
 
 void run_profile(const ProfileArguments& arguments)
@@ -81,13 +85,12 @@ void run_profile(const ProfileArguments& arguments)
         check_image_writable(arguments.heatmap);
     if (!arguments.trace.empty())
         check_writable(arguments.trace);
-    Scene scene = read_scene(arguments.scene);
-    const std::string text = read_file(arguments.scene);
-    apply(arguments.picture, scene);
+    SceneInput input = read_scene_input(arguments.scene);
+    apply(arguments.picture, input.scene);
     if (arguments.precision == "double")
-        profile_as<double>(arguments, text, scene);
+        profile_as<double>(arguments, input);
     else
-        profile_as<float>(arguments, text, scene);
+        profile_as<float>(arguments, input);
 }
 
 }  // namespace
@@ -96,10 +99,11 @@ void add_profile(CLI::App& app)
 {
     CLI::App* command = app.add_subcommand("profile", "Show where the time of a frame goes");
     const auto arguments = std::make_shared<ProfileArguments>();
-    command->add_option("SCENE", arguments->scene, "Scene file")->required()->type_name("");
+    add_scene_option(*command, arguments->scene);
     command->add_option("--precision", arguments->precision, "single (default) or double")
         ->check(one_of({"single", "double"}))
         ->type_name("single|double");
+    add_accuracy_options(*command, arguments->accuracy);
     add_isa_options(*command, arguments->isa);
     add_picture_options(*command, arguments->picture);
     add_sampling_options(*command, arguments->sampling);

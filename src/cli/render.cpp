@@ -7,12 +7,12 @@
 #include <string>
 
 #include <packtrace/image_io.hpp>
-#include <packtrace/read_scene.hpp>
 
 #include "cli/command.hpp"
 #include "cli/progress_bar.hpp"
 #include "cli/render_animation.hpp"
 #include "cli/render_picture.hpp"
+#include "cli/scene_input.hpp"
 #include "cli/thread_limit.hpp"
 #include "cli/validators.hpp"
 #include "image/format.hpp"
@@ -21,14 +21,14 @@ namespace packtrace::cli {
 namespace {
 
 void print_summary(const RenderArguments& arguments, const RenderOptions& options,
-                   const Image<float>& image, double seconds)
+                   const Scene& scene, double seconds)
 {
     const std::string kernel =
         options.kernel == Kernel::scalar ? "scalar" : "packet, " + options.isa;
-    const double pixels = static_cast<double>(image.width) * image.height;
+    const double pixels = static_cast<double>(scene.width) * scene.height;
     char text[160];
-    std::snprintf(text, sizeof text, ": %d x %d, %s, %s, %.1f ms, %.1f Mpixel/s\n", image.width,
-                  image.height, kernel.c_str(), arguments.kernel.precision.c_str(), 1e3 * seconds,
+    std::snprintf(text, sizeof text, ": %d x %d, %s, %s, %.1f ms, %.1f Mpixel/s\n", scene.width,
+                  scene.height, kernel.c_str(), arguments.kernel.precision.c_str(), 1e3 * seconds,
                   1e-6 * pixels / seconds);
     std::cerr << arguments.output << text;
 }
@@ -43,16 +43,16 @@ void check_gamma(const RenderArguments& arguments)
 void render_one(const RenderArguments& arguments, const Scene& scene, RenderOptions options)
 {
     const auto start = std::chrono::steady_clock::now();
-    Image<float> image;
+    AnyImage picture;
     {
         ProgressBar bar(arguments.quiet ? Verbosity::quiet : Verbosity::normal);
         options.progress = [&bar](double share) { bar.update(share); };
-        image = render_picture(scene, arguments.kernel.precision, options);
+        picture = render_picture(scene, arguments.kernel.precision, options);
     }
     const std::chrono::duration<double> time = std::chrono::steady_clock::now() - start;
-    write_image(arguments.output, image, arguments.write);
+    write_picture(arguments.output, picture, arguments.write);
     if (!arguments.quiet)
-        print_summary(arguments, options, image, time.count());
+        print_summary(arguments, options, scene, time.count());
 }
 
 void run_render(const RenderArguments& arguments)
@@ -64,7 +64,7 @@ void run_render(const RenderArguments& arguments)
     // Before the work, so that a wrong name doesn't cost it.
     if (!arguments.animation.many())
         check_image_writable(arguments.output);
-    Scene scene = read_scene(arguments.scene);
+    Scene scene = read_scene_input(arguments.scene).scene;
     apply(arguments.picture, scene);
     const ThreadLimit limit(options.threads);
     if (arguments.animation.many())
@@ -80,7 +80,7 @@ void add_render(CLI::App& app)
 {
     CLI::App* command = app.add_subcommand("render", "Render a scene to a picture");
     const auto arguments = std::make_shared<RenderArguments>();
-    command->add_option("SCENE", arguments->scene, "Scene file")->required()->type_name("");
+    add_scene_option(*command, arguments->scene);
     command->add_option("-o,--output", arguments->output, "Picture to write: .png, .pfm or .hdr")
         ->required()
         ->type_name("IMAGE");

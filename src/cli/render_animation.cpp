@@ -46,7 +46,8 @@ FrameRange frames_of(const AnimationArguments& arguments, const Scene& scene)
 
 struct Tally {
     int rendered = 0;
-    int skipped = 0;
+    int skipped = 0;   ///< there already
+    int replaced = 0;  ///< rendered in place of another picture
     double seconds = 0.0;
 };
 
@@ -56,6 +57,9 @@ void print_tally(const std::string& output, const Tally& tally)
     if (tally.rendered > 0)
         text += " in " + fixed(tally.seconds, 1) + " s, " +
                 fixed(1e3 * tally.seconds / tally.rendered, 1) + " ms each";
+    if (tally.replaced > 0)
+        text += ", " + std::to_string(tally.replaced) +
+                " in place of pictures of another scene, other options or another version";
     if (tally.skipped > 0)
         text += ", " + std::to_string(tally.skipped) +
                 " were there already (--overwrite renders them again)";
@@ -71,15 +75,18 @@ Tally render_frames(const RenderArguments& arguments, const Scene& scene, Render
     Scene posed = scene;
     ProgressBar bar(arguments.quiet ? Verbosity::quiet : Verbosity::normal);
     for (int frame = range.first; frame <= range.last; ++frame) {
-        if (output.has(frame)) {
+        posed.camera = camera_at(scene, frame);
+        const FrameOutput::Found found = output.find(frame, posed.camera);
+        if (found == FrameOutput::Found::same && !arguments.animation.overwrite) {
             ++tally.skipped;
             continue;
         }
-        posed.camera = camera_at(scene, frame);
+        tally.replaced += found == FrameOutput::Found::other ? 1 : 0;
         options.progress = [&](double share) {
             bar.update((frame - range.first + share) / range.count());
         };
-        output.write(frame, render_picture(posed, arguments.kernel.precision, options));
+        output.write(frame, posed.camera,
+                     render_picture(posed, arguments.kernel.precision, options));
         ++tally.rendered;
     }
     output.finish();
@@ -95,11 +102,14 @@ void add_animation_options(CLI::App& command, AnimationArguments& arguments)
         ->check(whole_number(0, 999999))
         ->type_name("N");
     command
-        .add_option("--frames", arguments.frames,
-                    "Render these frames, both ends included; IMAGE has a %d or %04d for the "
-                    "number; those that are there already are skipped")
+        .add_option(
+            "--frames", arguments.frames,
+            "Render these frames, both ends included; IMAGE has a %d or %04d for the "
+            "number; frames that are there already, of the same scene, options and version, are "
+            "skipped")
         ->type_name("A..B");
-    command.add_flag("--overwrite", arguments.overwrite, "Render frames that are there too");
+    command.add_flag("--overwrite", arguments.overwrite,
+                     "Render frames that are there already, too");
     command.add_flag("--y4m", arguments.y4m,
                      "Write the frames (default all) as one YUV4MPEG2 video; IMAGE is a file or -");
     command.add_option("--fps", arguments.fps, "Frames per second of --y4m (default 30)")
@@ -129,7 +139,8 @@ void render_animation(const RenderArguments& arguments, const Scene& scene,
                       const RenderOptions& options)
 {
     const FrameRange range = frames_of(arguments.animation, scene);
-    const auto output = arguments.animation.y4m ? frame_stream(arguments) : frame_files(arguments);
+    const auto output =
+        arguments.animation.y4m ? frame_stream(arguments) : frame_files(arguments, scene, options);
     const Tally tally = render_frames(arguments, scene, options, range, *output);
     if (!arguments.quiet)
         print_tally(arguments.output == "-" ? "standard output" : arguments.output, tally);

@@ -1,29 +1,21 @@
 #include "cli/render_picture.hpp"
 
-#include <type_traits>
-
 namespace packtrace::cli {
-namespace {
 
-template <class Real>
-Image<float> render_as(const Scene& scene, const RenderOptions& options)
-{
-    if constexpr (std::is_same_v<Real, float>)
-        return render<float>(scene, options);
-    else
-        return convert<float>(render<Real>(scene, options));
-}
-
-}  // namespace
-
-Image<float> render_picture(const Scene& scene, const std::string& precision,
-                            const RenderOptions& options)
+AnyImage render_picture(const Scene& scene, const std::string& precision,
+                        const RenderOptions& options)
 {
     if (precision == "double")
-        return render_as<double>(scene, options);
+        return render<double>(scene, options);
     if (precision == "extended")
-        return render_as<long double>(scene, options);
-    return render_as<float>(scene, options);
+        return render<long double>(scene, options);
+    return render<float>(scene, options);
+}
+
+void write_picture(const std::filesystem::path& file, const AnyImage& picture,
+                   const ImageWriteOptions& options)
+{
+    std::visit([&](const auto& image) { write_image(file, image, options); }, picture);
 }
 
 }  // namespace packtrace::cli

@@ -1,15 +1,24 @@
 #pragma once
 
+#include <filesystem>
 #include <string>
+#include <variant>
 
-#include <packtrace/image.hpp>
+#include <packtrace/image_io.hpp>
 #include <packtrace/render.hpp>
 #include <packtrace/scene.hpp>
 
 namespace packtrace::cli {
 
-/// A picture in the precision that `--precision` names, rounded to single.
-[[nodiscard]] Image<float> render_picture(const Scene& scene, const std::string& precision,
-                                          const RenderOptions& options);
+/// A picture in the precision it was rendered in.
+using AnyImage = std::variant<Image<float>, Image<double>, Image<long double>>;
+
+/// A picture in the precision that `--precision` names.
+[[nodiscard]] AnyImage render_picture(const Scene& scene, const std::string& precision,
+                                      const RenderOptions& options);
+
+/// write_image() in whatever precision.
+void write_picture(const std::filesystem::path& file, const AnyImage& picture,
+                   const ImageWriteOptions& options);
 
 }  // namespace packtrace::cli

@@ -6,8 +6,8 @@
 #include <memory>
 #include <mutex>
 #include <set>
+#include <utility>
 
-#include <packtrace/read_scene.hpp>
 #include <packtrace/write_report.hpp>
 
 #include <tbb/info.h>
@@ -15,10 +15,10 @@
 #include "cli/command.hpp"
 #include "cli/common_options.hpp"
 #include "cli/progress_bar.hpp"
+#include "cli/scene_input.hpp"
 #include "cli/thread_limit.hpp"
 #include "cli/validators.hpp"
 #include "core/atomic_file.hpp"
-#include "core/read_file.hpp"
 #include "study/machine.hpp"
 #include "study/plot.hpp"
 #include "study/report_text.hpp"
@@ -67,9 +67,8 @@ ReportOptions report_options(const ReportArguments& arguments)
 }
 
 // The file's name without its ending, and a number where it is taken.
-std::string free_name(const std::string& file, std::set<std::string>& taken)
+std::string free_name(const std::string& stem, std::set<std::string>& taken)
 {
-    const std::string stem = std::filesystem::path(file).stem().string();
     std::string name = stem;
     for (int number = 2; !taken.insert(name).second; ++number)
         name = stem + "_" + std::to_string(number);
@@ -81,8 +80,9 @@ std::vector<ReportScene> read_scenes(const ReportArguments& arguments)
     std::vector<ReportScene> scenes;
     std::set<std::string> taken;
     for (const std::string& file : arguments.scenes) {
-        ReportScene scene{free_name(file, taken), {}, read_scene(file)};
-        scene.text = read_file(file);
+        SceneInput input = read_scene_input(file);
+        ReportScene scene{free_name(input.stem, taken), {}, std::move(input.scene)};
+        scene.text = std::move(input.text);
         apply(arguments.picture, scene.scene);
         scenes.push_back(std::move(scene));
     }
@@ -201,7 +201,9 @@ void add_report(CLI::App& app)
     CLI::App* command = app.add_subcommand(
         "report", "Render scenes in many ways; report each way's error against its run time");
     const auto arguments = std::make_shared<ReportArguments>();
-    command->add_option("SCENE", arguments->scenes, "Scene files")->required()->type_name("");
+    command->add_option("SCENE", arguments->scenes, "Scene files; - is standard input")
+        ->required()
+        ->type_name("");
     command->add_option("-o,--output", arguments->folder, "Folder for the report")
         ->required()
         ->type_name("DIR");

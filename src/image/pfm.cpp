@@ -78,7 +78,8 @@ void check_length(const Header& header, std::size_t size)
 
 }  // namespace
 
-Bytes encode_pfm(const Image<float>& image)
+template <class Real>
+Bytes encode_pfm(const Image<Real>& image)
 {
     const std::string header =
         "PF\n" + std::to_string(image.width) + " " + std::to_string(image.height) + "\n-1.0\n";
@@ -86,12 +87,16 @@ Bytes encode_pfm(const Image<float>& image)
     file.resize(header.size() + image.rgb.size() * sizeof(float));
     std::uint8_t* to = file.data() + header.size();
     for (int y = image.height - 1; y >= 0; --y) {
-        const float* row = image.pixel(0, y);
+        const Real* row = image.pixel(0, y);
         for (int i = 0; i < 3 * image.width; ++i, to += sizeof(float))
-            store(row[i], to);
+            store(static_cast<float>(row[i]), to);
     }
     return file;
 }
+
+template Bytes encode_pfm(const Image<float>&);
+template Bytes encode_pfm(const Image<double>&);
+template Bytes encode_pfm(const Image<long double>&);
 
 Image<float> decode_pfm(std::span<const std::uint8_t> file)
 {

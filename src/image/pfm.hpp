@@ -9,7 +9,8 @@
 namespace packtrace {
 
 /// A Portable Float Map: `PF`, size and scale -1 (little endian), then rows from the bottom.
-[[nodiscard]] Bytes encode_pfm(const Image<float>& image);
+template <class Real>
+[[nodiscard]] Bytes encode_pfm(const Image<Real>& image);
 
 /// The picture in a PFM file of either byte order, colour or grey, multiplied by the size of
 /// its scale. The raster must fill the file. Throws ImageError without a file's name.

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <span>
+#include <string>
 
 #include <packtrace/image_io.hpp>
 
@@ -14,12 +15,17 @@ namespace packtrace {
 struct PngSettings {
     double gamma = 1.0;  ///< as in ImageWriteOptions
     PngFilter filter = PngFilter::up;
-    int level = 2;  ///< libdeflate's
+    int level = 2;            ///< libdeflate's
+    std::string recipe = {};  ///< as in ImageWriteOptions
 };
 
 /// An 8-bit RGB PNG file, encoded by the threads of the arena the call runs in; the bytes do
 /// not depend on their number. Throws std::invalid_argument for a gamma that is not positive.
-[[nodiscard]] Bytes encode_png(const Image<float>& image, const PngSettings& settings = {});
+template <class Real>
+[[nodiscard]] Bytes encode_png(const Image<Real>& image, const PngSettings& settings = {});
+
+/// The recipe in the first bytes of a PNG file, as many as there are at hand; empty for none.
+[[nodiscard]] std::string png_recipe(std::span<const std::uint8_t> file);
 
 /// The picture in a PNG file; alpha is dropped, grey spread. Throws ImageError without a name.
 [[nodiscard]] Image<float> decode_png(std::span<const std::uint8_t> file);

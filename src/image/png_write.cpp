@@ -6,7 +6,9 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <span>
 #include <stdexcept>
+#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -31,28 +33,29 @@ struct Band {
     std::size_t length = 0;  // of the filtered rows
 };
 
-Bytes header_chunk(const Image<float>& image)
+Bytes header_chunk(int width, int height)
 {
     PngChunk chunk("IHDR");
-    chunk.append_number(static_cast<std::size_t>(image.width));
-    chunk.append_number(static_cast<std::size_t>(image.height));
+    chunk.append_number(static_cast<std::size_t>(width));
+    chunk.append_number(static_cast<std::size_t>(height));
     // 8 bits, RGB, deflate, the five filters, not interlaced
     chunk.append(std::array<std::uint8_t, 5>{8, 2, 0, 0, 0});
     return std::move(chunk).finish();
 }
 
 // Rows `first` to `last` - 1, each rounded to bytes, filtered and led by its filter's number.
-Bytes filtered_rows(const Image<float>& image, int first, int last, const PngSettings& settings)
+template <class Real>
+Bytes filtered_rows(const Image<Real>& image, int first, int last, const PngSettings& settings)
 {
     const std::size_t length = 3 * static_cast<std::size_t>(image.width);
     Bytes above(length);
     Bytes row(length);
     if (first > 0)
-        quantise({image.pixel(0, first - 1), length}, settings.gamma, above.data());
+        quantise(std::span(image.pixel(0, first - 1), length), settings.gamma, above.data());
     Bytes rows((length + 1) * static_cast<std::size_t>(last - first));
     std::uint8_t* to = rows.data();
     for (int y = first; y < last; ++y, to += length + 1) {
-        quantise({image.pixel(0, y), length}, settings.gamma, row.data());
+        quantise(std::span(image.pixel(0, y), length), settings.gamma, row.data());
         to[0] = static_cast<std::uint8_t>(settings.filter);
         filter_row(settings.filter, row, above.data(), to + 1);
         std::swap(row, above);
@@ -71,7 +74,8 @@ Band encode_band(const Bytes& rows, bool first, DeflatePieces& deflate)
             rows.size()};
 }
 
-std::vector<Band> encode_bands(const Image<float>& image, const PngSettings& settings)
+template <class Real>
+std::vector<Band> encode_bands(const Image<Real>& image, const PngSettings& settings)
 {
     const int rows = std::max(1, static_cast<int>(band_bytes / 3) / image.width);
     const int count = (image.height - 1) / rows + 1;
@@ -98,9 +102,21 @@ Bytes last_data_chunk(const std::vector<Band>& bands)
     return std::move(chunk).finish();
 }
 
+// The keyword of the text chunk, and the zero byte after it.
+constexpr std::string_view recipe_keyword("packtrace recipe\0", 17);
+
+Bytes recipe_chunk(std::string_view recipe)
+{
+    PngChunk chunk("tEXt");
+    for (const std::string_view text : {recipe_keyword, recipe})
+        chunk.append({reinterpret_cast<const std::uint8_t*>(text.data()), text.size()});
+    return std::move(chunk).finish();
+}
+
 }  // namespace
 
-Bytes encode_png(const Image<float>& image, const PngSettings& settings)
+template <class Real>
+Bytes encode_png(const Image<Real>& image, const PngSettings& settings)
 {
     if (!(settings.gamma > 0.0) || std::isinf(settings.gamma))
         throw std::invalid_argument("gamma must be positive and finite");
@@ -108,13 +124,38 @@ Bytes encode_png(const Image<float>& image, const PngSettings& settings)
     const auto append = [&file](const Bytes& bytes) {
         file.insert(file.end(), bytes.begin(), bytes.end());
     };
-    append(header_chunk(image));
+    append(header_chunk(image.width, image.height));
+    if (!settings.recipe.empty())
+        append(recipe_chunk(settings.recipe));
     const std::vector<Band> bands = encode_bands(image, settings);
     for (const Band& band : bands)
         append(band.chunk);
     append(last_data_chunk(bands));
     append(PngChunk("IEND").finish());
     return file;
+}
+
+template Bytes encode_png(const Image<float>&, const PngSettings&);
+template Bytes encode_png(const Image<double>&, const PngSettings&);
+template Bytes encode_png(const Image<long double>&, const PngSettings&);
+
+// It stands right after the header: 8 bytes of signature, 25 of the header's chunk.
+std::string png_recipe(std::span<const std::uint8_t> file)
+{
+    constexpr std::size_t chunk_at = 8 + 25;
+    constexpr std::size_t text_at = chunk_at + 8;
+    if (file.size() < text_at)
+        return {};
+    std::size_t length = 0;
+    for (std::size_t i = 0; i < 4; ++i)
+        length = length << 8 | file[chunk_at + i];
+    if (length > file.size() - text_at)
+        return {};
+    const std::string_view type(reinterpret_cast<const char*>(file.data()) + chunk_at + 4, 4);
+    const std::string_view text(reinterpret_cast<const char*>(file.data()) + text_at, length);
+    if (type != "tEXt" || !text.starts_with(recipe_keyword))
+        return {};
+    return std::string(text.substr(recipe_keyword.size()));
 }
 
 }  // namespace packtrace

@@ -6,26 +6,32 @@ namespace packtrace {
 namespace {
 
 // Both comparisons are false for NaN, the first of which makes it 0.
-std::uint8_t to_byte(float value)
+template <class Real>
+std::uint8_t to_byte(Real value)
 {
-    const float scaled = value * 255.0f;
-    const float positive = scaled > 0.0f ? scaled : 0.0f;
-    const float clamped = positive < 255.0f ? positive : 255.0f;
-    return static_cast<std::uint8_t>(static_cast<int>(clamped + 0.5f));
+    const Real scaled = value * Real(255);
+    const Real positive = scaled > Real(0) ? scaled : Real(0);
+    const Real clamped = positive < Real(255) ? positive : Real(255);
+    return static_cast<std::uint8_t>(static_cast<int>(clamped + Real(0.5)));
 }
 
 }  // namespace
 
-void quantise(std::span<const float> values, double gamma, std::uint8_t* to)
+template <class Real>
+void quantise(std::span<const Real> values, double gamma, std::uint8_t* to)
 {
     if (gamma == 1.0) {
         for (std::size_t i = 0; i < values.size(); ++i)
             to[i] = to_byte(values[i]);
         return;
     }
-    const auto exponent = static_cast<float>(1.0 / gamma);
+    const auto exponent = static_cast<Real>(1.0 / gamma);
     for (std::size_t i = 0; i < values.size(); ++i)
-        to[i] = to_byte(values[i] > 0.0f ? std::pow(values[i], exponent) : 0.0f);
+        to[i] = to_byte(values[i] > Real(0) ? std::pow(values[i], exponent) : Real(0));
 }
+
+template void quantise(std::span<const float>, double, std::uint8_t*);
+template void quantise(std::span<const double>, double, std::uint8_t*);
+template void quantise(std::span<const long double>, double, std::uint8_t*);
 
 }  // namespace packtrace

@@ -30,10 +30,11 @@ std::string y4m_header(int width, int height, int frames_per_second)
            std::to_string(frames_per_second) + ":1 Ip A1:1 C444 XCOLORRANGE=LIMITED\n";
 }
 
-Bytes y4m_frame(const Image<float>& image, double gamma)
+template <class Real>
+Bytes y4m_frame(const Image<Real>& image, double gamma)
 {
     Bytes rgb(image.rgb.size());
-    quantise(image.rgb, gamma, rgb.data());
+    quantise<Real>(image.rgb, gamma, rgb.data());
     Bytes frame(frame_line.size() + rgb.size());
     auto to = std::copy(frame_line.begin(), frame_line.end(), frame.begin());
     for (const ColorPlane& plane : planes)
@@ -41,5 +42,9 @@ Bytes y4m_frame(const Image<float>& image, double gamma)
             *to++ = sample(plane, rgb.data() + i);
     return frame;
 }
+
+template Bytes y4m_frame(const Image<float>&, double);
+template Bytes y4m_frame(const Image<double>&, double);
+template Bytes y4m_frame(const Image<long double>&, double);
 
 }  // namespace packtrace

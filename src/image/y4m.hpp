@@ -18,6 +18,7 @@ namespace packtrace {
 ///     Y = ( 66 R + 129 G +  25 B + 128) / 256 +  16
 ///     U = (-38 R -  74 G + 112 B + 128) / 256 + 128
 ///     V = (112 R -  94 G -  18 B + 128) / 256 + 128    each division rounding down
-[[nodiscard]] Bytes y4m_frame(const Image<float>& image, double gamma = 1.0);
+template <class Real>
+[[nodiscard]] Bytes y4m_frame(const Image<Real>& image, double gamma = 1.0);
 
 }  // namespace packtrace

@@ -56,6 +56,9 @@ struct SceneView : GeometryView<Real> {
     bool transparent_shadows = false;  ///< blockers pass on their transmitted share
     bool visible_lights = false;       ///< a ray that escapes towards a light sees it (note 000)
     RayUnits units = RayUnits::as_given;
+    /// A light makes a highlight where its N·L is larger: 0, or -infinity where lights behind the
+    /// surface make one too.
+    Real highlight_above = 0;
     /// How near to parallel a ray runs to a light that it sees, and what the notes start
     /// secondary and shadow rays at.
     Real epsilon = 0;

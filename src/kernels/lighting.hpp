@@ -24,7 +24,8 @@ struct LightPacket {
 
 /// R·V of the mirrored light direction R = 2 (N·L) N - L comes down to 2 (N·L)(N·V) - L·V.
 template <abi::Features F, class Real>
-inline LightPacket<Real> light_at(const abi::LightRecord<Real>& light,
+inline LightPacket<Real> light_at(const abi::SceneView<Real>& scene,
+                                  const abi::LightRecord<Real>& light,
                                   const SurfacePacket<Real>& surface,
                                   const MaterialPacket<Real>& material, std::uint32_t active)
 {
@@ -45,9 +46,10 @@ inline LightPacket<Real> light_at(const abi::LightRecord<Real>& light,
         const vreal<Real> mirror =
             nmadd(normal_light + normal_light, normal_dir, dot(result.to_light, surface.dir));
         result.highlight = mirror * inverse_length * surface.inverse_length;
-        result.has_highlight =
-            bits((result.highlight > zero) & (result.highlight >= material.highlight_floor)) &
-            active;
+        const vmask<Real> in_front = normal_light > vreal<Real>(scene.highlight_above);
+        result.has_highlight = bits(in_front & (result.highlight > zero) &
+                                    (result.highlight >= material.highlight_floor)) &
+                               active;
     }
     result.wanted = (bits(normal_light > zero) & active) | result.has_highlight;
     return result;

@@ -17,7 +17,7 @@ inline Vec3v<Real> light_color(const ShadeContext<F, Real>& context, int number,
 {
     const abi::LightRecord<Real>& light = context.scene->lights.data[number];
     const PartScope part(abi::Part::diffuse);
-    const LightPacket<Real> packet = light_at<F>(light, surface, material, active);
+    const LightPacket<Real> packet = light_at<F>(*context.scene, light, surface, material, active);
     if constexpr (F.glass) {
         if (context.scene->transparent_shadows && light.casts_shadow && packet.wanted != 0) {
             const Vec3v<Real> share =

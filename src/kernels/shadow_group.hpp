@@ -21,7 +21,7 @@ inline void gather_shadow_rays(const ShadeContext<F, Real>& context, const HitSt
         const std::uint32_t active = first_lanes<Real>(hits.count - first);
         const SurfacePacket<Real>& surface = context.surfaces[first / lanes<Real>];
         const MaterialPacket<Real> material = fetch_materials(scene, surface.material, active);
-        const LightPacket<Real> packet = light_at<F>(record, surface, material, active);
+        const LightPacket<Real> packet = light_at<F>(scene, record, surface, material, active);
         with_shadow_ray(context, light, packet, surface,
                         [&](const vreal<Real>& t_end, const RayPacket<Real>& rays) {
                             store_rays(group, first, rays);

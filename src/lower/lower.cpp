@@ -5,6 +5,7 @@
 
 #include <tbb/parallel_for.h>
 
+#include "lower/check_scene.hpp"
 #include "lower/eye_glass.hpp"
 #include "lower/join_parts.hpp"
 #include "lower/lower_material.hpp"
@@ -38,6 +39,7 @@ void lower_part(const Scene& scene, std::size_t begin, std::size_t end, LoweredS
     const LightSums lights = sum_lights(scene);
     RecentMaterials recent;
     for (std::size_t i = begin; i < end; ++i) {
+        check_object(scene, i);
         const Object& object = scene.objects[i];
         const auto number = static_cast<std::int32_t>(i);
         const auto index = lower_material(object, number, lights, recent, part);
@@ -85,6 +87,7 @@ void lower_objects(const Scene& scene, LoweredScene& lowered)
 
 LoweredScene lower(const Scene& scene, Accuracy accuracy, SelfHits self_hits)
 {
+    check_lights(scene);
     LoweredScene lowered;
     lower_model_rules(scene, lowered);
     lower_objects(scene, lowered);

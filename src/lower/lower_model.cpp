@@ -38,6 +38,9 @@ void lower_model_rules(const Scene& scene, LoweredScene& lowered)
     lowered.shadows = scene.shadows != ShadowKind::none;
     lowered.visible_lights = scene.illumination == Illumination::sketch;
     lowered.units = scratch ? abi::RayUnits::as_given : abi::RayUnits::unit;
+    // The other notes' listings do not ask on which side of the surface the light is.
+    lowered.highlights_behind =
+        scene.illumination != Illumination::whitted && scene.illumination != Illumination::general;
     lowered.epsilon = 0.001;
     lowered.camera_t_min = scratch ? 1.0 : 0.001;
     lower_lights(scene, lowered);

@@ -5,7 +5,6 @@
 
 #include <glm/geometric.hpp>
 #include <glm/matrix.hpp>
-#include <packtrace/read_scene.hpp>
 
 #include "lower/canonical_form.hpp"
 #include "lower/exact_inverse.hpp"
@@ -123,9 +122,6 @@ Bound bound_of(const Quadric& quadric, const CanonicalForm& form, const Mat4& tr
 LoweredQuadric lower_quadric(const Object& object, const Quadric& quadric, std::int32_t surface)
 {
     const CanonicalForm form = canonical_form(quadric.coefficients);
-    if (const auto reason = why_no_surface(form))
-        throw SceneError("object '" + object.name + "': the quadric has no surface: " + *reason +
-                         "; change its coefficients");
     const Mat3 own_from_world = exact_inverse(Mat3(object.transform));
 
     LoweredQuadric lowered;

@@ -4,8 +4,7 @@
 
 namespace packtrace {
 
-/// A quadric in world space under its object's transform. Throws SceneError when it has no
-/// surface.
+/// A quadric in world space under its object's transform; `check_object` has let it pass.
 [[nodiscard]] LoweredQuadric lower_quadric(const Object& object, const Quadric& quadric,
                                            std::int32_t surface);
 

@@ -99,6 +99,7 @@ struct LoweredScene {
     bool transparent_shadows = false;
     bool visible_lights = false;
     abi::RayUnits units = abi::RayUnits::as_given;
+    bool highlights_behind = false;  ///< lights behind a surface make highlights on it too
     double epsilon = 0.0;  ///< start of secondary and shadow rays with SelfHits::note
     SelfHits self_hits = SelfHits::note;
     double camera_t_min = 0.0;             ///< start of camera rays
@@ -110,7 +111,7 @@ struct LoweredScene {
 [[nodiscard]] abi::Features features_of(const LoweredScene& lowered);
 
 /// Lowers a scene on the threads of the TBB arena the call runs in; the result does not depend on
-/// their number. Throws SceneError for what it can't hold: a quadric without a surface.
+/// their number. Throws as check_scene() does.
 [[nodiscard]] LoweredScene lower(const Scene& scene, Accuracy accuracy = Accuracy::exact,
                                  SelfHits self_hits = default_self_hits);
 

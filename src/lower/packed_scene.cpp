@@ -124,6 +124,8 @@ PackedScene<Real>::PackedScene(const LoweredScene& lowered, Traversal traversal)
     view_.transparent_shadows = lowered.transparent_shadows;
     view_.visible_lights = lowered.visible_lights;
     view_.units = lowered.units;
+    view_.highlight_above =
+        lowered.highlights_behind ? -std::numeric_limits<Real>::infinity() : Real(0);
     view_.epsilon = static_cast<Real>(lowered.epsilon);
     if (lowered.self_hits == SelfHits::note)
         view_.secondary_t_min = view_.epsilon;

@@ -4,7 +4,6 @@
 #include "reference/shadow.hpp"
 #include "reference/tree_recorder.hpp"
 
-#include <algorithm>
 #include <cmath>
 
 namespace packtrace::reference {
@@ -68,7 +67,10 @@ Color<Real> General<Real, Recorder>::local(const Coefficients& k, const SurfaceP
         const Color<Real> s = record_.share(light.number, light_share(world_, glass_, at, way));
         if (!any_positive(s))
             continue;
-        const Real n_dot_l = std::max(dot(at.N, way.L), Real(0));
+        // A light behind the surface adds nothing.
+        const Real n_dot_l = dot(at.N, way.L);
+        if (!(n_dot_l > 0))
+            continue;
         const Real r_dot_v = dot(reflect_ray(way.L, at.N), V);
         const Real highlight = r_dot_v > 0 ? std::pow(r_dot_v, k.n) : Real(0);
         sum += record_.adds(s * light.intensity * (k.kd * n_dot_l + k.ks * highlight));

@@ -11,6 +11,7 @@ namespace packtrace::reference {
 /// The one equation that all models lower to:
 ///     I(ray) = ka A + sum_j s_j I_j (kd max(0, N.L_j) + ks max(0, R_j.V)^n)
 ///              + kr I(reflected) + kt I(refracted)
+/// over the lights j with N.L_j > 0.
 template <class Real, class Recorder = NoRecorder>
 class General {
 public:

@@ -4,7 +4,6 @@
 #include "reference/shadow.hpp"
 #include "reference/tree_recorder.hpp"
 
-#include <algorithm>
 #include <cmath>
 
 namespace packtrace::reference {
@@ -73,8 +72,11 @@ Color<Real> Note002<Real, Recorder>::lights(const Constants& k, const Color<Real
         if (!any_positive(seen))
             continue;
         const Vec3<Real> Lj = way.L;
+        // A light behind the surface adds nothing.
+        const Real n_dot_l = dot(at.N, Lj);
+        if (!(n_dot_l > 0))
+            continue;
         const Vec3<Real> Rj = reflect_ray(Lj, at.N);
-        const Real n_dot_l = std::max(dot(at.N, Lj), Real(0));
         const Real r_dot_v = dot(Rj, V);
         const Real highlight = r_dot_v > 0 ? std::pow(r_dot_v, k.ns) : Real(0);
         sum += record_.adds(seen * light.intensity * (k.kd * color * n_dot_l + k.ks * highlight));

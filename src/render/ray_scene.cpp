@@ -1,5 +1,6 @@
 #include <packtrace/intersect.hpp>
 
+#include "lower/check_scene.hpp"
 #include "render/ray_backend.hpp"
 
 namespace packtrace {
@@ -13,8 +14,12 @@ template <class Real>
 RayScene<Real>::RayScene(const Scene& scene, const RenderOptions& options)
     : state_(std::make_unique<State>())
 {
-    state_->backend = options.kernel == Kernel::scalar ? scalar_backend<Real>(scene)
-                                                       : packet_backend<Real>(scene, options);
+    if (options.kernel == Kernel::scalar) {
+        check_scene(scene);
+        state_->backend = scalar_backend<Real>(scene);
+    } else {
+        state_->backend = packet_backend<Real>(scene, options);
+    }
 }
 
 template <class Real>

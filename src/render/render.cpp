@@ -5,6 +5,7 @@
 
 #include <packtrace/renderer.hpp>
 
+#include "lower/check_scene.hpp"
 #include "reference/render_reference.hpp"
 #include "render/check_sampling.hpp"
 
@@ -13,8 +14,10 @@ namespace packtrace {
 template <class Real>
 Image<Real> render(const Scene& scene, const RenderOptions& options)
 {
-    if (options.kernel == Kernel::scalar)
+    if (options.kernel == Kernel::scalar) {
+        check_scene(scene);
         return render_reference<Real>(scene, checked_sampling(options));
+    }
     if constexpr (std::is_same_v<Real, long double>) {
         throw std::invalid_argument(
             "precision: packets come in single and double only; "

@@ -5,23 +5,40 @@
 #include <glm/matrix.hpp>
 
 #include <cmath>
+#include <cstdio>
+#include <limits>
 #include <stdexcept>
 #include <vector>
 
 namespace packtrace::reader {
 namespace {
 
-constexpr double orthonormal_tolerance = 1e-6;
+/// Numbers of seven digits stay as they are; of four digits they are taken for the rotation that
+/// they were rounded from.
+constexpr double taken_as_given = 1e-6;
+constexpr double taken_for_rotation = 1e-3;
 
-bool is_rotation(const Mat3& rotation)
+/// The largest difference of transpose(m) m from the identity; infinite for NaN and for mirrors.
+double distance_from_rotation(const Mat3& m)
 {
-    const Mat3 square = glm::transpose(rotation) * rotation;
+    const Mat3 square = glm::transpose(m) * m;
+    double distance = 0.0;
     for (int column = 0; column < 3; ++column)
-        for (int row = 0; row < 3; ++row)
-            if (!(std::abs(square[column][row] - (column == row ? 1.0 : 0.0)) <=
-                  orthonormal_tolerance))
-                return false;
-    return glm::determinant(rotation) > 0.0;
+        for (int row = 0; row < 3; ++row) {
+            const double off = std::abs(square[column][row] - (column == row ? 1.0 : 0.0));
+            distance = off <= distance ? distance : off;
+        }
+    return glm::determinant(m) > 0.0 ? distance : std::numeric_limits<double>::infinity();
+}
+
+/// The nearest rotation, by the Newton iteration for the polar decomposition (Higham, "Computing
+/// the Polar Decomposition", 1986), which squares the distance with each step.
+Mat3 nearest_rotation(Mat3 m)
+{
+    constexpr int steps = 5;
+    for (int step = 0; step < steps; ++step)
+        m = 0.5 * (m + glm::inverse(glm::transpose(m)));
+    return m;
 }
 
 Mat3 read_rotation(const Field& field)
@@ -31,11 +48,19 @@ Mat3 read_rotation(const Field& field)
     for (int row = 0; row < 3; ++row)
         for (int column = 0; column < 3; ++column)
             rotation[column][row] = rows[static_cast<std::size_t>(3 * row + column)];
-    if (!is_rotation(rotation))
+    const double distance = distance_from_rotation(rotation);
+    if (distance <= taken_as_given)
+        return rotation;
+    if (!(distance <= taken_for_rotation))
         field.fail(
             "'rotation' is not a rotation: its rows have to be perpendicular, of length 1 and "
-            "unmirrored within 1e-6; correct its numbers or use look_at");
-    return rotation;
+            "unmirrored within 1e-3; correct its numbers or use look_at");
+    char rounded[16];
+    std::snprintf(rounded, sizeof rounded, "%.1g", distance);
+    warn(field.source, field.entry.key.at,
+         std::string("'rotation' is a rotation only within ") + rounded +
+             "; the nearest one is used; write its numbers with seven digits or use look_at");
+    return nearest_rotation(rotation);
 }
 
 double read_fov(const Field& field)

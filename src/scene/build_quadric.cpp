@@ -1,4 +1,5 @@
 #include "scene/numbers.hpp"
+#include "scene/quadric_kinds.hpp"
 #include "scene/scene_builder.hpp"
 #include "scene/values.hpp"
 
@@ -8,22 +9,6 @@
 
 namespace packtrace::reader {
 namespace {
-
-struct NamedQuadric {
-    std::string_view keyword;
-    QuadricKind kind;
-    std::array<double, 10> coefficients;  ///< of x² y² z² xy xz yz x y z 1
-};
-
-constexpr NamedQuadric named_quadrics[] = {
-    {"ellipsoid", QuadricKind::ellipsoid, {1, 1, 1, 0, 0, 0, 0, 0, 0, -1}},
-    {"cylinder", QuadricKind::cylinder, {1, 1, 0, 0, 0, 0, 0, 0, 0, -1}},
-    {"cone", QuadricKind::cone, {1, 1, -1, 0, 0, 0, 0, 0, 0, 0}},
-    {"paraboloid", QuadricKind::paraboloid, {1, 1, 0, 0, 0, 0, 0, 0, -1, 0}},
-    {"hyperboloid", QuadricKind::hyperboloid, {1, 1, -1, 0, 0, 0, 0, 0, 0, -1}},
-    {"hyperboloid2", QuadricKind::hyperboloid2, {1, 1, -1, 0, 0, 0, 0, 0, 0, 1}},
-    {"saddle", QuadricKind::saddle, {1, -1, 0, 0, 0, 0, 0, 0, -1, 0}},
-};
 
 constexpr std::string_view sphere_form = "(1, 1, 1, 0, 0, 0, 0, 0, 0, -1)";
 
@@ -60,10 +45,10 @@ void build_clipping(const Block& block, Quadric& quadric)
 Quadric build_quadric(const Block& block, std::string_view keyword)
 {
     Quadric quadric;
-    const auto* named =
-        std::find_if(std::begin(named_quadrics), std::end(named_quadrics),
-                     [&](const NamedQuadric& candidate) { return candidate.keyword == keyword; });
-    if (named != std::end(named_quadrics)) {
+    const auto named =
+        std::find_if(quadric_kinds().begin(), quadric_kinds().end(),
+                     [&](const QuadricKindInfo& candidate) { return candidate.name == keyword; });
+    if (named != quadric_kinds().end()) {
         quadric.kind = named->kind;
         quadric.coefficients = named->coefficients;
     } else {

@@ -15,9 +15,9 @@
 namespace packtrace::reader {
 namespace {
 
-[[noreturn]] void fail_file(const std::filesystem::path& file, const std::string& reason)
+[[noreturn]] void fail_file(const std::string& name, const std::string& reason)
 {
-    throw SceneError(escape(file.string()) + ": " + reason);
+    throw SceneError(escape(name) + ": " + reason);
 }
 
 /// Stops early in a line that is too long, which a file that is no text mostly is.
@@ -44,15 +44,20 @@ std::string load_text(const std::filesystem::path& file)
 {
     std::error_code ignored;
     if (std::filesystem::is_directory(file, ignored))
-        fail_file(file, "this is a directory; give a scene file");
+        fail_file(file.string(), "this is a directory; give a scene file");
     errno = 0;
     std::ifstream in(file, std::ios::binary);
     if (!in)
-        fail_file(file, std::string("can't be opened (") + std::strerror(errno) +
-                            "); check the name and the permissions");
+        fail_file(file.string(), std::string("can't be opened (") + std::strerror(errno) +
+                                     "); check the name and the permissions");
+    return load_text(in, file.string());
+}
+
+std::string load_text(std::istream& in, const std::string& name)
+{
     std::string text = read_up_to(in, longest_file + 1);
     if (in.bad())
-        fail_file(file, "can't be read to its end; check the disk and the permissions");
+        fail_file(name, "can't be read to its end; check the disk and the permissions");
     return text;
 }
 

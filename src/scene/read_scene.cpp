@@ -7,16 +7,16 @@
 
 namespace packtrace {
 
-Scene parse_scene(std::string_view text, const std::string& name)
+Scene parse_scene(std::string_view text, const std::string& name, const TakeWarning& warn)
 {
-    const reader::Source source{name, text};
+    const reader::Source source{name, text, warn};
     reader::check_text(source);
     return reader::build_scene(source, reader::parse_tree(source));
 }
 
-Scene read_scene(const std::filesystem::path& file)
+Scene read_scene(const std::filesystem::path& file, const TakeWarning& warn)
 {
-    return parse_scene(reader::load_text(file), file.string());
+    return parse_scene(reader::load_text(file), file.string(), warn);
 }
 
 }  // namespace packtrace

@@ -2,6 +2,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <string>
 #include <string_view>
 
@@ -23,9 +24,13 @@ struct Position {
 struct Source {
     std::string name;
     std::string_view text;
+    std::function<void(const std::string&)> take_warning = {};  ///< may be empty
 };
 
 /// Throws SceneError `name:line:column: message`.
 [[noreturn]] void fail(const Source& source, Position at, const std::string& message);
+
+/// Passes on `name:line:column: message`, if anybody takes it.
+void warn(const Source& source, Position at, const std::string& message);
 
 }  // namespace packtrace::reader

@@ -7,6 +7,7 @@
 
 #include "dispatch/kernels.hpp"
 #include "kernel_abi/probe.hpp"
+#include "lower/check_scene.hpp"
 #include "study/ray_trees.hpp"
 
 namespace packtrace {
@@ -40,11 +41,13 @@ RayNode explain_pixel(const Scene& scene, int x, int y, const RenderOptions& opt
     if (options.kernel == Kernel::packet) {
         check_depth<Real>(scene);
         const IsaInfo isa = choose_isa(options.isa, options.width);
-        return packet_trees<Real>(scene, lower(scene), kernels_of(isa.name))(x, y);
+        const LoweredScene lowered = lower(scene, accuracy_in<Real>(options), options.self_hits);
+        return packet_trees<Real>(scene, lowered, kernels_of(isa.name))(x, y);
     }
     if constexpr (!std::is_same_v<Real, double>)
         throw std::invalid_argument("explain: the scalar kernel is explained in double only");
-    return reference_trees<double>(scene)(x, y);
+    check_scene(scene);
+    return reference_trees<double>(scene, options.self_hits)(x, y);
 }
 
 template RayNode explain_pixel<float>(const Scene&, int, int, const RenderOptions&);

@@ -2,37 +2,18 @@
 
 #include <stdexcept>
 
+#include "scene/quadric_kinds.hpp"
+
 namespace packtrace::study {
 
 Quadric quadric_of(QuadricKind kind)
 {
+    const QuadricKindInfo* const info = find_quadric_kind(kind);
+    if (info == nullptr)
+        throw std::invalid_argument("a general quadric has coefficients of its own");
     Quadric quadric;
     quadric.kind = kind;
-    switch (kind) {
-        case QuadricKind::ellipsoid:
-            quadric.coefficients = {1, 1, 1, 0, 0, 0, 0, 0, 0, -1};
-            break;
-        case QuadricKind::cylinder:
-            quadric.coefficients = {1, 1, 0, 0, 0, 0, 0, 0, 0, -1};
-            break;
-        case QuadricKind::cone:
-            quadric.coefficients = {1, 1, -1, 0, 0, 0, 0, 0, 0, 0};
-            break;
-        case QuadricKind::paraboloid:
-            quadric.coefficients = {1, 1, 0, 0, 0, 0, 0, 0, -1, 0};
-            break;
-        case QuadricKind::hyperboloid:
-            quadric.coefficients = {1, 1, -1, 0, 0, 0, 0, 0, 0, -1};
-            break;
-        case QuadricKind::hyperboloid2:
-            quadric.coefficients = {1, 1, -1, 0, 0, 0, 0, 0, 0, 1};
-            break;
-        case QuadricKind::saddle:
-            quadric.coefficients = {1, -1, 0, 0, 0, 0, 0, 0, -1, 0};
-            break;
-        case QuadricKind::general:
-            throw std::invalid_argument("a general quadric has coefficients of its own");
-    }
+    quadric.coefficients = info->coefficients;
     return quadric;
 }
 

@@ -49,7 +49,9 @@ std::vector<ProfileStage> stages_once(const std::string& text, const Scene& scen
     read.height = scene.height;
     read.max_depth = scene.max_depth;
     read.camera = scene.camera;
-    const LoweredScene lowered = clock.time("lowering", [&] { return lower(read); });
+    const LoweredScene lowered = clock.time("lowering", [&] {
+        return lower(read, accuracy_in<Real>(render_options(options)), options.self_hits);
+    });
     // A renderer packs for itself; this is what it takes alone.
     const auto packed_start = Clock::now();
     {

@@ -104,6 +104,8 @@ RenderOptions render_options(const ProfileOptions& options)
     result.threads = options.threads;
     result.samples = options.samples;
     result.adaptive = options.adaptive;
+    result.accuracy = options.accuracy;
+    result.self_hits = options.self_hits;
     return result;
 }
 
@@ -123,7 +125,7 @@ template <class Real>
 std::vector<ProfileRun> profile_runs(const Scene& scene, const ProfileOptions& options)
 {
     const RenderOptions sampling = render_options(options);
-    const LoweredScene lowered = lower(scene, accuracy_in<Real>(sampling));
+    const LoweredScene lowered = lower(scene, accuracy_in<Real>(sampling), sampling.self_hits);
     const auto& table = kernels_of(choose_isa(options.isa).name);
     std::vector<ProfileRun> runs;
     const auto add = [&](const std::string& name, const LoweredScene& changed) {

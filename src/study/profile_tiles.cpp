@@ -46,11 +46,11 @@ private:
 template <class Real>
 std::vector<TileSpan> trace_tiles(const Scene& scene, const ProfileOptions& options)
 {
-    const LoweredScene lowered = lower(scene);
-    RenderOptions render_options;
-    render_options.samples = options.samples;
+    RenderOptions sampling = render_options(options);
+    sampling.adaptive.reset();
+    const LoweredScene lowered = lower(scene, accuracy_in<Real>(sampling), sampling.self_hits);
     const TileRenderer<Real> tiles(scene, lowered, kernels_of(choose_isa(options.isa).name),
-                                   render_options);
+                                   sampling);
     const TileGrid grid(scene.width, scene.height);
     Image<Real> image(scene.width, scene.height);
     const auto render_tile = [&](int x, int y) {
@@ -87,7 +87,8 @@ std::vector<TileSpan> trace_tiles(const Scene& scene, const ProfileOptions& opti
 template <class Real>
 std::vector<double> pixel_costs(const Scene& scene, const ProfileOptions& options)
 {
-    const LoweredScene lowered = lower(scene);
+    const LoweredScene lowered =
+        lower(scene, accuracy_in<Real>(render_options(options)), options.self_hits);
     const PackedScene<Real> packed(lowered);
     const auto camera = camera_view<Real>(scene, lowered, Vec2(0.0));
     const auto& kernels =

@@ -74,7 +74,8 @@ struct ReferenceTrees {
     reference::TreeRecorder::Growth growth;
     reference::Reference<Real, reference::TreeRecorder> reference;
 
-    explicit ReferenceTrees(const Scene& scene) : reference(scene, reference::TreeRecorder(growth))
+    explicit ReferenceTrees(const Scene& scene, SelfHits self_hits = default_self_hits)
+        : reference(scene, reference::TreeRecorder(growth), self_hits)
     {
     }
     template <class Trace>
@@ -97,9 +98,9 @@ TreeOfPixel packet_trees(const Scene& scene, const LoweredScene& lowered,
 }
 
 template <class Real>
-TreeOfPixel reference_trees(const Scene& scene)
+TreeOfPixel reference_trees(const Scene& scene, SelfHits self_hits)
 {
-    const auto trees = std::make_shared<ReferenceTrees<Real>>(scene);
+    const auto trees = std::make_shared<ReferenceTrees<Real>>(scene, self_hits);
     return [trees](int x, int y) {
         return trees->grow([&](const auto& reference) { return reference.trace_pixel(x, y); });
     };
@@ -121,7 +122,7 @@ template TreeOfPixel packet_trees<float>(const Scene&, const LoweredScene&,
                                          const abi::KernelTable&);
 template TreeOfPixel packet_trees<double>(const Scene&, const LoweredScene&,
                                           const abi::KernelTable&);
-template TreeOfPixel reference_trees<float>(const Scene&);
-template TreeOfPixel reference_trees<double>(const Scene&);
+template TreeOfPixel reference_trees<float>(const Scene&, SelfHits);
+template TreeOfPixel reference_trees<double>(const Scene&, SelfHits);
 
 }  // namespace packtrace

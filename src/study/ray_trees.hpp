@@ -21,7 +21,8 @@ template <class Real>
 
 /// As the scalar reference traces it in `Real`, float or double.
 template <class Real>
-[[nodiscard]] TreeOfPixel reference_trees(const Scene& scene);
+[[nodiscard]] TreeOfPixel reference_trees(const Scene& scene,
+                                          SelfHits self_hits = default_self_hits);
 
 /// The trees of the pixel's samples at `places`, as the reference traces them in double.
 using TreesOfPixel = std::function<std::vector<RayNode>(int x, int y)>;

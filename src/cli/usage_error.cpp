@@ -1,0 +1,101 @@
+#include "cli/usage_error.hpp"
+
+#include <algorithm>
+#include <string_view>
+#include <vector>
+
+#include "scene/nearest_word.hpp"
+#include "scene/quote.hpp"
+
+namespace packtrace::cli {
+namespace {
+
+/// The subcommand in use, or its own (generate's), or the program itself.
+const CLI::App& innermost(const CLI::App& app)
+{
+    const auto used = app.get_subcommands();
+    return used.empty() ? app : innermost(*used.front());
+}
+
+/// "packtrace generate lattice".
+std::string full_name(const CLI::App& command)
+{
+    const CLI::App* const parent = command.get_parent();
+    return parent == nullptr ? "packtrace" : full_name(*parent) + " " + command.get_name();
+}
+
+std::vector<std::string> subcommands_of(const CLI::App& command)
+{
+    std::vector<std::string> names;
+    for (const CLI::App* subcommand : command.get_subcommands({}))
+        names.push_back(subcommand->get_name());
+    return names;
+}
+
+std::vector<std::string> options_of(const CLI::App& command)
+{
+    std::vector<std::string> names;
+    for (const CLI::Option* option : command.get_options())
+        for (const std::string& name : option->get_lnames())
+            names.push_back("--" + name);
+    return names;
+}
+
+/// The words that neither this command nor those it belongs to took; a subcommand leaves words
+/// without a dash to its parent.
+std::vector<std::string> unexpected_words(const CLI::App& command)
+{
+    std::vector<std::string> words = command.remaining();
+    if (const CLI::App* const parent = command.get_parent(); parent != nullptr)
+        for (const std::string& word : unexpected_words(*parent))
+            words.push_back(word);
+    return words;
+}
+
+/// The first of them on the command line, which CLI11 may list from the last; empty for none.
+std::string first_unexpected(const CLI::App& command, int count, const char* const* arguments)
+{
+    const std::vector<std::string> unexpected = unexpected_words(command);
+    for (int i = 1; i < count; ++i)
+        if (std::find(unexpected.begin(), unexpected.end(), arguments[i]) != unexpected.end())
+            return arguments[i];
+    return unexpected.empty() ? "" : unexpected.back();
+}
+
+std::string_view nearest_of(std::string_view word, const std::vector<std::string>& known)
+{
+    const std::vector<std::string_view> views(known.begin(), known.end());
+    return reader::nearest_word(word, views);
+}
+
+std::string describe_unexpected(const CLI::App& command, const std::string& word)
+{
+    const std::vector<std::string> subcommands = subcommands_of(command);
+    const bool is_option = word.starts_with('-');
+    const std::string what = is_option              ? "unknown option "
+                             : !subcommands.empty() ? "unknown subcommand "
+                                                    : "unexpected argument ";
+    const std::vector<std::string> known = is_option ? options_of(command) : subcommands;
+    const std::string name = word.substr(0, word.find('='));
+    const std::string_view nearest = nearest_of(name, known);
+    const std::string text = what + reader::quote(name);
+    return nearest.empty() ? text : text + "; did you mean " + std::string(nearest) + "?";
+}
+
+}  // namespace
+
+std::string usage_error(const CLI::App& app, const CLI::ParseError& error, int count,
+                        const char* const* arguments)
+{
+    const CLI::App& command = innermost(app);
+    const std::string name = full_name(command);
+    std::string what = error.what();
+    // What is missing may be there under a mistyped name: the name is told first.
+    if (dynamic_cast<const CLI::ExtrasError*>(&error) != nullptr ||
+        dynamic_cast<const CLI::RequiredError*>(&error) != nullptr)
+        if (const std::string word = first_unexpected(command, count, arguments); !word.empty())
+            what = describe_unexpected(command, word);
+    return name + ": " + what + (what.ends_with('?') ? " See " : "; see ") + name + " --help";
+}
+
+}  // namespace packtrace::cli

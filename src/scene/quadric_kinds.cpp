@@ -1,0 +1,27 @@
+#include "scene/quadric_kinds.hpp"
+
+namespace packtrace {
+
+std::span<const QuadricKindInfo> quadric_kinds()
+{
+    static constexpr QuadricKindInfo kinds[] = {
+        {QuadricKind::ellipsoid, "ellipsoid", {1, 1, 1, 0, 0, 0, 0, 0, 0, -1}},
+        {QuadricKind::cylinder, "cylinder", {1, 1, 0, 0, 0, 0, 0, 0, 0, -1}},
+        {QuadricKind::cone, "cone", {1, 1, -1, 0, 0, 0, 0, 0, 0, 0}},
+        {QuadricKind::paraboloid, "paraboloid", {1, 1, 0, 0, 0, 0, 0, 0, -1, 0}},
+        {QuadricKind::hyperboloid, "hyperboloid", {1, 1, -1, 0, 0, 0, 0, 0, 0, -1}},
+        {QuadricKind::hyperboloid2, "hyperboloid2", {1, 1, -1, 0, 0, 0, 0, 0, 0, 1}},
+        {QuadricKind::saddle, "saddle", {1, -1, 0, 0, 0, 0, 0, 0, -1, 0}},
+    };
+    return kinds;
+}
+
+const QuadricKindInfo* find_quadric_kind(QuadricKind kind)
+{
+    for (const QuadricKindInfo& info : quadric_kinds())
+        if (info.kind == kind)
+            return &info;
+    return nullptr;
+}
+
+}  // namespace packtrace
