@@ -1,5 +1,5 @@
 // The margins of what is left out early and the bounds of what single precision decides, against
-// rays that are looked for near them; their proofs are in docs/numerics.md.
+// rays that are looked for near them; their proofs are in docs/numerics_derivations.md.
 #include <cmath>
 #include <iomanip>
 #include <limits>

@@ -35,7 +35,7 @@ inline float above(double x)
     return static_cast<float>(x) * (1.0f + 4.0f * roundoff);
 }
 
-/// Bounds after FILTER's derivation in docs/numerics.md; `distance` is the largest |p|.
+/// Bounds after FILTER's derivation in docs/numerics_derivations.md; `distance` is the largest |p|.
 inline void set_anchored_errors(AnchoredFilter& filter, double distance, bool shared)
 {
     constexpr double u = roundoff * inflation;
@@ -45,7 +45,7 @@ inline void set_anchored_errors(AnchoredFilter& filter, double distance, bool sh
     const double offset = filter.offset < 0 ? -double{filter.offset} : double{filter.offset};
     const double size = 1.0 + k * distance;
     const double gradient = (shared ? 1.0 : 3.2) * fused * u * size;
-    const double constant = shared ? 1.1 * u * value + 1e-13 * (size + 1.0) * distance
+    const double constant = shared ? 1.1 * u * value + 1e-13 * (size + 1.0) * distance + 1e-15 / k
                                    : fused * 10.7 * u * (size + 1.0) * distance + 2.1 * u * offset;
     const double slope = gradient + fused * 3.2 * u * size;
     // Of a group with more than one origin, F(0) is anything up to the distance.
@@ -169,7 +169,7 @@ inline AnchoredHit first_root(const AnchoredLine& line)
     hit.t = above_line * inverse;
     const vreal<float> of_sum = select(of_value, hit.t, vreal<float>(1.0f)) * sum_error;
     const vreal<float> of_above = select(of_value, line.value_error, zero);
-    hit.error = madd(of_sum + of_above, inverse * vreal<float>(1.3f),
+    hit.error = madd(of_sum + of_above, inverse * vreal<float>(1.5f),
                      hit.t * vreal<float>(roundoffs(10.0f)));
     return hit;
 }

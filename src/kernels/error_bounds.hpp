@@ -4,7 +4,7 @@
 
 // What rounding to single precision can do to a test, as bounds that hold for all rays of a group:
 // the origins of a group lie in a ball, which bounds every length that enters a test.
-// docs/numerics.md derives the constants, which stand in the files of the surfaces.
+// docs/numerics_derivations.md derives the constants, which stand in the files of the surfaces.
 namespace packtrace::PACKTRACE_ISA {
 namespace {
 

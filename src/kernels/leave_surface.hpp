@@ -42,7 +42,7 @@ inline HitPacket<Real> start_of_search(const StartPacket<Real>& start, const vre
     hit.other = never;
     hit.surface = select(again, start.surface, no_surface<Real>());
     if constexpr (sizeof(Real) == sizeof(float)) {
-        hit.t = select(again, start.second, t_max);
+        hit.t = select(again, rounded_high(start.second), t_max);
         hit.t_low = select(again, rounded_low(start.second), t_max);
     } else {
         hit.t = select(again, start.second, t_max);

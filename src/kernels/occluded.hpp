@@ -37,7 +37,7 @@ struct Reach {
 };
 
 /// `blocked` without the lanes whose own surface is what blocks them: whether that is in the way
-/// is known without looking (second_meeting.hpp).
+/// is known without looking (leave_surface.hpp).
 template <class Real>
 inline std::uint32_t but_own(std::uint32_t blocked, const vint<Real>& own, std::int32_t surface)
 {

@@ -35,6 +35,9 @@ inline float product_error(float x, float dx, float y, float dy)
     return x * dy + y * dx + dx * dy + roundoffs(9.0f) * x * y;
 }
 
+/// Bounds below this may have lost terms to underflow, and say nothing.
+inline constexpr float smallest_error = 0x1p-90f;
+
 /// The error of the discriminant of any ray, at most: by the largest |v| and |m| there are.
 inline float most_error(const QuadricFilter& filter, const float (&row)[3], float reach)
 {
@@ -125,8 +128,9 @@ template <bool Shared>
     const vreal<float> a = dot(s * v, v);
     const vreal<float> discriminant = quadric_discriminant<float>(quadric, m, v, a);
     const std::uint32_t negative = bits(discriminant < vreal<float>(0.0f));
+    const vreal<float> most = vreal<float>(filter.most_error) * rays.dir2;
     const std::uint32_t by_most =
-        bits(discriminant < negated(vreal<float>(filter.most_error) * rays.dir2));
+        bits((discriminant < negated(most)) & (most > vreal<float>(smallest_error)));
     if (negative == 0 || (by_most == negative && !quadric.capped))
         return by_most;
     // The error of each product of two values x, y known to dx, dy: |x| dy + |y| dx + dx dy, and
@@ -162,7 +166,8 @@ template <bool Shared>
                                        size.x * product_error(sv.x, dv.x, sm.y, dm.y));
         error = madd(two * abs(l), turn, madd(l * l, square_error(sv.z, dv.z), error));
     }
-    const std::uint32_t misses = bits(discriminant < negated(error) * vreal<float>(inflation));
+    const std::uint32_t misses = bits((discriminant < negated(error) * vreal<float>(inflation)) &
+                                      (error > vreal<float>(smallest_error)));
     return quadric.capped ? misses & bits(a > of_a * vreal<float>(inflation)) : misses;
 }
 

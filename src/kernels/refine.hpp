@@ -178,7 +178,8 @@ inline RefinedHits<Real> refined(const abi::ShapesView& shapes, const RayPacket<
         refine_packet(hits, shapes, rays, hit.surface, start, active);
     } else {
         const auto again = int_equal(hit.surface, start.surface);
-        hits.point = madd<Real>(hit.t, rays.dir, select(again, start.point, rays.org));
+        hits.t = select(again, start.second, hit.t);
+        hits.point = madd<Real>(hits.t, rays.dir, select(again, start.point, rays.org));
         hits.normal = rays.dir;
         for_each_distinct<Real>(hit.surface, active, [&](lane_int<Real> number, vmask<Real> same) {
             hits.normal = select(

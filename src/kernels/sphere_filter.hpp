@@ -5,7 +5,7 @@
 
 // Certain tests of spheres in single precision. For w = o - c, known to e_w, and the moment
 // m = w × d the error of |m| is at most |d| h + u |m| with h = e_w + u |w|. So a ray whose |m| is
-// above (r + h) |d| misses for sure, and one below (r - h) |d| crosses for sure; docs/numerics.md
+// above (r + h) |d| misses for sure, and one below (r - h) |d| crosses for sure; docs/numerics_derivations.md
 // has the proof.
 namespace packtrace::PACKTRACE_ISA {
 namespace {
@@ -38,8 +38,9 @@ inline SphereBounds<vreal<float>> sphere_bounds(const vreal<float>& radius,
     bounds.outer2 = signed_square<float>(outer) * vreal<float>(1.0f + roundoffs(16.0f));
     bounds.inner2 = signed_square<float>(inner) * vreal<float>(1.0f - roundoffs(16.0f));
     bounds.t_error = madd(vreal<float>(roundoffs(2.0f)), size, along);
-    bounds.root_error = vreal<float>(1.31f) * size * discriminant;
-    bounds.band2 = max(size * (size - min(inner, size)), vreal<float>(0.0f));
+    bounds.root_error = vreal<float>(2.0f * inflation) * size * discriminant;
+    const vreal<float> widest = size * vreal<float>(1.0f + roundoffs(6.0f));
+    bounds.band2 = max(size * (widest - min(inner, size)), vreal<float>(0.0f));
     return bounds;
 }
 

@@ -107,10 +107,17 @@ inline void report_rays(const HitStream<F, Real>& hits, const abi::SceneView<Rea
                         const TracedRays<Real>& from, const HitPacket<Real>& hit,
                         std::uint32_t active)
 {
-    if constexpr (F.probe)
-        if (hits.probe != nullptr)
-            packet_probe(hits, from.path, active)
-                .ray(scene, from.rays, hit, escaped(scene, from.rays));
+    if constexpr (F.probe) {
+        if (hits.probe == nullptr)
+            return;
+        HitPacket<Real> told = hit;
+        const std::uint32_t found = hit_lanes(hit) & active;
+        if (found != 0)
+            told.t = select(from_bits<Real>(found),
+                            refined<F>(scene.shapes, from.rays, hit, from.start, found).t, hit.t);
+        packet_probe(hits, from.path, active)
+            .ray(scene, from.rays, told, escaped(scene, from.rays));
+    }
 }
 
 /// A packet of camera rays and what it hit; the pixels hold the background already.

@@ -8,7 +8,7 @@ namespace packtrace {
 namespace {
 
 /// How many times the distance of its surface from the world's origin a sphere's radius must be;
-/// from the study of formulas in docs/numerics.md, where both forms are about as exact at this
+/// from the study of formulas in docs/numerics_derivations.md, where both forms are about as exact at this
 /// ratio. The sphere alone decides, so that nothing else of a scene changes a digit.
 constexpr double anchored_ratio = 64.0;
 

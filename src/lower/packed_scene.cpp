@@ -22,7 +22,7 @@ constexpr std::size_t frame_tree_objects = 128;
 
 /// How many roundoffs rays start off a surface by. Hits in single precision are refined in double
 /// and rounded once, their offset start once more; those in double are as the search found them.
-/// Measured in docs/numerics.md.
+/// docs/numerics_derivations.md derives them.
 template <class Real>
 constexpr Real start_roundoffs = sizeof(Real) == sizeof(float) ? Real(4) : Real(32);
 

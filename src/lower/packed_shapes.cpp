@@ -69,10 +69,10 @@ AlignedArray<Shape> pack_kind(const std::vector<Object>& objects,
         shapes[number] = pack_shape(object);
         for (int piece = 0; piece < pieces_of(object); ++piece) {
             const auto surface = static_cast<std::size_t>(object.surface + piece);
-            index[surface] = {
-                static_cast<std::uint32_t>(number) & largest_record,
-                static_cast<abi::SurfaceKind>(static_cast<int>(kind_of(object)) + piece),
-                faces_viewer[surface] != 0};
+            abi::SurfaceIndex& at = index[surface];
+            at.record = static_cast<std::uint32_t>(number) & largest_record;
+            at.kind = static_cast<abi::SurfaceKind>(static_cast<int>(kind_of(object)) + piece);
+            at.faces_viewer = faces_viewer[surface] != 0;
         }
     });
     view = shapes.data();

@@ -18,7 +18,7 @@ enum ItemKind : std::uint32_t { sphere_item, quadric_item };
 constexpr double worst_condition = 1e3;
 
 /// How far single precision shifts the hits of a sphere, as a share of the distances there are:
-/// docs/numerics.md derives 16 units in the last place.
+/// docs/numerics_derivations.md derives 16 units in the last place.
 constexpr double sphere_slack = 2e-6;
 
 float round_down(double x)
