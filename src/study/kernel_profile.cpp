@@ -67,7 +67,8 @@ std::vector<KernelStage> divide_spans(ObservedFrame<Real>& observed, const SpanT
 
 LoweredScene observable(LoweredScene lowered)
 {
-    lowered.features = {.quadrics = true, .glass = true, .probe = true};
+    lowered.features = {
+        .quadrics = true, .glass = true, .probe = true, .exact = lowered.features.exact};
     return lowered;
 }
 
