@@ -27,8 +27,8 @@ struct Variant {
     std::string name;  ///< "packets single avx2, 2 threads"
     Study study = Study::arithmetic;
     Kernel kernel = Kernel::packet;
-    std::string precision = "single";         ///< or "double"
-    std::string isa;                          ///< packets only
+    std::string precision = "single";     ///< or "double"
+    std::string isa;                      ///< packets only
     Accuracy accuracy = Accuracy::exact;  ///< packets of floats only
     SelfHits self_hits = default_self_hits;
     bool general = false;  ///< RenderOptions::force_general

@@ -58,9 +58,10 @@ struct alignas(64) SphereBlock {
 template <class Real>
 struct BvhView {
     const BvhNode* nodes = nullptr;  ///< the first is the root
-    /// Null in the double view of a scene in single precision, whose few rays make them of `shapes`.
+    /// Null in the double view of a scene in single precision, whose few rays make them of
+    /// `shapes`.
     const SphereBlock<Real>* blocks = nullptr;
-    const std::int32_t* block_surfaces = nullptr;  ///< eight a block, apart: only hits need them
+    const std::int32_t* block_surfaces = nullptr;   ///< eight a block, apart: only hits need them
     const QuadricRecord<Real>* quadrics = nullptr;  ///< likewise
     const std::int32_t* quadric_surfaces = nullptr;
     const ShapesView* shapes = nullptr;

@@ -96,7 +96,8 @@ struct PrecisionTable {
     /// Those of Features::exact first, for floats alone; then for each set the others.
     FeatureKernels<Real> kernels[2 * feature_set_count];
     // Rays of the caller's own, against surfaces of every kind.
-    // `scratch` is working memory of `stream_scratch_bytes`, 64-byte aligned, for one call at a time.
+    // `scratch` is working memory of `stream_scratch_bytes`, 64-byte aligned, for one call at a
+    // time.
     std::size_t (*stream_scratch_bytes)(const SceneView<Real>& scene) = nullptr;
     void (*closest_hits)(const SceneView<Real>& scene, const RaysView<Real>& rays,
                          const HitsView<Real>& hits, void* scratch) = nullptr;

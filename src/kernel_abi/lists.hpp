@@ -24,7 +24,7 @@ struct SphereListView {
     const Real* center_y = nullptr;
     const Real* center_z = nullptr;
     const Real* radius = nullptr;
-    const Real* radius2 = nullptr;  ///< of the rounded radius
+    const Real* radius2 = nullptr;       ///< of the rounded radius
     const Real* center_error = nullptr;  ///< how far rounding moved the centre, at most
     const lane_int<Real>* surface = nullptr;
     int count = 0;

@@ -64,8 +64,8 @@ struct SceneView : GeometryView<Real> {
     Real epsilon = 0;
     /// Secondary and shadow rays start this far along their direction.
     Real secondary_t_min = 0;
-    /// Share of the coordinates there by which they start off the surface; 0 for none. If any, their
-    /// own surface is solved as one they are on.
+    /// Share of the coordinates there by which they start off the surface; 0 for none. If any,
+    /// their own surface is solved as one they are on.
     Real start_error = 0;
 };
 

@@ -52,13 +52,14 @@ inline void set_anchored_errors(AnchoredFilter& filter, double distance, bool sh
     const double most_value = shared ? value : (size + 1.0) * distance + offset;
     filter.slope_error = above(slope);
     filter.value_error = above(constant);
-    filter.discriminant_error = above(2.0 * size * slope + k * constant +
-                                      fused * 7.0 * u * k * most_value + fused * 2.0 * u * size * size);
+    filter.discriminant_error =
+        above(2.0 * size * slope + k * constant + fused * 7.0 * u * k * most_value +
+              fused * 2.0 * u * size * size);
 }
 
 template <bool Shared>
 [[gnu::noinline]] AnchoredFilter anchored_filter(const abi::AnchoredSphere<double>& sphere,
-                                      const Origins& origins)
+                                                 const Origins& origins)
 {
     AnchoredFilter filter{};
     double out[3];

@@ -31,8 +31,8 @@ inline Real magnitude(Real x)
 }
 
 /// Share of a length by which a bound may be wrong through rounding; more than three times what
-/// the operations below and a ray's own test can lose (docs/numerics_derivations.md has the proof), so that a
-/// sphere is left out only when the exact and the rounded test of every ray say miss.
+/// the operations below and a ray's own test can lose (docs/numerics_derivations.md has the proof),
+/// so that a sphere is left out only when the exact and the rounded test of every ray say miss.
 template <class Real>
 inline constexpr Real beam_slack = sizeof(Real) == 4 ? Real(1e-5) : Real(1e-13);
 

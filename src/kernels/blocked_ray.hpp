@@ -1,7 +1,7 @@
 #pragma once
 
-#include "kernels/near_spheres.hpp"
 #include "kernels/cell_rays.hpp"
+#include "kernels/near_spheres.hpp"
 
 namespace packtrace::PACKTRACE_ISA {
 namespace {

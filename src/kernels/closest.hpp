@@ -17,8 +17,8 @@ inline void keep_quadratic(HitPacket<Real>& hit, const Quadratic<Real>& quadrati
     if (any(active))
         keep_first_root<Real>(
             hit, quadratic,
-            from_bits<Real>(bits(active) & own.template lanes_on_others<Real>(surface)),
-            rays.t_min, surface);
+            from_bits<Real>(bits(active) & own.template lanes_on_others<Real>(surface)), rays.t_min,
+            surface);
 }
 
 template <class Plane, class Real, class Own>
@@ -27,9 +27,9 @@ inline void keep_plane(HitPacket<Real>& hit, const Plane& plane, const RayPacket
 {
     const vreal<Real> t = plane_t(plane, rays);
     const std::uint32_t ahead = bits(t > rays.t_min);
-    keep_closer<Real>(
-        hit, from_bits<Real>(ahead & own.template lanes_on_others<Real>(plane.surface)), t,
-        plane.surface);
+    keep_closer<Real>(hit,
+                      from_bits<Real>(ahead & own.template lanes_on_others<Real>(plane.surface)), t,
+                      plane.surface);
 }
 
 template <class Quadric, class Real, class Own>
@@ -72,9 +72,9 @@ inline void closest_hit(HitPacket<Real>& hit, const Objects& objects, const RayP
 
 /// A sphere by certain tests, for a packet of rays.
 template <class Own>
-inline void keep_sphere(HitPacket<float>& hit, const SphereTest& test,
-                        const SphereApproach& near, const RayPacket<float>& rays,
-                        const RayScale& scale, std::int32_t surface, const Own& own)
+inline void keep_sphere(HitPacket<float>& hit, const SphereTest& test, const SphereApproach& near,
+                        const RayPacket<float>& rays, const RayScale& scale, std::int32_t surface,
+                        const Own& own)
 {
     const std::uint32_t others = bits(near.near) & own.template lanes_on_others<float>(surface);
     if (others != 0)
@@ -90,12 +90,12 @@ inline void keep_quadric(HitPacket<float>& hit, const QuadricFilter& filter,
     if (active == 0)
         return;
     const std::int32_t surface = filter.record->surface;
-    visit_in_double(*filter.wide, rays, active,
-                    [&](std::uint32_t lanes_of, const vreal<float>& low, const vreal<float>& high,
-                        int piece) {
-                        lanes_of &= own.template lanes_on_others<float>(surface + piece);
-                        keep_sure(hit, from_bits<float>(lanes_of), low, high, surface + piece);
-                    });
+    visit_in_double(
+        *filter.wide, rays, active,
+        [&](std::uint32_t lanes_of, const vreal<float>& low, const vreal<float>& high, int piece) {
+            lanes_of &= own.template lanes_on_others<float>(surface + piece);
+            keep_sure(hit, from_bits<float>(lanes_of), low, high, surface + piece);
+        });
 }
 
 /// The same by certain tests, for rays of the origins that the objects' bounds are for.

@@ -1,8 +1,8 @@
 #pragma once
 
-#include "kernels/near_spheres.hpp"
 #include "kernels/cell_rays.hpp"
 #include "kernels/closest.hpp"
+#include "kernels/near_spheres.hpp"
 
 // The closest hit of a single ray in the hierarchy.
 namespace packtrace::PACKTRACE_ISA {

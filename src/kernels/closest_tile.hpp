@@ -20,9 +20,8 @@ inline void store_misses(abi::TileHits<Real>& hits)
 
 /// With Features::exact each t is refined.
 template <abi::Features F, class Real>
-inline void store_tile_hits(abi::TileHits<Real>& hits, int first,
-                            const abi::SceneView<Real>& scene, const RayPacket<Real>& rays,
-                            const HitPacket<Real>& hit)
+inline void store_tile_hits(abi::TileHits<Real>& hits, int first, const abi::SceneView<Real>& scene,
+                            const RayPacket<Real>& rays, const HitPacket<Real>& hit)
 {
     vreal<Real> t = hit.t;
     if constexpr (F.exact) {

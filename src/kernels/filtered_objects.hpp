@@ -61,8 +61,7 @@ inline Vec3v<float> origin_from_centers(const Origins& origins,
 {
     const auto from = [&](int axis, const double* center) {
         const vreal<double> origin(double{origins.center[axis]});
-        return narrow(origin - load(center + first),
-                      origin - load(center + first + lanes<double>));
+        return narrow(origin - load(center + first), origin - load(center + first + lanes<double>));
     };
     return {from(0, wide.center_x), from(1, wide.center_y), from(2, wide.center_z)};
 }
@@ -75,10 +74,9 @@ inline void filter_spheres(SphereFilters& list, const Origins& origins, const Be
 {
     list.count = 0;
     for_each_met(beam, spheres, [&](int first, std::uint32_t kept, const Vec3v<float>& center) {
-        const Vec3v<float> w = Shared ? origin_from_centers(origins, wide, first)
-                                      : broadcast(origins.center) - center;
-        const vreal<float> error =
-            Shared ? vreal<float>(0.0f) : load(spheres.center_error + first);
+        const Vec3v<float> w =
+            Shared ? origin_from_centers(origins, wide, first) : broadcast(origins.center) - center;
+        const vreal<float> error = Shared ? vreal<float>(0.0f) : load(spheres.center_error + first);
         const vreal<float> length =
             (sqrt(dot(w, w)) + vreal<float>(origins.radius)) * vreal<float>(inflation) + error;
         const vreal<float> radius = load(spheres.radius + first);
@@ -114,7 +112,7 @@ inline bool leaves_behind(const Beam<float>& beam, const PlaneFilter& plane)
 /// spheres alone of others.
 template <abi::Features F, bool Shared>
 [[gnu::noinline]] void filter_objects(FilteredObjects<Shared>& objects, const Origins& origins,
-                           const Beam<float>& beam, const abi::SceneView<float>& scene)
+                                      const Beam<float>& beam, const abi::SceneView<float>& scene)
 {
     const abi::GeometryView<double>& wide = *scene.wide;
     objects.certifiable = scene.certifiable;
@@ -135,8 +133,7 @@ template <abi::Features F, bool Shared>
     if constexpr (F.quadrics)
         for (int i = 0; i < wide.quadrics.count; ++i) {
             const abi::QuadricRecord<float>& record = scene.quadrics.data[i];
-            const Vec3v<float> to_bound =
-                broadcast(record.bound) - broadcast(beam.base);
+            const Vec3v<float> to_bound = broadcast(record.bound) - broadcast(beam.base);
             if (Shared && beam.bounded &&
                 none(may_meet<float>(beam, to_bound, vreal<float>(record.bound_radius))))
                 continue;

@@ -68,8 +68,8 @@ template <class Real>
 inline Vec3v<Real> side_gradient_at(const abi::QuadricRecord<double>& quadric,
                                     const Vec3v<Real>& point)
 {
-    const Vec3v<Real> w = (point - broadcast_as<Real>(quadric.center)) -
-                          broadcast_as<Real>(quadric.center_low);
+    const Vec3v<Real> w =
+        (point - broadcast_as<Real>(quadric.center)) - broadcast_as<Real>(quadric.center_low);
     const Vec3v<Real> p{dot(broadcast_as<Real>(quadric.inverse[0]), w),
                         dot(broadcast_as<Real>(quadric.inverse[1]), w),
                         dot(broadcast_as<Real>(quadric.inverse[2]), w)};
@@ -92,8 +92,8 @@ inline Vec3v<Real> surface_normal(const abi::ShapesView& shapes, const abi::Surf
         case abi::SurfaceKind::sphere:
             return unit_or_against<Real>(normal_at<Real>(shapes.spheres[index.record], point), dir);
         case abi::SurfaceKind::anchored_sphere:
-            return unit_or_against<Real>(normal_at<Real>(shapes.anchored_spheres[index.record],
-                                                         point), dir);
+            return unit_or_against<Real>(
+                normal_at<Real>(shapes.anchored_spheres[index.record], point), dir);
         case abi::SurfaceKind::plane:
             return broadcast_as<Real>(shapes.planes[index.record].normal);
         case abi::SurfaceKind::quadric_side:
@@ -103,7 +103,8 @@ inline Vec3v<Real> surface_normal(const abi::ShapesView& shapes, const abi::Surf
         case abi::SurfaceKind::high_cap:
             return unit_or_against<Real>(
                 cap_gradient<Real>(shapes.quadrics[index.record],
-                                   index.kind == abi::SurfaceKind::high_cap), dir);
+                                   index.kind == abi::SurfaceKind::high_cap),
+                dir);
         case abi::SurfaceKind::none:
             break;
     }

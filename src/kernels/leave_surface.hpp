@@ -1,16 +1,16 @@
 #pragma once
 
-#include "kernels/gradient.hpp"
 #include "kernels/filter.hpp"
+#include "kernels/gradient.hpp"
 #include "kernels/own_surface.hpp"
 #include "kernels/records.hpp"
 #include "kernels/widen.hpp"
 
-// How rays leave the surface they start on. One root of its equation along such a ray is known to be
-// 0, so that it is not looked for, and the constant is 0 whatever rounding makes of it: the other
-// root is -2 slope / bend, for every kind of surface. It is found once, when the ray is made, in
-// double; the search passes over the surface. Of other surfaces rays keep off by what rounding does
-// to the place they start at.
+// How rays leave the surface they start on. One root of its equation along such a ray is known to
+// be 0, so that it is not looked for, and the constant is 0 whatever rounding makes of it: the
+// other root is -2 slope / bend, for every kind of surface. It is found once, when the ray is made,
+// in double; the search passes over the surface. Of other surfaces rays keep off by what rounding
+// does to the place they start at.
 namespace packtrace::PACKTRACE_ISA {
 namespace {
 
@@ -136,10 +136,9 @@ inline vreal<float> other_root_of(const abi::ShapesView& shapes, const abi::Surf
                                   const Vec3v<float>& point, const Vec3v<float>& dir,
                                   std::uint32_t outside)
 {
-    return narrow(
-        other_root_of(shapes, index, widen_low(point), widen_low(dir), outside),
-        other_root_of(shapes, index, widen_high(point), widen_high(dir),
-                      (outside & all_lanes<float>) >> lanes<double>));
+    return narrow(other_root_of(shapes, index, widen_low(point), widen_low(dir), outside),
+                  other_root_of(shapes, index, widen_high(point), widen_high(dir),
+                                (outside & all_lanes<float>) >> lanes<double>));
 }
 
 /// For the lanes of `active`, each from a point of its own surface; `outside` are those that leave

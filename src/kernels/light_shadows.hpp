@@ -46,8 +46,7 @@ struct alignas(64) LightShadows : LightShares<F.glass, Real> {
     {
         const vreal<Real> one(Real(1));
         for (Real(&channel)[group_rays] : this->share)
-            store(channel + first,
-                  select(from_bits<Real>(lanes_of), one, load(channel + first)));
+            store(channel + first, select(from_bits<Real>(lanes_of), one, load(channel + first)));
     }
 
     Vec3v<Real> shares(int first) const

@@ -18,8 +18,7 @@ struct AllObjects {
 };
 
 template <abi::Features F, class Real>
-using FromPoint =
-    std::conditional_t<F.exact, FilteredObjects<true>, SharedOriginObjects<Real>>;
+using FromPoint = std::conditional_t<F.exact, FilteredObjects<true>, SharedOriginObjects<Real>>;
 template <abi::Features F, class Real>
 using FromAnywhere = std::conditional_t<F.exact, FilteredObjects<false>, AllObjects<Real>>;
 

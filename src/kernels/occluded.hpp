@@ -64,14 +64,14 @@ inline Occlusion occludes(const abi::QuadricRecord<double>& quadric, const RayPa
                           const vreal<float>& t_end, const vint<float>& own, std::uint32_t active)
 {
     Occlusion result;
-    visit_in_double(quadric, rays, active,
-                    [&](std::uint32_t lanes_of, const vreal<float>& low, const vreal<float>& high,
-                        int piece) {
-                        lanes_of = but_own<float>(lanes_of, own, quadric.surface + piece);
-                        const Occlusion at = root_between(low, high, lanes_of, rays.t_min, t_end);
-                        result.blocked |= at.blocked;
-                        result.unsure |= at.unsure;
-                    });
+    visit_in_double(
+        quadric, rays, active,
+        [&](std::uint32_t lanes_of, const vreal<float>& low, const vreal<float>& high, int piece) {
+            lanes_of = but_own<float>(lanes_of, own, quadric.surface + piece);
+            const Occlusion at = root_between(low, high, lanes_of, rays.t_min, t_end);
+            result.blocked |= at.blocked;
+            result.unsure |= at.unsure;
+        });
     result.unsure &= ~result.blocked;
     return result;
 }

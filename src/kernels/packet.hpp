@@ -33,7 +33,8 @@ template <class Real>
 inline HitPacket<Real> no_hit(Real t_max)
 {
     const vreal<Real> end(t_max);
-    return {end, vint<Real>(lane_int<Real>(-1)), end, vreal<Real>(static_cast<Real>(__builtin_inf()))};
+    return {end, vint<Real>(lane_int<Real>(-1)), end,
+            vreal<Real>(static_cast<Real>(__builtin_inf()))};
 }
 
 /// Takes the hits at `t` where `valid` and closer; at equal t the lower surface number wins, so

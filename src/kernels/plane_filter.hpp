@@ -19,7 +19,8 @@ struct PlaneFilter {
 };
 
 template <bool Shared>
-[[gnu::noinline]] PlaneFilter plane_filter(const abi::PlaneRecord<double>& plane, const Origins& origins)
+[[gnu::noinline]] PlaneFilter plane_filter(const abi::PlaneRecord<double>& plane,
+                                           const Origins& origins)
 {
     PlaneFilter filter{};
     double height = 0;
@@ -87,9 +88,9 @@ inline PlaneCrossing crossing(const PlaneFilter& filter, const RayPacket<float>&
     const vreal<float> t = height * inverse;
     const vreal<float> size = abs(t);
     // The true slope is half of this one at least in the lanes that are sure.
-    const vreal<float> error = madd(madd(size, slope_error, height_error),
-                                    vreal<float>(2.0f * inflation) * abs(inverse),
-                                    size * vreal<float>(roundoffs(4.0f)));
+    const vreal<float> error =
+        madd(madd(size, slope_error, height_error), vreal<float>(2.0f * inflation) * abs(inverse),
+             size * vreal<float>(roundoffs(4.0f)));
     PlaneCrossing result{t - error, t + error, 0, height, slope, slope_error};
     result.sure = bits(abs(slope) > slope_error + slope_error);
     return result;

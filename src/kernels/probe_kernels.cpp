@@ -18,8 +18,8 @@ constexpr abi::FeatureKernels<Real> kernels()
     return {{probe.name, F}, scratch_bytes<F, Real>, render_tile<F, Real>, nullptr};
 }
 
-constexpr abi::ProbeKernels probes = {
-    kernels<true, float>(), kernels<false, float>(), kernels<false, double>()};
+constexpr abi::ProbeKernels probes = {kernels<true, float>(), kernels<false, float>(),
+                                      kernels<false, double>()};
 
 }  // namespace
 

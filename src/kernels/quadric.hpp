@@ -53,8 +53,8 @@ inline vreal<Real> quadric_discriminant(const abi::QuadricRecord<Real>& quadric,
 {
     const Vec3v<Real> s = broadcast(quadric.square);
     const vreal<Real> l(quadric.linear);
-    const vreal<Real> squares = madd(s.y * s.z, m.x * m.x,
-                                     madd(s.z * s.x, m.y * m.y, (s.x * s.y) * (m.z * m.z)));
+    const vreal<Real> squares =
+        madd(s.y * s.z, m.x * m.x, madd(s.z * s.x, m.y * m.y, (s.x * s.y) * (m.z * m.z)));
     const vreal<Real> turn = msub(s.y * v.y, m.x, (s.x * v.x) * m.y);
     const vreal<Real> lifted = l * v.z;
     return madd(l + l, turn, msub(lifted, lifted, madd(vreal<Real>(quadric.constant), a, squares)));
@@ -62,8 +62,8 @@ inline vreal<Real> quadric_discriminant(const abi::QuadricRecord<Real>& quadric,
 
 /// The ray p + t v in canonical space against the unclipped side.
 template <class Real>
-inline Quadratic<Real> side_quadratic(const abi::QuadricRecord<Real>& quadric,
-                                      const Vec3v<Real>& p, const Vec3v<Real>& v)
+inline Quadratic<Real> side_quadratic(const abi::QuadricRecord<Real>& quadric, const Vec3v<Real>& p,
+                                      const Vec3v<Real>& v)
 {
     const Vec3v<Real> scaled = broadcast(quadric.square) * v;
     const vreal<Real> zero(Real(0));
@@ -72,8 +72,8 @@ inline Quadratic<Real> side_quadratic(const abi::QuadricRecord<Real>& quadric,
     Quadratic<Real> q;
     q.a = dot(scaled, v);
     // What is no more than its own rounding is 0: the ray runs along a generator or an asymptote.
-    const vreal<Real> size = madd(abs(scaled.x), abs(v.x),
-                                  madd(abs(scaled.y), abs(v.y), abs(scaled.z) * abs(v.z)));
+    const vreal<Real> size =
+        madd(abs(scaled.x), abs(v.x), madd(abs(scaled.y), abs(v.y), abs(scaled.z) * abs(v.z)));
     constexpr Real rounding = sizeof(Real) == sizeof(float) ? Real(0x1p-22) : Real(0x1p-51);
     q.a = select(abs(q.a) <= vreal<Real>(rounding) * size, zero, q.a);
     q.b = madd(vreal<Real>(quadric.linear), v.z, dot(scaled, p));

@@ -12,13 +12,13 @@ namespace {
 struct QuadricFilter {
     const abi::QuadricRecord<float>* record;
     const abi::QuadricRecord<double>* wide;
-    float p[3];            ///< a shared origin in canonical space, rounded once from double
-    float ball[3];         ///< centre of the bounding ball; for a shared origin from there to it
-    float ball_outer2;     ///< infinite for an unbounded quadric
-    float ball_reach;      ///< half the way of a ray through the ball at most, times |d|
-    float moment_error[3]; ///< of m = p × v, per |d|
-    float dir_error[3];    ///< of v, per |d|
-    float most_error;      ///< of the discriminant, per d·d
+    float p[3];             ///< a shared origin in canonical space, rounded once from double
+    float ball[3];          ///< centre of the bounding ball; for a shared origin from there to it
+    float ball_outer2;      ///< infinite for an unbounded quadric
+    float ball_reach;       ///< half the way of a ray through the ball at most, times |d|
+    float moment_error[3];  ///< of m = p × v, per |d|
+    float dir_error[3];     ///< of v, per |d|
+    float most_error;       ///< of the discriminant, per d·d
 };
 
 inline float row_length(const float (&row)[3])
@@ -68,7 +68,8 @@ inline float most_error(const QuadricFilter& filter, const float (&row)[3], floa
 
 template <bool Shared>
 [[gnu::noinline]] QuadricFilter quadric_filter(const abi::QuadricRecord<float>& record,
-                                    const abi::QuadricRecord<double>& wide, const Origins& origins)
+                                               const abi::QuadricRecord<double>& wide,
+                                               const Origins& origins)
 {
     QuadricFilter filter{};
     filter.record = &record;
@@ -93,9 +94,9 @@ template <bool Shared>
         row[axis] = row_length(record.inverse[axis]);
         filter.dir_error[axis] = roundoffs(4.2f) * row[axis];
         if (Shared)
-            filter.p[axis] = static_cast<float>(wide.inverse[axis][0] * w[0] +
-                                                wide.inverse[axis][1] * w[1] +
-                                                wide.inverse[axis][2] * w[2]);
+            filter.p[axis] =
+                static_cast<float>(wide.inverse[axis][0] * w[0] + wide.inverse[axis][1] * w[1] +
+                                   wide.inverse[axis][2] * w[2]);
     }
     for (int axis = 0; axis < 3; ++axis)
         filter.moment_error[axis] =
@@ -115,8 +116,8 @@ template <bool Shared>
 /// Lanes that surely miss the surface: those that cross the unclipped side nowhere and, where there
 /// are caps, are outside of it all along.
 template <bool Shared>
-[[gnu::noinline]] std::uint32_t surely_misses(const QuadricFilter& filter, const RayPacket<float>& rays,
-                                   const RayScale& scale)
+[[gnu::noinline]] std::uint32_t surely_misses(const QuadricFilter& filter,
+                                              const RayPacket<float>& rays, const RayScale& scale)
 {
     const abi::QuadricRecord<float>& quadric = *filter.record;
     const Vec3v<float> p =
@@ -157,9 +158,9 @@ template <bool Shared>
     vreal<float> error = (size.y * size.z) * square_error(sm.x, dm.x);
     error = madd(size.z * size.x, square_error(sm.y, dm.y), error);
     error = madd(size.x * size.y, square_error(sm.z, dm.z), error);
-    const vreal<float> of_a = madd(size.x, square_error(sv.x, dv.x),
-                                   madd(size.y, square_error(sv.y, dv.y),
-                                        size.z * square_error(sv.z, dv.z)));
+    const vreal<float> of_a =
+        madd(size.x, square_error(sv.x, dv.x),
+             madd(size.y, square_error(sv.y, dv.y), size.z * square_error(sv.z, dv.z)));
     error = madd(abs(k), of_a, error);
     if (quadric.linear != 0) {
         const vreal<float> turn = madd(size.y, product_error(sv.y, dv.y, sm.x, dm.x),
@@ -206,7 +207,7 @@ struct HalfCrossings {
 };
 
 [[gnu::noinline]] inline HalfCrossings half_crossings(const abi::QuadricRecord<double>& quadric,
-                                    const RayPacket<double>& rays)
+                                                      const RayPacket<double>& rays)
 {
     HalfCrossings result;
     int sides = 0;
@@ -221,8 +222,8 @@ struct HalfCrossings {
 
 /// Calls `visit(lanes, low, high, piece)` for the crossings beyond t_min of the lanes of `active`.
 template <class Visit>
-inline void visit_in_double(const abi::QuadricRecord<double>& quadric,
-                            const RayPacket<float>& rays, std::uint32_t active, const Visit& visit)
+inline void visit_in_double(const abi::QuadricRecord<double>& quadric, const RayPacket<float>& rays,
+                            std::uint32_t active, const Visit& visit)
 {
     HalfCrossings low;
     HalfCrossings high;

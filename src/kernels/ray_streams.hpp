@@ -75,8 +75,7 @@ inline StartPacket<Real> start_of(const abi::SceneView<Real>& scene,
     const std::uint32_t active = first_lanes<Real>(count) & ~bits(elsewhere);
     StartPacket<Real> start{load_some3(view.start_point, first, count), number,
                             vreal<Real>(static_cast<Real>(__builtin_inf()))};
-    start.second =
-        second_root<Real>(scene.shapes, number, start.point, dir, ~bits(inner), active);
+    start.second = second_root<Real>(scene.shapes, number, start.point, dir, ~bits(inner), active);
     return start;
 }
 
@@ -112,8 +111,7 @@ inline void find_nearby_of(StreamWork<F, Real>& work, const abi::SceneView<Real>
             vreal<float> lows = most;
             vreal<float> highs = negated(most);
             for (int first = 0; first < count; first += lanes<float>) {
-                const vreal<float> org =
-                    load_some(view.org[axis] + begin + first, count - first);
+                const vreal<float> org = load_some(view.org[axis] + begin + first, count - first);
                 lows = min(lows, org);
                 highs = max(highs, org);
             }
@@ -164,9 +162,8 @@ inline void store_packet_hits(const abi::SceneView<Real>& scene, const RayPacket
 /// Where the scene has no hierarchy: packet by packet, without a group in between.
 template <abi::Features F, class Real>
 inline void closest_chunk_in_lists(const abi::SceneView<Real>& scene,
-                                   const StreamWork<F, Real>& work,
-                                   const abi::RaysView<Real>& view, int begin, int end,
-                                   const abi::HitsView<Real>& hits)
+                                   const StreamWork<F, Real>& work, const abi::RaysView<Real>& view,
+                                   int begin, int end, const abi::HitsView<Real>& hits)
 {
     for (int first = begin; first < end; first += lanes<Real>) {
         const StreamPacket<Real> packet(view, first);
@@ -185,9 +182,8 @@ inline void closest_chunk_in_lists(const abi::SceneView<Real>& scene,
 
 template <abi::Features F, class Real>
 inline void closest_chunk_in_tree(const abi::SceneView<Real>& scene,
-                                  const StreamWork<F, Real>& work,
-                                  const abi::RaysView<Real>& view, int begin, int end,
-                                  const abi::HitsView<Real>& hits)
+                                  const StreamWork<F, Real>& work, const abi::RaysView<Real>& view,
+                                  int begin, int end, const abi::HitsView<Real>& hits)
 {
     RayGroup<Real>& group = *work.group;
     const int count = end - begin;
@@ -285,9 +281,8 @@ template <abi::Features F>
 
 template <abi::Features F, class Real>
 inline void occluded_chunk_in_tree(const abi::SceneView<Real>& scene,
-                                   const StreamWork<F, Real>& work,
-                                   const abi::RaysView<Real>& view, int begin, int end,
-                                   std::uint8_t* mask)
+                                   const StreamWork<F, Real>& work, const abi::RaysView<Real>& view,
+                                   int begin, int end, std::uint8_t* mask)
 {
     RayGroup<Real>& group = *work.group;
     const int count = end - begin;
@@ -308,8 +303,7 @@ inline void occluded_chunk_in_tree(const abi::SceneView<Real>& scene,
         settle_occluded<F>(scene, group);
     for (int first = 0; first < count; first += lanes<Real>) {
         const std::uint32_t before = wanted[first / cell_rays] >> first % cell_rays;
-        store_mask<Real>(mask + begin + first, before & ~active_lanes(group, first),
-                         count - first);
+        store_mask<Real>(mask + begin + first, before & ~active_lanes(group, first), count - first);
     }
 }
 

@@ -47,9 +47,9 @@ inline RefinedHalf refine(const abi::SphereShape& sphere, const RayPacket<double
     const vreal<double> radius2(sphere.radius * sphere.radius);
     const Vec3v<double> o = rays.org - broadcast(sphere.center);
     RefinedHalf hit;
-    hit.t = first_root(
-        sphere_quadratic<double>(rays, o, radius2, sphere_constant<double>(o, radius2)),
-        rays.t_min);
+    hit.t =
+        first_root(sphere_quadratic<double>(rays, o, radius2, sphere_constant<double>(o, radius2)),
+                   rays.t_min);
     hit.point = point_at(rays, hit.t);
     hit.normal = normal_at<double>(sphere, hit.point);
     return hit;
@@ -71,8 +71,8 @@ inline RefinedHalf refine(const abi::PlaneRecord<double>& plane, const RayPacket
 }
 
 /// The first of the crossings of one piece.
-[[gnu::noinline]] inline RefinedHalf refine_piece(const abi::QuadricRecord<double>& quadric, int wanted,
-                                const RayPacket<double>& rays)
+[[gnu::noinline]] inline RefinedHalf refine_piece(const abi::QuadricRecord<double>& quadric,
+                                                  int wanted, const RayPacket<double>& rays)
 {
     vreal<double> first(__builtin_inf());
     const QuadricOrigin<double> origin = quadric_origin<double>(quadric, rays.org);
@@ -103,10 +103,10 @@ inline RefinedHalf refine(const abi::ShapesView& shapes, const abi::SurfaceIndex
         case abi::SurfaceKind::plane:
             return refine(shapes.planes[index.record], rays);
         default:
-            return refine_piece(shapes.quadrics[index.record],
-                                static_cast<int>(index.kind) -
-                                    static_cast<int>(abi::SurfaceKind::quadric_side),
-                                rays);
+            return refine_piece(
+                shapes.quadrics[index.record],
+                static_cast<int>(index.kind) - static_cast<int>(abi::SurfaceKind::quadric_side),
+                rays);
     }
 }
 
@@ -124,8 +124,8 @@ inline void refine_surface(RefinedHits<float>& hits, const abi::ShapesView& shap
 
 /// Hits on the surfaces that rays start on, whose t is known.
 [[gnu::noinline]] inline void refine_second(RefinedHits<float>& hits, const abi::ShapesView& shapes,
-                          const StartPacket<float>& start, const RayPacket<float>& rays,
-                          std::uint32_t again)
+                                            const StartPacket<float>& start,
+                                            const RayPacket<float>& rays, std::uint32_t again)
 {
     const auto half = [&](const Vec3v<double>& from, const Vec3v<double>& dir,
                           const vreal<double>& t) { return madd<double>(t, dir, from); };

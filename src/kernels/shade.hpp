@@ -31,8 +31,7 @@ inline Vec3v<Real> light_color(const ShadeContext<F, Real>& context, int number,
         }
     }
     const std::uint32_t lit = unshadowed<F>(context, number, packet, surface, packet.wanted, first);
-    const Vec3v<Real> color =
-        lit_color<F>(light, packet, material, lit, *context.counts);
+    const Vec3v<Real> color = lit_color<F>(light, packet, material, lit, *context.counts);
     probe.light(number, packet.wanted, lit, color);
     return color;
 }

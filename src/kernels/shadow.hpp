@@ -129,7 +129,8 @@ inline std::uint32_t blocked_lanes(const ShadeContext<F, Real>& context, int lig
 }
 
 /// Calls `pass_on(surface, lanes)` for each object in the way of a light with the lanes it blocks,
-/// until that returns false; `start_again(lanes)` for lanes that are looked at again from the start.
+/// until that returns false; `start_again(lanes)` for lanes that are looked at again from the
+/// start.
 template <abi::Features F, class Real, class PassOn, class StartAgain>
 inline void visit_light_blockers(const ShadeContext<F, Real>& context, int light,
                                  const SurfacePacket<Real>& surface, const RayPacket<Real>& rays,
@@ -224,11 +225,10 @@ inline Vec3v<Real> transmitted(const ShadeContext<F, Real>& context, int light,
     const std::uint32_t by_own =
         own_shadow(scene, scene.lights.data[light], packet, surface, wanted);
     const auto pass_on_own = [&](std::uint32_t lanes_of) {
-        for_each_distinct<Real>(surface.number, lanes_of,
-                                [&](lane_int<Real> number, vmask<Real> same) {
-                                    pass_on(static_cast<std::int32_t>(number),
-                                            bits(same) & lanes_of);
-                                });
+        for_each_distinct<Real>(
+            surface.number, lanes_of, [&](lane_int<Real> number, vmask<Real> same) {
+                pass_on(static_cast<std::int32_t>(number), bits(same) & lanes_of);
+            });
     };
     pass_on_own(by_own);
     // An object takes its share once, also where its other pieces are in the way.

@@ -53,7 +53,8 @@ inline void visit_shadow_blockers(const ShadeContext<F, Real>& context, int ligh
 /// `start_again(first, lanes)` takes back what is known of those of a packet.
 template <abi::Features F, class Real, class Blocker, class StartAgain>
 inline void settle_shadow_group(const ShadeContext<F, Real>& context, int light,
-                                RayGroup<Real>& group, const Blocker& blocker, const StartAgain& start_again)
+                                RayGroup<Real>& group, const Blocker& blocker,
+                                const StartAgain& start_again)
 {
     if constexpr (F.exact) {
         WideGroup wide;
@@ -69,8 +70,7 @@ inline void settle_shadow_group(const ShadeContext<F, Real>& context, int light,
             return;
         context.counts->unsure += static_cast<unsigned>(wide.count);
         block_wide<F>(*casters_of(*context.scene).wide, wide,
-                      has_closed_reach(*context.scene, light),
-                      [&](int ray, std::int32_t surface) {
+                      has_closed_reach(*context.scene, light), [&](int ray, std::int32_t surface) {
                           const int first = ray / lanes<Real> * lanes<Real>;
                           const std::uint32_t lane = 1u << (ray - first);
                           const std::uint32_t done = blocker(surface, first, lane);

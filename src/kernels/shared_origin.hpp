@@ -2,8 +2,8 @@
 
 #include "kernel_abi/features.hpp"
 #include "kernel_abi/scene_view.hpp"
-#include "kernels/candidates.hpp"
 #include "kernels/anchored_sphere.hpp"
+#include "kernels/candidates.hpp"
 #include "kernels/plane.hpp"
 #include "kernels/quadric.hpp"
 

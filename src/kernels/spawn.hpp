@@ -1,7 +1,7 @@
 #pragma once
 
-#include "kernels/probe.hpp"
 #include "kernels/leave_surface.hpp"
+#include "kernels/probe.hpp"
 
 // Children of a packet of hits: mirrored and refracted rays, appended to streams.
 namespace packtrace::PACKTRACE_ISA {

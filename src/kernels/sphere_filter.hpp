@@ -5,8 +5,8 @@
 
 // Certain tests of spheres in single precision. For w = o - c, known to e_w, and the moment
 // m = w × d the error of |m| is at most |d| h + u |m| with h = e_w + u |w|. So a ray whose |m| is
-// above (r + h) |d| misses for sure, and one below (r - h) |d| crosses for sure; docs/numerics_derivations.md
-// has the proof.
+// above (r + h) |d| misses for sure, and one below (r - h) |d| crosses for sure;
+// docs/numerics_derivations.md has the proof.
 namespace packtrace::PACKTRACE_ISA {
 namespace {
 
@@ -17,8 +17,8 @@ struct SphereBounds {
     Value inner2;      ///< (r - h)², rounded down; negative for none
     Value t_error;     ///< of t, times |d|, but for what a small discriminant adds
     Value root_error;  ///< that is this over the root of the discriminant
-    Value band2;       ///< the square of a quarter of the way in the sphere, times d·d, of a ray in
-                       ///< between, at most
+    Value band2;  ///< the square of a quarter of the way in the sphere, times d·d, of a ray in
+                  ///< between, at most
 };
 
 /// `center_error` is how far w may be off by but for the rounding of a subtraction, `length` the

@@ -39,8 +39,7 @@ inline SphereLeaf<Real> sphere_leaf(const abi::BvhView<Real>& tree, std::uint32_
                                     abi::SphereBlock<Real>& room)
 {
     const std::uint32_t index = child & abi::block_mask;
-    const std::int32_t* const surfaces =
-        tree.block_surfaces + std::size_t{index} * abi::node_width;
+    const std::int32_t* const surfaces = tree.block_surfaces + std::size_t{index} * abi::node_width;
     if (sizeof(Real) == sizeof(float) || tree.blocks != nullptr)
         return {tree.blocks[index], surfaces};
     gather_block(tree, surfaces, room);

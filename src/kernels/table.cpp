@@ -46,7 +46,8 @@ constexpr abi::FeatureKernels<Real> feature_kernels()
     if constexpr (!is_compiled<Real>(Set, Exact))
         return {};
     else
-        return {set, scratch_bytes<F, Real>, render_tile<F, Real>, closest_tile<abi::tree_features(F), Real>};
+        return {set, scratch_bytes<F, Real>, render_tile<F, Real>,
+                closest_tile<abi::tree_features(F), Real>};
 }
 
 template <class Real, int... Set>

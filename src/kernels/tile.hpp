@@ -42,8 +42,8 @@ inline void find_blockers(const TileRun<F, Real>& run)
             filter_objects<F, false>(blockers.along, origins_in(box.low, box.high),
                                      parallel_beam(light.vector, box), casters);
         else
-            find_parallel_candidates(blockers.from_point.spheres,
-                                     parallel_beam(light.vector, box), casters.spheres);
+            find_parallel_candidates(blockers.from_point.spheres, parallel_beam(light.vector, box),
+                                     casters.spheres);
     }
 }
 
@@ -137,8 +137,8 @@ void trace_generation(const TileRun<F, Real>& run, const RayStream<F, Real>& ray
         begin_span(abi::Span::trace, depth, abi::Part::ray_generation);
         if constexpr (F.probe)
             tell_chunk(refracted_rays(rays, begin, end), end - begin);
-        find_nearby<F, Real>(run.work.nearby, {rays.org[0] + begin, rays.org[1] + begin,
-                                               rays.org[2] + begin},
+        find_nearby<F, Real>(run.work.nearby,
+                             {rays.org[0] + begin, rays.org[1] + begin, rays.org[2] + begin},
                              end - begin, run.scene);
         if (run.scene.tree.empty())
             trace_secondary(run.scene, rays, begin, end, run.work.nearby, *run.work.memory,

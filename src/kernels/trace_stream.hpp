@@ -27,8 +27,7 @@ inline void append_places(const abi::SceneView<Real>& scene, HitStream<F, Real>&
 {
     if (!F.probe && scene.flat && scene.checkers == nullptr)
         return;
-    const RefinedHits<Real> places =
-        refined<F>(scene.shapes, from.rays, hit, from.start, active);
+    const RefinedHits<Real> places = refined<F>(scene.shapes, from.rays, hit, from.start, active);
     append3(hits.point, hits.count, active, places.point);
     append3(hits.normal, hits.count, active, places.normal);
     append3(hits.dir, hits.count, active, from.rays.dir);
@@ -160,8 +159,8 @@ inline void trace_camera(const abi::TileJob<Real>& job, const FromPoint<F, Real>
         HitPacket<Real> hit = no_hit<Real>(static_cast<Real>(__builtin_inf()));
         tell_live(pixels);
         closest_hit<F>(hit, visible, rays, NoOwn{});
-        count_unsure(counts, settle_packet<F>(*job.scene, rays, hit, no_start<Real>(), no_end_yet,
-                                              pixels));
+        count_unsure(counts,
+                     settle_packet<F>(*job.scene, rays, hit, no_start<Real>(), no_end_yet, pixels));
         take_camera_hits(*job.scene, memory,
                          {rays, camera_path<Real>(first), inside, no_start<Real>()}, hit, pixels);
     }
@@ -189,9 +188,9 @@ inline int settle_camera_group(const abi::SceneView<Real>& scene, RayGroup<Real>
 
 /// The same where the scene has a hierarchy.
 template <abi::Features F, class Real>
-inline void trace_camera_group(const abi::TileJob<Real>& job,
-                               const FromPoint<F, Real>& visible, RayGroup<Real>& group,
-                               TileMemory<F, Real>& memory, abi::RayCounts& counts)
+inline void trace_camera_group(const abi::TileJob<Real>& job, const FromPoint<F, Real>& visible,
+                               RayGroup<Real>& group, TileMemory<F, Real>& memory,
+                               abi::RayCounts& counts)
 {
     gather_camera<F>(job, group);
     closest_of_group<F>(*job.scene, visible, group);
@@ -200,10 +199,10 @@ inline void trace_camera_group(const abi::TileJob<Real>& job,
     for (int first = 0; first < group_rays; first += lanes<Real>) {
         const std::uint32_t pixels = active_lanes(group, first);
         if (pixels != 0)
-            take_camera_hits(*job.scene, memory,
-                             {load_rays(group, first), camera_path<Real>(first), inside,
-                              no_start<Real>()},
-                             load_hits(group, first), pixels);
+            take_camera_hits(
+                *job.scene, memory,
+                {load_rays(group, first), camera_path<Real>(first), inside, no_start<Real>()},
+                load_hits(group, first), pixels);
     }
 }
 

@@ -9,8 +9,8 @@
 // A `Blocker` is called as blocker(surface, first, lanes) for an object and the lanes it blocks of
 // the packet at `first`, and returns those lanes that nothing further matters to; they are taken
 // out of the group's active rays. The rays' reach ends at the group's `t`, and is `closed` or not
-// (occluded.hpp). A ray's own surface does not block it. With Features::exact only what blocks for sure
-// is called for, and rays that something else may block are marked as unsure in the group.
+// (occluded.hpp). A ray's own surface does not block it. With Features::exact only what blocks for
+// sure is called for, and rays that something else may block are marked as unsure in the group.
 namespace packtrace::PACKTRACE_ISA {
 namespace {
 
@@ -87,10 +87,10 @@ private:
                     but_own<Real>(occlusion.unsure, own, surface)};
         } else {
             const Reach<Real> reach{load(group_.t + first), closed_};
-            return {but_own<Real>(
-                        bits(reach.blocked_by(quadratic_of(leaf.block, slot, rays), rays)), own,
-                        surface),
-                    0};
+            return {
+                but_own<Real>(bits(reach.blocked_by(quadratic_of(leaf.block, slot, rays), rays)),
+                              own, surface),
+                0};
         }
     }
 
@@ -102,8 +102,7 @@ private:
             const std::int32_t surface = leaf_quadric(tree_, number).surface;
             for (std::uint32_t left = cells; left != 0; left &= left - 1)
                 object(abi::Primitive::quadric, __builtin_ctz(left), surface, [&](int first) {
-                    return leaf_quadric_occludes<F>(tree_, number, group_,
-                                                    load_rays(group_, first),
+                    return leaf_quadric_occludes<F>(tree_, number, group_, load_rays(group_, first),
                                                     load(group_.t + first),
                                                     load(group_.own + first), closed_);
                 });

@@ -140,7 +140,8 @@ private:
                 return false;
             HitPacket<float> hit = load_hits(group_, first);
             keep_sphere(hit, {w, radius * radius, leaf_bounds(group_, radius)}, near, rays,
-                        scale_of(group_, first, rays), leaf.surface_of(slot), own_of(group_, first));
+                        scale_of(group_, first, rays), leaf.surface_of(slot),
+                        own_of(group_, first));
             store_hits<F>(group_, first, hit);
         } else {
             const Quadratic<Real> quadratic = quadratic_of(leaf.block, slot, rays);

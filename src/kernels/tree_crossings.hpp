@@ -20,7 +20,8 @@ public:
         if (F.quadrics && abi::is_quadric_leaf(child)) {
             for (int i = 0; i < abi::quadric_count(child); ++i)
                 for (std::uint32_t left = cells; left != 0; left &= left - 1)
-                    quadric(leaf_quadric(tree_, abi::first_quadric(child) + i), __builtin_ctz(left));
+                    quadric(leaf_quadric(tree_, abi::first_quadric(child) + i),
+                            __builtin_ctz(left));
             return;
         }
         abi::SphereBlock<Real> room;

@@ -37,8 +37,7 @@ private:
 };
 
 template <class Real>
-inline SharedOriginObjects<Real> take_candidates(Arena& arena,
-                                                 const abi::GeometryView<Real>& scene)
+inline SharedOriginObjects<Real> take_candidates(Arena& arena, const abi::GeometryView<Real>& scene)
 {
     const std::size_t spheres = static_cast<std::size_t>(scene.spheres.count) + abi::padding;
     SharedOriginObjects<Real> objects;
@@ -117,12 +116,12 @@ struct Workspace {
     TileMemory<F, Real>* memory = nullptr;
     RayStream<F, Real>* streams = nullptr;  ///< of generations 1 … max_depth
     RayStream<F, Real>* refracted = nullptr;
-    RayGroup<Real>* group = nullptr;                ///< where the scene has a hierarchy
-    SurfacePacket<Real>* surfaces = nullptr;        ///< at a chunk's hits, likewise
-    LightShadows<F, Real>* shadows = nullptr;       ///< of each light, likewise
-    FromPoint<F, Real> visible;                     ///< from the camera
-    FromAnywhere<F, Real> nearby;                   ///< from a chunk's rays
-    LightObjects<F, Real>* blockers = nullptr;      ///< from each light
+    RayGroup<Real>* group = nullptr;            ///< where the scene has a hierarchy
+    SurfacePacket<Real>* surfaces = nullptr;    ///< at a chunk's hits, likewise
+    LightShadows<F, Real>* shadows = nullptr;   ///< of each light, likewise
+    FromPoint<F, Real> visible;                 ///< from the camera
+    FromAnywhere<F, Real> nearby;               ///< from a chunk's rays
+    LightObjects<F, Real>* blockers = nullptr;  ///< from each light
     std::size_t bytes = 0;
 
     /// With no `scratch`, only `bytes` is of use.

@@ -8,8 +8,8 @@ namespace packtrace {
 namespace {
 
 /// How many times the distance of its surface from the world's origin a sphere's radius must be;
-/// from the study of formulas in docs/numerics_derivations.md, where both forms are about as exact at this
-/// ratio. The sphere alone decides, so that nothing else of a scene changes a digit.
+/// from the study of formulas in docs/numerics_derivations.md, where both forms are about as exact
+/// at this ratio. The sphere alone decides, so that nothing else of a scene changes a digit.
 constexpr double anchored_ratio = 64.0;
 
 /// The point of the surface nearest the world's origin.
@@ -34,9 +34,9 @@ bool is_anchored(const LoweredSphere& sphere)
 
 void part_anchored_spheres(LoweredScene& lowered)
 {
-    const auto first = std::stable_partition(
-        lowered.spheres.begin(), lowered.spheres.end(),
-        [](const LoweredSphere& sphere) { return !is_anchored(sphere); });
+    const auto first =
+        std::stable_partition(lowered.spheres.begin(), lowered.spheres.end(),
+                              [](const LoweredSphere& sphere) { return !is_anchored(sphere); });
     for (auto sphere = first; sphere != lowered.spheres.end(); ++sphere)
         lowered.anchored_spheres.push_back(
             {sphere->center, sphere->radius, anchor_of(*sphere), sphere->surface});

@@ -100,11 +100,11 @@ struct LoweredScene {
     bool visible_lights = false;
     abi::RayUnits units = abi::RayUnits::as_given;
     bool highlights_behind = false;  ///< lights behind a surface make highlights on it too
-    double epsilon = 0.0;  ///< start of secondary and shadow rays with SelfHits::note
+    double epsilon = 0.0;            ///< start of secondary and shadow rays with SelfHits::note
     SelfHits self_hits = SelfHits::note;
     double camera_t_min = 0.0;             ///< start of camera rays
     std::vector<std::int32_t> eye_inside;  ///< glass objects around the eye, innermost first
-    abi::Features features;  ///< `exact` as the accuracy asked for has it
+    abi::Features features;                ///< `exact` as the accuracy asked for has it
 };
 
 /// What of the features a scene uses, whatever its lights and depth are.

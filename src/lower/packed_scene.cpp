@@ -53,9 +53,8 @@ bool certifiable(const LoweredQuadric& quadric)
     for (int row = 0; row < 3; ++row)
         if (!certifiable(Vec3(0.0), glm::length(glm::row(quadric.inverse, row))))
             return false;
-    return certifiable(quadric.center, 1.0) &&
-           (!std::isfinite(quadric.bound_radius) ||
-            certifiable(quadric.bound, quadric.bound_radius));
+    return certifiable(quadric.center, 1.0) && (!std::isfinite(quadric.bound_radius) ||
+                                                certifiable(quadric.bound, quadric.bound_radius));
 }
 
 template <class Objects>

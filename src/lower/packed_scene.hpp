@@ -36,9 +36,9 @@ public:
     [[nodiscard]] std::size_t bytes() const
     {
         return sizeof *this + tree_.bytes() + lists_.bytes() + shapes_.bytes() +
-               (wide_lists_ ? wide_lists_->bytes() : 0) +
-               material_index_.bytes() + materials_.bytes() + checkers_.bytes() + ior_.bytes() +
-               lights_.bytes() + (casters_ ? casters_->bytes() : 0);
+               (wide_lists_ ? wide_lists_->bytes() : 0) + material_index_.bytes() +
+               materials_.bytes() + checkers_.bytes() + ior_.bytes() + lights_.bytes() +
+               (casters_ ? casters_->bytes() : 0);
     }
 
 private:

@@ -91,8 +91,7 @@ PackedShapes::PackedShapes(const LoweredScene& lowered) : index_(lowered.materia
 {
     const auto& faces = lowered.faces_viewer;
     spheres_ = pack_kind(lowered.spheres, faces, index_, view_.spheres);
-    anchored_spheres_ =
-        pack_kind(lowered.anchored_spheres, faces, index_, view_.anchored_spheres);
+    anchored_spheres_ = pack_kind(lowered.anchored_spheres, faces, index_, view_.anchored_spheres);
     planes_ = pack_kind(lowered.planes, faces, index_, view_.planes);
     quadrics_ = pack_kind(lowered.quadrics, faces, index_, view_.quadrics);
     view_.index = index_.data();

@@ -133,8 +133,8 @@ bool fits_tree(const LoweredSphere& sphere)
 
 bool fits_tree(const LoweredQuadric& quadric)
 {
-    return std::isfinite(quadric.bound_radius) &&
-           quadric.condition < worst_condition && within_tree(quadric.bound, quadric.box_half);
+    return std::isfinite(quadric.bound_radius) && quadric.condition < worst_condition &&
+           within_tree(quadric.bound, quadric.box_half);
 }
 
 std::size_t count_tree_objects(const LoweredScene& lowered)
@@ -165,8 +165,7 @@ PackedTree<Real>::PackedTree(const LoweredScene& lowered)
     view_.spread = coherent_spread(bvh.nodes, view_.extent);
     bound_root(nodes_[0]);
     for (const LoweredSphere& sphere : lowered.spheres)
-        view_.center_error =
-            std::max(view_.center_error, round_up(center_error<Real>(sphere)));
+        view_.center_error = std::max(view_.center_error, round_up(center_error<Real>(sphere)));
 }
 
 /// The ball around the root's box.
@@ -186,8 +185,8 @@ void PackedTree<Real>::bound_root(const abi::BvhNode& root)
         view_.middle[axis] = static_cast<float>(0.5 * low[axis] + 0.5 * high[axis]);
         rounded[axis] = double{view_.middle[axis]};
     }
-    view_.radius = round_up(1.000001 * std::max(glm::length(high - rounded),
-                                                glm::length(low - rounded)));
+    view_.radius =
+        round_up(1.000001 * std::max(glm::length(high - rounded), glm::length(low - rounded)));
 }
 
 template <class Real>

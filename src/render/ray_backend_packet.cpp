@@ -87,8 +87,7 @@ template <class Real>
 void gather(void* by_ray, int ray, double t, std::int32_t object, const Real (&normal)[3])
 {
     auto& hits = (*static_cast<HitsByRay<Real>*>(by_ray))[static_cast<std::size_t>(ray)];
-    hits.push_back(
-        {t, object, {static_cast<Real>(t), object, {normal[0], normal[1], normal[2]}}});
+    hits.push_back({t, object, {static_cast<Real>(t), object, {normal[0], normal[1], normal[2]}}});
 }
 
 template <class Real>

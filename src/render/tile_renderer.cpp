@@ -23,8 +23,8 @@ const LoweredScene& fitted(LoweredScene& lowered, const RenderOptions& options)
     if (!options.force_general)
         leave_out(lowered);
     else if (!lowered.features.probe)
-        lowered.features = abi::with_exact(abi::feature_sets[abi::general_set].features,
-                                           lowered.features.exact);
+        lowered.features =
+            abi::with_exact(abi::feature_sets[abi::general_set].features, lowered.features.exact);
     return lowered;
 }
 

@@ -30,11 +30,9 @@ public:
         : scene_(scene),
           packed_(lowered),
           camera_(camera_view<Real>(scene, lowered)),
-          kernels_(kernels_for(precision<Real>(table),
-                               {.quadrics = true,
-                                .glass = true,
-                                .probe = true,
-                                .exact = lowered.features.exact})),
+          kernels_(kernels_for(
+              precision<Real>(table),
+              {.quadrics = true, .glass = true, .probe = true, .exact = lowered.features.exact})),
           scratch_(kernels_.scratch_bytes(packed_.view()))
     {
     }

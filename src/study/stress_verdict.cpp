@@ -107,8 +107,7 @@ std::vector<std::string> faults_of_measure(const StressRow& row)
     faults.count(row.beyond_own_band, "wrong");
     faults.count(row.not_finite, "that are no numbers");
     faults.hold(row.rho <= rho_bound, "off by more than 4 times what its inputs' rounding makes");
-    faults.hold(!power || row.ulp.max <= 2.0,
-                "powers off by more than 2 ulp");
+    faults.hold(!power || row.ulp.max <= 2.0, "powers off by more than 2 ulp");
     return faults.list;
 }
 
