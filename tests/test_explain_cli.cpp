@@ -160,7 +160,7 @@ TEST_CASE("explain takes the accuracy and the rule of self-hits", "[explain_cli]
     CHECK(note["first_difference"].is_null());
 
     CHECK(trees(four_spheres_file, {"--accuracy", "fast"})["packets"] !=
-          trees(four_spheres_file, {"--accuracy", "robust"})["packets"]);
+          trees(four_spheres_file, {"--accuracy", "exact"})["packets"]);
     CHECK(explain({"--pixel", "1,1", "--accuracy", "most"}).exit_code == 2);
     CHECK(explain({"--pixel", "1,1", "--precision", "double", "--accuracy", "fast"}).exit_code ==
           2);

@@ -251,22 +251,6 @@ TEST_CASE("profile prints tables and JSON, and writes a heat map and a trace",
     CHECK(kernels["lanes"][0]["work"] == "closest hits");
     CHECK(kernels["lanes"][0]["live"] <= 64 * 48);
     CHECK(kernels["tests"].size() >= 2);
-
-    // The fastest accuracy tests nothing in double, the most robust one does.
-    const auto in_double = [&](const std::vector<std::string>& options) {
-        auto all = words;
-        all.insert(all.end(), {"--json", "--depth", "0"});
-        all.insert(all.end(), options.begin(), options.end());
-        const auto profiled = nlohmann::json::parse(run_packtrace(all).out);
-        std::uint64_t count = 0;
-        for (const auto& row : profiled["kernels"]["tests"])
-            if (row["tested"] == "objects tested in double")
-                count += row["together"].get<std::uint64_t>() + row["single"].get<std::uint64_t>();
-        return count;
-    };
-    CHECK(in_double({"--accuracy", "fast"}) == 0);
-    CHECK(in_double({"--accuracy", "robust"}) > 0);
-    CHECK(in_double({"--accuracy", "robust", "--self-hits", "note"}) > 0);
 }
 
 TEST_CASE("profile refuses what it can't do", "[profile][profile_cli]")

@@ -60,15 +60,22 @@ inline vreal<Real> quadric_discriminant(const abi::QuadricRecord<Real>& quadric,
     return madd(l + l, turn, msub(lifted, lifted, madd(vreal<Real>(quadric.constant), a, squares)));
 }
 
-/// The ray p + t v in canonical space against the unclipped side.
+/// The ray p + t v in canonical space against the unclipped side, from the ray's point nearest to
+/// the centre, `start` along it: there no term is larger than it must be.
 template <class Real>
-inline Quadratic<Real> side_quadratic(const abi::QuadricRecord<Real>& quadric, const Vec3v<Real>& p,
-                                      const Vec3v<Real>& v)
+struct SideQuadratic {
+    Quadratic<Real> from_start;
+    vreal<Real> start;
+};
+
+template <class Real>
+inline SideQuadratic<Real> side_quadratic(const abi::QuadricRecord<Real>& quadric,
+                                          const Vec3v<Real>& p, const Vec3v<Real>& v)
 {
     const Vec3v<Real> scaled = broadcast(quadric.square) * v;
     const vreal<Real> zero(Real(0));
-    // The moment from the point nearest to the centre, where it is as exact as it can be.
-    const Vec3v<Real> near = madd<Real>(negated(dot(p, v)) / dot(v, v), v, p);
+    const vreal<Real> start = negated(dot(p, v)) / dot(v, v);
+    const Vec3v<Real> near = madd<Real>(start, v, p);
     Quadratic<Real> q;
     q.a = dot(scaled, v);
     // What is no more than its own rounding is 0: the ray runs along a generator or an asymptote.
@@ -76,10 +83,10 @@ inline Quadratic<Real> side_quadratic(const abi::QuadricRecord<Real>& quadric, c
         madd(abs(scaled.x), abs(v.x), madd(abs(scaled.y), abs(v.y), abs(scaled.z) * abs(v.z)));
     constexpr Real rounding = sizeof(Real) == sizeof(float) ? Real(0x1p-22) : Real(0x1p-51);
     q.a = select(abs(q.a) <= vreal<Real>(rounding) * size, zero, q.a);
-    q.b = madd(vreal<Real>(quadric.linear), v.z, dot(scaled, p));
-    q.c = quadric_value<Real>(quadric, p);
+    q.b = madd(vreal<Real>(quadric.linear), v.z, dot(scaled, near));
+    q.c = quadric_value<Real>(quadric, near);
     q.discriminant = quadric_discriminant<Real>(quadric, cross(near, v), v, q.a);
-    return q;
+    return {q, start};
 }
 
 /// The part of a line between two of its points, which may be infinitely far.
@@ -133,16 +140,19 @@ inline void visit_crossings(const abi::QuadricRecord<Real>& quadric,
                             const Visit& visit)
 {
     const Vec3v<Real> v = apply_inverse(quadric, rays.dir);
-    const Quadratic<Real> quadratic = side_quadratic<Real>(quadric, origin.p, v);
+    const auto [quadratic, start] = side_quadratic<Real>(quadric, origin.p, v);
     const vreal<Real> zero(Real(0));
     const vreal<Real> root = sqrt(max(quadratic.discriminant, zero));
     const vreal<Real> minus_q = quadratic.b + with_sign_of(root, quadratic.b);
-    const std::uint32_t crosses =
-        bits(quadratic.discriminant >= zero) & ~bits(minus_q == zero) & all_lanes<Real>;
+    // A ray through a cone's apex meets it at the start itself; one along a cylinder's axis
+    // nowhere.
+    const auto at_start = minus_q == zero;
+    const std::uint32_t crosses = bits(quadratic.discriminant >= zero) &
+                                  ~bits(at_start & (quadratic.a == zero)) & all_lanes<Real>;
     if (crosses == 0 && !quadric.capped)
         return;
-    const vreal<Real> first = negated(quadratic.c) / minus_q;
-    const vreal<Real> second = negated(minus_q) / quadratic.a;
+    const vreal<Real> first = start + select(at_start, zero, negated(quadratic.c) / minus_q);
+    const vreal<Real> second = start + negated(minus_q) / quadratic.a;
     if (!quadric.clipped) {
         visit(from_bits<Real>(crosses), first, 0);
         visit(from_bits<Real>(crosses), second, 0);

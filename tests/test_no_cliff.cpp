@@ -1,0 +1,178 @@
+// What rays of the caller's own hit hangs on the objects in their way alone: not on where the
+// camera and the lights are, nor on what else is in the scene.
+#include <array>
+#include <limits>
+
+#include <packtrace/intersect.hpp>
+
+#include "catch.hpp"
+#include "render_scene.hpp"
+#include "study/own_surface.hpp"
+#include "study/placed_quadric.hpp"
+#include "study/stress_subject.hpp"
+
+namespace packtrace::test {
+namespace {
+
+constexpr std::size_t ray_count = 2000;
+
+/// Spheres on a ground sphere, a plane, and quadrics of every shape.
+Scene mixed_scene()
+{
+    study::StressRandom random(5);
+    Scene scene;
+    scene.objects = {
+        study::sphere_object({0, -1, 3}, 1),     study::sphere_object({-2, 1, 3}, 1),
+        study::sphere_object({2, 1, 3}, 1),      study::sphere_object({0, -5001, 0}, 5000),
+        study::sphere_object({3, 2, 60}, 0.002), study::plane_object({0, 0, 90}, {0, 0.6, -0.8})};
+    for (const QuadricKind kind : {QuadricKind::ellipsoid, QuadricKind::cylinder, QuadricKind::cone,
+                                   QuadricKind::paraboloid}) {
+        Object object;
+        object.surface = study::quadric_of(kind);
+        object.transform = study::any_placement(random, study::any_stretch(random, 0.05),
+                                                random.box(3.0) + Vec3(0, 2, 8));
+        scene.objects.push_back(object);
+    }
+    return scene;
+}
+
+template <class Real>
+using Columns = std::array<std::vector<Real>, 8>;
+
+/// From around the origin, all of them forwards.
+template <class Real>
+Columns<Real> forward_rays()
+{
+    study::StressRandom random(11);
+    Columns<Real> rays;
+    for (std::size_t i = 0; i < ray_count; ++i) {
+        const Vec3 org = random.box(0.5);
+        const double values[8] = {org.x,
+                                  org.y,
+                                  org.z,
+                                  random.between(-1.0, 1.0),
+                                  random.between(-0.6, 0.6),
+                                  1.0,
+                                  0.0,
+                                  std::numeric_limits<double>::infinity()};
+        for (std::size_t c = 0; c < 8; ++c)
+            rays[c].push_back(static_cast<Real>(values[c]));
+    }
+    return rays;
+}
+
+/// Everything that closest hits, any hits and all hits say, in order.
+template <class Real>
+std::vector<double> answers_of(const Scene& scene, const RenderOptions& options)
+{
+    const RayScene<Real> rays(scene, options);
+    const Columns<Real> c = forward_rays<Real>();
+    const RaysView<Real> view{c[0].data(), c[1].data(), c[2].data(), c[3].data(), c[4].data(),
+                              c[5].data(), c[6].data(), c[7].data(), ray_count};
+    std::array<std::vector<Real>, 13> out;
+    for (auto& column : out)
+        column.resize(ray_count);
+    std::vector<std::int32_t> object(ray_count);
+    std::vector<std::int32_t> surface(ray_count);
+    rays.closest_hits(view, {out[0].data(),
+                             object.data(),
+                             out[1].data(),
+                             out[2].data(),
+                             out[3].data(),
+                             {out[4].data(), out[5].data(), out[6].data()},
+                             {out[7].data(), out[8].data(), out[9].data()},
+                             {out[10].data(), out[11].data(), out[12].data()},
+                             surface.data()});
+    std::vector<std::uint8_t> occluded(ray_count);
+    rays.occluded(view, occluded.data());
+
+    std::vector<double> answers;
+    for (std::size_t i = 0; i < ray_count; ++i) {
+        answers.push_back(object[i]);
+        answers.push_back(occluded[i]);
+        for (const auto& column : out)
+            answers.push_back(object[i] < 0 ? 0.0 : static_cast<double>(column[i]));
+    }
+    rays.all_hits(view, [&](std::size_t, std::span<const SurfaceHit<Real>> hits) {
+        for (const SurfaceHit<Real>& hit : hits) {
+            answers.push_back(hit.object);
+            answers.push_back(static_cast<double>(hit.t));
+            for (const Real n : hit.normal)
+                answers.push_back(static_cast<double>(n));
+        }
+    });
+    return answers;
+}
+
+struct Change {
+    std::string what;
+    Scene scene;
+};
+
+/// Behind all rays and above them.
+void add_objects_elsewhere(Scene& scene, int count)
+{
+    study::StressRandom random(3);
+    for (int i = 0; i < count; ++i)
+        scene.objects.push_back(
+            study::sphere_object(random.box(100.0) + Vec3(0, 250, -250), random.power(0.01, 1.0)));
+}
+
+/// The scene after changes that are no business of its rays.
+std::vector<Change> changes()
+{
+    std::vector<Change> all;
+    for (const double far : {1.0, 30.0, 1e3, 3e4, 1e6}) {
+        all.push_back({"eye " + std::to_string(far) + " away", mixed_scene()});
+        all.back().scene.camera.position = far * Vec3(0.6, 0.48, -0.64);
+        all.push_back({"light " + std::to_string(far) + " away", mixed_scene()});
+        Light light;
+        light.type = LightType::point;
+        light.vector = far * Vec3(-0.48, 0.8, 0.36);
+        all.back().scene.lights.push_back(light);
+    }
+    for (const int count : {1, 100, 10000}) {
+        all.push_back({std::to_string(count) + " objects elsewhere", mixed_scene()});
+        add_objects_elsewhere(all.back().scene, count);
+    }
+    return all;
+}
+
+template <class Real>
+void check_no_cliff(const RenderOptions& options)
+{
+    const std::vector<double> before = answers_of<Real>(mixed_scene(), options);
+    for (const Change& change : changes()) {
+        CAPTURE(change.what);
+        CHECK((answers_of<Real>(change.scene, options) == before));
+    }
+}
+
+}  // namespace
+
+TEST_CASE("camera, lights and objects elsewhere change no digit of a hit", "[no_cliff]")
+{
+    for (const std::string& isa : supported_isas())
+        for (const study::StressMode& mode : study::stress_modes) {
+            CAPTURE(isa, mode.name);
+            RenderOptions options;
+            options.isa = isa;
+            options.accuracy = mode.accuracy;
+            check_no_cliff<float>(options);
+        }
+}
+
+TEST_CASE("the same in double, and for the scalar kernel", "[no_cliff]")
+{
+    for (const std::string& isa : supported_isas()) {
+        CAPTURE(isa);
+        RenderOptions options;
+        options.isa = isa;
+        check_no_cliff<double>(options);
+    }
+    RenderOptions scalar;
+    scalar.kernel = Kernel::scalar;
+    check_no_cliff<double>(scalar);
+}
+
+}  // namespace packtrace::test
