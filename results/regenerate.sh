@@ -38,4 +38,4 @@ echo "+ packtrace_features"
     --json results/features.json
 
 echo "+ packtrace bench"
-"$program" bench "${scenes[@]}" --repetitions 5 -o results/baseline.json
+"$program" bench "${scenes[@]}" -o results/baseline.json

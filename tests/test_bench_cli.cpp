@@ -13,21 +13,25 @@ namespace {
 
 using nlohmann::json;
 
-ProgramResult run_bench(const std::vector<std::string>& more)
+ProgramResult run_bench(const std::vector<std::string>& more, const std::string& repetitions = "9")
 {
     std::vector<std::string> words{"bench", four_spheres_file, "--size",        "64x64",
-                                   "--isa", choose_isa().name, "--repetitions", "3"};
+                                   "--isa", choose_isa().name, "--repetitions", repetitions};
     words.insert(words.end(), more.begin(), more.end());
     return run_packtrace(words);
 }
 
-/// A baseline whose ratios are those of `file` times `factor`.
-void scale_baseline(const std::filesystem::path& file, double factor)
+/// A baseline whose ratios are those of `file` times `factor`, of another order of size than any
+/// machine makes of them.
+std::string scaled_baseline(const TempFolder& folder, const std::string& file, double factor)
 {
     json baseline = json::parse(read_text(file));
     for (json& line : baseline["lines"])
-        line["ratio"] = line["ratio"].get<double>() * factor;
-    write_text(file, baseline.dump());
+        for (json& ratio : line["ratios"])
+            ratio = ratio.get<double>() * factor;
+    const std::string scaled = (folder / "scaled.json").string();
+    write_text(scaled, baseline.dump());
+    return scaled;
 }
 
 }  // namespace
@@ -44,12 +48,24 @@ TEST_CASE("bench writes each line's ratio to the scalar reference", "[bench_cli]
     REQUIRE(bench["lines"].size() == 3);
     for (const json& line : bench["lines"]) {
         CHECK(line["ratio"] > 0.0);
-        CHECK(line["ratios"].size() == 3);
+        CHECK(line["ratios"].size() == 9);
         CHECK_THAT(result.out, ContainsSubstring(line["name"].get<std::string>()));
     }
     const std::string packets = "four_spheres, packets " + choose_isa().name + " single";
     CHECK(bench["lines"][0]["name"] == packets);
     CHECK(bench["lines"][1]["name"] == "four_spheres, scalar double");
+}
+
+TEST_CASE("bench shows the row that others are compared to", "[bench_cli]")
+{
+    const TempFolder folder;
+    const std::string file = (folder / "bench.json").string();
+    const ProgramResult result = run_bench({"-o", file}, "1");
+    CHECK_THAT(result.out, ContainsSubstring("four_spheres, scalar single (the reference)"));
+    const json bench = json::parse(read_text(file));
+    REQUIRE(bench["references"].size() == 1);
+    CHECK(bench["references"][0]["name"] == "four_spheres, scalar single");
+    CHECK(bench["references"][0]["milliseconds"] > 0.0);
 }
 
 TEST_CASE("bench fails with the line that is slower than the baseline, and only then",
@@ -58,15 +74,53 @@ TEST_CASE("bench fails with the line that is slower than the baseline, and only 
     const TempFolder folder;
     const std::string file = (folder / "bench.json").string();
     REQUIRE(run_bench({"-o", file}).exit_code == 0);
-    // Factors that no other work of the machine reaches.
-    scale_baseline(file, 1e6);
-    CHECK(run_bench({"--baseline", file}).exit_code == 0);
-    scale_baseline(file, 1e-9);
-    const ProgramResult slower = run_bench({"--baseline", file, "--max-slowdown", "50%"});
+    const ProgramResult faster = run_bench({"--baseline", scaled_baseline(folder, file, 1e4)});
+    CHECK(faster.exit_code == 0);
+    CHECK(faster.err.empty());
+    const std::string fast = scaled_baseline(folder, file, 1e-4);
+    const ProgramResult slower = run_bench({"--baseline", fast, "--max-slowdown", "50%"});
     CHECK(slower.exit_code == 1);
     CHECK_THAT(slower.err, ContainsSubstring("slower: four_spheres, packets "));
-    CHECK_THAT(slower.err, ContainsSubstring("over the baseline"));
-    CHECK(run_bench({"--baseline", file, "--max-slowdown", "1000000"}).exit_code == 0);
+    CHECK_THAT(slower.err, ContainsSubstring("against the baseline, with 27 repetitions"));
+    CHECK(run_bench({"--baseline", fast, "--max-slowdown", "1000000"}).exit_code == 0);
+}
+
+TEST_CASE("bench says so, with an exit code of its own, when it can't tell", "[bench_cli]")
+{
+    const TempFolder folder;
+    const std::string file = (folder / "bench.json").string();
+    REQUIRE(run_bench({"-o", file}, "2").exit_code == 0);
+    const ProgramResult result = run_bench({"--baseline", file}, "2");
+    CHECK(result.exit_code == 3);
+    CHECK_THAT(result.out, ContainsSubstring("too few repetitions"));
+    CHECK_THAT(result.err, ContainsSubstring("can't tell: four_spheres, packets "));
+    CHECK_THAT(result.err, ContainsSubstring("more --repetitions"));
+}
+
+TEST_CASE("bench compares with another program by turns", "[bench_cli]")
+{
+    const TempFolder folder;
+    const std::string file = (folder / "bench.json").string();
+    const ProgramResult result =
+        run_bench({"--against", PACKTRACE_CLI, "--max-slowdown", "1000000", "-o", file}, "8");
+    CAPTURE(result.err);
+    CHECK(result.exit_code == 0);
+    CHECK_THAT(result.out, ContainsSubstring("scalar single (the reference)"));
+    const json bench = json::parse(read_text(file));
+    REQUIRE(bench["lines"].size() == 3);
+    for (const json& line : bench["lines"])
+        CHECK(line["ratios"].size() == 8);
+
+    const auto failure = [&](const std::string& program) {
+        const ProgramResult bad = run_bench({"--against", program});
+        CHECK(bad.exit_code == 1);
+        CHECK(std::count(bad.err.begin(), bad.err.end(), '\n') == 1);
+        return bad.err;
+    };
+    CHECK_THAT(failure((folder / "none").string()), ContainsSubstring("can't be run"));
+    CHECK_THAT(failure("false"), ContainsSubstring("its 'bench' fails"));
+    CHECK_THAT(failure("true"), ContainsSubstring("its 'bench' fails"));
+    CHECK(run_bench({"--against", "true", "--baseline", file}).exit_code == 2);
 }
 
 TEST_CASE("bench refuses a baseline that is none", "[bench_cli]")
@@ -81,12 +135,15 @@ TEST_CASE("bench refuses a baseline that is none", "[bench_cli]")
     };
     const std::string none = "not a file that packtrace bench -o writes";
     for (const char* text :
-         {"", "[]", "{\"packtrace_bench\": 1}",
-          "{\"packtrace_bench\": 1, \"lines\": [{\"name\": \"a\"}]}",
-          "{\"packtrace_bench\": 1, \"lines\": [{\"name\": \"a\", \"ratio\": 0}]}"})
+         {"", "[]", R"({"packtrace_bench": 1})",
+          R"({"packtrace_bench": 1, "lines": [{"name": "a"}]})",
+          R"({"packtrace_bench": 1, "lines": [{"name": "a", "milliseconds": 1, "ratios": []}]})",
+          R"({"packtrace_bench": 1, "lines": [{"name": "a", "milliseconds": 1, "ratios": [0]}]})"})
         CHECK_THAT(failure(text), ContainsSubstring(none));
-    CHECK_THAT(failure("{\"packtrace_bench\": 1, \"lines\": [{\"name\": \"a\", \"ratio\": 1}]}"),
-               ContainsSubstring("no line of what was measured"));
+    CHECK_THAT(
+        failure(
+            R"({"packtrace_bench": 1, "lines": [{"name": "a", "milliseconds": 1, "ratios": [1]}]})"),
+        ContainsSubstring("no line of what was measured"));
     const ProgramResult missing = run_bench({"--baseline", (folder / "c.json").string()});
     CHECK(missing.exit_code == 1);
     CHECK_THAT(missing.err, ContainsSubstring("c.json"));

@@ -4,24 +4,22 @@
 #include <optional>
 #include <utility>
 
-#include <nlohmann/json.hpp>
-
+#include "cli/bench_file.hpp"
+#include "cli/bench_programs.hpp"
 #include "cli/command.hpp"
 #include "cli/common_options.hpp"
 #include "cli/scene_input.hpp"
 #include "cli/text_output.hpp"
 #include "cli/text_table.hpp"
+#include "cli/thread_limit.hpp"
 #include "cli/validators.hpp"
-#include "core/read_file.hpp"
-#include "study/machine.hpp"
 #include "study/paired_bench.hpp"
+#include "study/slowdown.hpp"
 
 namespace packtrace::cli {
 namespace {
 
-using Json = nlohmann::ordered_json;
-
-// How often a line that seems slower is measured again before it is believed.
+// How often a line is measured again that seems slower, or of which nothing can be told.
 constexpr int confirmations = 2;
 
 struct BenchArguments {
@@ -31,6 +29,7 @@ struct BenchArguments {
     int repetitions = 9;
     std::string output;
     std::string baseline;
+    std::string against;
     std::string max_slowdown = "10%";
 };
 
@@ -51,130 +50,216 @@ std::string check_share(const std::string& text)
     return parse_share(text) ? "" : "'" + text + "' is not a share such as 10% or 0.1";
 }
 
-std::vector<BaselineLine> read_baseline(const std::string& file)
-{
-    const Json json = Json::parse(read_file(file), nullptr, false);
-    const std::string wrong = file + ": not a file that packtrace bench -o writes";
-    if (!json.is_object() || json.value("packtrace_bench", Json()) != 1 ||
-        !json.contains("lines") || !json["lines"].is_array())
-        throw std::runtime_error(wrong);
-    std::vector<BaselineLine> lines;
-    for (const Json& line : json["lines"]) {
-        if (!line.is_object() || !line.contains("name") || !line["name"].is_string() ||
-            !line.contains("ratio") || !line["ratio"].is_number() || !(line["ratio"] > 0.0))
-            throw std::runtime_error(wrong);
-        lines.push_back({line["name"], line["ratio"]});
-    }
-    return lines;
-}
-
-const BaselineLine* find_line(const std::vector<BaselineLine>& lines, const std::string& name)
-{
-    for (const BaselineLine& line : lines)
-        if (line.name == name)
-            return &line;
-    return nullptr;
-}
-
-Json bench_json(const std::vector<BenchLine>& lines)
-{
-    Json json{{"packtrace_bench", 1},
-              {"conditions",
-               {{"processor", processor_name()},
-                {"compiler", compiler_name()},
-                {"commit", commit_name()}}},
-              {"lines", Json::array()}};
-    for (const BenchLine& line : lines)
-        json["lines"].push_back({{"name", line.name},
-                                 {"ratio", line.ratio},
-                                 {"spread", line.spread},
-                                 {"milliseconds", line.milliseconds},
-                                 {"ratios", line.ratios}});
-    return json;
-}
-
-// A scene's lines and how they stand to the baseline.
+// What was measured, and what it is compared with.
 struct BenchResult {
-    std::vector<BenchLine> lines;
-    std::vector<std::string> regressed;
-    int compared = 0;
+    BenchPairs figures;
+    bool paired = false;
+    double limit = 0.0;
+
+    // None for a line that the baseline lacks.
+    [[nodiscard]] std::optional<Slowdown> slowdown(const BenchLine& line) const
+    {
+        const BenchLine* before = figures.before.find(line.name);
+        if (before == nullptr)
+            return std::nullopt;
+        return paired ? paired_slowdown(line.ratios, before->ratios)
+                      : unpaired_slowdown(line.ratios, before->ratios);
+    }
+    [[nodiscard]] std::optional<Verdict> verdict(const BenchLine& line) const
+    {
+        const std::optional<Slowdown> found = slowdown(line);
+        return found ? std::optional(verdict_of(*found, limit)) : std::nullopt;
+    }
+    // A busy spell passes, a regression stays.
+    [[nodiscard]] bool is_doubtful(const BenchLine& line) const
+    {
+        const std::optional<Verdict> found = verdict(line);
+        return found && *found != Verdict::not_slower;
+    }
+    [[nodiscard]] bool has_doubts() const
+    {
+        for (const BenchLine& line : figures.now.lines)
+            if (is_doubtful(line))
+                return true;
+        return false;
+    }
 };
 
-// Measures a line that seems slower again: a busy moment passes, a regression stays.
-bool is_slower(const ReportScene& scene, const BenchOptions& options, const BaselineLine& baseline,
-               double allowed, BenchLine& line)
+// This program's figures, beside those of a file where there is one.
+void measure_alone(const std::vector<ReportScene>& scenes, const BenchArguments& arguments,
+                   BenchResult& result)
 {
-    for (int i = 0; i < confirmations && slowdown(line, baseline) > allowed; ++i)
-        repeat_line(scene, options, line);
-    return slowdown(line, baseline) > allowed;
-}
-
-std::string regression_text(const BenchLine& line, const BaselineLine& baseline)
-{
-    return "slower: " + line.name + ": " + fixed(100.0 * slowdown(line, baseline), 1) +
-           " % over the baseline (" + fixed(line.ratio, 4) + " of the scalar time, was " +
-           fixed(baseline.ratio, 4) + ")";
-}
-
-void bench_scene(const ReportScene& scene, const BenchArguments& arguments,
-                 const std::vector<BaselineLine>& baseline, BenchResult& result)
-{
+    // Measured here are processor seconds, of which other threads should take none.
+    const ThreadLimit one_thread(1);
     BenchOptions options;
-    options.repetitions = arguments.repetitions;
     if (arguments.isa)
         options.isas = {*arguments.isa};
-    const double allowed = *parse_share(arguments.max_slowdown);
-    for (BenchLine& line : run_bench(scene, options)) {
-        if (const BaselineLine* old = find_line(baseline, line.name)) {
-            ++result.compared;
-            if (is_slower(scene, options, *old, allowed, line))
-                result.regressed.push_back(regression_text(line, *old));
-        }
-        result.lines.push_back(line);
+    for (const ReportScene& scene : scenes) {
+        SceneBench bench(scene, options);
+        bench.measure(arguments.repetitions, [](const BenchLine&) { return true; });
+        for (int i = 0; i < confirmations; ++i)
+            bench.measure(arguments.repetitions,
+                          [&](const BenchLine& line) { return result.is_doubtful(line); });
+        result.figures.now.references.push_back(bench.reference());
+        for (const BenchLine& line : bench.lines())
+            result.figures.now.lines.push_back(line);
     }
 }
 
-void print_lines(const BenchResult& result, const std::vector<BaselineLine>& baseline)
+// The words of a command line that measures the same.
+std::vector<std::string> words_of(const BenchArguments& arguments)
 {
-    TextTable table(1, {"run", "ms", "of scalar single", "spread", "baseline", "slowdown"});
-    for (const BenchLine& line : result.lines) {
-        const BaselineLine* old = find_line(baseline, line.name);
-        table.add({line.name, fixed(line.milliseconds, 3), fixed(line.ratio, 4),
-                   fixed(100.0 * line.spread, 1) + " %", old ? fixed(old->ratio, 4) : "-",
-                   old ? fixed(100.0 * slowdown(line, *old), 1) + " %" : "-"});
+    std::vector<std::string> words = arguments.scenes;
+    words.insert(words.end(), {"--size", *arguments.picture.size});
+    if (arguments.picture.depth)
+        words.insert(words.end(), {"--depth", std::to_string(*arguments.picture.depth)});
+    if (arguments.isa)
+        words.insert(words.end(), {"--isa", *arguments.isa});
+    return words;
+}
+
+void measure_in_pairs(const BenchArguments& arguments, BenchResult& result)
+{
+    result.paired = true;
+    for (int i = 0; i == 0 || (i <= confirmations && result.has_doubts()); ++i) {
+        const BenchPairs more =
+            run_in_pairs(arguments.against, words_of(arguments), arguments.repetitions);
+        result.figures.now.add(more.now);
+        result.figures.before.add(more.before);
+    }
+}
+
+std::string signed_percent(double share)
+{
+    return (share < 0.0 ? "" : "+") + fixed(100.0 * share, 1) + " %";
+}
+
+std::string interval_text(const Slowdown& slowdown)
+{
+    if (!slowdown.interval)
+        return "too few repetitions";
+    return signed_percent(slowdown.interval->low) + " to " +
+           signed_percent(slowdown.interval->high);
+}
+
+const char* verdict_text(Verdict verdict)
+{
+    switch (verdict) {
+        case Verdict::not_slower:
+            return "no";
+        case Verdict::slower:
+            return "yes";
+        case Verdict::cannot_tell:
+            break;
+    }
+    return "can't tell";
+}
+
+void print_lines(const BenchResult& result)
+{
+    TextTable table(1, {"run", "ms", "of scalar single", "spread", "baseline", "slowdown",
+                        "99 % interval", "slower"});
+    const BenchFigures& now = result.figures.now;
+    for (const BenchLine& reference : now.references)
+        table.add({reference.name + " (the reference)",
+                   fixed(1e3 * median_of(reference.seconds), 3), "1",
+                   percent(relative_spread(reference.seconds), 1.0), "-", "-", "-", "-"});
+    for (const BenchLine& line : now.lines) {
+        std::vector<std::string> row{line.name, fixed(1e3 * median_of(line.seconds), 3),
+                                     fixed(line.ratio(), 4),
+                                     percent(relative_spread(line.ratios), 1.0)};
+        if (const std::optional<Slowdown> slowdown = result.slowdown(line))
+            row.insert(row.end(), {fixed(result.figures.before.find(line.name)->ratio(), 4),
+                                   signed_percent(slowdown->estimate), interval_text(*slowdown),
+                                   verdict_text(verdict_of(*slowdown, result.limit))});
+        else
+            row.insert(row.end(), {"-", "-", "-", "-"});
+        table.add(row);
     }
     table.print(std::cout);
+}
+
+// Names the lines of one verdict, and says whether there are any.
+bool tell(const BenchResult& result, Verdict wanted, const std::string& what)
+{
+    bool any = false;
+    for (const BenchLine& line : result.figures.now.lines)
+        if (result.verdict(line) == wanted) {
+            any = true;
+            std::cerr << what << line.name << ": " << interval_text(*result.slowdown(line))
+                      << " against the baseline, with " << line.ratios.size() << " repetitions\n";
+        }
+    return any;
+}
+
+void check_compared(const BenchResult& result, const std::string& baseline)
+{
+    for (const BenchLine& line : result.figures.now.lines)
+        if (result.slowdown(line))
+            return;
+    throw std::runtime_error(baseline + ": has no line of what was measured; give the same scenes");
+}
+
+void finish(const BenchResult& result)
+{
+    const bool slower = tell(result, Verdict::slower, "slower: ");
+    const bool unsure = tell(result, Verdict::cannot_tell, "can't tell: ");
+    if (unsure)
+        std::cerr << "more --repetitions or an idler machine would tell\n";
+    if (slower || unsure)
+        throw Failed{slower ? exit_failed : exit_unsure};
 }
 
 void run_bench_command(const BenchArguments& arguments)
 {
     if (arguments.isa)
         (void)chosen_isa({arguments.isa, {}});
-    std::vector<BaselineLine> baseline;
+    BenchResult result;
+    result.limit = *parse_share(arguments.max_slowdown);
     if (!arguments.baseline.empty())
-        baseline = read_baseline(arguments.baseline);
+        result.figures.before = read_bench_file(arguments.baseline);
+    // Before the work, so that a wrong scene doesn't cost it.
     std::vector<ReportScene> scenes;
     for (const std::string& file : arguments.scenes) {
         SceneInput input = read_scene_input(file);
         scenes.push_back({input.stem, {}, std::move(input.scene)});
         apply(arguments.picture, scenes.back().scene);
     }
-    BenchResult result;
-    for (const ReportScene& scene : scenes)
-        bench_scene(scene, arguments, baseline, result);
-    print_lines(result, baseline);
+    if (arguments.against.empty())
+        measure_alone(scenes, arguments, result);
+    else
+        measure_in_pairs(arguments, result);
+    print_lines(result);
     if (!arguments.output.empty()) {
         TextOutput output(arguments.output);
-        output.write(bench_json(result.lines).dump(2) + "\n");
+        output.write(bench_text(result.figures.now));
         output.finish();
     }
-    if (!arguments.baseline.empty() && result.compared == 0)
-        throw std::runtime_error(arguments.baseline +
-                                 ": has no line of what was measured; give the same scenes");
-    for (const std::string& line : result.regressed)
-        std::cerr << line << '\n';
-    if (!result.regressed.empty())
-        throw Failed{};
+    const std::string baseline = arguments.baseline + arguments.against;
+    if (baseline.empty())
+        return;
+    check_compared(result, baseline);
+    finish(result);
+}
+
+void add_comparing_options(CLI::App& command, BenchArguments& arguments)
+{
+    CLI::Option* const baseline =
+        command
+            .add_option("--baseline", arguments.baseline,
+                        "Compare with the JSON of an earlier -o; exits 1 if any line is slower, 3 "
+                        "if that can't be told")
+            ->type_name("FILE");
+    command
+        .add_option("--against", arguments.against,
+                    "Compare likewise with another packtrace program, run by turns with this one")
+        ->excludes(baseline)
+        ->type_name("PROGRAM");
+    command
+        .add_option("--max-slowdown", arguments.max_slowdown,
+                    "By how much a line may be slower than the baseline (default 10%)")
+        ->check(CLI::Validator(check_share, ""))
+        ->type_name("SHARE");
 }
 
 }  // namespace
@@ -193,20 +278,12 @@ void add_bench(CLI::App& app)
         ->type_name("NAME");
     command
         ->add_option("--repetitions", arguments->repetitions,
-                     "Measurements of each line (default 9)")
+                     "Measurements of each line (default 9, with which slowdowns can be told)")
         ->check(whole_number(1, 1000))
         ->type_name("N");
     command->add_option("-o,--output", arguments->output, "JSON to write, a later run's baseline")
         ->type_name("FILE");
-    command
-        ->add_option("--baseline", arguments->baseline,
-                     "What -o wrote before; exit 1 when a line is slower")
-        ->type_name("FILE");
-    command
-        ->add_option("--max-slowdown", arguments->max_slowdown,
-                     "By how much a line may be slower than the baseline (default 10%)")
-        ->check(CLI::Validator(check_share, ""))
-        ->type_name("SHARE");
+    add_comparing_options(*command, *arguments);
     command->callback([arguments] { run_bench_command(*arguments); });
 }
 

@@ -8,10 +8,13 @@ namespace packtrace::cli {
 inline constexpr int exit_ok = 0;
 inline constexpr int exit_failed = 1;  // bad input, or a comparison over its limit
 inline constexpr int exit_usage = 2;   // wrong use of the command line
+inline constexpr int exit_unsure = 3;  // measured, but not exactly enough for an answer
 
-/// What a subcommand's callback throws to end the program with `exit_failed` and no message
-/// of its own (it has printed its result).
-struct Failed {};
+/// What a subcommand's callback throws to end the program without a further message (it has
+/// printed its result).
+struct Failed {
+    int exit_code = exit_failed;
+};
 
 // Each adds its subcommand to `app`; one file a subcommand. A callback reports errors by
 // throwing: std::exception for bad input (exit 1), CLI::Error for wrong use (exit 2).

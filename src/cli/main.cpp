@@ -41,8 +41,8 @@ int run(int argc, char** argv)
             throw CLI::RequiredError::Subcommand(1);
     } catch (const CLI::ParseError& end) {
         return report_parse_end(app, end, argc, argv);
-    } catch (const Failed&) {
-        return exit_failed;
+    } catch (const Failed& failed) {
+        return failed.exit_code;
     } catch (const std::bad_alloc&) {
         std::cerr << "packtrace: not enough memory\n";
         return exit_failed;

@@ -9,7 +9,7 @@
 namespace packtrace::cli {
 namespace {
 
-constexpr std::size_t columns = 40;
+constexpr std::size_t bar_width = 40;
 
 }  // namespace
 
@@ -32,8 +32,8 @@ void ProgressBar::update(double share)
         return;
     drawn_ = true;
     next_ = Clock::now() + std::chrono::milliseconds(100);
-    const auto filled = static_cast<std::size_t>(std::lround(share * columns));
-    const std::string bar = std::string(filled, '#') + std::string(columns - filled, '.');
+    const auto filled = static_cast<std::size_t>(std::lround(share * bar_width));
+    const std::string bar = std::string(filled, '#') + std::string(bar_width - filled, '.');
     std::cerr << "\r[" + bar + "] " + std::to_string(std::lround(100.0 * share)) + " %"
               << std::flush;
 }

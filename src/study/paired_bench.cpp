@@ -1,9 +1,6 @@
 #include "study/paired_bench.hpp"
 
-#include <chrono>
-
-#include "study/report_subject.hpp"
-#include "study/statistics.hpp"
+#include <ctime>
 
 namespace packtrace {
 namespace {
@@ -11,11 +8,18 @@ namespace {
 // Short frames are repeated until they take this share of the reference's time.
 constexpr double least_share = 0.25;
 
+double processor_seconds()
+{
+    timespec time{};
+    clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &time);
+    return static_cast<double>(time.tv_sec) + 1e-9 * static_cast<double>(time.tv_nsec);
+}
+
 double seconds_of(const Subject& subject)
 {
-    const auto start = std::chrono::steady_clock::now();
+    const double start = processor_seconds();
     subject.render();
-    return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+    return processor_seconds() - start;
 }
 
 // Seconds of one frame, the mean of as many as take `least` seconds.
@@ -28,18 +32,13 @@ double mean_seconds(const Subject& subject, double least)
     return sum / frames;
 }
 
-ReportOptions one_thread(const BenchOptions& options)
-{
-    ReportOptions wanted;
-    wanted.threads = {1};
-    wanted.isas = options.isas;
-    return wanted;
-}
-
 std::vector<Variant> variants_of(const ReportScene& scene, const BenchOptions& options)
 {
+    ReportOptions one_thread;
+    one_thread.threads = {1};
+    one_thread.isas = options.isas;
     std::vector<Variant> variants;
-    for (const Variant& variant : report_variants(scene.scene, one_thread(options)))
+    for (const Variant& variant : report_variants(scene.scene, one_thread))
         if (variant.study == Study::arithmetic && variant.accuracy == Accuracy::exact &&
             !variant.general && variant.self_hits == default_self_hits)
             variants.push_back(variant);
@@ -52,44 +51,40 @@ std::string line_name(const ReportScene& scene, const Variant& variant)
     return scene.name + ", " + variant.name.substr(0, variant.name.find(','));
 }
 
-void measure(const Subject& reference, const Subject& subject, int repetitions, BenchLine& line)
-{
-    std::vector<double> seconds;
-    subject.render();
-    for (int i = 0; i < repetitions; ++i) {
-        const double measure = seconds_of(reference);
-        seconds.push_back(mean_seconds(subject, least_share * measure));
-        line.ratios.push_back(seconds.back() / measure);
-    }
-    line.ratio = median_of(line.ratios);
-    line.spread = relative_spread(line.ratios);
-    line.milliseconds = 1e3 * median_of(seconds);
-}
-
 }  // namespace
 
-std::vector<BenchLine> run_bench(const ReportScene& scene, const BenchOptions& options)
+SceneBench::SceneBench(const ReportScene& scene, const BenchOptions& options)
 {
-    const std::vector<Variant> variants = variants_of(scene, options);
     // The table begins with the reference in single precision.
-    const Subject reference = subject_of(scene.scene, variants.front());
-    std::vector<BenchLine> lines;
-    for (std::size_t i = 1; i < variants.size(); ++i) {
-        BenchLine line;
-        line.name = line_name(scene, variants[i]);
-        measure(reference, subject_of(scene.scene, variants[i]), options.repetitions, line);
-        lines.push_back(line);
+    for (const Variant& variant : variants_of(scene, options)) {
+        BenchLine& line = subjects_.empty() ? reference_ : lines_.emplace_back();
+        line.name = line_name(scene, variant);
+        subjects_.push_back(subject_of(scene.scene, variant));
+        // A first frame pays for the memory that later ones reuse.
+        subjects_.back().render();
     }
-    return lines;
 }
 
-void repeat_line(const ReportScene& scene, const BenchOptions& options, BenchLine& line)
+void SceneBench::measure(int repetitions, const std::function<bool(const BenchLine&)>& wanted)
 {
-    const std::vector<Variant> variants = variants_of(scene, options);
-    const Subject reference = subject_of(scene.scene, variants.front());
-    for (const Variant& variant : variants)
-        if (line_name(scene, variant) == line.name)
-            measure(reference, subject_of(scene.scene, variant), options.repetitions, line);
+    // Asked before any is measured: whoever asked after each time would stop at a lucky one.
+    std::vector<std::size_t> chosen;
+    for (std::size_t i = 0; i < lines_.size(); ++i)
+        if (wanted(lines_[i]))
+            chosen.push_back(i);
+    for (int repetition = 0; repetition < repetitions; ++repetition)
+        for (const std::size_t line : chosen)
+            measure_once(line);
+}
+
+void SceneBench::measure_once(std::size_t line)
+{
+    const double reference = seconds_of(subjects_.front());
+    const double seconds = mean_seconds(subjects_[line + 1], least_share * reference);
+    reference_.seconds.push_back(reference);
+    reference_.ratios.push_back(1.0);
+    lines_[line].seconds.push_back(seconds);
+    lines_[line].ratios.push_back(seconds / reference);
 }
 
 }  // namespace packtrace

@@ -1,43 +1,60 @@
 #pragma once
 
+#include <functional>
 #include <string>
 #include <vector>
 
 #include <packtrace/report.hpp>
 
+#include "study/report_subject.hpp"
+#include "study/statistics.hpp"
+
 namespace packtrace {
 
 /// A variant's time over that of the scalar reference in single precision, both on one thread
-/// and taken right after each other, so that a slow machine or moment falls on both.
+/// and taken right after each other, so that a slow machine or moment falls on both. Times are
+/// the processor's for this program: what others take from it is not in them.
 struct BenchLine {
-    std::string name;            ///< "four_spheres, packets avx2 single"
-    std::vector<double> ratios;  ///< by repetition
-    double ratio = 0.0;          ///< their median
-    double spread = 0.0;         ///< width of their middle half over the median
-    double milliseconds = 0.0;   ///< of a frame, median
+    std::string name;             ///< "four_spheres, packets avx2 single"
+    std::vector<double> ratios;   ///< by repetition
+    std::vector<double> seconds;  ///< of a frame, by repetition
+
+    [[nodiscard]] double ratio() const
+    {
+        return median_of(ratios);
+    }
 };
 
 struct BenchOptions {
-    int repetitions = 9;
     std::vector<std::string> isas;  ///< none: all this machine runs
 };
 
-/// Every instruction set in both precisions, and the reference in double.
-[[nodiscard]] std::vector<BenchLine> run_bench(const ReportScene& scene,
-                                               const BenchOptions& options);
+/// The lines of a scene, to be measured as often as wanted: every instruction set in both
+/// precisions, and the reference in double.
+class SceneBench {
+public:
+    SceneBench(const ReportScene& scene, const BenchOptions& options);
 
-/// The lines of that name again, their ratios added to those there are.
-void repeat_line(const ReportScene& scene, const BenchOptions& options, BenchLine& line);
+    /// Measures the wanted lines in turns, so that a busy spell falls on all of them. What there
+    /// is of earlier calls stays.
+    void measure(int repetitions, const std::function<bool(const BenchLine&)>& wanted);
 
-/// A line of a baseline: its name and ratio.
-struct BaselineLine {
-    std::string name;
-    double ratio = 0.0;
+    [[nodiscard]] const std::vector<BenchLine>& lines() const
+    {
+        return lines_;
+    }
+    /// What all lines are compared to.
+    [[nodiscard]] const BenchLine& reference() const
+    {
+        return reference_;
+    }
+
+private:
+    void measure_once(std::size_t line);
+
+    std::vector<Subject> subjects_;  // the reference, then the lines
+    BenchLine reference_;
+    std::vector<BenchLine> lines_;
 };
-
-[[nodiscard]] inline double slowdown(const BenchLine& line, const BaselineLine& baseline)
-{
-    return line.ratio / baseline.ratio - 1.0;
-}
 
 }  // namespace packtrace

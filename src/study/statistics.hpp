@@ -1,5 +1,6 @@
 #pragma once
 
+#include <optional>
 #include <vector>
 
 namespace packtrace {
@@ -13,13 +14,47 @@ namespace packtrace {
     return quantile(values, 0.5);
 }
 
+/// a[i] - b[i]. Both are of equal length.
+[[nodiscard]] std::vector<double> differences(const std::vector<double>& a,
+                                              const std::vector<double>& b);
+
 /// The median of a[i] - b[i]: of things measured in turns, what one takes more than the other.
 [[nodiscard]] double median_difference(const std::vector<double>& a, const std::vector<double>& b);
+
+/// The width of the middle half of the values.
+[[nodiscard]] inline double middle_half(const std::vector<double>& values)
+{
+    return quantile(values, 0.75) - quantile(values, 0.25);
+}
 
 /// The width of the middle half of the values, over their median.
 [[nodiscard]] inline double relative_spread(const std::vector<double>& values)
 {
-    return (quantile(values, 0.75) - quantile(values, 0.25)) / median_of(values);
+    return middle_half(values) / median_of(values);
 }
+
+struct Interval {
+    double low = 0.0;
+    double high = 0.0;
+};
+
+/// How often intervals hold what they are for.
+inline constexpr double confidence = 0.99;
+
+/// Where the median of that lies which `values` are samples of, whatever its distribution: between
+/// the k-th smallest and the k-th largest value. Thompson, On Confidence Ranges for the Median and
+/// Other Expectation Distributions for Populations of Unknown Distribution Form, 1936. None for
+/// fewer than 8 values.
+[[nodiscard]] std::optional<Interval> median_interval(std::vector<double> values);
+
+/// The median of all a[i] - b[k]. Hodges, Lehmann, Estimates of Location Based on Rank Tests, 1963.
+[[nodiscard]] double shift(const std::vector<double>& a, const std::vector<double>& b);
+
+/// Where the shift of the distribution of `a` against that of `b` lies: between the k-th smallest
+/// and the k-th largest a[i] - b[k]. Lehmann, Nonparametric Confidence Intervals for a Shift
+/// Parameter, 1963; k by the normal approximation, which makes few values' intervals wider. None
+/// for fewer than about 6 values each.
+[[nodiscard]] std::optional<Interval> shift_interval(const std::vector<double>& a,
+                                                     const std::vector<double>& b);
 
 }  // namespace packtrace

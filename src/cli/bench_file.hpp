@@ -1,0 +1,29 @@
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "study/paired_bench.hpp"
+
+namespace packtrace::cli {
+
+/// What `bench` measured: the lines of all scenes, and what they are compared to.
+struct BenchFigures {
+    std::vector<BenchLine> lines;
+    std::vector<BenchLine> references;  ///< one a scene
+
+    /// The samples of a line; null when there is no line of that name.
+    [[nodiscard]] const BenchLine* find(const std::string& name) const;
+    /// Adds samples to those of the lines of the same names.
+    void add(const BenchFigures& more);
+};
+
+/// The text of a file that a later run takes as its baseline.
+[[nodiscard]] std::string bench_text(const BenchFigures& figures);
+
+/// Reads such a file, whatever version wrote it. Throws std::runtime_error, in one line, for any
+/// other.
+[[nodiscard]] BenchFigures read_bench_file(const std::filesystem::path& file);
+
+}  // namespace packtrace::cli
