@@ -12,7 +12,10 @@
 #include "catch.hpp"
 #include "run_program.hpp"
 #include "scenes.hpp"
+#include "study/busy_machine.hpp"
+#include "study/profile_subjects.hpp"
 #include "study/statistics.hpp"
+#include "study/tick_rate.hpp"
 
 namespace packtrace::test {
 namespace {
@@ -36,6 +39,29 @@ const ProfileWhatIf& row_of(const Profile& profile, const std::string& name)
             return row;
     FAIL("no row " + name);
     return profile.what_if.front();
+}
+
+/// As on an idle machine: all sums are their wholes, and nothing varies.
+Profile idle_profile()
+{
+    Profile result;
+    result.frame = 0.010;
+    result.frame_spread = 0.02;
+    result.whole = 0.020;
+    result.stages = {{"scene load", 0.002}, {"frame", 0.010}, {"encoding as PNG", 0.0081}};
+    result.generations = {{0, {}, 0.007, 0.0002, {}}, {1, {}, 0.003, 0.0003, {}}};
+    result.what_if = {{"without shadows", 0.006, false, 0.004, 0.0003, {}}};
+    result.kernels.observed = 0.012;
+    result.kernels.clocked = 0.0122;
+    result.kernels.stages = {{0, "camera", "spheres", 0.008}, {0, "hits", "pixels", 0.004}};
+    return result;
+}
+
+std::string only_line(const Profile& profile)
+{
+    const std::vector<std::string> lines = busy_lines(profile);
+    REQUIRE(lines.size() == 1);
+    return lines.front();
 }
 
 }  // namespace
@@ -142,9 +168,74 @@ TEST_CASE("lanes are filled by all rays of whole tiles, and by fewer after each 
     }
 }
 
-TEST_CASE("the median difference is of pairs", "[profile]")
+TEST_CASE("what a part takes is the median of pairs, and never negative", "[profile]")
 {
-    CHECK(median_difference({10, 20, 30}, {9, 18, 31}) == 1.0);
+    CHECK(time_difference({10, 20, 30}, {9, 18, 31}).seconds == 1.0);
+    CHECK(time_difference({10, 20, 30}, {9, 18, 31}).spread == 1.5);
+    // Busy spells that fell on the part alone.
+    const TimeDifference busy = time_difference({1, 1, 1, 1}, {9, 0.5, 7, 8});
+    CHECK(busy.seconds == 0.0);
+    CHECK(busy.spread > 1.0);
+}
+
+TEST_CASE("no time of a profile is negative, however few repetitions", "[profile]")
+{
+    ProfileOptions options;
+    options.repetitions = 1;
+    for (int turn = 0; turn < 5; ++turn) {
+        const Profile result =
+            profile<float>(read_text(four_spheres_file), four_spheres(32, 24), options);
+        for (const ProfileGeneration& generation : result.generations)
+            CHECK(generation.seconds >= 0.0);
+        for (const ProfileWhatIf& row : result.what_if)
+            CHECK(row.difference >= 0.0);
+        CHECK(row_of(result, "with all that was left out").does_more);
+        CHECK_FALSE(row_of(result, "without shadows").does_more);
+    }
+}
+
+TEST_CASE("the counter's rate is that of most readings, though some were late", "[profile]")
+{
+    // A tick is a nanosecond; pieces of 20 us.
+    std::vector<ClockReading> readings;
+    for (std::uint64_t i = 1; i <= 40; ++i)
+        readings.push_back({20'000 * i, 2e-5 * static_cast<double>(i)});
+    CHECK(seconds_of_tick(readings) == Approx(1e-9));
+    // Another program ran for longer than all that was measured, before the first was read.
+    readings.front().seconds += 0.01;
+    CHECK(seconds_of_tick(readings) == Approx(1e-9));
+    for (const std::size_t late : {3u, 11u, 18u, 25u, 36u, 39u})
+        readings[late].seconds += 0.004;
+    CHECK(seconds_of_tick(readings) == Approx(1e-9));
+    CHECK(seconds_of_tick({{10, 1.0}, {20, 2.0}}) == Approx(0.1));
+}
+
+TEST_CASE("a profile says what the machine was too busy for, and nothing on an idle one",
+          "[profile]")
+{
+    CHECK(busy_lines(idle_profile()).empty());
+    Profile busy = idle_profile();
+    busy.frame_spread = 4.529;
+    CHECK(only_line(busy) == "the frame: its times vary by 453 % of their median");
+    busy = idle_profile();
+    busy.generations[1].spread = 0.0011;
+    busy.what_if[0].spread = 0.02;
+    CHECK(only_line(busy) ==
+          "what these rows differ by: depth 1, without shadows; from turn to turn that varies by "
+          "more than 10 % of a frame");
+    busy = idle_profile();
+    busy.stages[1].seconds = 0.003;
+    CHECK(only_line(busy) == "the stages: they sum to 66 % of the whole way");
+    busy = idle_profile();
+    busy.kernels.stages = {{0, "camera", "spheres", 0.29 * busy.kernels.clocked}};
+    CHECK(only_line(busy) == "the stages in the kernels: they sum to 29 % of the clocked frame");
+    busy = idle_profile();
+    busy.kernels.observed = 0.02;
+    CHECK(only_line(busy) == "what the clock adds: frames with it take 61 % of those without");
+    // Nothing measured at all.
+    busy = idle_profile();
+    busy.whole = 0.0;
+    CHECK_FALSE(busy_lines(busy).empty());
 }
 
 TEST_CASE("traced tiles cover the picture once, and those of a thread do not overlap", "[profile]")
@@ -239,6 +330,7 @@ TEST_CASE("profile prints tables and JSON, and writes a heat map and a trace",
     CHECK(json["generations"].size() == 2);
     CHECK(json["rays"]["camera"] == 64 * 48);
     CHECK(json["lanes"] == choose_isa().lanes_double);
+    CHECK(json["too_busy"].is_array());
     const auto& kernels = json["kernels"];
     CHECK(kernels["observed_s"] > 0.0);
     CHECK(kernels["clocked_s"] > 0.0);

@@ -10,7 +10,8 @@
 #include <packtrace/renderer.hpp>
 #include <packtrace/scene.hpp>
 
-// Where a frame's time goes. Everything is measured, in frames taken in turns.
+// Where a frame's time goes. Everything is measured, in frames taken in turns. On one thread, times
+// are the processor's for this program; on several, those of the clock. None is negative.
 namespace packtrace {
 
 struct ProfileOptions {
@@ -35,16 +36,21 @@ struct ProfileGeneration {
     int depth = 0;  ///< reflections and refractions before
     FrameCounts rays;
     double seconds = 0.0;
+    double spread = 0.0;  ///< seconds; the middle half of the differences between frames in turn
     /// Share of lanes with a ray in the packets that its rays are traced in; none without rays.
     std::optional<double> lanes_filled = {};
 };
 
-/// The frame without one thing, and so what that costs.
+/// The frame without one thing, and so what that costs; or with one thing more.
 struct ProfileWhatIf {
     std::string name;      ///< "without shadows"
-    double seconds = 0.0;  ///< of the frame without it
-    double saves = 0.0;    ///< seconds, the median of the differences between frames in turn
-    FrameCounts rays;      ///< of the frame without it
+    double seconds = 0.0;  ///< of that frame
+    bool does_more = false;
+    /// What it saves or, where it does more, what it costs: the median of the differences between
+    /// frames in turn, 0 where they have the wrong sign.
+    double difference = 0.0;
+    double spread = 0.0;  ///< seconds; the middle half of these differences
+    FrameCounts rays;     ///< of that frame
 };
 
 /// A part of the kernels' work for the rays of one generation.
@@ -113,6 +119,8 @@ struct Profile {
     std::vector<ProfileGeneration> generations;
     std::vector<ProfileWhatIf> what_if;
     KernelProfile kernels;
+    /// What the machine was too busy to tell, a sentence each; none on an idle machine.
+    std::vector<std::string> too_busy;
 };
 
 /// `text` is read as a scene for the stages' sake, then changed as `scene` says: size, depth.

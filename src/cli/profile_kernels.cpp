@@ -146,7 +146,8 @@ void print_kernels(std::ostream& to, const Profile& profile)
     to << "inside the kernels, on one thread: frame " << milliseconds(kernels.plain)
        << " ms; by kernels that observe themselves " << milliseconds(kernels.observed) << " ms,\n"
        << "with the clock that gives the stages " << milliseconds(kernels.clocked)
-       << " ms, which is " << percent(kernels.clocked - kernels.observed, kernels.observed)
+       << " ms, which is "
+       << percent(std::max(0.0, kernels.clocked - kernels.observed), kernels.observed)
        << " more\n\n";
     print_stages(to, kernels);
     to << '\n';

@@ -51,11 +51,24 @@ void print_generations(std::ostream& to, const Profile& profile)
 
 void print_what_if(std::ostream& to, const Profile& profile)
 {
-    TextTable table(1, {"the same frame", "ms", "saves", "share"});
-    for (const ProfileWhatIf& row : profile.what_if)
-        table.add({row.name, milliseconds(row.seconds), milliseconds(row.saves),
-                   percent(row.saves, profile.frame)});
+    TextTable table(1, {"the same frame", "ms", "saves", "costs", "share"});
+    for (const ProfileWhatIf& row : profile.what_if) {
+        const std::string difference = milliseconds(row.difference);
+        table.add({row.name, milliseconds(row.seconds), row.does_more ? "-" : difference,
+                   row.does_more ? difference : "-", percent(row.difference, profile.frame)});
+    }
     table.print(to);
+}
+
+// Above all figures, so that nobody reads them first.
+void print_too_busy(std::ostream& to, const Profile& profile)
+{
+    if (profile.too_busy.empty())
+        return;
+    to << "The machine is too busy for some of these figures; measure again on an idle one:\n";
+    for (const std::string& line : profile.too_busy)
+        to << "- " << line << '\n';
+    to << '\n';
 }
 
 nlohmann::ordered_json rays_json(const FrameCounts& rays)
@@ -77,6 +90,7 @@ void print_profile(std::ostream& to, const std::string& scene, const Profile& pr
        << fixed(100.0 * profile.frame_spread, 1) << " %), " << profile.rays.total() << " rays, "
        << fixed(1e9 * profile.frame / rays, 2) << " ns a ray, "
        << fixed(1e-6 * rays / profile.frame, 1) << " Mrays/s\n\n";
+    print_too_busy(to, profile);
     print_stages(to, profile);
     to << '\n';
     print_generations(to, profile);
@@ -98,6 +112,7 @@ nlohmann::ordered_json profile_json(const std::string& scene, const Profile& pro
                                 {"frame_s", profile.frame},
                                 {"frame_spread", profile.frame_spread},
                                 {"whole_s", profile.whole},
+                                {"too_busy", profile.too_busy},
                                 {"rays", rays_json(profile.rays)},
                                 {"stages", nlohmann::ordered_json::array()},
                                 {"generations", nlohmann::ordered_json::array()},
@@ -109,13 +124,15 @@ nlohmann::ordered_json profile_json(const std::string& scene, const Profile& pro
             {{"depth", generation.depth},
              {"rays", rays_json(generation.rays)},
              {"seconds", generation.seconds},
+             {"spread_s", generation.spread},
              {"lanes_filled", generation.lanes_filled
                                   ? nlohmann::ordered_json(*generation.lanes_filled)
                                   : nlohmann::ordered_json()}});
     for (const ProfileWhatIf& row : profile.what_if)
         json["what_if"].push_back({{"name", row.name},
                                    {"seconds", row.seconds},
-                                   {"saves", row.saves},
+                                   {row.does_more ? "costs" : "saves", row.difference},
+                                   {"spread_s", row.spread},
                                    {"rays", rays_json(row.rays)}});
     json["kernels"] = kernels_json(profile.kernels);
     return json;

@@ -1,6 +1,6 @@
 #include "study/paired_bench.hpp"
 
-#include <ctime>
+#include "study/stopwatch.hpp"
 
 namespace packtrace {
 namespace {
@@ -8,18 +8,11 @@ namespace {
 // Short frames are repeated until they take this share of the reference's time.
 constexpr double least_share = 0.25;
 
-double processor_seconds()
-{
-    timespec time{};
-    clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &time);
-    return static_cast<double>(time.tv_sec) + 1e-9 * static_cast<double>(time.tv_nsec);
-}
-
 double seconds_of(const Subject& subject)
 {
-    const double start = processor_seconds();
+    const Stopwatch watch(1);
     subject.render();
-    return processor_seconds() - start;
+    return watch.seconds();
 }
 
 // Seconds of one frame, the mean of as many as take `least` seconds.

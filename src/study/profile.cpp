@@ -1,21 +1,21 @@
 #include <packtrace/profile.hpp>
 
-#include <chrono>
+#include <cstddef>
 
 #include <packtrace/read_scene.hpp>
 
 #include "dispatch/kernels.hpp"
 #include "image/png.hpp"
 #include "lower/packed_scene.hpp"
+#include "study/busy_machine.hpp"
 #include "study/kernel_profile.hpp"
 #include "study/profile_subjects.hpp"
 #include "study/statistics.hpp"
+#include "study/stopwatch.hpp"
 #include "study/work_rows.hpp"
 
 namespace packtrace {
 namespace {
-
-using Clock = std::chrono::steady_clock;
 
 FrameCounts operator-(const FrameCounts& a, const FrameCounts& b)
 {
@@ -26,15 +26,22 @@ FrameCounts operator-(const FrameCounts& a, const FrameCounts& b)
 // Times steps that follow each other without a gap.
 class StageClock {
 public:
+    explicit StageClock(int threads) : threads_(threads)
+    {
+    }
+
     template <class Work>
     auto time(const std::string& name, const Work& work)
     {
-        const auto start = Clock::now();
+        const Stopwatch watch(threads_);
         auto result = work();
-        stages.push_back({name, std::chrono::duration<double>(Clock::now() - start).count()});
+        stages.push_back({name, watch.seconds()});
         return result;
     }
     std::vector<ProfileStage> stages;
+
+private:
+    int threads_;
 };
 
 // The whole way once; the steps' medians come from several.
@@ -42,8 +49,8 @@ template <class Real>
 std::vector<ProfileStage> stages_once(const std::string& text, const Scene& scene,
                                       const ProfileOptions& options, double& whole)
 {
-    const auto start = Clock::now();
-    StageClock clock;
+    const Stopwatch watch(options.threads);
+    StageClock clock(options.threads);
     Scene read = clock.time("scene load", [&] { return parse_scene(text, "scene"); });
     read.width = scene.width;
     read.height = scene.height;
@@ -53,20 +60,20 @@ std::vector<ProfileStage> stages_once(const std::string& text, const Scene& scen
         return lower(read, accuracy_in<Real>(render_options(options)), options.self_hits);
     });
     // A renderer packs for itself; this is what it takes alone.
-    const auto packed_start = Clock::now();
+    const Stopwatch packing(options.threads);
     {
-        const PackedScene<Real> packed(lowered);
+        const PackedScene<Real> scene_in_arrays(lowered);
     }
-    const std::chrono::duration<double> packing = Clock::now() - packed_start;
-    const auto renderer_start = Clock::now();
+    const double packed = packing.seconds();
+    const Stopwatch making(options.threads);
     const Renderer<Real> renderer(read, render_options(options));
-    const std::chrono::duration<double> extra = Clock::now() - renderer_start;
-    clock.stages.push_back({"packing, hierarchy of boxes", packing.count()});
+    const double extra = making.seconds();
+    clock.stages.push_back({"packing, hierarchy of boxes", packed});
     Image<Real> image;
     clock.time("frame", [&] { return renderer.render(image); });
     const Bytes png =
         clock.time("encoding as PNG", [&] { return encode_png(convert<float>(image)); });
-    whole = std::chrono::duration<double>(Clock::now() - start).count() - extra.count();
+    whole = watch.seconds() - extra;
     return clock.stages;
 }
 
@@ -95,13 +102,23 @@ void add_generations(const std::vector<ProfileRun>& runs, int max_depth, Profile
     const auto run_to = [&](int depth) -> const ProfileRun& {
         return depth < max_depth ? runs[static_cast<std::size_t>(depth) + 1] : runs.front();
     };
-    result.generations.push_back({0, run_to(0).rays, median_of(run_to(0).seconds), {}});
+    result.generations.push_back(
+        {0, run_to(0).rays, median_of(run_to(0).seconds), middle_half(run_to(0).seconds), {}});
     for (int depth = 1; depth <= max_depth; ++depth) {
         const ProfileRun& run = run_to(depth);
         const ProfileRun& before = run_to(depth - 1);
+        const TimeDifference more = time_difference(run.seconds, before.seconds);
         result.generations.push_back(
-            {depth, run.rays - before.rays, median_difference(run.seconds, before.seconds), {}});
+            {depth, run.rays - before.rays, more.seconds, more.spread, {}});
     }
+}
+
+void add_what_if(const ProfileRun& frame, const ProfileRun& run, Profile& result)
+{
+    const TimeDifference difference = run.does_more ? time_difference(run.seconds, frame.seconds)
+                                                    : time_difference(frame.seconds, run.seconds);
+    result.what_if.push_back({run.name, median_of(run.seconds), run.does_more, difference.seconds,
+                              difference.spread, run.rays});
 }
 
 }  // namespace
@@ -118,7 +135,7 @@ Profile profile(const std::string& text, const Scene& scene, const ProfileOption
     result.threads = options.threads;
 
     std::vector<ProfileRun> runs = profile_runs<Real>(scene, options);
-    take_times(runs, options.repetitions);
+    take_times(runs, options);
     result.rays = runs.front().rays;
     result.frame = median_of(runs.front().seconds);
     result.frame_spread = relative_spread(runs.front().seconds);
@@ -129,10 +146,9 @@ Profile profile(const std::string& text, const Scene& scene, const ProfileOption
         generation.lanes_filled =
             lanes_filled(observed.counts[static_cast<std::size_t>(generation.depth)], result.lanes);
     for (std::size_t i = static_cast<std::size_t>(scene.max_depth) + 1; i < runs.size(); ++i)
-        result.what_if.push_back({runs[i].name, median_of(runs[i].seconds),
-                                  median_difference(runs.front().seconds, runs[i].seconds),
-                                  runs[i].rays});
+        add_what_if(runs.front(), runs[i], result);
     measure_stages<Real>(text, scene, options, result);
+    result.too_busy = busy_lines(result);
     return result;
 }
 

@@ -1,7 +1,6 @@
 #include "study/profile_subjects.hpp"
 
 #include <algorithm>
-#include <chrono>
 #include <memory>
 #include <utility>
 
@@ -9,6 +8,8 @@
 #include "dispatch/kernels.hpp"
 #include "render/camera_view.hpp"
 #include "render/frame_renderer.hpp"
+#include "study/statistics.hpp"
+#include "study/stopwatch.hpp"
 
 namespace packtrace {
 namespace {
@@ -19,7 +20,7 @@ ProfileRun frame_run(const std::string& name, const Scene& scene, const LoweredS
 {
     const auto renderer = std::make_shared<FrameRenderer<Real>>(scene, lowered, table, options);
     const auto image = std::make_shared<Image<Real>>();
-    return {name, [renderer, image] { return renderer->render(*image); }, {}, {}};
+    return {name, [renderer, image] { return renderer->render(*image); }};
 }
 
 // Camera rays and what they meet, on this thread.
@@ -66,7 +67,7 @@ ProfileRun camera_run(const Scene& scene, const LoweredScene& lowered,
                       const abi::KernelTable& table)
 {
     const auto rays = std::make_shared<CameraRays<Real>>(scene, lowered, table);
-    return {"camera rays and their closest hits alone", [rays] { return rays->trace(); }, {}, {}};
+    return {"camera rays and their closest hits alone", [rays] { return rays->trace(); }};
 }
 
 LoweredScene without_highlights(LoweredScene lowered)
@@ -109,15 +110,21 @@ RenderOptions render_options(const ProfileOptions& options)
     return result;
 }
 
-void take_times(std::vector<ProfileRun>& runs, int repetitions)
+TimeDifference time_difference(const std::vector<double>& whole, const std::vector<double>& part)
 {
-    for (int repetition = -1; repetition < repetitions; ++repetition)
+    const std::vector<double> each = differences(whole, part);
+    return {std::max(0.0, median_of(each)), middle_half(each)};
+}
+
+void take_times(std::vector<ProfileRun>& runs, const ProfileOptions& options)
+{
+    for (int repetition = -1; repetition < options.repetitions; ++repetition)
         for (ProfileRun& run : runs) {
-            const auto start = std::chrono::steady_clock::now();
+            const Stopwatch watch(options.threads);
             run.rays = run.render();
-            const std::chrono::duration<double> time = std::chrono::steady_clock::now() - start;
+            const double seconds = watch.seconds();
             if (repetition >= 0)
-                run.seconds.push_back(time.count());
+                run.seconds.push_back(seconds);
         }
 }
 
@@ -148,6 +155,7 @@ std::vector<ProfileRun> profile_runs(const Scene& scene, const ProfileOptions& o
     RenderOptions general = sampling;
     general.force_general = true;
     runs.push_back(frame_run<Real>("with all that was left out", scene, lowered, table, general));
+    runs.back().does_more = true;
     if (options.threads == 1 && options.samples == 1)
         runs.push_back(camera_run<Real>(scene, lowered, table));
     return runs;

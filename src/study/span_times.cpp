@@ -46,24 +46,12 @@ abi::Observation* SpanTimes::begin()
 
 void SpanTimes::end(int piece)
 {
-    last_ = Clock::now();
-    last_tick_ = observation_.end;
-    if (!begun_) {
-        first_ = last_;
-        first_tick_ = last_tick_;
-        begun_ = true;
-    }
+    readings_.push_back(
+        {observation_.end, std::chrono::duration<double>(Clock::now() - start_).count()});
     std::vector<SpanTicks> generations;
     for (const abi::SpanLaps& laps : laps_)
         generations.push_back(span_ticks(laps));
     of_piece_[static_cast<std::size_t>(piece)].push_back(std::move(generations));
-}
-
-// The longer the measurement, the more exact.
-double SpanTimes::seconds_of_tick() const
-{
-    return std::chrono::duration<double>(last_ - first_).count() /
-           static_cast<double>(last_tick_ - first_tick_);
 }
 
 std::vector<SpanTicks> SpanTimes::seconds(int piece) const
@@ -73,7 +61,7 @@ std::vector<SpanTicks> SpanTimes::seconds(int piece) const
     std::nth_element(times.begin(), middle, times.end(),
                      [](const auto& a, const auto& b) { return total_of(a) < total_of(b); });
     std::vector<SpanTicks> result = *middle;
-    const double seconds = seconds_of_tick();
+    const double seconds = seconds_of_tick(readings_);
     for (SpanTicks& generation : result)
         for (double& span : generation.span)
             span *= seconds;

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "kernel_abi/observation.hpp"
+#include "study/tick_rate.hpp"
 
 namespace packtrace {
 
@@ -32,17 +33,11 @@ public:
 private:
     using Clock = std::chrono::steady_clock;
 
-    [[nodiscard]] double seconds_of_tick() const;
-
     std::vector<abi::SpanLaps> laps_;
     abi::Observation observation_;
     std::vector<std::vector<std::vector<SpanTicks>>> of_piece_;  // by piece, time and generation
-    // The same two moments by both clocks.
-    Clock::time_point first_;
-    Clock::time_point last_;
-    std::uint64_t first_tick_ = 0;
-    std::uint64_t last_tick_ = 0;
-    bool begun_ = false;
+    std::vector<ClockReading> readings_;                         // as each piece ended
+    Clock::time_point start_ = Clock::now();
 };
 
 }  // namespace packtrace

@@ -48,11 +48,6 @@ std::vector<double> differences(const std::vector<double>& a, const std::vector<
     return result;
 }
 
-double median_difference(const std::vector<double>& a, const std::vector<double>& b)
-{
-    return median_of(differences(a, b));
-}
-
 // A value falls below the median as often as a coin shows heads: k is the largest with at most
 // (1 - confidence) / 2 for fewer than k heads.
 std::optional<Interval> median_interval(std::vector<double> values)

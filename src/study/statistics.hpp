@@ -18,9 +18,6 @@ namespace packtrace {
 [[nodiscard]] std::vector<double> differences(const std::vector<double>& a,
                                               const std::vector<double>& b);
 
-/// The median of a[i] - b[i]: of things measured in turns, what one takes more than the other.
-[[nodiscard]] double median_difference(const std::vector<double>& a, const std::vector<double>& b);
-
 /// The width of the middle half of the values.
 [[nodiscard]] inline double middle_half(const std::vector<double>& values)
 {
