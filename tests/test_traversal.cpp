@@ -13,6 +13,7 @@
 #include <glm/gtc/matrix_transform.hpp>
 
 #include "catch.hpp"
+#include "lower/packed_scene.hpp"
 #include "scenes.hpp"
 
 // Through the hierarchy, as beams, cells or single rays, the same is hit as one by one: bit for
@@ -221,6 +222,24 @@ void compare_on_every_isa(int scenes, int rays, unsigned seed)
 }
 
 }  // namespace
+
+TEST_CASE("frames of wide packets keep to lists for longer than those of narrow ones",
+          "[traversal]")
+{
+    const auto chosen = [](int objects, int lanes) {
+        return frame_traversal(lower(random_spheres(objects, 1)), Traversal::automatic, lanes);
+    };
+    for (const int lanes : {2, 4, 8, 16}) {
+        CHECK(chosen(100, lanes) == Traversal::list);
+        CHECK(chosen(600, lanes) == Traversal::tree);
+    }
+    CHECK(chosen(256, 4) == Traversal::tree);
+    // results/crossover.json: lists win to 256 and more.
+    CHECK(chosen(256, 16) == Traversal::list);
+    const LoweredScene few = lower(random_spheres(5, 1));
+    CHECK(frame_traversal(few, Traversal::tree, 16) == Traversal::tree);
+    CHECK(frame_traversal(lower(random_spheres(600, 1)), Traversal::list, 4) == Traversal::list);
+}
 
 TEST_CASE("lists and hierarchies give the same hits and pictures", "[traversal]")
 {

@@ -1,21 +1,27 @@
 // packtrace_crossover: from how many spheres on a hierarchy is faster than a list, for frames and
-// for streams of camera, shadow and bounce rays; as JSON.
+// for streams of camera, shadow and bounce rays, by instruction set; as JSON.
 #include <algorithm>
+#include <array>
 #include <chrono>
 #include <cmath>
 #include <exception>
 #include <functional>
 #include <iostream>
+#include <memory>
+#include <optional>
 
 #include <CLI/CLI.hpp>
 #include <nlohmann/json.hpp>
 #include <packtrace/generate.hpp>
+#include <packtrace/isa.hpp>
 #include <packtrace/renderer.hpp>
 
 #include <tbb/global_control.h>
 
 #include "context.hpp"
 #include "peers/ray_set.hpp"
+#include "study/statistics.hpp"
+#include "study/stopwatch.hpp"
 
 namespace packtrace {
 namespace {
@@ -23,15 +29,27 @@ namespace {
 using Json = nlohmann::ordered_json;
 
 struct Arguments {
-    std::vector<int> objects = {4, 8, 12, 16, 24, 32, 48, 64, 96, 128};
-    int size = 512;
+    std::vector<int> objects = {16, 32, 64, 96, 128, 192, 256, 384, 512, 768, 1024};
+    std::vector<int> sizes = {512};
+    std::vector<double> covers = {1.0, 8.0};
+    std::vector<double> mirrors = {0.0, 0.4};
+    std::vector<std::string> isas;
     int repetitions = 9;
-    double cover = 1.0;
-    std::string isa = "auto";
 };
 
-constexpr Traversal kinds[] = {Traversal::list, Traversal::tree};
-constexpr const char* kind_names[] = {"list", "tree"};
+/// What all scenes of a crossing have in common but the number of spheres.
+struct Setting {
+    int size = 512;
+    double cover = 1.0;
+    double mirror = 0.0;
+
+    [[nodiscard]] Json json() const
+    {
+        return {{"size", size}, {"cover", cover}, {"mirror", mirror}};
+    }
+};
+
+constexpr std::array<Traversal, 2> kinds = {Traversal::list, Traversal::tree};
 
 /// What is measured, through either of the kinds.
 struct Subject {
@@ -40,57 +58,30 @@ struct Subject {
 };
 
 /// As in the study of scaling: scenes differ in their grain alone.
-Scene scene_of(const Arguments& arguments, int objects)
+Scene scene_of(const Setting& setting, int objects)
 {
-    const double radius = std::sqrt(arguments.cover / objects);
-    Scene scene = generate_random_spheres({.count = objects, .radius = radius});
-    scene.width = scene.height = arguments.size;
+    const double radius = std::sqrt(setting.cover / objects);
+    Scene scene =
+        generate_random_spheres({.count = objects, .radius = radius, .reflective = setting.mirror});
+    scene.width = scene.height = setting.size;
     return scene;
 }
 
+/// Processor seconds: what other programs take is not in them.
 double seconds_of(const std::function<void()>& work)
 {
-    const auto start = std::chrono::steady_clock::now();
+    const Stopwatch watch(1);
     work();
-    return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+    return watch.seconds();
 }
 
-double median(std::vector<double> values)
-{
-    std::sort(values.begin(), values.end());
-    return values[values.size() / 2];
-}
-
-/// Both kinds by turns; the first turn only warms up.
-Json measure(const Subject& subject, int repetitions)
-{
-    std::vector<double> seconds[2];
-    std::vector<double> ratios;
-    for (int turn = 0; turn <= repetitions; ++turn) {
-        double now[2];
-        for (int kind = 0; kind < 2; ++kind)
-            now[kind] = seconds_of(subject.through[kind]);
-        if (turn == 0)
-            continue;
-        for (int kind = 0; kind < 2; ++kind)
-            seconds[kind].push_back(now[kind]);
-        ratios.push_back(now[1] / now[0]);
-    }
-    return {{"rays", subject.name},
-            {"list_seconds", median(seconds[0])},
-            {"tree_seconds", median(seconds[1])},
-            {"tree_over_list", median(ratios)},
-            {"least", *std::min_element(ratios.begin(), ratios.end())},
-            {"most", *std::max_element(ratios.begin(), ratios.end())}};
-}
-
-/// One scene, made ready both ways.
+/// One scene, made ready both ways for an instruction set, and what was measured of it.
 class Race {
 public:
-    Race(const Arguments& arguments, int objects) : scene_(scene_of(arguments, objects))
+    Race(const Scene& scene, const std::string& isa) : isa_(isa), scene_(scene)
     {
         RenderOptions options;
-        options.isa = arguments.isa;
+        options.isa = isa;
         options.threads = 1;
         for (const Traversal kind : kinds) {
             options.traversal = kind;
@@ -98,14 +89,53 @@ public:
             ray_scenes_.emplace_back(scene_, options);
         }
         make_rays();
+        subjects_ = {
+            subject("frame", [this](std::size_t kind) { renderers_[kind].render(image_); }),
+            subject("camera", [this](std::size_t kind) { closest(kind, camera_); }),
+            subject("shadow", [this](std::size_t kind) { occluded(kind, shadow_); }),
+            subject("bounce", [this](std::size_t kind) { closest(kind, bounce_); })};
+        seconds_.resize(subjects_.size());
+    }
+    Race(const Race&) = delete;
+    Race& operator=(const Race&) = delete;
+
+    /// Each subject through both kinds, right after each other.
+    void take_turn()
+    {
+        for (std::size_t i = 0; i < subjects_.size(); ++i)
+            for (std::size_t kind = 0; kind < kinds.size(); ++kind)
+                seconds_[i][kind].push_back(seconds_of(subjects_[i].through[kind]));
+    }
+    /// What was measured so far only warmed up.
+    void forget()
+    {
+        for (auto& of_subject : seconds_)
+            for (auto& of_kind : of_subject)
+                of_kind.clear();
     }
 
-    [[nodiscard]] std::vector<Subject> subjects()
+    [[nodiscard]] const std::string& isa() const
     {
-        return {subject("frame", [this](std::size_t kind) { renderers_[kind].render(image_); }),
-                subject("camera", [this](std::size_t kind) { closest(kind, camera_); }),
-                subject("shadow", [this](std::size_t kind) { occluded(kind, shadow_); }),
-                subject("bounce", [this](std::size_t kind) { closest(kind, bounce_); })};
+        return isa_;
+    }
+    [[nodiscard]] std::size_t subject_count() const
+    {
+        return subjects_.size();
+    }
+    [[nodiscard]] const std::string& name(std::size_t subject) const
+    {
+        return subjects_[subject].name;
+    }
+    [[nodiscard]] std::vector<double> ratios(std::size_t subject) const
+    {
+        std::vector<double> result;
+        for (std::size_t i = 0; i < seconds_[subject][0].size(); ++i)
+            result.push_back(seconds_[subject][1][i] / seconds_[subject][0][i]);
+        return result;
+    }
+    [[nodiscard]] double seconds(std::size_t subject, std::size_t kind) const
+    {
+        return median_of(seconds_[subject][kind]);
     }
 
 private:
@@ -137,52 +167,169 @@ private:
         ray_scenes_[kind].occluded(rays.view(0, rays.size()), hits_.occluded.data());
     }
 
+    std::string isa_;
     Scene scene_;
     std::vector<Renderer<float>> renderers_;
     std::vector<RayScene<float>> ray_scenes_;
     peers::RaySet camera_, shadow_, bounce_;
     peers::Hits hits_{0};
     Image<float> image_;
+    std::vector<Subject> subjects_;
+    std::vector<std::array<std::vector<double>, 2>> seconds_;
 };
 
-void print_report(const Arguments& arguments)
+/// What was measured of some rays with so many spheres.
+struct Point {
+    int objects = 0;
+    double list_seconds = 0.0;
+    double tree_seconds = 0.0;
+    std::vector<double> ratios;  ///< tree over list, by turn
+
+    [[nodiscard]] double ratio() const
+    {
+        return median_of(ratios);
+    }
+    [[nodiscard]] Json json() const
+    {
+        Json json{{"objects", objects},
+                  {"list_seconds", list_seconds},
+                  {"tree_seconds", tree_seconds},
+                  {"tree_over_list", ratio()},
+                  {"least", *std::min_element(ratios.begin(), ratios.end())},
+                  {"most", *std::max_element(ratios.begin(), ratios.end())}};
+        if (const std::optional<Interval> interval = median_interval(ratios))
+            json["interval_99"] = {interval->low, interval->high};
+        return json;
+    }
+};
+
+/// From how many objects on the ratio stays below 1, between the numbers measured by straight
+/// lines over logarithms. None where it does not come below, or is there from the start.
+std::optional<double> crossing_of(const std::vector<Point>& points)
+{
+    std::size_t first = points.size();
+    while (first > 0 && points[first - 1].ratio() < 1.0)
+        --first;
+    if (first == 0 || first == points.size())
+        return std::nullopt;
+    const Point& above = points[first - 1];
+    const Point& below = points[first];
+    const double high = std::log(above.ratio());
+    const double share = high / (high - std::log(below.ratio()));
+    return above.objects * std::pow(static_cast<double>(below.objects) / above.objects, share);
+}
+
+/// The points of one instruction set in one setting, by rays.
+struct Curve {
+    std::string isa;
+    std::string rays;
+    std::vector<Point> points;
+
+    [[nodiscard]] Json json(const Setting& setting) const
+    {
+        Json json{{"isa", isa}, {"rays", rays}};
+        json.update(setting.json());
+        const std::optional<double> crossing = crossing_of(points);
+        json["tree_wins_from"] = crossing ? Json(std::round(*crossing)) : Json();
+        json["points"] = Json::array();
+        for (const Point& point : points)
+            json["points"].push_back(point.json());
+        return json;
+    }
+};
+
+/// All instruction sets by turns, so that a busy spell falls on all; the first turn warms up.
+void add_points(const Arguments& arguments, const Setting& setting, int objects,
+                std::vector<Curve>& curves)
+{
+    const Scene scene = scene_of(setting, objects);
+    std::vector<std::unique_ptr<Race>> races;
+    for (const std::string& isa : arguments.isas)
+        races.push_back(std::make_unique<Race>(scene, isa));
+    for (int turn = 0; turn <= arguments.repetitions; ++turn)
+        for (const auto& race : races) {
+            race->take_turn();
+            if (turn == 0)
+                race->forget();
+        }
+    std::size_t curve = 0;
+    for (const auto& race : races)
+        for (std::size_t i = 0; i < race->subject_count(); ++i, ++curve) {
+            if (curve == curves.size())
+                curves.push_back({race->isa(), race->name(i), {}});
+            curves[curve].points.push_back(
+                {objects, race->seconds(i, 0), race->seconds(i, 1), race->ratios(i)});
+        }
+}
+
+Json curves_json(const Arguments& arguments, const Setting& setting)
+{
+    std::vector<Curve> curves;
+    for (const int objects : arguments.objects)
+        add_points(arguments, setting, objects, curves);
+    Json json = Json::array();
+    for (const Curve& curve : curves) {
+        json.push_back(curve.json(setting));
+        std::cerr << setting.size << " x " << setting.size << ", cover " << setting.cover
+                  << ", mirror " << setting.mirror << ", " << curve.isa << ", " << curve.rays
+                  << ": tree wins from " << json.back()["tree_wins_from"].dump() << '\n';
+    }
+    return json;
+}
+
+void print_report(const Arguments& arguments, const std::string& command)
 {
     const tbb::global_control limit(tbb::global_control::max_allowed_parallelism, 1);
-    Json report;
+    const auto start = std::chrono::steady_clock::now();
+    const Stopwatch work(1);
+    Json report{{"program", "packtrace_crossover"}, {"command", command}};
     for (const auto& [name, value] : bench::context())
         report["context"][name] = value;
-    report["points"] = Json::array();
-    for (const int objects : arguments.objects) {
-        Race race(arguments, objects);
-        for (const Subject& subject : race.subjects()) {
-            Json point{{"objects", objects}};
-            point.update(measure(subject, arguments.repetitions));
-            report["points"].push_back(point);
-            std::fprintf(stderr, "%4d spheres  %-7s  %s/%s %.3f\n", objects, subject.name.c_str(),
-                         kind_names[1], kind_names[0], point["tree_over_list"].get<double>());
-        }
-    }
+    Json curves = Json::array();
+    for (const int size : arguments.sizes)
+        for (const double cover : arguments.covers)
+            for (const double mirror : arguments.mirrors)
+                for (const Json& curve : curves_json(arguments, {size, cover, mirror}))
+                    curves.push_back(curve);
+    const std::chrono::duration<double> passed = std::chrono::steady_clock::now() - start;
+    // 1 on an idle machine; other programs had the rest.
+    report["context"]["processor_share"] = work.seconds() / passed.count();
+    report["curves"] = curves;
     std::cout << report.dump(2) << '\n';
+}
+
+std::string check_size(const std::string& text)
+{
+    return std::stoi(text) % peers::tile_size == 0 ? "" : "must be a multiple of 16, not " + text;
 }
 
 void add_options(CLI::App& app, Arguments& arguments)
 {
-    app.add_option("--objects", arguments.objects, "Numbers of spheres (default 4 … 128)")
+    app.add_option("--objects", arguments.objects, "Numbers of spheres (default 16 … 1024)")
         ->check(CLI::Range(1, 100'000))
         ->delimiter(',');
-    app.add_option("--size", arguments.size, "Pixels of each edge, a multiple of 16 (default 512)")
-        ->check(CLI::Range(1, 1024) & CLI::Validator(
-                                          [](const std::string& text) {
-                                              return std::stoi(text) % peers::tile_size == 0
-                                                         ? std::string()
-                                                         : "must be a multiple of 16, not " + text;
-                                          },
-                                          "multiple of 16"));
+    app.add_option("--size", arguments.sizes, "Pixels of each edge, multiples of 16 (default 512)")
+        ->check(CLI::Range(1, 1024) & CLI::Validator(check_size, "multiple of 16"))
+        ->delimiter(',');
+    app.add_option("--cover", arguments.covers, "Squares of all radii together (default 1,8)")
+        ->check(CLI::Range(1e-9, 1e3))
+        ->delimiter(',');
+    app.add_option("--mirror", arguments.mirrors,
+                   "Shares of the light that the spheres mirror (default 0,0.4)")
+        ->check(CLI::Range(0.0, 1.0))
+        ->delimiter(',');
+    app.add_option("--isa", arguments.isas, "Instruction sets (default all of this machine)")
+        ->delimiter(',');
     app.add_option("--repetitions", arguments.repetitions, "Turns (default 9)")
         ->check(CLI::Range(1, 1000));
-    app.add_option("--cover", arguments.cover, "Squares of all radii together (default 1)")
-        ->check(CLI::Range(1e-9, 1e3));
-    app.add_option("--isa", arguments.isa, "Instruction set (default the widest)");
+}
+
+std::string command_of(int argc, char** argv)
+{
+    std::string command = "packtrace_crossover";
+    for (int i = 1; i < argc; ++i)
+        command += std::string(" ") + argv[i];
+    return command;
 }
 
 }  // namespace
@@ -195,7 +342,12 @@ int main(int argc, char** argv)
     packtrace::add_options(app, arguments);
     try {
         app.parse(argc, argv);
-        packtrace::print_report(arguments);
+        if (arguments.isas.empty())
+            for (const packtrace::IsaInfo& isa : packtrace::list_isas())
+                if (isa.supported)
+                    arguments.isas.push_back(isa.name);
+        std::sort(arguments.objects.begin(), arguments.objects.end());
+        packtrace::print_report(arguments, packtrace::command_of(argc, argv));
     } catch (const CLI::ParseError& end) {
         return app.exit(end) == 0 ? 0 : 2;
     } catch (const std::exception& error) {

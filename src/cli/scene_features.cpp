@@ -8,14 +8,14 @@
 namespace packtrace::cli {
 namespace {
 
-std::vector<std::string> used_features(const LoweredScene& lowered)
+std::vector<std::string> used_features(const LoweredScene& lowered, Traversal traversal)
 {
     std::vector<std::string> uses;
     const auto add = [&](bool used, const char* what) {
         if (used)
             uses.emplace_back(what);
     };
-    add(frame_traversal(lowered, Traversal::automatic) == Traversal::tree, "hierarchy");
+    add(traversal == Traversal::tree, "hierarchy");
     add(!lowered.spheres.empty(), "spheres");
     add(!lowered.anchored_spheres.empty(), "anchored spheres");
     add(!lowered.planes.empty(), "planes");
@@ -40,13 +40,13 @@ SceneFeatures scene_features(const Scene& scene, const IsaInfo& isa)
     LoweredScene lowered = lower(scene);
     SceneFeatures features;
     features.left_out = leave_out(lowered);
-    for (LeftOut& unused : unused_features(lowered))
+    const Traversal traversal = frame_traversal(lowered, Traversal::automatic, isa.lanes_single);
+    for (LeftOut& unused : unused_features(lowered, traversal))
         features.left_out.push_back(std::move(unused));
-    features.uses = used_features(lowered);
+    features.uses = used_features(lowered, traversal);
     features.kernel =
         kernels_for(precision<float>(kernels_of(isa.name)), lowered.features).set.name;
-    features.bytes =
-        PackedScene<float>(lowered, frame_traversal(lowered, Traversal::automatic)).bytes();
+    features.bytes = PackedScene<float>(lowered, traversal).bytes();
     return features;
 }
 

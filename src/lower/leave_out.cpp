@@ -3,7 +3,6 @@
 #include <algorithm>
 
 #include "lower/duplicates.hpp"
-#include "lower/packed_scene.hpp"
 
 namespace packtrace {
 namespace {
@@ -79,7 +78,7 @@ std::vector<LeftOut> leave_out(LoweredScene& lowered)
     return left_out;
 }
 
-std::vector<LeftOut> unused_features(const LoweredScene& lowered)
+std::vector<LeftOut> unused_features(const LoweredScene& lowered, Traversal traversal)
 {
     const abi::Features& uses = lowered.features;
     std::vector<LeftOut> unused;
@@ -87,8 +86,7 @@ std::vector<LeftOut> unused_features(const LoweredScene& lowered)
         if (!used)
             unused.push_back({what, why});
     };
-    unless(frame_traversal(lowered, Traversal::automatic) == Traversal::tree, "hierarchy",
-           "lists are quicker for so few");
+    unless(traversal == Traversal::tree, "hierarchy", "lists are quicker for so few");
     unless(uses.quadrics, "quadrics", "all surfaces are spheres and planes");
     unless(uses.exact, "certain tests and refinement", "--accuracy fast does without");
     unless(!lowered.checkers.empty(), "checkers", "no plane has one");

@@ -3,6 +3,8 @@
 #include <string>
 #include <vector>
 
+#include <packtrace/traversal.hpp>
+
 #include "lower/lowered_scene.hpp"
 
 namespace packtrace {
@@ -21,6 +23,7 @@ std::vector<LeftOut> leave_out(LoweredScene& lowered);
 
 /// Everything that the kernels chosen for a scene are without, in the order of a frame's stages.
 /// `lowered` is what leave_out() left.
-[[nodiscard]] std::vector<LeftOut> unused_features(const LoweredScene& lowered);
+[[nodiscard]] std::vector<LeftOut> unused_features(const LoweredScene& lowered,
+                                                   Traversal traversal);
 
 }  // namespace packtrace

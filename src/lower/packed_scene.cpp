@@ -14,11 +14,15 @@
 namespace packtrace {
 namespace {
 
-/// From these numbers of objects on a hierarchy is quicker than lists (results/crossover.json): for
-/// streams of camera and shadow rays from 12, of bounced ones from 100; for frames, whose tiles
-/// pick from lists what their beams meet, from 128 to 500.
+/// From these numbers of objects on a hierarchy is quicker than lists (results/crossover.json).
+/// Streams: camera and shadow rays from 12, bounced ones from 100.
 constexpr std::size_t stream_tree_objects = 32;
-constexpr std::size_t frame_tree_objects = 128;
+/// Frames: their tiles pick from lists what their beams meet, and test it a packet at a time, so
+/// that lists stay ahead for longer the wider the packets are.
+constexpr std::size_t frame_tree_objects(int lanes)
+{
+    return lanes >= 16 ? 384 : lanes >= 8 ? 192 : 128;
+}
 
 /// How many roundoffs rays start off a surface by. Hits in single precision are refined in double
 /// and rounded once, their offset start once more; those in double are as the search found them.
@@ -95,9 +99,9 @@ bool are_objects(const std::vector<abi::MaterialIndex>& surfaces)
 
 }  // namespace
 
-Traversal frame_traversal(const LoweredScene& lowered, Traversal traversal)
+Traversal frame_traversal(const LoweredScene& lowered, Traversal traversal, int lanes)
 {
-    return chosen(traversal, lowered, frame_tree_objects);
+    return chosen(traversal, lowered, frame_tree_objects(lanes));
 }
 
 template <class Real>

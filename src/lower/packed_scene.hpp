@@ -13,9 +13,10 @@
 
 namespace packtrace {
 
-/// What Traversal::automatic comes to for pictures. PackedScene's own choice is for streams of
-/// rays.
-[[nodiscard]] Traversal frame_traversal(const LoweredScene& lowered, Traversal traversal);
+/// What Traversal::automatic comes to for pictures, by kernels of so many lanes. PackedScene's own
+/// choice is for streams of rays.
+[[nodiscard]] Traversal frame_traversal(const LoweredScene& lowered, Traversal traversal,
+                                        int lanes);
 
 /// A lowered scene in the arrays and the precision the kernels read. Values are rounded once,
 /// from double, here.

@@ -47,7 +47,7 @@ private:
 // The whole way once; the steps' medians come from several.
 template <class Real>
 std::vector<ProfileStage> stages_once(const std::string& text, const Scene& scene,
-                                      const ProfileOptions& options, double& whole)
+                                      const ProfileOptions& options, int lanes, double& whole)
 {
     const Stopwatch watch(options.threads);
     StageClock clock(options.threads);
@@ -62,7 +62,8 @@ std::vector<ProfileStage> stages_once(const std::string& text, const Scene& scen
     // A renderer packs for itself; this is what it takes alone.
     const Stopwatch packing(options.threads);
     {
-        const PackedScene<Real> scene_in_arrays(lowered);
+        const PackedScene<Real> scene_in_arrays(
+            lowered, frame_traversal(lowered, Traversal::automatic, lanes));
     }
     const double packed = packing.seconds();
     const Stopwatch making(options.threads);
@@ -85,7 +86,7 @@ void measure_stages(const std::string& text, const Scene& scene, const ProfileOp
     std::vector<double> wholes;
     for (int i = 0; i < options.repetitions; ++i) {
         double whole = 0.0;
-        result.stages = stages_once<Real>(text, scene, options, whole);
+        result.stages = stages_once<Real>(text, scene, options, result.lanes, whole);
         wholes.push_back(whole);
         seconds.resize(result.stages.size());
         for (std::size_t stage = 0; stage < seconds.size(); ++stage)

@@ -30,7 +30,8 @@ public:
     CameraRays(const Scene& scene, const LoweredScene& lowered, const abi::KernelTable& table)
         : width_(scene.width),
           height_(scene.height),
-          packed_(lowered),
+          packed_(lowered,
+                  frame_traversal(lowered, Traversal::automatic, precision<Real>(table).lanes)),
           camera_(camera_view<Real>(scene, lowered)),
           kernels_(kernels_for(precision<Real>(table), lowered.features)),
           scratch_(kernels_.scratch_bytes(packed_.view()))

@@ -89,10 +89,11 @@ std::vector<double> pixel_costs(const Scene& scene, const ProfileOptions& option
 {
     const LoweredScene lowered =
         lower(scene, accuracy_in<Real>(render_options(options)), options.self_hits);
-    const PackedScene<Real> packed(lowered);
+    const auto& table = precision<Real>(kernels_of(choose_isa(options.isa).name));
+    const PackedScene<Real> packed(lowered,
+                                   frame_traversal(lowered, Traversal::automatic, table.lanes));
     const auto camera = camera_view<Real>(scene, lowered, Vec2(0.0));
-    const auto& kernels =
-        kernels_for(precision<Real>(kernels_of(choose_isa(options.isa).name)), lowered.features);
+    const auto& kernels = kernels_for(table, lowered.features);
     AlignedArray<std::byte> scratch(kernels.scratch_bytes(packed.view()));
     abi::TileSamples<Real> samples;
     samples.count = copies;
