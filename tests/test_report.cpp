@@ -5,6 +5,7 @@
 #include <packtrace/write_report.hpp>
 
 #include <algorithm>
+#include <random>
 #include <set>
 
 #include <nlohmann/json.hpp>
@@ -12,6 +13,10 @@
 #include "catch.hpp"
 #include "render_scene.hpp"
 #include "scenes.hpp"
+#include "study/label_places.hpp"
+#include "study/plot_axis.hpp"
+#include "study/report_choice.hpp"
+#include "study/report_pictures.hpp"
 #include "study/report_study.hpp"
 #include "study/report_text.hpp"
 #include "study/statistics.hpp"
@@ -47,6 +52,23 @@ ReportRun run_of(const std::string& name, double seconds, double rmse)
     run.median = seconds;
     run.error.rmse = rmse;
     return run;
+}
+
+/// A run that took these seconds.
+ReportRun timed_run(const std::string& name, const std::vector<double>& seconds, double rmse)
+{
+    ReportRun run = run_of(name, median_of(seconds), rmse);
+    run.seconds = seconds;
+    run.spread = relative_spread(seconds);
+    return run;
+}
+
+std::string names_of(const std::vector<const ReportRun*>& runs)
+{
+    std::string names;
+    for (const ReportRun* run : runs)
+        names += run->variant.name + ", ";
+    return names;
 }
 
 /// A subject that shows the truth with every pixel off by `error`.
@@ -189,13 +211,14 @@ TEST_CASE("the judgement names the cheapest and the most exact run", "[report]")
     StudyReport study;
     study.runs = {run_of("coarse", 0.001, 0.1), run_of("middle", 0.010, 0.01),
                   run_of("slow", 0.020, 0.01), run_of("fine", 0.100, 1e-6)};
-    REQUIRE(cheapest_within(study, 0.05) != nullptr);
-    CHECK(cheapest_within(study, 0.05)->variant.name == "middle");
-    CHECK(cheapest_within(study, 1e-3)->variant.name == "fine");
-    CHECK(cheapest_within(study, 1e-9) == nullptr);
-    CHECK(most_exact_within(study, 0.05)->variant.name == "middle");
-    CHECK(most_exact_within(study, 1.0)->variant.name == "fine");
-    CHECK(most_exact_within(study, 1e-6) == nullptr);
+    REQUIRE(cheapest_within(study, 0.05).run != nullptr);
+    CHECK(cheapest_within(study, 0.05).run->variant.name == "middle");
+    CHECK(cheapest_within(study, 0.05).undecided.empty());
+    CHECK(cheapest_within(study, 1e-3).run->variant.name == "fine");
+    CHECK(cheapest_within(study, 1e-9).run == nullptr);
+    CHECK(most_exact_within(study, 0.05).run->variant.name == "middle");
+    CHECK(most_exact_within(study, 1.0).run->variant.name == "fine");
+    CHECK(most_exact_within(study, 1e-6).run == nullptr);
     ReportOptions options;
     options.max_error = 1e-9;
     options.max_time = 0.05;
@@ -204,18 +227,161 @@ TEST_CASE("the judgement names the cheapest and the most exact run", "[report]")
     CHECK(lines[1] == "Most exact within 50 ms: middle (10 ms, RMSE 0.01).");
 }
 
-TEST_CASE("the Pareto front has the runs that no other beats in both", "[report]")
+TEST_CASE("runs whose spreads overlap are undecided", "[report]")
+{
+    StudyReport study;
+    study.runs = {
+        timed_run("quick", {1.0, 1.1, 1.2}, 0.01), timed_run("as quick", {1.1, 1.2, 1.3}, 0.01),
+        timed_run("slow", {3.0, 3.1, 3.2}, 0.01), timed_run("exact", {1.05, 1.5, 4.0}, 1e-6)};
+    const RunChoice cheapest = cheapest_within(study, 0.05);
+    REQUIRE(cheapest.run != nullptr);
+    CHECK(cheapest.run->variant.name == "quick");
+    CHECK(names_of(cheapest.undecided) == "as quick, ");
+    CHECK(names_of(cheapest_within(study, 1e-5).undecided).empty());
+    ReportOptions options;
+    options.max_error = 0.05;
+    options.max_time = 2.0;
+    CHECK(
+        judgement(study, options)[0] ==
+        "Cheapest with an RMSE of at most 0.05: undecided, as the spreads of their times overlap, "
+        "between quick (1.1e+03 ms, RMSE 0.01); as quick (1.2e+03 ms, RMSE 0.01).");
+    // Its times lie on both sides of two seconds.
+    CHECK(judgement(study, options)[1] ==
+          "Most exact within 2e+03 ms: quick (1.1e+03 ms, RMSE 0.01); perhaps, as their times "
+          "spread over that limit, exact (1.5e+03 ms, RMSE 1e-06).");
+    CHECK(most_exact_within(study, 5.0).run->variant.name == "exact");
+}
+
+TEST_CASE("the Pareto front has the runs that no other beats, as far as times tell", "[report]")
+{
+    std::vector<ReportRun> runs = {
+        timed_run("quick", {1.0, 1.1, 1.2}, 0.1), timed_run("middle", {2.0, 2.1, 2.2}, 0.01),
+        timed_run("much as middle", {2.1, 2.2, 2.3}, 0.01),
+        timed_run("slow", {5.0, 5.1, 5.2}, 0.01),
+        timed_run("better and perhaps as quick", {5.1, 5.2, 5.3}, 0.001)};
+    mark_pareto(runs);
+    CHECK(runs[0].pareto == Pareto::on_front);
+    CHECK(runs[1].pareto == Pareto::undecided);
+    CHECK(runs[2].pareto == Pareto::undecided);
+    CHECK(runs[3].pareto == Pareto::beaten);
+    CHECK(runs[4].pareto == Pareto::on_front);
+    // Of equal errors and times nobody can tell; less exact ones that may be as quick neither.
+    runs = {timed_run("coarse", {1.0, 1.1, 1.2}, 0.1), timed_run("fine", {1.1, 1.2, 1.3}, 0.01)};
+    mark_pareto(runs);
+    CHECK(runs[0].pareto == Pareto::undecided);
+    CHECK(runs[1].pareto == Pareto::on_front);
+}
+
+TEST_CASE("a report's runs stand as its times say", "[report]")
 {
     const StudyReport study = report(small_scene(), short_options()).studies.front();
-    for (const ReportRun& run : study.runs) {
-        bool beaten = false;
+    for (const ReportRun& run : study.runs)
         for (const ReportRun& other : study.runs)
-            beaten = beaten || (other.median < run.median && other.error.rmse < run.error.rmse);
-        if (beaten)
-            CHECK_FALSE(run.pareto);
-    }
+            if (surely_faster(other, run) && other.error.rmse <= run.error.rmse)
+                CHECK(run.pareto == Pareto::beaten);
     CHECK(std::any_of(study.runs.begin(), study.runs.end(),
-                      [](const ReportRun& run) { return run.pareto; }));
+                      [](const ReportRun& run) { return run.pareto != Pareto::beaten; }));
+}
+
+TEST_CASE("labels of a plot lie neither on each other nor on points", "[report]")
+{
+    const PixelBox area{80, 40, 700, 500};
+    std::mt19937 random(5);
+    // All along a line, as runs of one error are; then in a heap.
+    for (const double height : {1.0, 60.0}) {
+        std::vector<LabelledPoint> points;
+        for (int i = 0; i < 26; ++i)
+            points.push_back({100.0 + 0.6 * static_cast<double>(random() % 1000),
+                              250.0 + 0.001 * height * static_cast<double>(random() % 1000),
+                              "avx512 robust x1"});
+        const std::vector<PixelBox> places = place_labels(points, area, 6.4, 14.0);
+        REQUIRE(places.size() == points.size());
+        for (std::size_t i = 0; i < places.size(); ++i) {
+            CHECK(places[i].left >= area.left);
+            CHECK(places[i].right <= area.right);
+            CHECK(places[i].top >= area.top);
+            CHECK(places[i].bottom <= area.bottom);
+            for (std::size_t k = 0; k < places.size(); ++k) {
+                CHECK((i == k || !overlap(places[i], places[k])));
+                const PixelBox dot{points[k].x - 3, points[k].y - 3, points[k].x + 3,
+                                   points[k].y + 3};
+                CHECK_FALSE(overlap(places[i], dot));
+            }
+        }
+    }
+    // Off a bar of its own or of another.
+    const std::vector<PixelBox> barred =
+        place_labels({{200, 200, "x1", 150, 400}, {300, 210, "x2"}}, area, 6.4, 14.0);
+    for (const PixelBox& place : barred)
+        CHECK_FALSE(overlap(place, {150, 198, 400, 202}));
+    // Alone, a label stands beside its point.
+    const PixelBox alone = place_labels({{200, 200, "x1"}}, area, 6.4, 14.0).front();
+    CHECK(alone.left > 200);
+    CHECK(alone.left < 212);
+    CHECK(alone.top == 193);
+}
+
+TEST_CASE("axes hold all values between tics that can be read", "[report]")
+{
+    const PlotAxis times = fine_axis({0.27, 0.41});
+    CHECK(times.low < 0.27);
+    CHECK(times.high > 0.41);
+    CHECK(times.tics.size() >= 1);
+    CHECK(fine_axis({5.0}).low < 5.0);
+    CHECK(fine_axis({5.0}).high > 5.0);
+    CHECK(fine_axis({0.01, 1e4}).tics.size() <= 10);
+    const PlotAxis errors = decade_axis({0.0, 3e-7, 0.02});
+    CHECK(errors.tics.front().name == "0");
+    CHECK(errors.low < 1e-7);
+    CHECK(errors.high >= 0.02);
+    CHECK(decade_axis({0.0}).tics.size() >= 2);
+    CHECK(decade_axis({1e-300, 1.0}).tics.size() <= 10);
+    PlotAxis pixels = errors;
+    pixels.first_pixel = 500;
+    pixels.last_pixel = 100;
+    CHECK(pixels.pixel(pixels.high) == Approx(100));
+    CHECK(pixels.value(pixels.pixel(1e-3)) == Approx(1e-3));
+    CHECK(pixels.pixel(0.0) == Approx(500));
+}
+
+TEST_CASE("menus name pictures as a reader would", "[report]")
+{
+    StudyReport study;
+    study.pictures = {{"truth", "truth", Image<double>(1, 1)},
+                      {"a_1_thread", "a, 1 thread", Image<double>(1, 1)},
+                      {"b", "b", Image<double>(1, 1)}};
+    for (const auto& [name, picture] :
+         {std::pair("a, 1 thread", 1), std::pair("a, 2 threads", 1), std::pair("b", 2)}) {
+        study.runs.push_back(run_of(name, 1.0, 0.0));
+        study.runs.back().picture = static_cast<std::size_t>(picture);
+    }
+    CHECK(picture_label(study, 0) == "truth");
+    CHECK(picture_label(study, 1) == "a, 1 thread and 1 alike");
+    CHECK(picture_label(study, 2) == "b");
+    study.runs.back().picture = 0;
+    CHECK(picture_label(study, 0) == "truth, as 1 run has it");
+}
+
+TEST_CASE("a heat map has a legend with the errors its colours stand for", "[report]")
+{
+    StudyReport study;
+    study.pictures = {{"truth", "truth", Image<double>(64, 8)}, {"a", "a", Image<double>(64, 8)}};
+    study.pictures[1].image.rgb[5] = 0.25;
+    CHECK(largest_error(study, 1) == 0.25);
+    const Image<float> plain = error_map(study, 1);
+    const Image<float> whole = error_map_with_legend(study, 1);
+    CHECK(plain.height == 8);
+    CHECK(whole.width == 64);
+    REQUIRE(whole.height > 16);
+    CHECK(std::equal(plain.rgb.begin(), plain.rgb.end(), whole.rgb.begin()));
+    // The bar begins black and ends white; digits are below it.
+    CHECK(whole.pixel(0, 12)[0] == 0.0f);
+    CHECK(whole.pixel(63, 12)[1] == 1.0f);
+    int lit = 0;
+    for (int y = whole.height - 8; y < whole.height; ++y)
+        for (int x = 0; x < 64; ++x)
+            lit += whole.pixel(x, y)[0] == 1.0f;
+    CHECK(lit > 30);
 }
 
 TEST_CASE("a truth is kept, found again, and made anew when it is not whole or not true",
@@ -301,6 +467,8 @@ TEST_CASE("the JSON says what was run, how, and what came of it", "[report]")
             CHECK(run["median_s"] > 0.0);
             CHECK(run["seconds"].size() == 2);
             CHECK(run["error"]["pixels"] == 48 * 40);
+            const std::string pareto = run["pareto"];
+            CHECK((pareto == "yes" || pareto == "no" || pareto == "undecided"));
             CHECK(run["isa"].is_null() == (run["kernel"] == "scalar"));
             CHECK(run["accuracy"].is_null() ==
                   (run["kernel"] == "scalar" || run["precision"] == "double"));
@@ -326,7 +494,7 @@ TEST_CASE("a report's files are all that it names, and its page needs no other",
     for (const auto& study : json["scenes"][0]["studies"]) {
         const std::string plot = read_text(folder / "out" / study["plot"].get<std::string>());
         CHECK_THAT(plot, ContainsSubstring("<svg"));
-        CHECK_THAT(plot, ContainsSubstring("Pareto front"));
+        CHECK_THAT(plot, ContainsSubstring("Pareto front of medians"));
         for (const auto& run : study["runs"])
             CHECK(std::filesystem::exists(folder / "out" / run["picture"].get<std::string>()));
     }

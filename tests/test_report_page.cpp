@@ -46,11 +46,25 @@ addEventListener('load', async () => {
     seen.after = getComputedStyle(right).clipPath;
     const choices = slider.querySelectorAll('select');
     seen.choices = choices[0].options.length;
+    seen.names = [...choices[0].options].map(option => option.textContent);
+    const scales = [...slider.querySelectorAll('.scale')];
+    seen.scales = scales.map(scale => getComputedStyle(scale).display !== 'none');
+    seen.most = Number(scales[1].querySelector('.most').textContent);
+    seen.narrow = document.documentElement.scrollWidth <= innerWidth;
     const old = left.src;
     choices[0].selectedIndex = choices[0].options.length - 1;
     choices[0].dispatchEvent(new Event('change'));
     await left.decode();
     seen.changed = left.src !== old && left.naturalWidth === 96;
+    seen.scaleOfLeft = getComputedStyle(scales[0]).display !== 'none';
+    const labels = [...document.querySelectorAll('.plot svg')].flatMap(svg => {
+        const texts = [...svg.querySelectorAll('g[id^=gnuplot_plot_] text')]
+            .map(text => text.getBoundingClientRect()).filter(box => box.width > 0);
+        return texts.flatMap((a, i) => texts.slice(i + 1).filter(b =>
+            a.left < b.right - 1 && b.left < a.right - 1 &&
+            a.top < b.bottom - 3 && b.top < a.bottom - 3));
+    });
+    seen.labelsOnLabels = labels.length;
     const plots = [...document.querySelectorAll('.plot')];
     seen.plots = plots.length;
     seen.drawn = plots.every(plot =>
@@ -90,6 +104,30 @@ TEST_CASE("the page escapes what names contain", "[report_page]")
     CHECK(page.find("<spheres>,") == std::string::npos);
 }
 
+TEST_CASE("the page says what the other files of a report say", "[report_page]")
+{
+    const TempFolder folder;
+    const std::string page = read_text(write_page(folder));
+    for (const char* part : {"<meta name=\"viewport\"", "<th>Mrays/s</th>", "<th>PSNR, dB</th>",
+                             "<optgroup label=\"arithmetic: heat maps of errors\">",
+                             ">error of scalar single, 1 thread", "<details><summary>How to read"})
+        CHECK_THAT(page, ContainsSubstring(part));
+}
+
+TEST_CASE("the page shows its pictures without a script", "[report_page]")
+{
+    const TempFolder folder;
+    const std::string page = read_text(write_page(folder));
+    std::size_t pictures = 0;
+    for (std::size_t at = page.find("<img "); at != std::string::npos;
+         at = page.find("<img ", at + 1), ++pictures) {
+        const std::string element = page.substr(at, page.find('>', at) - at);
+        CHECK_THAT(element, ContainsSubstring("src=\"data:image/png;base64,"));
+        CHECK_THAT(element, ContainsSubstring("alt=\""));
+    }
+    CHECK(pictures == 2);
+}
+
 TEST_CASE("the page opens in a browser without an error, and its slider and plots work",
           "[report_page][slow]")
 {
@@ -119,6 +157,15 @@ TEST_CASE("the page opens in a browser without an error, and its slider and plot
     CHECK(seen["after"] == "inset(0px 0px 0px 80%)");
     CHECK(seen["choices"] >= 8);
     CHECK(seen["changed"] == true);
+    CHECK(seen["names"][0] == "truth");
+    for (const auto& entry : seen["names"])
+        CHECK(entry.get<std::string>().find(".png") == std::string::npos);
+    // A heat map on the right alone at first; then on the left as well.
+    CHECK(seen["scales"] == nlohmann::json{false, true});
+    CHECK(seen["scaleOfLeft"] == true);
+    CHECK(seen["most"] > 0.0);
+    CHECK(seen["narrow"] == true);
+    CHECK(seen["labelsOnLabels"] == 0);
     CHECK(seen["plots"] == 3);
     CHECK(seen["drawn"] == true);
     CHECK(seen["marks"] >= 1);

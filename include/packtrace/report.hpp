@@ -77,6 +77,14 @@ struct ErrorShare {
     double squared_error = 0.0;  ///< their part of the squared error of those looked at, in [0, 1]
 };
 
+/// How a run stands among those of its study. Times are told apart only where the middle halves of
+/// their repetitions do not overlap.
+enum class Pareto {
+    beaten,     ///< another run is as exact, and faster
+    undecided,  ///< another run is as exact, and perhaps as fast
+    on_front    ///< every run that is as exact is slower
+};
+
 /// What came of a variant.
 struct ReportRun {
     Variant variant;
@@ -89,12 +97,13 @@ struct ReportRun {
     /// Whether these are among those that are off, rather than the worst of a picture without.
     bool looked_at_off = true;
     std::vector<ErrorShare> shares;  ///< largest first, none that are empty
-    bool pareto = false;             ///< no run of the study is both faster and more exact
-    std::size_t picture = 0;         ///< index in StudyReport::pictures
+    Pareto pareto = Pareto::beaten;
+    std::size_t picture = 0;  ///< index in StudyReport::pictures
 };
 
 struct ReportPicture {
-    std::string name;  ///< of the first variant that gave it, as a file's name
+    std::string name;   ///< of the first variant that gave it, as a file's name
+    std::string label;  ///< that variant's own name; "truth"
     Image<double> image;
 };
 
@@ -122,10 +131,18 @@ struct SceneReport {
 /// Renders a scene in all these ways. Throws what render() does.
 [[nodiscard]] SceneReport report(const ReportScene& scene, const ReportOptions& options = {});
 
-/// The fastest of the runs with an RMSE of at most `error`; null when there is none.
-[[nodiscard]] const ReportRun* cheapest_within(const StudyReport& study, double error);
+/// A run to take, and others that may be the one instead: the spreads of their times don't tell.
+struct RunChoice {
+    const ReportRun* run = nullptr;  ///< null when there is none
+    std::vector<const ReportRun*> undecided;
+};
 
-/// The run of least RMSE that takes at most `seconds`; null when there is none.
-[[nodiscard]] const ReportRun* most_exact_within(const StudyReport& study, double seconds);
+/// The fastest of the runs with an RMSE of at most `error`; undecided are those among them that
+/// may be as fast.
+[[nodiscard]] RunChoice cheapest_within(const StudyReport& study, double error);
+
+/// The run of least RMSE whose times stay within `seconds`; undecided are more exact ones whose
+/// times lie on both sides of it.
+[[nodiscard]] RunChoice most_exact_within(const StudyReport& study, double seconds);
 
 }  // namespace packtrace

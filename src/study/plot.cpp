@@ -1,12 +1,26 @@
 #include "study/plot.hpp"
 
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
 #include <cstdio>
 #include <sstream>
 
 #include "core/run_filter.hpp"
+#include "study/label_places.hpp"
+#include "study/plot_axis.hpp"
 
 namespace packtrace {
 namespace {
+
+// Pixels of the picture, and of what is inside the axes.
+constexpr double width = 900.0;
+constexpr double height = 560.0;
+constexpr PixelBox inside{78.0, 46.0, 690.0, 494.0};
+// Of the labels' letters.
+constexpr double letter_width = 6.4;
+constexpr double line_height = 14.0;
 
 // As a string of gnuplot's between single quotes.
 std::string quoted(const std::string& text)
@@ -17,39 +31,149 @@ std::string quoted(const std::string& text)
     return result + "'";
 }
 
-void write_data(std::ostream& to, const Plot& plot)
+std::string number(double value)
 {
-    char numbers[64];
-    for (std::size_t i = 0; i < plot.series.size(); ++i) {
-        to << "$series" << i << " << END_OF_SERIES\n";
-        for (const PlotPoint& point : plot.series[i].points) {
-            std::snprintf(numbers, sizeof numbers, "%.9g %.9g ", point.x, point.y);
-            to << numbers << '"' << point.label << "\"\n";
+    char text[32];
+    std::snprintf(text, sizeof text, "%.9g", value);
+    return text;
+}
+
+// Colours that the colour-blind tell apart, too.
+const char* color_of(std::size_t series)
+{
+    static constexpr std::array<const char*, 6> colors{"#888888", "#009e73", "#d55e00",
+                                                       "#0072b2", "#000000", "#a03080"};
+    return colors[series % colors.size()];
+}
+
+struct Axes {
+    PlotAxis x;
+    PlotAxis y;
+};
+
+Axes axes_of(const Plot& plot)
+{
+    std::vector<double> x;
+    std::vector<double> y;
+    for (const PlotSeries& series : plot.series)
+        for (const PlotPoint& point : series.points) {
+            x.push_back(point.x);
+            y.push_back(point.y);
+            if (!series.line) {
+                x.push_back(point.low);
+                x.push_back(point.high);
+            }
         }
-        to << "END_OF_SERIES\n";
+    Axes axes{fine_axis(x), decade_axis(y)};
+    axes.x.first_pixel = inside.left;
+    axes.x.last_pixel = inside.right;
+    axes.y.first_pixel = inside.bottom;
+    axes.y.last_pixel = inside.top;
+    return axes;
+}
+
+// Of all series together, in their order; those of lines have none.
+std::vector<PixelBox> label_places(const Plot& plot, const Axes& axes)
+{
+    std::vector<LabelledPoint> points;
+    for (const PlotSeries& series : plot.series)
+        if (!series.line)
+            for (const PlotPoint& point : series.points)
+                points.push_back({axes.x.pixel(point.x), axes.y.pixel(point.y), point.label,
+                                  axes.x.pixel(point.low), axes.x.pixel(point.high)});
+    return place_labels(points, inside, letter_width, line_height);
+}
+
+void write_block(std::ostream& to, const std::string& name, const std::string& rows)
+{
+    to << '$' << name << " << END_OF_ROWS\n" << rows << "END_OF_ROWS\n";
+}
+
+// A point's row, or that of its place on the axes.
+std::string row_of(double x, double y, const std::string& more = "")
+{
+    return number(x) + " " + number(y) + more + "\n";
+}
+
+// The points of each series, and lines from them to their labels.
+void write_data(std::ostream& to, const Plot& plot, const Axes& axes)
+{
+    const std::vector<PixelBox> places = label_places(plot, axes);
+    std::size_t next = 0;
+    for (std::size_t i = 0; i < plot.series.size(); ++i) {
+        std::string points, leaders, labels;
+        for (const PlotPoint& point : plot.series[i].points) {
+            const double y = std::max(point.y, axes.y.low);
+            points += row_of(point.x, y, " " + number(point.low) + " " + number(point.high));
+            if (plot.series[i].line)
+                continue;
+            const PixelBox& box = places[next++];
+            const double middle = axes.y.value((box.top + box.bottom) / 2);
+            const bool is_left = box.right < axes.x.pixel(point.x);
+            // One line off, its place tells whose a label is.
+            const bool is_beside = std::abs((box.top + box.bottom) / 2 - axes.y.pixel(point.y)) < 1;
+            const double end = is_left ? box.right : box.left;
+            leaders += row_of(point.x, y) +
+                       (is_beside ? row_of(point.x, y) : row_of(axes.x.value(end), middle)) + "\n";
+            labels += row_of(axes.x.value(box.left), middle, " \"" + point.label + "\"");
+        }
+        const std::string number_text = std::to_string(i);
+        write_block(to, "points" + number_text, points);
+        if (!plot.series[i].line) {
+            write_block(to, "leaders" + number_text, leaders);
+            write_block(to, "labels" + number_text, labels);
+        }
     }
+}
+
+std::string tics_text(const PlotAxis& axis)
+{
+    std::string text = "(";
+    for (const PlotAxis::Tic& tic : axis.tics)
+        text += (text.size() > 1 ? ", " : "") + quoted(tic.name) + " " + number(tic.value);
+    return text + ")";
+}
+
+void write_frame(std::ostream& to, const Plot& plot, const Axes& axes)
+{
+    to << "set terminal svg size " << width << ',' << height
+       << " dynamic noenhanced font 'sans-serif,13' background '#ffffff'\n"
+          "set encoding utf8\nset logscale xy\nset grid lc rgb '#dddddd' lt 1\n"
+          "set key at screen 0.785,0.92 left top Left reverse samplen 2\n"
+       << "set lmargin at screen " << inside.left / width << "\nset rmargin at screen "
+       << inside.right / width << "\nset tmargin at screen " << 1.0 - inside.top / height
+       << "\nset bmargin at screen " << 1.0 - inside.bottom / height << "\nset xrange ["
+       << number(axes.x.low) << ':' << number(axes.x.high) << "]\nset yrange ["
+       << number(axes.y.low) << ':' << number(axes.y.high) << "]\nset xtics " << tics_text(axes.x)
+       << "\nset ytics " << tics_text(axes.y) << "\nset title " << quoted(plot.title)
+       << "\nset xlabel " << quoted(plot.x_title) << "\nset ylabel " << quoted(plot.y_title)
+       << " offset 1,0\n";
+}
+
+void write_series(std::ostream& to, const PlotSeries& series, std::size_t index)
+{
+    const std::string color = std::string(" lc rgb '") + color_of(index) + "'";
+    if (series.line) {
+        to << "$points" << index << " using 1:2 with lines lw 2" << color << " title "
+           << quoted(series.name);
+        return;
+    }
+    to << "$points" << index << " using 1:2:3:4 with xerrorbars pt 7 ps 0.8" << color << " title "
+       << quoted(series.name) << ", $leaders" << index
+       << " using 1:2 with lines lw 0.7 lc rgb '#999999' notitle, $labels" << index
+       << " using 1:2:3 with labels left font ',11' textcolor rgb '" << color_of(index)
+       << "' notitle";
 }
 
 std::string script_of(const Plot& plot)
 {
+    const Axes axes = axes_of(plot);
     std::ostringstream script;
-    script << "set terminal svg size 860,560 dynamic noenhanced font 'sans-serif,12' "
-              "background '#ffffff'\n"
-              "set encoding utf8\nset logscale xy\nset grid\nset key outside right top\n"
-              "set format y '%.0e'\nset format x '%g'\nset offsets graph 0.05, graph 0.15, graph "
-              "0.05, graph 0.05\n"
-           << "set title " << quoted(plot.title) << "\nset xlabel " << quoted(plot.x_title)
-           << "\nset ylabel " << quoted(plot.y_title) << '\n';
-    write_data(script, plot);
-    script << "plot ";
+    write_frame(script, plot, axes);
+    write_data(script, plot, axes);
     for (std::size_t i = 0; i < plot.series.size(); ++i) {
-        const PlotSeries& series = plot.series[i];
-        script << (i > 0 ? ", " : "") << "$series" << i << " using 1:2 with "
-               << (series.line ? "lines lw 2 lc rgb '#888888'" : "points ps 1 pt 7") << " title "
-               << quoted(series.name);
-        if (!series.line)
-            script << ", $series" << i
-                   << " using 1:2:3 with labels left offset 0.6,0.4 font ',8' notitle";
+        script << (i == 0 ? "plot " : ", ");
+        write_series(script, plot.series[i], i);
     }
     script << '\n';
     return script.str();

@@ -13,14 +13,16 @@ struct PlotError : std::runtime_error {
 
 struct PlotPoint {
     double x = 0.0;  ///< > 0
-    double y = 0.0;  ///< > 0
+    double y = 0.0;  ///< >= 0; zeros lie on a line of their own below the others
     std::string label;
+    double low = 0.0;  ///< a bar from here to `high`, of which `x` is the middle
+    double high = 0.0;
 };
 
 struct PlotSeries {
     std::string name;
     std::vector<PlotPoint> points;
-    bool line = false;  ///< through its points
+    bool line = false;  ///< through its points, which have neither labels nor bars then
 };
 
 struct Plot {
@@ -30,8 +32,16 @@ struct Plot {
     std::vector<PlotSeries> series;
 };
 
-/// A double-logarithmic plot as SVG, drawn by gnuplot. Throws PlotError.
+/// A double-logarithmic plot as SVG, drawn by gnuplot, whose labels do not lie on each other.
+/// gnuplot numbers what it draws as groups gnuplot_plot_1 …: one for a line; for other series its
+/// points, the lines to their labels, and the labels. Throws PlotError.
 [[nodiscard]] std::string draw_svg(const Plot& plot);
+
+/// How many of these groups a series takes.
+[[nodiscard]] inline int groups_of(const PlotSeries& series)
+{
+    return series.line ? 1 : 3;
+}
 
 /// Throws the PlotError that draw_svg would throw for want of gnuplot.
 void check_plots();

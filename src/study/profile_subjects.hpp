@@ -12,9 +12,9 @@ namespace packtrace {
 struct ProfileRun {
     std::string name;
     std::function<FrameCounts()> render;
-    bool does_more = false;       ///< than the frame
-    FrameCounts rays;             ///< of the last frame
-    std::vector<double> seconds;  ///< by repetition
+    bool does_more = false;            ///< than the frame
+    FrameCounts rays = {};             ///< of the last frame
+    std::vector<double> seconds = {};  ///< by repetition
 };
 
 /// What of two runs in turns one takes more than the other, of which it does a part.

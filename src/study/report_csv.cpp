@@ -32,7 +32,7 @@ void write_row(std::ostream& to, const SceneReport& scene, const StudyReport& st
        << variant.samples << ',' << (variant.adaptive ? exact(*variant.adaptive) : "") << ','
        << exact(run.median) << ',' << exact(run.spread) << ',' << run.rays << ','
        << exact(run.error.rmse) << ',' << exact(run.error.max_abs) << ',' << exact(run.error.psnr)
-       << ',' << run.error.pixels << ',' << run.error.pixels_off << ',' << (run.pareto ? 1 : 0)
+       << ',' << run.error.pixels << ',' << run.error.pixels_off << ',' << name_of(run.pareto)
        << ',' << csv_text(shares_text(run)) << '\n';
 }
 

@@ -49,14 +49,18 @@ Json run_json(const SceneReport& scene, const StudyReport& study, const ReportRu
             {"spread", run.spread},
             {"seconds", run.seconds},
             {"rays", packet ? Json(run.rays) : Json()},
-            {"pareto", run.pareto},
+            {"pareto", name_of(run.pareto)},
             {"error", error_json(run)},
             {"picture", picture_file(scene, study, run.picture)}};
 }
 
-Json name_or_null(const ReportRun* run)
+Json choice_json(const RunChoice& choice)
 {
-    return run != nullptr ? Json(run->variant.name) : Json();
+    Json undecided = Json::array();
+    for (const ReportRun* run : choice.undecided)
+        undecided.push_back(run->variant.name);
+    return {{"run", choice.run != nullptr ? Json(choice.run->variant.name) : Json()},
+            {"undecided", undecided}};
 }
 
 Json study_json(const SceneReport& scene, const StudyReport& study, const ReportOptions& options)
@@ -64,18 +68,17 @@ Json study_json(const SceneReport& scene, const StudyReport& study, const Report
     Json runs = Json::array();
     for (const ReportRun& run : study.runs)
         runs.push_back(run_json(scene, study, run));
-    return {
-        {"study", name_of(study.study)},
-        {"truth",
-         {{"what", study.truth},
-          {"seconds", study.truth_seconds},
-          {"cached", study.truth_cached},
-          {"picture", picture_file(scene, study, 0)}}},
-        {"plot", plot_file(scene, study)},
-        {"cheapest_within_max_error", name_or_null(cheapest_within(study, options.max_error))},
-        {"most_exact_within_max_time", name_or_null(most_exact_within(study, options.max_time))},
-        {"judgement", judgement(study, options)},
-        {"runs", runs}};
+    return {{"study", name_of(study.study)},
+            {"truth",
+             {{"what", study.truth},
+              {"seconds", study.truth_seconds},
+              {"cached", study.truth_cached},
+              {"picture", picture_file(scene, study, 0)}}},
+            {"plot", plot_file(scene, study)},
+            {"cheapest_within_max_error", choice_json(cheapest_within(study, options.max_error))},
+            {"most_exact_within_max_time", choice_json(most_exact_within(study, options.max_time))},
+            {"judgement", judgement(study, options)},
+            {"runs", runs}};
 }
 
 }  // namespace

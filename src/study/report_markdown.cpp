@@ -19,25 +19,33 @@ void write_conditions(std::ostream& to, const ReportOptions& options,
           "middle half over the median. The scene is made ready before. Errors are of linear "
           "values, 1 for full; a pixel is off when a channel differs by more than "
        << brief(options.threshold)
-       << ". **Bold** runs lie on the Pareto front: none is both faster "
-          "and more exact. *Where* tells, by comparing ray trees with the reference's, why pixels "
-          "are off, or in brackets, where none is, why the worst ones differ.\n";
+       << ". **Bold** runs lie on the Pareto front: every run that is as exact is slower. "
+          "*Slanted* "
+          "ones perhaps do: another run is as exact, and the spreads of their times overlap. "
+          "*Where* tells, by comparing ray trees with the reference's, why pixels are off, or in "
+          "brackets, where none is, why the worst ones differ.\n";
 }
 
-std::string where(const ReportRun& run)
+const char* mark_of(Pareto standing)
 {
-    const std::string text = shares_text(run);
-    return run.looked_at_off || text.empty() ? text : "(" + text + ")";
+    switch (standing) {
+        case Pareto::on_front:
+            return "**";
+        case Pareto::undecided:
+            return "*";
+        case Pareto::beaten:
+            break;
+    }
+    return "";
 }
 
 void write_run(std::ostream& to, const ReportRun& run)
 {
-    const std::string mark = run.pareto ? "**" : "";
+    const std::string mark = mark_of(run.pareto);
     to << "| " << mark << run.variant.name << mark << " | " << brief(1e3 * run.median) << " | "
-       << brief(100.0 * run.spread, 2) << " % | "
-       << (run.rays > 0 ? brief(1e-6 * static_cast<double>(run.rays) / run.median) : "") << " | "
-       << brief(run.error.rmse) << " | " << brief(run.error.max_abs) << " | "
-       << brief(run.error.psnr) << " | " << run.error.pixels_off << " | " << where(run) << " |\n";
+       << spread_text(run) << " | " << mrays_text(run) << " | " << brief(run.error.rmse) << " | "
+       << brief(run.error.max_abs) << " | " << brief(run.error.psnr) << " | "
+       << run.error.pixels_off << " | " << where_text(run) << " |\n";
 }
 
 void write_study(std::ostream& to, const SceneReport& scene, const StudyReport& study,
@@ -58,17 +66,7 @@ void write_study(std::ostream& to, const SceneReport& scene, const StudyReport& 
 
 void write_classes(std::ostream& to, const std::vector<SceneReport>& scenes)
 {
-    std::vector<ErrorShare> seen;
-    for (const SceneReport& scene : scenes)
-        for (const StudyReport& study : scene.studies)
-            for (const ReportRun& run : study.runs)
-                for (const ErrorShare& share : run.shares) {
-                    bool known = false;
-                    for (const ErrorShare& other : seen)
-                        known = known || other.kind == share.kind;
-                    if (!known)
-                        seen.push_back(share);
-                }
+    const std::vector<ErrorShare> seen = classes_of(scenes);
     if (seen.empty())
         return;
     to << "\n## Classes of error\n\n";

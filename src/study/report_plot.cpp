@@ -1,14 +1,13 @@
 #include <algorithm>
+#include <utility>
 
 #include "study/accuracy_name.hpp"
 #include "study/plot.hpp"
+#include "study/report_choice.hpp"
 #include "study/report_text.hpp"
 
 namespace packtrace {
 namespace {
-
-// A logarithmic axis has no zero: exact pictures lie on this line.
-constexpr double least_error = 1e-17;
 
 std::string series_name(const Variant& variant)
 {
@@ -25,29 +24,37 @@ std::string point_label(const Variant& variant)
         return variant.name;
     const std::string isa = variant.kernel == Kernel::scalar ? "" : variant.isa + " ";
     const bool usual = variant.accuracy == Accuracy::exact;
-    return isa + (usual ? "" : std::string(name_of(variant.accuracy)) + " ") + "x" +
+    return isa + (usual ? "" : std::string(name_of(variant.accuracy)) + " ") +
+           (variant.general ? "general " : "") +
+           (variant.self_hits == default_self_hits ? "" : "from 0.001 ") + "x" +
            std::to_string(variant.threads);
 }
 
 PlotPoint point_of(const ReportRun& run, const std::string& label)
 {
-    return {1e3 * run.median, std::max(run.error.rmse, least_error), label};
+    const Interval times = middle_times(run);
+    return {1e3 * run.median, run.error.rmse, label, 1e3 * times.low, 1e3 * times.high};
 }
 
-PlotSeries pareto_front(const StudyReport& study)
+// Each run that is more exact than all that are faster by their medians.
+PlotSeries front_of_medians(const StudyReport& study)
 {
-    PlotSeries front{"Pareto front", {}, true};
+    PlotSeries front{"Pareto front of medians", {}, true};
+    std::vector<const ReportRun*> runs;
     for (const ReportRun& run : study.runs)
-        if (run.pareto)
-            front.points.push_back(point_of(run, ""));
-    std::sort(front.points.begin(), front.points.end(),
-              [](const PlotPoint& a, const PlotPoint& b) { return a.x < b.x; });
+        runs.push_back(&run);
+    std::sort(runs.begin(), runs.end(), [](const ReportRun* a, const ReportRun* b) {
+        return std::pair(a->median, a->error.rmse) < std::pair(b->median, b->error.rmse);
+    });
+    for (const ReportRun* run : runs)
+        if (front.points.empty() || run->error.rmse < front.points.back().y)
+            front.points.push_back(point_of(*run, ""));
     return front;
 }
 
 std::vector<PlotSeries> series_of(const StudyReport& study)
 {
-    std::vector<PlotSeries> all{pareto_front(study)};
+    std::vector<PlotSeries> all{front_of_medians(study)};
     for (const ReportRun& run : study.runs) {
         const std::string name = series_name(run.variant);
         const auto found = std::find_if(all.begin(), all.end(),
@@ -65,21 +72,20 @@ std::string report_plot(const SceneReport& scene, const StudyReport& study)
 {
     Plot plot;
     plot.title = scene.name + ": " + name_of(study.study);
-    plot.x_title = "median time of a frame, ms";
+    plot.x_title = "median time of a frame, ms; bars: its middle half";
     plot.y_title = "RMSE against the truth";
     plot.series = series_of(study);
     return draw_svg(plot);
 }
 
-// gnuplot numbers what it draws: the front, then each series' points and labels.
 std::vector<PlotGroup> plot_groups(const StudyReport& study)
 {
     std::vector<PlotGroup> groups;
     int number = 0;
     for (const PlotSeries& series : series_of(study)) {
-        std::string ids = "gnuplot_plot_" + std::to_string(++number);
-        if (!series.line)
-            ids += " gnuplot_plot_" + std::to_string(++number);
+        std::string ids;
+        for (int i = 0; i < groups_of(series); ++i)
+            ids += (i > 0 ? " " : "") + ("gnuplot_plot_" + std::to_string(++number));
         groups.push_back({series.name, ids});
     }
     return groups;

@@ -5,6 +5,7 @@
 
 #include "scene/sample_pattern.hpp"
 #include "study/error_shares.hpp"
+#include "study/report_choice.hpp"
 #include "study/statistics.hpp"
 
 namespace packtrace {
@@ -93,7 +94,7 @@ std::size_t keep_picture(StudyReport& report, const std::string& name, Image<dou
     for (std::size_t i = 0; i < report.pictures.size(); ++i)
         if (report.pictures[i].image.rgb == image.rgb)
             return i;
-    report.pictures.push_back({file_name_of(name), std::move(image)});
+    report.pictures.push_back({file_name_of(name), name, std::move(image)});
     return report.pictures.size() - 1;
 }
 
@@ -126,15 +127,6 @@ void measure_error(StudyReport& report, ReportRun& run, const Subject& subject,
         find_shares(run, truth, picture, options, classifier.for_tree(subject.tree));
 }
 
-void mark_pareto(std::vector<ReportRun>& runs)
-{
-    for (ReportRun& run : runs)
-        run.pareto = std::none_of(runs.begin(), runs.end(), [&](const ReportRun& other) {
-            return other.median <= run.median && other.error.rmse <= run.error.rmse &&
-                   (other.median < run.median || other.error.rmse < run.error.rmse);
-        });
-}
-
 }  // namespace
 
 StudyReport run_study(const Scene& scene, Study study, const Truth& truth,
@@ -145,7 +137,7 @@ StudyReport run_study(const Scene& scene, Study study, const Truth& truth,
     report.truth = truth.what;
     report.truth_seconds = truth.seconds;
     report.truth_cached = truth.cached;
-    report.pictures.push_back({"truth", truth.image});
+    report.pictures.push_back({"truth", "truth", truth.image});
 
     // A first frame pays for the memory that later ones reuse, and gives the picture.
     std::vector<ReportRun> runs(subjects.size());
@@ -163,24 +155,6 @@ StudyReport run_study(const Scene& scene, Study study, const Truth& truth,
     take_times(subjects, options, report.runs);
     mark_pareto(report.runs);
     return report;
-}
-
-const ReportRun* cheapest_within(const StudyReport& study, double error)
-{
-    const ReportRun* best = nullptr;
-    for (const ReportRun& run : study.runs)
-        if (run.error.rmse <= error && (best == nullptr || run.median < best->median))
-            best = &run;
-    return best;
-}
-
-const ReportRun* most_exact_within(const StudyReport& study, double seconds)
-{
-    const ReportRun* best = nullptr;
-    for (const ReportRun& run : study.runs)
-        if (run.median <= seconds && (best == nullptr || run.error.rmse < best->error.rmse))
-            best = &run;
-    return best;
 }
 
 }  // namespace packtrace

@@ -10,6 +10,9 @@ namespace packtrace {
 /// "arithmetic", "depth", "sampling".
 [[nodiscard]] const char* name_of(Study study);
 
+/// "yes", "no" or "undecided": whether a run lies on the Pareto front.
+[[nodiscard]] const char* name_of(Pareto standing);
+
 /// Names of a scene's files, from the report's folder.
 [[nodiscard]] std::string picture_file(const SceneReport& scene, const StudyReport& study,
                                        std::size_t picture);
@@ -32,6 +35,8 @@ struct PlotGroup {
     std::string ids;  ///< with spaces between
 };
 [[nodiscard]] std::vector<PlotGroup> plot_groups(const StudyReport& study);
+/// All of a report in one page, which needs no other file and, for all but choosing pictures, no
+/// script.
 [[nodiscard]] std::string report_html(const std::vector<SceneReport>& scenes,
                                       const ReportOptions& options,
                                       const ReportConditions& conditions);
@@ -42,6 +47,18 @@ struct PlotGroup {
 
 /// Why a run's pixels are off, in a few words: "silhouette 12, shadow edge 3".
 [[nodiscard]] std::string shares_text(const ReportRun& run);
+
+/// The same in brackets where no pixel is off, and the worst ones were looked at.
+[[nodiscard]] std::string where_text(const ReportRun& run);
+
+/// Million rays a second, to three digits; empty for runs that do not count them.
+[[nodiscard]] std::string mrays_text(const ReportRun& run);
+
+/// The spread in per cent: "3.1 %", "240 %".
+[[nodiscard]] std::string spread_text(const ReportRun& run);
+
+/// What the classes of error in these reports mean, each once.
+[[nodiscard]] std::vector<ErrorShare> classes_of(const std::vector<SceneReport>& scenes);
 
 [[nodiscard]] std::string brief(double value, int digits = 3);
 

@@ -2,10 +2,10 @@
 
 #include <system_error>
 
-#include <packtrace/compare.hpp>
 #include <packtrace/image_io.hpp>
 
 #include "core/atomic_file.hpp"
+#include "study/report_pictures.hpp"
 #include "study/report_text.hpp"
 
 namespace packtrace {
@@ -21,12 +21,11 @@ void write_text(const std::filesystem::path& file, const std::string& text)
 void write_pictures(const SceneReport& scene, const StudyReport& study,
                     const std::filesystem::path& folder)
 {
-    const Image<double>& truth = study.pictures.front().image;
     for (std::size_t i = 0; i < study.pictures.size(); ++i) {
-        const Image<double>& image = study.pictures[i].image;
-        write_image(folder / picture_file(scene, study, i), convert<float>(image));
+        write_image(folder / picture_file(scene, study, i),
+                    convert<float>(study.pictures[i].image));
         if (i > 0)
-            write_image(folder / error_file(scene, study, i), heatmap(image, truth));
+            write_image(folder / error_file(scene, study, i), error_map_with_legend(study, i));
     }
 }
 
