@@ -107,7 +107,7 @@ void measure_alone(const std::vector<ReportScene>& scenes, const BenchArguments&
 }
 
 // The words of a command line that measures the same.
-std::vector<std::string> words_of(const BenchArguments& arguments)
+std::vector<std::string> bench_words(const BenchArguments& arguments)
 {
     std::vector<std::string> words = arguments.scenes;
     words.insert(words.end(), {"--size", *arguments.picture.size});
@@ -123,7 +123,7 @@ void measure_in_pairs(const BenchArguments& arguments, BenchResult& result)
     result.paired = true;
     for (int i = 0; i == 0 || (i <= confirmations && result.has_doubts()); ++i) {
         const BenchPairs more =
-            run_in_pairs(arguments.against, words_of(arguments), arguments.repetitions);
+            run_in_pairs(arguments.against, bench_words(arguments), arguments.repetitions);
         result.figures.now.add(more.now);
         result.figures.before.add(more.before);
     }
@@ -155,7 +155,7 @@ const char* verdict_text(Verdict verdict)
     return "can't tell";
 }
 
-void print_lines(const BenchResult& result)
+void print_bench_lines(const BenchResult& result)
 {
     TextTable table(1, {"run", "ms", "of scalar single", "spread", "baseline", "slowdown",
                         "99 % interval", "slower"});
@@ -180,7 +180,7 @@ void print_lines(const BenchResult& result)
 }
 
 // Names the lines of one verdict, and says whether there are any.
-bool tell(const BenchResult& result, Verdict wanted, const std::string& what)
+bool name_lines(const BenchResult& result, Verdict wanted, const std::string& what)
 {
     bool any = false;
     for (const BenchLine& line : result.figures.now.lines)
@@ -200,10 +200,10 @@ void check_compared(const BenchResult& result, const std::string& baseline)
     throw std::runtime_error(baseline + ": has no line of what was measured; give the same scenes");
 }
 
-void finish(const BenchResult& result)
+void end_with_verdict(const BenchResult& result)
 {
-    const bool slower = tell(result, Verdict::slower, "slower: ");
-    const bool unsure = tell(result, Verdict::cannot_tell, "can't tell: ");
+    const bool slower = name_lines(result, Verdict::slower, "slower: ");
+    const bool unsure = name_lines(result, Verdict::cannot_tell, "can't tell: ");
     if (unsure)
         std::cerr << "more --repetitions or an idler machine would tell\n";
     if (slower || unsure)
@@ -229,7 +229,7 @@ void run_bench_command(const BenchArguments& arguments)
         measure_alone(scenes, arguments, result);
     else
         measure_in_pairs(arguments, result);
-    print_lines(result);
+    print_bench_lines(result);
     if (!arguments.output.empty()) {
         TextOutput output(arguments.output);
         output.write(bench_text(result.figures.now));
@@ -239,7 +239,7 @@ void run_bench_command(const BenchArguments& arguments)
     if (baseline.empty())
         return;
     check_compared(result, baseline);
-    finish(result);
+    end_with_verdict(result);
 }
 
 void add_comparing_options(CLI::App& command, BenchArguments& arguments)

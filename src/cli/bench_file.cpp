@@ -20,7 +20,7 @@ const BenchLine* find_in(const std::vector<BenchLine>& lines, const std::string&
     return found != lines.end() ? &*found : nullptr;
 }
 
-void append(std::vector<double>& to, const std::vector<double>& more)
+void append_values(std::vector<double>& to, const std::vector<double>& more)
 {
     to.insert(to.end(), more.begin(), more.end());
 }
@@ -30,14 +30,14 @@ void add_lines(std::vector<BenchLine>& to, const std::vector<BenchLine>& more)
     for (const BenchLine& line : more)
         if (const BenchLine* known = find_in(to, line.name)) {
             BenchLine& sum = to[static_cast<std::size_t>(known - to.data())];
-            append(sum.ratios, line.ratios);
-            append(sum.seconds, line.seconds);
+            append_values(sum.ratios, line.ratios);
+            append_values(sum.seconds, line.seconds);
         } else {
             to.push_back(line);
         }
 }
 
-Json line_json(const BenchLine& line)
+Json bench_line_json(const BenchLine& line)
 {
     return {{"name", line.name},
             {"ratio", line.ratio()},
@@ -51,7 +51,7 @@ bool is_positive(const Json& value)
     return value.is_number() && value > 0.0;
 }
 
-bool is_line(const Json& line)
+bool is_bench_line(const Json& line)
 {
     return line.is_object() && line.contains("name") && line["name"].is_string() &&
            line.contains("milliseconds") && is_positive(line["milliseconds"]) &&
@@ -63,10 +63,10 @@ bool is_bench(const Json& json)
 {
     return json.is_object() && json.value("packtrace_bench", Json()) == 1 &&
            json.contains("lines") && json["lines"].is_array() &&
-           std::all_of(json["lines"].begin(), json["lines"].end(), is_line);
+           std::all_of(json["lines"].begin(), json["lines"].end(), is_bench_line);
 }
 
-BenchLine line_of(const Json& json)
+BenchLine bench_line_of(const Json& json)
 {
     // Of the times only the median is kept.
     return {json["name"], json["ratios"], {1e-3 * json["milliseconds"].get<double>()}};
@@ -99,7 +99,7 @@ std::string bench_text(const BenchFigures& figures)
                                       {"milliseconds", 1e3 * median_of(reference.seconds)},
                                       {"spread", relative_spread(reference.seconds)}});
     for (const BenchLine& line : figures.lines)
-        json["lines"].push_back(line_json(line));
+        json["lines"].push_back(bench_line_json(line));
     return json.dump(2) + "\n";
 }
 
@@ -110,7 +110,7 @@ BenchFigures read_bench_file(const std::filesystem::path& file)
         throw std::runtime_error(file.string() + ": not a file that packtrace bench -o writes");
     BenchFigures figures;
     for (const Json& line : json["lines"])
-        figures.lines.push_back(line_of(line));
+        figures.lines.push_back(bench_line_of(line));
     // Earlier versions wrote none.
     for (const Json& reference : json.value("references", Json::array()))
         if (reference.is_object() && reference.contains("name") && reference["name"].is_string() &&

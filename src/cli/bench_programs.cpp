@@ -47,7 +47,8 @@ BenchFigures run_once(const std::string& program, const std::vector<std::string>
     const ScratchFolder folder;
     std::vector<std::string> command{program, "bench"};
     command.insert(command.end(), words.begin(), words.end());
-    command.insert(command.end(), {"--repetitions", repetitions_of_a_run, "-o", folder.file().string()});
+    command.insert(command.end(),
+                   {"--repetitions", repetitions_of_a_run, "-o", folder.file().string()});
     const FilterResult result = run_filter(command, "");
     if (!result.started)
         throw std::runtime_error(program + ": can't be run; give a packtrace program");

@@ -16,8 +16,8 @@ constexpr int digit_width = 3;
 constexpr int digit_height = 5;
 
 // Rows of three pixels from the top, a bit each, for the characters below.
-constexpr std::string_view characters = "0123456789.nse+-";
-constexpr std::array<std::array<unsigned char, digit_height>, 16> glyphs{{
+constexpr std::string_view legend_characters = "0123456789.nse+-";
+constexpr std::array<std::array<unsigned char, digit_height>, 16> legend_glyphs{{
     {7, 5, 5, 5, 7},
     {2, 6, 2, 2, 7},
     {7, 1, 7, 4, 7},
@@ -35,7 +35,7 @@ constexpr std::array<std::array<unsigned char, digit_height>, 16> glyphs{{
     {0, 2, 7, 2, 0},
     {0, 0, 7, 0, 0},
 }};
-static_assert(glyphs.size() == characters.size());
+static_assert(legend_glyphs.size() == legend_characters.size());
 
 void set_pixel(Image<float>& image, int x, int y, const std::array<float, 3>& color)
 {
@@ -46,10 +46,12 @@ void set_pixel(Image<float>& image, int x, int y, const std::array<float, 3>& co
 void draw_text(Image<float>& image, int x, int y, const std::string& text)
 {
     for (const char c : text) {
-        const std::size_t number = characters.find(c);
+        const std::size_t number = legend_characters.find(c);
         for (int row = 0; number != std::string_view::npos && row < digit_height; ++row)
             for (int column = 0; column < digit_width; ++column)
-                if (glyphs[number][static_cast<std::size_t>(row)] >> (digit_width - 1 - column) & 1)
+                if (legend_glyphs[number][static_cast<std::size_t>(row)] >>
+                        (digit_width - 1 - column) &
+                    1)
                     set_pixel(image, x + column, y + row, {1, 1, 1});
         x += digit_width + 1;
     }

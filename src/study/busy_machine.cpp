@@ -8,7 +8,7 @@ namespace {
 
 // Of a frame that times may vary by, and of a whole that the sum of its parts may be off by. Idle
 // machines keep to a third of it.
-constexpr double tolerance = 0.1;
+constexpr double busy_tolerance = 0.1;
 
 std::string percent_text(double share)
 {
@@ -17,13 +17,13 @@ std::string percent_text(double share)
     return text;
 }
 
-bool is_off(double part, double whole)
+bool differs_from_whole(double part, double whole)
 {
-    return !(std::abs(part / whole - 1.0) <= tolerance);
+    return !(std::abs(part / whole - 1.0) <= busy_tolerance);
 }
 
 template <class Stage>
-double sum_of(const std::vector<Stage>& stages)
+double sum_of_stages(const std::vector<Stage>& stages)
 {
     double sum = 0.0;
     for (const Stage& stage : stages)
@@ -31,7 +31,7 @@ double sum_of(const std::vector<Stage>& stages)
     return sum;
 }
 
-void add_name(std::string& names, const std::string& name)
+void append_name(std::string& names, const std::string& name)
 {
     names += (names.empty() ? "" : ", ") + name;
 }
@@ -41,11 +41,11 @@ std::string doubtful_rows(const Profile& profile)
 {
     std::string names;
     for (const ProfileGeneration& generation : profile.generations)
-        if (generation.spread > tolerance * profile.frame)
-            add_name(names, "depth " + std::to_string(generation.depth));
+        if (generation.spread > busy_tolerance * profile.frame)
+            append_name(names, "depth " + std::to_string(generation.depth));
     for (const ProfileWhatIf& row : profile.what_if)
-        if (row.spread > tolerance * profile.frame)
-            add_name(names, row.name);
+        if (row.spread > busy_tolerance * profile.frame)
+            append_name(names, row.name);
     return names;
 }
 
@@ -54,21 +54,21 @@ std::string doubtful_rows(const Profile& profile)
 std::vector<std::string> busy_lines(const Profile& profile)
 {
     std::vector<std::string> lines;
-    if (!(profile.frame_spread <= tolerance))
+    if (!(profile.frame_spread <= busy_tolerance))
         lines.push_back("the frame: its times vary by " + percent_text(profile.frame_spread) +
                         " of their median");
     if (const std::string rows = doubtful_rows(profile); !rows.empty())
         lines.push_back("what these rows differ by: " + rows +
-                        "; from turn to turn that varies by more than " + percent_text(tolerance) +
-                        " of a frame");
-    if (const double sum = sum_of(profile.stages); is_off(sum, profile.whole))
+                        "; from turn to turn that varies by more than " +
+                        percent_text(busy_tolerance) + " of a frame");
+    if (const double sum = sum_of_stages(profile.stages); differs_from_whole(sum, profile.whole))
         lines.push_back("the stages: they sum to " + percent_text(sum / profile.whole) +
                         " of the whole way");
     const KernelProfile& kernels = profile.kernels;
-    if (is_off(kernels.clocked, kernels.observed))
+    if (differs_from_whole(kernels.clocked, kernels.observed))
         lines.push_back("what the clock adds: frames with it take " +
                         percent_text(kernels.clocked / kernels.observed) + " of those without");
-    if (const double sum = sum_of(kernels.stages); is_off(sum, kernels.clocked))
+    if (const double sum = sum_of_stages(kernels.stages); differs_from_whole(sum, kernels.clocked))
         lines.push_back("the stages in the kernels: they sum to " +
                         percent_text(sum / kernels.clocked) + " of the clocked frame");
     return lines;

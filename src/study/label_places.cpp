@@ -9,21 +9,21 @@ namespace packtrace {
 namespace {
 
 // Half the edge of what a point's dot takes, and what lies between it and its label.
-constexpr double dot = 5.0;
-constexpr double gap = 3.0;
+constexpr double dot_radius = 5.0;
+constexpr double label_gap = 3.0;
 // Half the height of a bar's ends.
-constexpr double bar = 3.0;
+constexpr double bar_radius = 3.0;
 // How many lines further up or down a label may stand.
-constexpr int furthest = 24;
+constexpr int most_lines_off = 24;
 
 PixelBox box_around(const LabelledPoint& point)
 {
-    return {point.x - dot, point.y - dot, point.x + dot, point.y + dot};
+    return {point.x - dot_radius, point.y - dot_radius, point.x + dot_radius, point.y + dot_radius};
 }
 
 PixelBox bar_of(const LabelledPoint& point)
 {
-    return {point.bar_left, point.y - bar, point.bar_right, point.y + bar};
+    return {point.bar_left, point.y - bar_radius, point.bar_right, point.y + bar_radius};
 }
 
 bool is_inside(const PixelBox& box, const PixelBox& area)
@@ -33,17 +33,17 @@ bool is_inside(const PixelBox& box, const PixelBox& area)
 }
 
 // Places for a label, the best first: right, left, then ever more lines up and down.
-std::vector<PixelBox> candidates(const LabelledPoint& point, double width, double line)
+std::vector<PixelBox> candidate_places(const LabelledPoint& point, double width, double line)
 {
     std::vector<PixelBox> boxes;
     const auto add = [&](double left, double middle) {
         boxes.push_back({left, middle - line / 2, left + width, middle + line / 2});
     };
-    for (int lines = 0; lines <= furthest; ++lines)
+    for (int lines = 0; lines <= most_lines_off; ++lines)
         for (const double way : {-1.0, 1.0}) {
             const double middle = point.y + way * lines * line;
-            add(point.x + dot + gap, middle);
-            add(point.x - dot - gap - width, middle);
+            add(point.x + dot_radius + label_gap, middle);
+            add(point.x - dot_radius - label_gap - width, middle);
             if (lines > 0)
                 add(point.x - width / 2, middle);
         }
@@ -67,7 +67,7 @@ std::vector<PixelBox> place_labels(const std::vector<LabelledPoint>& points, con
     std::vector<PixelBox> places(points.size());
     for (const std::size_t i : order) {
         const std::vector<PixelBox> boxes =
-            candidates(points[i], letter * static_cast<double>(points[i].label.size()), line);
+            candidate_places(points[i], letter * static_cast<double>(points[i].label.size()), line);
         const auto is_free = [&](const PixelBox& box) {
             return is_inside(box, area) &&
                    std::none_of(taken.begin(), taken.end(),

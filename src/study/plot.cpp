@@ -15,12 +15,12 @@ namespace packtrace {
 namespace {
 
 // Pixels of the picture, and of what is inside the axes.
-constexpr double width = 900.0;
-constexpr double height = 560.0;
-constexpr PixelBox inside{78.0, 46.0, 690.0, 494.0};
+constexpr double plot_width = 900.0;
+constexpr double plot_height = 560.0;
+constexpr PixelBox inside_axes{78.0, 46.0, 690.0, 494.0};
 // Of the labels' letters.
-constexpr double letter_width = 6.4;
-constexpr double line_height = 14.0;
+constexpr double label_letter = 6.4;
+constexpr double label_line = 14.0;
 
 // As a string of gnuplot's between single quotes.
 std::string quoted(const std::string& text)
@@ -31,7 +31,7 @@ std::string quoted(const std::string& text)
     return result + "'";
 }
 
-std::string number(double value)
+std::string number_text(double value)
 {
     char text[32];
     std::snprintf(text, sizeof text, "%.9g", value);
@@ -65,10 +65,10 @@ Axes axes_of(const Plot& plot)
             }
         }
     Axes axes{fine_axis(x), decade_axis(y)};
-    axes.x.first_pixel = inside.left;
-    axes.x.last_pixel = inside.right;
-    axes.y.first_pixel = inside.bottom;
-    axes.y.last_pixel = inside.top;
+    axes.x.first_pixel = inside_axes.left;
+    axes.x.last_pixel = inside_axes.right;
+    axes.y.first_pixel = inside_axes.bottom;
+    axes.y.last_pixel = inside_axes.top;
     return axes;
 }
 
@@ -81,7 +81,7 @@ std::vector<PixelBox> label_places(const Plot& plot, const Axes& axes)
             for (const PlotPoint& point : series.points)
                 points.push_back({axes.x.pixel(point.x), axes.y.pixel(point.y), point.label,
                                   axes.x.pixel(point.low), axes.x.pixel(point.high)});
-    return place_labels(points, inside, letter_width, line_height);
+    return place_labels(points, inside_axes, label_letter, label_line);
 }
 
 void write_block(std::ostream& to, const std::string& name, const std::string& rows)
@@ -92,7 +92,7 @@ void write_block(std::ostream& to, const std::string& name, const std::string& r
 // A point's row, or that of its place on the axes.
 std::string row_of(double x, double y, const std::string& more = "")
 {
-    return number(x) + " " + number(y) + more + "\n";
+    return number_text(x) + " " + number_text(y) + more + "\n";
 }
 
 // The points of each series, and lines from them to their labels.
@@ -104,7 +104,8 @@ void write_data(std::ostream& to, const Plot& plot, const Axes& axes)
         std::string points, leaders, labels;
         for (const PlotPoint& point : plot.series[i].points) {
             const double y = std::max(point.y, axes.y.low);
-            points += row_of(point.x, y, " " + number(point.low) + " " + number(point.high));
+            points +=
+                row_of(point.x, y, " " + number_text(point.low) + " " + number_text(point.high));
             if (plot.series[i].line)
                 continue;
             const PixelBox& box = places[next++];
@@ -117,11 +118,11 @@ void write_data(std::ostream& to, const Plot& plot, const Axes& axes)
                        (is_beside ? row_of(point.x, y) : row_of(axes.x.value(end), middle)) + "\n";
             labels += row_of(axes.x.value(box.left), middle, " \"" + point.label + "\"");
         }
-        const std::string number_text = std::to_string(i);
-        write_block(to, "points" + number_text, points);
+        const std::string series_number = std::to_string(i);
+        write_block(to, "points" + series_number, points);
         if (!plot.series[i].line) {
-            write_block(to, "leaders" + number_text, leaders);
-            write_block(to, "labels" + number_text, labels);
+            write_block(to, "leaders" + series_number, leaders);
+            write_block(to, "labels" + series_number, labels);
         }
     }
 }
@@ -130,24 +131,24 @@ std::string tics_text(const PlotAxis& axis)
 {
     std::string text = "(";
     for (const PlotAxis::Tic& tic : axis.tics)
-        text += (text.size() > 1 ? ", " : "") + quoted(tic.name) + " " + number(tic.value);
+        text += (text.size() > 1 ? ", " : "") + quoted(tic.name) + " " + number_text(tic.value);
     return text + ")";
 }
 
 void write_frame(std::ostream& to, const Plot& plot, const Axes& axes)
 {
-    to << "set terminal svg size " << width << ',' << height
+    to << "set terminal svg size " << plot_width << ',' << plot_height
        << " dynamic noenhanced font 'sans-serif,13' background '#ffffff'\n"
           "set encoding utf8\nset logscale xy\nset grid lc rgb '#dddddd' lt 1\n"
           "set key at screen 0.785,0.92 left top Left reverse samplen 2\n"
-       << "set lmargin at screen " << inside.left / width << "\nset rmargin at screen "
-       << inside.right / width << "\nset tmargin at screen " << 1.0 - inside.top / height
-       << "\nset bmargin at screen " << 1.0 - inside.bottom / height << "\nset xrange ["
-       << number(axes.x.low) << ':' << number(axes.x.high) << "]\nset yrange ["
-       << number(axes.y.low) << ':' << number(axes.y.high) << "]\nset xtics " << tics_text(axes.x)
-       << "\nset ytics " << tics_text(axes.y) << "\nset title " << quoted(plot.title)
-       << "\nset xlabel " << quoted(plot.x_title) << "\nset ylabel " << quoted(plot.y_title)
-       << " offset 1,0\n";
+       << "set lmargin at screen " << inside_axes.left / plot_width << "\nset rmargin at screen "
+       << inside_axes.right / plot_width << "\nset tmargin at screen "
+       << 1.0 - inside_axes.top / plot_height << "\nset bmargin at screen "
+       << 1.0 - inside_axes.bottom / plot_height << "\nset xrange [" << number_text(axes.x.low)
+       << ':' << number_text(axes.x.high) << "]\nset yrange [" << number_text(axes.y.low) << ':'
+       << number_text(axes.y.high) << "]\nset xtics " << tics_text(axes.x) << "\nset ytics "
+       << tics_text(axes.y) << "\nset title " << quoted(plot.title) << "\nset xlabel "
+       << quoted(plot.x_title) << "\nset ylabel " << quoted(plot.y_title) << " offset 1,0\n";
 }
 
 void write_series(std::ostream& to, const PlotSeries& series, std::size_t index)

@@ -9,7 +9,7 @@ namespace {
 
 constexpr int most_decade_tics = 8;
 
-std::string text_of(const char* format, double value)
+std::string tic_text(const char* format, double value)
 {
     char text[32];
     std::snprintf(text, sizeof text, format, value);
@@ -49,7 +49,7 @@ PlotAxis fine_axis(const std::vector<double>& values)
         for (const double digit : {1.0, 2.0, 5.0}) {
             const double value = digit * power_of_ten(exponent);
             if (value >= axis.low && value <= axis.high && (digit == 1.0 || !wide))
-                axis.tics.push_back({value, text_of("%g", value)});
+                axis.tics.push_back({value, tic_text("%g", value)});
         }
     return axis;
 }
@@ -77,7 +77,7 @@ PlotAxis decade_axis(const std::vector<double>& values)
         axis.tics.push_back({axis.low, "0"});
     const int step = (highest - lowest) / most_decade_tics + 1;
     for (int exponent = lowest; exponent <= highest; exponent += step)
-        axis.tics.push_back({power_of_ten(exponent), text_of("%.0e", power_of_ten(exponent))});
+        axis.tics.push_back({power_of_ten(exponent), tic_text("%.0e", power_of_ten(exponent))});
     return axis;
 }
 

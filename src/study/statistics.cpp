@@ -7,12 +7,12 @@
 namespace packtrace {
 namespace {
 
-// Of the normal distribution, what lies within so many standard deviations has `confidence`.
-constexpr double deviations = 2.5758;
+// Of the normal distribution, what lies within so many standard normal_deviations has `confidence`.
+constexpr double normal_deviations = 2.5758;
 static_assert(confidence == 0.99);
 
 // Between the k-th smallest and the k-th largest, counted from 1; none for k = 0.
-std::optional<Interval> between(std::vector<double> values, std::size_t k)
+std::optional<Interval> between_ranks(std::vector<double> values, std::size_t k)
 {
     if (k == 0)
         return std::nullopt;
@@ -61,7 +61,7 @@ std::optional<Interval> median_interval(std::vector<double> values)
         exactly *= static_cast<double>(count - k) / static_cast<double>(k + 1);
         ++k;
     }
-    return between(std::move(values), k);
+    return between_ranks(std::move(values), k);
 }
 
 double shift(const std::vector<double>& a, const std::vector<double>& b)
@@ -73,8 +73,8 @@ std::optional<Interval> shift_interval(const std::vector<double>& a, const std::
 {
     const auto m = static_cast<double>(a.size());
     const auto n = static_cast<double>(b.size());
-    const double k = m * n / 2.0 - deviations * std::sqrt(m * n * (m + n + 1.0) / 12.0);
-    return between(all_differences(a, b), k >= 1.0 ? static_cast<std::size_t>(k) : 0);
+    const double k = m * n / 2.0 - normal_deviations * std::sqrt(m * n * (m + n + 1.0) / 12.0);
+    return between_ranks(all_differences(a, b), k >= 1.0 ? static_cast<std::size_t>(k) : 0);
 }
 
 }  // namespace packtrace
