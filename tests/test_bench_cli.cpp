@@ -121,6 +121,9 @@ TEST_CASE("bench compares with another program by turns", "[bench_cli]")
     CHECK_THAT(failure("false"), ContainsSubstring("its 'bench' fails"));
     CHECK_THAT(failure("true"), ContainsSubstring("its 'bench' fails"));
     CHECK(run_bench({"--against", "true", "--baseline", file}).exit_code == 2);
+    const ProgramResult from_input = run_packtrace({"bench", "-", "--against", PACKTRACE_CLI});
+    CHECK(from_input.exit_code == 2);
+    CHECK_THAT(from_input.err, ContainsSubstring("give files"));
 }
 
 TEST_CASE("bench refuses a baseline that is none", "[bench_cli]")

@@ -345,6 +345,31 @@ TEST_CASE("profile prints tables and JSON, and writes a heat map and a trace",
     CHECK(kernels["tests"].size() >= 2);
 }
 
+TEST_CASE("profile counts the rays that exact accuracy traces again", "[profile][profile_cli]")
+{
+    const TempFolder folder;
+    const std::string scene = (folder / "twins.scene").string();
+    // Which of the two is nearer, single precision can't tell.
+    write_text(scene,
+               "sphere {\ncenter = (0, 0, 5)\nradius = 1\n}\n"
+               "sphere {\ncenter = (0, 0, 5.00000001)\nradius = 1\n}\n");
+    const auto tests = [&](const std::vector<std::string>& options) {
+        std::vector<std::string> words{"profile",       scene, "--size", "64x48",
+                                       "--repetitions", "2",   "--json"};
+        words.insert(words.end(), options.begin(), options.end());
+        const ProgramResult result = run_packtrace(words);
+        CAPTURE(result.err);
+        REQUIRE(result.exit_code == 0);
+        std::uint64_t count = 0;
+        for (const auto& row : nlohmann::json::parse(result.out)["kernels"]["tests"])
+            count += row["together"].get<std::uint64_t>() + row["single"].get<std::uint64_t>();
+        return count;
+    };
+    const std::uint64_t fast = tests({"--accuracy", "fast"});
+    CHECK(tests({"--accuracy", "exact"}) > fast);
+    CHECK(tests({"--accuracy", "exact", "--self-hits", "note"}) > fast);
+}
+
 TEST_CASE("profile refuses what it can't do", "[profile][profile_cli]")
 {
     const TempFolder folder;

@@ -293,7 +293,7 @@ TEST_CASE("labels of a plot lie neither on each other nor on points", "[report]"
         for (int i = 0; i < 26; ++i)
             points.push_back({100.0 + 0.6 * static_cast<double>(random() % 1000),
                               250.0 + 0.001 * height * static_cast<double>(random() % 1000),
-                              "avx512 robust x1"});
+                              "avx512 general x1"});
         const std::vector<PixelBox> places = place_labels(points, area, 6.4, 14.0);
         REQUIRE(places.size() == points.size());
         for (std::size_t i = 0; i < places.size(); ++i) {

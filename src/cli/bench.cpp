@@ -210,8 +210,19 @@ void end_with_verdict(const BenchResult& result)
         throw Failed{slower ? exit_failed : exit_unsure};
 }
 
+// Every run of a program reads the scenes anew.
+void check_files(const BenchArguments& arguments)
+{
+    for (const std::string& file : arguments.scenes)
+        if (file == "-" && !arguments.against.empty())
+            throw CLI::ValidationError(
+                "--against: each run reads the scenes, and standard input can be read once only; "
+                "give files");
+}
+
 void run_bench_command(const BenchArguments& arguments)
 {
+    check_files(arguments);
     if (arguments.isa)
         (void)chosen_isa({arguments.isa, {}});
     BenchResult result;
