@@ -11,6 +11,7 @@
 #include "render/camera_view.hpp"
 #include "render/tile_loop.hpp"
 #include "render/tile_renderer.hpp"
+#include "study/profile_subjects.hpp"
 
 namespace packtrace {
 namespace {
