@@ -83,7 +83,7 @@ inline const std::string two_balls =
 /// More spheres than a list holds, every third of which casts no shadow.
 [[nodiscard]] inline Scene forest_scene()
 {
-    Scene scene = random_spheres(200, 5);
+    Scene scene = random_spheres(400, 5);
     for (std::size_t i = 0; i < scene.objects.size(); i += 3)
         scene.objects[i].casts_shadow = false;
     return scene;

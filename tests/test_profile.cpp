@@ -360,8 +360,9 @@ TEST_CASE("profile counts the rays that exact accuracy traces again", "[profile]
         const ProgramResult result = run_packtrace(words);
         CAPTURE(result.err);
         REQUIRE(result.exit_code == 0);
+        const auto json = nlohmann::json::parse(result.out);
         std::uint64_t count = 0;
-        for (const auto& row : nlohmann::json::parse(result.out)["kernels"]["tests"])
+        for (const auto& row : json["kernels"]["tests"])
             count += row["together"].get<std::uint64_t>() + row["single"].get<std::uint64_t>();
         return count;
     };
