@@ -2,7 +2,9 @@
 
 #include <packtrace/read_scene.hpp>
 
+#include <fstream>
 #include <string>
+#include <vector>
 
 #include "catch.hpp"
 
@@ -37,6 +39,21 @@ inline Scene parse_with_sphere(const std::string& text)
 inline std::string error_of_line(const std::string& line)
 {
     return error_of(any_sphere + line);
+}
+
+/// The scenes that docs/scene.md shows.
+inline std::vector<std::string> scene_examples()
+{
+    std::ifstream reference(PACKTRACE_SOURCE_DIR "/docs/scene.md");
+    std::vector<std::string> examples;
+    for (std::string line; std::getline(reference, line);) {
+        if (line != "```scene")
+            continue;
+        examples.emplace_back();
+        while (std::getline(reference, line) && line != "```")
+            examples.back() += line + '\n';
+    }
+    return examples;
 }
 
 }  // namespace packtrace::test

@@ -452,6 +452,19 @@ TEST_CASE("info tells what a scene holds", "[cli]")
     CHECK(run_packtrace({"info", four_spheres + "x"}).exit_code == 1);
 }
 
+TEST_CASE("info lists the keys of the scene language", "[cli]")
+{
+    const ProgramResult lights = run_packtrace({"info", "--keys", "lights"});
+    CHECK(lights.exit_code == 0);
+    CHECK_THAT(lights.out, ContainsSubstring("| `position` | point | needed | `point` only |"));
+    const ProgramResult all = run_packtrace({"info", "--keys", "all"});
+    CHECK_THAT(all.out, ContainsSubstring("lights\n\n" + lights.out));
+    const ProgramResult wrong = run_packtrace({"info", "--keys", "light"});
+    CHECK(wrong.exit_code == 2);
+    CHECK(wrong.out.empty());
+    CHECK(wrong.err.find('\n') == wrong.err.size() - 1);
+}
+
 TEST_CASE("demo renders with every kernel and writes the picture", "[cli]")
 {
     const TempFolder folder;

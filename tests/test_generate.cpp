@@ -197,6 +197,14 @@ TEST_CASE("every scene of the folder survives being written", "[generate]")
     }
 }
 
+TEST_CASE("every example of the language's reference survives being written", "[generate]")
+{
+    for (const std::string& example : test::scene_examples()) {
+        INFO(example);
+        check_round_trip(test::parse(example));
+    }
+}
+
 TEST_CASE("what the scene language can't say is not written", "[generate]")
 {
     Scene scene = generate_sphereflake({.depth = 0});

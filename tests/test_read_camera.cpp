@@ -210,9 +210,9 @@ TEST_CASE("an animation's frames are counted from 0 in rising order", "[read_cam
     CHECK(animation_error("orbit { center = (0, 0, 3) }") ==
           "x.scene:2:1: animation has no 'frames'; add for example frames = 120");
     CHECK(animation_error("frames = 0 orbit { center = (0, 0, 3) }") ==
-          "x.scene:3:10: 'frames' is 0; use a number from 1 to 1000000");
+          "x.scene:3:10: 'frames' is 0; use a whole number from 1 to 1000000");
     CHECK(animation_error("frames = 10 key { frame = 10 " + pose) ==
-          "x.scene:3:27: 'frame' is 10; use a number from 0 to 9");
+          "x.scene:3:27: 'frame' is 10; use a whole number from 0 to 9");
     CHECK(animation_error("frames = 10 key { frame = 5 " + pose + "key { frame = 5 " + pose) ==
           "x.scene:4:1: frame 5 does not come after frame 5 of the key before; write keys in "
           "rising order");

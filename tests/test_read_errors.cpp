@@ -11,7 +11,6 @@
 #include "catch.hpp"
 #include "peak_memory.hpp"
 #include "scene/grammar.hpp"
-#include "scene/nearest_word.hpp"
 #include "scene/quote.hpp"
 #include "scene_text.hpp"
 #include "temp_folder.hpp"
@@ -50,7 +49,7 @@ std::string repeat(const std::string& text, std::size_t count)
 
 TEST_CASE("the grammar has no rule that can loop without progress", "[read_errors]")
 {
-    CHECK(tao::pegtl::analyze<reader::grammar::file>(-1) == 0);
+    CHECK(tao::pegtl::analyze<language::grammar::file>(-1) == 0);
 }
 
 TEST_CASE("a file without objects is refused", "[read_errors]")
@@ -193,27 +192,27 @@ TEST_CASE("a key given twice is refused at the second", "[read_errors]")
 TEST_CASE("the scene's own keys have limits", "[read_errors]")
 {
     CHECK(error_of_line("max_depth = -1") ==
-          "x.scene:2:13: 'max_depth' is -1; use a number from 0 to 64");
+          "x.scene:2:13: 'max_depth' is -1; use a whole number from 0 to 64");
     CHECK(error_of_line("max_depth = 65") ==
-          "x.scene:2:13: 'max_depth' is 65; use a number from 0 to 64");
+          "x.scene:2:13: 'max_depth' is 65; use a whole number from 0 to 64");
     CHECK(error_of_line("max_depth = 2.5") ==
-          "x.scene:2:13: 'max_depth' wants a whole number, not 2.5; write max_depth = 2");
+          "x.scene:2:13: 'max_depth' is 2.5; use a whole number from 0 to 64");
     CHECK(error_of_line("image_size = 0 x 480") ==
-          "x.scene:2:14: 'image_size' has a side of 0; use numbers above 0");
+          "x.scene:2:14: 'image_size' has a side of 0 pixels; use a whole number from 1 to 65536");
     CHECK(error_of_line("image_size = 640 x 65537") ==
-          "x.scene:2:20: 'image_size' has a side of 65537 pixels; use whole numbers from 1 to "
+          "x.scene:2:20: 'image_size' has a side of 65537 pixels; use a whole number from 1 to "
           "65536");
     CHECK(error_of_line("image_size = 640.5 x 480") ==
-          "x.scene:2:14: 'image_size' has a side of 640.5 pixels; use whole numbers from 1 to "
+          "x.scene:2:14: 'image_size' has a side of 640.5 pixels; use a whole number from 1 to "
           "65536");
     CHECK(error_of_line("image_size = (640, 480)") ==
           "x.scene:2:14: 'image_size' wants a width and a height; write image_size = 4 x 3");
     CHECK(error_of_line("viewport_size = 1 x -1") ==
-          "x.scene:2:21: 'viewport_size' has a side of -1; use numbers above 0");
+          "x.scene:2:21: 'viewport_size' has a side of -1; use a number above 0");
     CHECK(error_of_line("projection_plane_d = 0") ==
           "x.scene:2:22: 'projection_plane_d' is 0; use a number above 0");
     CHECK(error_of_line("pixel_sample = (0.5, 1.5)") ==
-          "x.scene:2:22: 'pixel_sample' lies outside its pixel at 1.5; use numbers from 0 to 1");
+          "x.scene:2:22: 'pixel_sample' is 1.5; use a number from 0 to 1");
 }
 
 TEST_CASE("the largest values are taken", "[read_errors]")
@@ -300,7 +299,7 @@ TEST_CASE("messages hold no control bytes and no enormous words", "[read_errors]
 
 TEST_CASE("quoting keeps whole characters and escapes what is none", "[read_errors]")
 {
-    using reader::quote;
+    using language::quote;
     CHECK(quote("a b") == "'a b'");
     CHECK(quote("\x7f\t") == "'\\x7f\\x09'");
     CHECK(quote("\xc3\xa4\xe2\x82\xac\xf0\x9f\x8d\x80") ==
@@ -315,7 +314,7 @@ TEST_CASE("quoting keeps whole characters and escapes what is none", "[read_erro
 TEST_CASE("a word's nearest neighbour is at most two slips away", "[read_errors]")
 {
     constexpr std::string_view known[] = {"radius", "center", "up"};
-    using reader::nearest_word;
+    using language::nearest_word;
     CHECK(nearest_word("raduis", known) == "radius");
     CHECK(nearest_word("radi", known) == "radius");
     CHECK(nearest_word("rad", known).empty());

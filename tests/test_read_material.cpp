@@ -214,7 +214,7 @@ TEST_CASE("coefficients out of range are refused at the number", "[read_material
     CHECK(sphere_error("whitted", "diffuse = (0.5, -0.5, 0)") ==
           "x.scene:3:17: 'diffuse' is -0.5; use a number of 0 or more");
     CHECK(sphere_error("shader", "reflectance = (0, 1, -2, 3)") ==
-          "x.scene:3:22: 'reflectance' has r2 = -2; use numbers of 0 or more");
+          "x.scene:3:22: 'reflectance' is -2; use a number of 0 or more");
     CHECK(sphere_error("shader", "reflectance = (0, 1, 2)") ==
           "x.scene:3:15: 'reflectance' wants 4 numbers, not 3; write reflectance = (0.2, 0.6, 0.2, "
           "16)");
@@ -248,7 +248,7 @@ TEST_CASE("a checker that makes no sense is refused", "[read_material]")
     CHECK(error_of(plane + "checker = (0, 0, 0), 1, (1, 1, 1) }") ==
           "x.scene:2:22: 'checker' wants a colour; write checker = (255, 255, 255), (0, 0, 0), 1");
     CHECK(error_of(plane + "color = (1, 1, 1) checker = (0, 0, 0), (1, 1, 1), 1 }") ==
-          "x.scene:2:19: 'checker' gives both colours; remove 'color'");
+          "x.scene:2:1: 'checker' gives both colours; remove 'color'");
     CHECK(error_of_line("cone { checker = (0, 0, 0), (1, 1, 1), 1 }") ==
           "x.scene:2:8: only a plane can have a checker; remove it and use color");
     CHECK(error_of("illumination = general\n" + plane + "checker = (0, 0, 0), (1, 1, 1), 1 }") ==

@@ -4,6 +4,7 @@
 #include <string>
 
 #include "catch.hpp"
+#include "scene/key_tables.hpp"
 #include "scene_text.hpp"
 
 // What a good scene file becomes: the scene's own keys, lights and the syntax.
@@ -214,19 +215,28 @@ TEST_CASE("objects and lights keep the file's order", "[read_scene]")
 
 TEST_CASE("every example of the language's reference is read", "[read_scene]")
 {
-    std::ifstream reference(PACKTRACE_SOURCE_DIR "/docs/scene.md");
-    int examples = 0;
-    for (std::string line; std::getline(reference, line);) {
-        if (line != "```scene")
-            continue;
-        std::string text;
-        while (std::getline(reference, line) && line != "```")
-            text += line + '\n';
+    const std::vector<std::string> examples = test::scene_examples();
+    for (const std::string& text : examples) {
         CAPTURE(text);
         CHECK_FALSE(parse(text).objects.empty());
-        ++examples;
     }
-    CHECK(examples >= 10);
+    CHECK(examples.size() >= 10);
+}
+
+TEST_CASE("the tables of the language's reference are those of its rows", "[read_scene]")
+{
+    for (const std::string_view name : language::key_table_names()) {
+        INFO("table " << name << "; docs/write_tables.sh writes it anew");
+        std::ifstream reference(PACKTRACE_SOURCE_DIR "/docs/scene.md");
+        const std::string mark = "<!-- keys: " + std::string(name) + " -->";
+        std::string line;
+        while (std::getline(reference, line) && line != mark) {
+        }
+        std::string table;
+        while (std::getline(reference, line) && line.starts_with('|'))
+            table += line + '\n';
+        CHECK(table == language::key_table(name));
+    }
 }
 
 }  // namespace packtrace

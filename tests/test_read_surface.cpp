@@ -158,7 +158,7 @@ TEST_CASE("a z_range that is no range, and a cap without one, are refused", "[re
           "x.scene:1:8: 'capped' closes the ends of a z_range, and there is none; add for example "
           "z_range = (-1, 1) or remove it");
     CHECK(error_of("cone { capped = maybe z_range = (0, 1) }") ==
-          "x.scene:1:17: unknown capped 'maybe'; use one of: false, true, no, yes");
+          "x.scene:1:17: unknown capped 'maybe'; use one of: no, yes, false, true");
 }
 
 TEST_CASE("a key of another surface is refused", "[read_surface]")

@@ -1,7 +1,10 @@
 #include <iostream>
+#include <map>
 #include <memory>
 #include <optional>
 #include <string>
+#include <utility>
+#include <vector>
 
 #include <packtrace/isa.hpp>
 
@@ -11,17 +14,24 @@
 #include "cli/common_options.hpp"
 #include "cli/scene_features.hpp"
 #include "cli/scene_input.hpp"
-#include "cli/scene_summary.hpp"
 #include "cli/text_table.hpp"
+#include "cli/validators.hpp"
+#include "scene/key_tables.hpp"
+#include "scene/words.hpp"
 
 namespace packtrace::cli {
 namespace {
+
+using language::word_of;
 
 struct InfoArguments {
     std::string scene;
     IsaArguments isa;
     bool json = false;
+    std::string keys;
 };
+
+constexpr const char* all_tables = "all";
 
 void print_isas(const IsaInfo& chosen)
 {
@@ -30,6 +40,35 @@ void print_isas(const IsaInfo& chosen)
         table.add({isa.name, std::to_string(isa.lanes_single), std::to_string(isa.lanes_double),
                    isa.supported ? "yes" : "no", isa.name == chosen.name ? "yes" : ""});
     table.print(std::cout);
+}
+
+/// How many there are of each kind that occurs, in the order in which the scene language lists
+/// the kinds.
+using Census = std::vector<std::pair<std::string, int>>;
+
+template <class Kinds, class Things, class WordOf>
+Census count(const Kinds& kinds, const Things& things, const WordOf& word_of_thing)
+{
+    std::map<std::string_view, int> counts;
+    for (const auto& thing : things)
+        ++counts[word_of_thing(thing)];
+    Census census;
+    for (const auto& kind : kinds)
+        if (const auto found = counts.find(kind.word); found != counts.end())
+            census.emplace_back(*found);
+    return census;
+}
+
+Census count_objects(const Scene& scene)
+{
+    return count(language::surface_words(), scene.objects,
+                 [](const Object& object) { return word_of(object.surface).word; });
+}
+
+Census count_lights(const Scene& scene)
+{
+    return count(language::spellings(LightType{}), scene.lights,
+                 [](const Light& light) { return word_of(light.type); });
 }
 
 std::string listed(const Census& census)
@@ -55,8 +94,8 @@ void print_scene(const std::string& file, const Scene& scene, const SceneFeature
 {
     std::cout << "\nscene    " << file << "\nsize     " << scene.width << " x " << scene.height
               << "\nobjects  " << listed(count_objects(scene)) << "\nlights   "
-              << listed(count_lights(scene)) << "\nmodel    " << name_of(scene.illumination)
-              << "\ndepth    " << scene.max_depth << "\nshadows  " << name_of(scene.shadows)
+              << listed(count_lights(scene)) << "\nmodel    " << word_of(scene.illumination)
+              << "\ndepth    " << scene.max_depth << "\nshadows  " << word_of(scene.shadows)
               << '\n';
     print_memory(features.bytes, scene.objects.size());
 }
@@ -104,9 +143,9 @@ nlohmann::ordered_json scene_json(const std::string& file, const Scene& scene,
             {"height", scene.height},
             {"objects", counted(count_objects(scene))},
             {"lights", counted(count_lights(scene))},
-            {"model", name_of(scene.illumination)},
+            {"model", word_of(scene.illumination)},
             {"depth", scene.max_depth},
-            {"shadows", name_of(scene.shadows)},
+            {"shadows", word_of(scene.shadows)},
             {"memory_bytes", features.bytes}};
 }
 
@@ -129,8 +168,21 @@ void print_json(const IsaInfo& chosen, const std::optional<SceneInput>& input)
     std::cout << json.dump(2, ' ', false, nlohmann::json::error_handler_t::replace) << '\n';
 }
 
+void print_keys(const std::string& name)
+{
+    bool first = true;
+    for (const std::string_view table : language::key_table_names()) {
+        if (name == all_tables)
+            std::cout << (std::exchange(first, false) ? "" : "\n") << table << "\n\n";
+        if (name == table || name == all_tables)
+            std::cout << language::key_table(table);
+    }
+}
+
 void run_info(const InfoArguments& arguments)
 {
+    if (!arguments.keys.empty())
+        return print_keys(arguments.keys);
     const IsaInfo chosen = chosen_isa(arguments.isa);
     std::optional<SceneInput> input;
     if (!arguments.scene.empty())
@@ -157,6 +209,14 @@ void add_info(CLI::App& app)
         ->type_name("");
     add_isa_options(*command, arguments->isa);
     command->add_flag("--json", arguments->json, "Print JSON");
+    const auto tables = language::key_table_names();
+    std::vector<std::string> names(tables.begin(), tables.end());
+    names.emplace_back(all_tables);
+    command
+        ->add_option("--keys", arguments->keys,
+                     "Print the scene language's keys instead, in Markdown: a table of "
+                     "docs/scene.md or all")
+        ->check(one_of(names));
     command->callback([arguments] { run_info(*arguments); });
 }
 

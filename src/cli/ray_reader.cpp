@@ -120,7 +120,7 @@ private:
                            const std::string& why) const
     {
         fail_at(format_, line, field.data(),
-                std::string(ray_columns[column]) + ' ' + reader::quote(field) + ' ' + why);
+                std::string(ray_columns[column]) + ' ' + language::quote(field) + ' ' + why);
     }
 
     const RayFormat& format_;

@@ -5,7 +5,7 @@
 
 #include <packtrace/read_scene.hpp>
 
-#include "scene/load_text.hpp"
+#include "scene/source.hpp"
 
 namespace packtrace::cli {
 namespace {
@@ -17,7 +17,7 @@ std::string read_standard_input()
     if (std::cin.eof())
         throw SceneError(std::string(standard_input) +
                          ": has been read already; give - for one scene only");
-    return reader::load_text(std::cin, standard_input);
+    return language::load_text(std::cin, standard_input);
 }
 
 }  // namespace
@@ -35,7 +35,7 @@ SceneInput read_scene_input(const std::string& file)
     SceneInput input;
     input.name = piped ? standard_input : file;
     input.stem = piped ? "stdin" : std::filesystem::path(file).stem().string();
-    input.text = piped ? read_standard_input() : reader::load_text(file);
+    input.text = piped ? read_standard_input() : language::load_text(file);
     input.scene = parse_scene(input.text, input.name, [](const std::string& line) {
         std::cerr << "warning: " << line << '\n';
     });

@@ -10,7 +10,7 @@
 namespace packtrace::cli {
 
 TextBlocks::TextBlocks(const std::string& file)
-    : name_(file == "-" ? "standard input" : reader::escape(file)),
+    : name_(file == "-" ? "standard input" : language::escape(file)),
       file_(file == "-" ? stdin : std::fopen(file.c_str(), "rb"))
 {
     if (!file_)

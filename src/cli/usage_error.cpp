@@ -4,7 +4,6 @@
 #include <string_view>
 #include <vector>
 
-#include "scene/nearest_word.hpp"
 #include "scene/quote.hpp"
 
 namespace packtrace::cli {
@@ -65,7 +64,7 @@ std::string first_unexpected(const CLI::App& command, int count, const char* con
 std::string_view nearest_of(std::string_view word, const std::vector<std::string>& known)
 {
     const std::vector<std::string_view> views(known.begin(), known.end());
-    return reader::nearest_word(word, views);
+    return language::nearest_word(word, views);
 }
 
 std::string describe_unexpected(const CLI::App& command, const std::string& word)
@@ -78,7 +77,7 @@ std::string describe_unexpected(const CLI::App& command, const std::string& word
     const std::vector<std::string> known = is_option ? options_of(command) : subcommands;
     const std::string name = word.substr(0, word.find('='));
     const std::string_view nearest = nearest_of(name, known);
-    const std::string text = what + reader::quote(name);
+    const std::string text = what + language::quote(name);
     return nearest.empty() ? text : text + "; did you mean " + std::string(nearest) + "?";
 }
 

@@ -15,7 +15,7 @@ namespace {
 Vec3 upwards(const Camera& start, const Vec3& view)
 {
     const Vec3& up = start.rotation[1];
-    const bool along = glm::length(glm::cross(up, reader::unit_vector(view))) < 1e-6;
+    const bool along = glm::length(glm::cross(up, language::unit_vector(view))) < 1e-6;
     return along ? start.rotation[2] : up;
 }
 
@@ -24,7 +24,7 @@ Vec3 upwards(const Camera& start, const Vec3& view)
 Camera orbit_camera(const Camera& start, const Orbit& orbit, double share)
 {
     const Vec3 arm = start.position - orbit.center;
-    const Vec3 axis = reader::unit_vector(orbit.axis);
+    const Vec3 axis = language::unit_vector(orbit.axis);
     const Mat3 turn(glm::rotate(Mat4(1.0), glm::radians(orbit.degrees * share), axis));
     Camera camera = start;
     camera.position = orbit.center + turn * arm;

@@ -1,12 +1,11 @@
 #include "scene/block.hpp"
 
-#include "scene/nearest_word.hpp"
 #include "scene/quote.hpp"
 
 #include <algorithm>
 #include <string>
 
-namespace packtrace::reader {
+namespace packtrace::language {
 namespace {
 
 /// The one block with a name before its brace.
@@ -21,7 +20,7 @@ bool contains(const Keys& keys, std::string_view key)
 
 void Field::fail(const std::string& message) const
 {
-    reader::fail(source, entry.key.at, message);
+    language::fail(source, entry.key.at, message);
 }
 
 Block::Block(const Field& field, std::string_view title, const Keys& once, const Keys& repeatable)
@@ -38,29 +37,30 @@ void Block::check_block() const
         field_.fail("'" + key + "' is a block, not a value; write " + key +
                     (key == named_block ? " gold { ... }" : " { ... }"));
     if (field_.entry.name && key != named_block)
-        reader::fail(field_.source, field_.entry.name->at,
-                     "only a material is named before its brace; write name = \"...\" between "
-                     "the braces of an object");
+        language::fail(field_.source, field_.entry.name->at,
+                       "only a material is named before its brace; write name = \"...\" between "
+                       "the braces of an object");
 }
 
 void Block::check_keys(const Keys& once, const Keys& repeatable) const
 {
-    Keys known = once;
-    known.insert(known.end(), repeatable.begin(), repeatable.end());
     std::vector<const Entry*> seen;
     for (const Entry& entry : field_.entry.entries) {
         const std::string_view key = entry.key.text;
         if (contains(repeatable, key))
             continue;
-        if (!contains(once, key))
-            reader::fail(field_.source, entry.key.at,
-                         "unknown key " + quote(key) + " in " + std::string(title_) + "; " +
-                             suggest(key, known));
+        if (!contains(once, key)) {
+            Keys known = once;
+            known.insert(known.end(), repeatable.begin(), repeatable.end());
+            language::fail(field_.source, entry.key.at,
+                           "unknown key " + quote(key) + " in " + std::string(title_) + "; " +
+                               suggest(key, known));
+        }
         for (const Entry* earlier : seen)
             if (earlier->key.text == key)
-                reader::fail(field_.source, entry.key.at,
-                             quote(key) + " is given twice, first on line " +
-                                 std::to_string(earlier->key.at.line) + "; remove one of them");
+                language::fail(field_.source, entry.key.at,
+                               quote(key) + " is given twice, first on line " +
+                                   std::to_string(earlier->key.at.line) + "; remove one of them");
         seen.push_back(&entry);
     }
 }
@@ -73,10 +73,8 @@ std::optional<Field> Block::find(std::string_view key) const
     return std::nullopt;
 }
 
-Field Block::require(std::string_view key, std::string_view example) const
+void Block::fail_missing(std::string_view key, std::string_view example) const
 {
-    if (const auto field = find(key))
-        return *field;
     const std::string name(key);
     field_.fail(std::string(title_) + " has no '" + name + "'; add for example " + name + " = " +
                 std::string(example));
@@ -90,4 +88,4 @@ std::vector<Field> Block::fields() const
     return result;
 }
 
-}  // namespace packtrace::reader
+}  // namespace packtrace::language

@@ -8,7 +8,7 @@
 #include <string_view>
 #include <vector>
 
-namespace packtrace::reader {
+namespace packtrace::language {
 
 /// One `key = value` or `key { … }` with the source it came from, for messages.
 struct Field {
@@ -30,18 +30,10 @@ public:
           const Keys& repeatable = {});
 
     [[nodiscard]] std::optional<Field> find(std::string_view key) const;
-    /// Throws SceneError when the key is missing; `example` is a value for the message.
-    [[nodiscard]] Field require(std::string_view key, std::string_view example) const;
+    /// Throws SceneError as the key is missing; `example` is a value for the message.
+    [[noreturn]] void fail_missing(std::string_view key, std::string_view example) const;
     /// All entries, in the order written.
     [[nodiscard]] std::vector<Field> fields() const;
-
-    /// Sets `target` to the key's value as `read(field)` gives it; leaves it without the key.
-    template <class Target, class Read>
-    void set(std::string_view key, Target& target, Read read) const
-    {
-        if (const auto field = find(key))
-            target = read(*field);
-    }
 
     [[nodiscard]] const Field& field() const
     {
@@ -56,4 +48,4 @@ private:
     std::string_view title_;
 };
 
-}  // namespace packtrace::reader
+}  // namespace packtrace::language

@@ -3,7 +3,7 @@
 #include <tao/pegtl.hpp>
 
 /// The scene language's grammar; what the keys mean is not known here.
-namespace packtrace::reader::grammar {
+namespace packtrace::language::grammar {
 
 using namespace tao::pegtl;
 
@@ -75,4 +75,4 @@ struct entry : seq<key, gap, must<right_side<depth>>, gap> {
 struct end_of_file : eof {};
 struct file : seq<opt<utf8::bom>, gap, star<entry<0>>, must<end_of_file>> {};
 
-}  // namespace packtrace::reader::grammar
+}  // namespace packtrace::language::grammar

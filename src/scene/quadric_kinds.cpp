@@ -5,13 +5,19 @@ namespace packtrace {
 std::span<const QuadricKindInfo> quadric_kinds()
 {
     static constexpr QuadricKindInfo kinds[] = {
-        {QuadricKind::ellipsoid, "ellipsoid", {1, 1, 1, 0, 0, 0, 0, 0, 0, -1}},
-        {QuadricKind::cylinder, "cylinder", {1, 1, 0, 0, 0, 0, 0, 0, 0, -1}},
-        {QuadricKind::cone, "cone", {1, 1, -1, 0, 0, 0, 0, 0, 0, 0}},
-        {QuadricKind::paraboloid, "paraboloid", {1, 1, 0, 0, 0, 0, 0, 0, -1, 0}},
-        {QuadricKind::hyperboloid, "hyperboloid", {1, 1, -1, 0, 0, 0, 0, 0, 0, -1}},
-        {QuadricKind::hyperboloid2, "hyperboloid2", {1, 1, -1, 0, 0, 0, 0, 0, 0, 1}},
-        {QuadricKind::saddle, "saddle", {1, -1, 0, 0, 0, 0, 0, 0, -1, 0}},
+        {QuadricKind::ellipsoid, "ellipsoid", {1, 1, 1, 0, 0, 0, 0, 0, 0, -1}, "x² + y² + z² = 1"},
+        {QuadricKind::cylinder, "cylinder", {1, 1, 0, 0, 0, 0, 0, 0, 0, -1}, "x² + y² = 1"},
+        {QuadricKind::cone, "cone", {1, 1, -1, 0, 0, 0, 0, 0, 0, 0}, "x² + y² = z²"},
+        {QuadricKind::paraboloid, "paraboloid", {1, 1, 0, 0, 0, 0, 0, 0, -1, 0}, "x² + y² = z"},
+        {QuadricKind::hyperboloid,
+         "hyperboloid",
+         {1, 1, -1, 0, 0, 0, 0, 0, 0, -1},
+         "x² + y² - z² = 1, of one sheet"},
+        {QuadricKind::hyperboloid2,
+         "hyperboloid2",
+         {1, 1, -1, 0, 0, 0, 0, 0, 0, 1},
+         "x² + y² - z² = -1, of two sheets"},
+        {QuadricKind::saddle, "saddle", {1, -1, 0, 0, 0, 0, 0, 0, -1, 0}, "x² - y² = z"},
     };
     return kinds;
 }

@@ -13,6 +13,7 @@ struct QuadricKindInfo {
     QuadricKind kind;
     std::string_view name;  ///< the scene language's
     std::array<double, 10> coefficients;
+    std::string_view equation;  ///< for readers
 };
 
 /// Every kind but `general`.

@@ -6,7 +6,7 @@
 #include <string_view>
 #include <vector>
 
-namespace packtrace::reader {
+namespace packtrace::language {
 
 /// A run of letters, digits and `_ . + -`: a number, a key or a name, told apart by its reader.
 struct Word {
@@ -46,4 +46,4 @@ struct Entry {
 /// SceneError at the first place that breaks the grammar.
 [[nodiscard]] Entry parse_tree(const Source& source);
 
-}  // namespace packtrace::reader
+}  // namespace packtrace::language

@@ -7,7 +7,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace packtrace::reader {
+namespace packtrace::language {
 
 /// `v` at length 1, however long or short it is; (0, 0, 0) stays as it is.
 [[nodiscard]] inline Vec3 unit_vector(const Vec3& v)
@@ -16,4 +16,4 @@ namespace packtrace::reader {
     return largest == 0.0 ? v : glm::normalize(v / largest);
 }
 
-}  // namespace packtrace::reader
+}  // namespace packtrace::language

@@ -3,52 +3,137 @@
 #include <packtrace/vec.hpp>
 
 #include "scene/block.hpp"
-#include "scene/item_checks.hpp"
+#include "scene/words.hpp"
 
+#include <algorithm>
+#include <array>
 #include <cstddef>
+#include <functional>
+#include <limits>
 #include <span>
+#include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
-// Each takes a field's value as one kind of thing, or throws SceneError that says what the key
-// wants. Numbers are finite throughout.
-namespace packtrace::reader {
+// The kinds of values that keys take.
+namespace packtrace::language {
 
-[[nodiscard]] double read_number(const Field& field);
-[[nodiscard]] double read_number_in(const Field& field, Range range);
-/// Above 0.
-[[nodiscard]] double read_positive(const Field& field);
-[[nodiscard]] double read_not_negative(const Field& field);
-/// A whole number, both ends included.
-[[nodiscard]] int read_integer(const Field& field, int low, int high);
+/// How a value is described, read and written.
+template <class Value>
+struct Type {
+    std::string takes;  ///< for the reference: "number above 0"
+    /// Throws SceneError that says what the key wants. Numbers are finite throughout.
+    std::function<Value(const Field&)> read;
+    std::function<void(std::string& out, const Value&)> write;
+};
 
+/// The numbers that a key takes; both ends belong to the range unless it is `open`.
+struct Range {
+    double low = -std::numeric_limits<double>::max();
+    double high = std::numeric_limits<double>::max();
+    bool open = false;
+    bool whole = false;
+    std::string_view noun = "number";
+    std::string_view part{};    ///< for messages: "a side of "
+    std::string_view unit{};    ///< likewise: " pixels"
+    std::string_view except{};  ///< "-1 for no highlight": a number outside that is taken too
+
+    [[nodiscard]] bool contains(double number) const;
+    /// "above 0", "of 0 or more", "from 0 to 1".
+    [[nodiscard]] std::string text() const;
+};
+
+inline constexpr Range any_number{};
+inline constexpr Range above_0{.low = 0.0, .open = true};
+inline constexpr Range not_negative{.low = 0.0};
+inline constexpr Range share{.low = 0.0, .high = 1.0};
+
+[[nodiscard]] Type<double> number(const Range& range);
+[[nodiscard]] Type<int> whole_number(int low, int high);
 /// (x, y, z)
-[[nodiscard]] Vec3 read_point(const Field& field);
+[[nodiscard]] Type<Vec3> point();
 /// (x, y, z) other than (0, 0, 0), as long as written.
-[[nodiscard]] Vec3 read_direction(const Field& field);
+[[nodiscard]] Type<Vec3> direction();
 /// (a, b)
-[[nodiscard]] Vec2 read_pair(const Field& field);
-/// `width x height`, both above 0.
-[[nodiscard]] Vec2 read_size(const Field& field);
+[[nodiscard]] Type<Vec2> pair(const Range& range);
+/// `width x height`
+[[nodiscard]] Type<Vec2> size(Range range);
+/// Two numbers, the second above the first.
+[[nodiscard]] Type<ZRange> z_range();
+/// (r, g, b) in 0 to 255 or rgb(r, g, b) in 0 to 1, linear in 0 to 1.
+[[nodiscard]] Type<Rgb> color();
+/// 0 or more: one number for all channels, (r, g, b), or rgb(r, g, b) in 0 to 1.
+[[nodiscard]] Type<Rgb> factor();
+/// A word, or text in quotes.
+[[nodiscard]] Type<std::string> name();
+/// The nine numbers of a rotation, row by row; nearly one is mended with a warning.
+[[nodiscard]] Type<Mat3> rotation();
+
+/// Two colours and the edge of a square.
+struct CheckerValue {
+    Rgb color{1.0};
+    Checker checker;
+};
+[[nodiscard]] Type<CheckerValue> checker();
+
 /// A tuple of just so many numbers; `form` is an example for messages.
 [[nodiscard]] std::vector<double> read_numbers(const Field& field, std::size_t count,
-                                               std::string_view form);
+                                               std::string_view form,
+                                               const Range& range = any_number);
+/// A value of one number.
+[[nodiscard]] double read_number(const Field& field, const Range& range = any_number);
+/// Whether the value is one word, not a tuple.
+[[nodiscard]] bool is_word(const Field& field);
+/// Throws SceneError at the number unless `range` contains it.
+void check_range(const Field& field, Position at, double number, const Range& range);
 
-/// (r, g, b) in 0 to 255 or rgb(r, g, b) in 0 to 1, linear in 0 to 1.
-[[nodiscard]] Rgb read_color(const Field& field);
-/// A factor, 0 or more: one number for all channels, (r, g, b), or rgb(r, g, b) in 0 to 1.
-[[nodiscard]] Rgb read_factor(const Field& field);
+/// The number in the shortest form that reads back as the same.
+void append(std::string& out, double number);
+/// (a, b, …)
+void append(std::string& out, std::span<const double> numbers);
+/// The number as text for a message: 1000000 rather than 1e+06.
+[[nodiscard]] std::string to_text(double number);
 
-/// A word, or text in quotes.
-[[nodiscard]] std::string_view read_name(const Field& field);
-/// The index in `choices` of the word that the value is.
-[[nodiscard]] std::size_t read_choice(const Field& field,
-                                      std::span<const std::string_view> choices);
-/// true or false
-[[nodiscard]] bool read_flag(const Field& field);
+template <std::size_t count>
+[[nodiscard]] Type<std::array<double, count>> numbers(std::string takes, std::string_view form,
+                                                      const Range& range = any_number)
+{
+    return {
+        std::move(takes),
+        [=](const Field& field) {
+            const std::vector<double> read = read_numbers(field, count, form, range);
+            std::array<double, count> result{};
+            std::copy(read.begin(), read.end(), result.begin());
+            return result;
+        },
+        [](std::string& out, const auto& value) { append(out, std::span<const double>(value)); }};
+}
 
-// The same of one item of a longer value, which `form` shows in messages.
-[[nodiscard]] double item_number(const Field& field, const Item& item, std::string_view form);
-[[nodiscard]] Rgb item_color(const Field& field, const Item& item, std::string_view form);
+/// The one of `words` that the value is. Throws SceneError for another.
+[[nodiscard]] std::string_view read_word(const Field& field, const Keys& words);
 
-}  // namespace packtrace::reader
+/// One of an enumeration's words.
+template <class Enum>
+[[nodiscard]] Type<Enum> choice()
+{
+    Keys words;
+    std::string takes;
+    for (const Spelling<Enum>& spelling : spellings(Enum{})) {
+        words.push_back(spelling.word);
+        if (word_of(spelling.value) != spelling.word)
+            continue;
+        takes += (takes.empty() ? "`" : ", `") + std::string(spelling.word) + '`';
+    }
+    return {takes,
+            [words](const Field& field) {
+                const std::string_view word = read_word(field, words);
+                for (const Spelling<Enum>& spelling : spellings(Enum{}))
+                    if (spelling.word == word)
+                        return spelling.value;
+                return Enum{};
+            },
+            [](std::string& out, Enum value) { out += word_of(value); }};
+}
+
+}  // namespace packtrace::language

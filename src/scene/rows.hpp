@@ -1,0 +1,167 @@
+#pragma once
+
+#include "scene/values.hpp"
+
+#include <functional>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <type_traits>
+#include <utility>
+#include <vector>
+
+// The scene language, a row for each key. The reader, the writer, the suggestions in messages and
+// the tables of docs/scene.md all come from the rows.
+namespace packtrace::language {
+
+/// A key of a block, and what it sets in `Owner`, whose own value is the default.
+template <class Owner>
+struct Row {
+    std::string_view key;
+    std::string_view meaning;
+    std::string takes;
+    std::function<void(const Field&, Owner&)> read;
+    std::function<void(std::string&, const Owner&)> write;
+    std::function<bool(const Owner&)> is_set;
+    std::string_view example{};  ///< of a key that is needed: a value for the message
+    /// Whether an owner, as it is by now, can have the key, and what is wrong if not.
+    bool (*condition)(const Owner&) = nullptr;
+    std::string_view fault{};
+    bool repeatable = false;
+    bool omit_default = false;  ///< by the writer
+
+    [[nodiscard]] Row needed(std::string_view value) &&
+    {
+        example = value;
+        return std::move(*this);
+    }
+
+    [[nodiscard]] Row only_if(bool (*allowed)(const Owner&), std::string_view message) &&
+    {
+        condition = allowed;
+        fault = message;
+        return std::move(*this);
+    }
+
+    [[nodiscard]] bool is_allowed(const Owner& owner) const
+    {
+        return condition == nullptr || condition(owner);
+    }
+
+    [[nodiscard]] std::string text(const Owner& owner) const
+    {
+        std::string out;
+        if (is_set(owner))
+            write(out, owner);
+        return out;
+    }
+
+    [[nodiscard]] bool is_written(const Owner& owner) const
+    {
+        return is_set(owner) && is_allowed(owner) &&
+               !(omit_default && text(owner) == text(Owner{}));
+    }
+};
+
+template <class Owner>
+using Rows = std::vector<Row<Owner>>;
+
+template <class>
+inline constexpr bool is_optional = false;
+template <class Value>
+inline constexpr bool is_optional<std::optional<Value>> = true;
+
+/// A key of what `access` gives of an `Owner`.
+template <class Owner, class Value, class Access>
+Row<Owner> row(std::string_view key, const Type<Value>& type, Access access,
+               std::string_view meaning)
+{
+    using Member = std::decay_t<std::invoke_result_t<Access, Owner&>>;
+    return {
+        .key = key,
+        .meaning = meaning,
+        .takes = type.takes,
+        .read = [read = type.read, access](
+                    const Field& field, Owner& owner) { std::invoke(access, owner) = read(field); },
+        .write =
+            [write = type.write, access](std::string& out, const Owner& owner) {
+                if constexpr (is_optional<Member>)
+                    write(out, *std::invoke(access, owner));
+                else
+                    write(out, std::invoke(access, owner));
+            },
+        .is_set =
+            [access](const Owner& owner) {
+                if constexpr (is_optional<Member>)
+                    return std::invoke(access, owner).has_value();
+                else
+                    return true;
+            },
+        .omit_default = std::is_same_v<Member, bool>};
+}
+
+/// A key of a member: `&Sphere::radius`.
+template <class Owner, class Member, class Value>
+Row<Owner> row(std::string_view key, const Type<Value>& type, Member Owner::*member,
+               std::string_view meaning)
+{
+    return row<Owner, Value, Member Owner::*>(key, type, member, meaning);
+}
+
+/// scale, rotate, translate, matrix: each is applied after what the matrix has done so far.
+[[nodiscard]] Rows<Mat4> transform_rows();
+
+/// The keys of a block that becomes an `Owner`, in the order in which they are read and written.
+template <class Owner>
+const Rows<Owner> rows;
+
+template <class Owner>
+[[nodiscard]] Keys keys()
+{
+    Keys result;
+    for (const Row<Owner>& row : rows<Owner>)
+        result.push_back(row.key);
+    return result;
+}
+
+/// The keys that an owner of this sort can have.
+template <class Owner>
+[[nodiscard]] Keys keys_of(const Owner& owner)
+{
+    Keys result;
+    for (const Row<Owner>& row : rows<Owner>)
+        if (row.is_allowed(owner))
+            result.push_back(row.key);
+    return result;
+}
+
+/// Sets what the block's keys say. Throws SceneError for a wrong, a misplaced or a missing one.
+template <class Owner>
+void read_rows(const Block& block, Owner& owner)
+{
+    for (const Row<Owner>& row : rows<Owner>) {
+        const auto field = block.find(row.key);
+        if (field)
+            row.read(*field, owner);
+        const bool allowed = row.is_allowed(owner);
+        if (field && !allowed)
+            field->fail(std::string(row.fault));
+        if (!field && allowed && !row.example.empty())
+            block.fail_missing(row.key, row.example);
+    }
+}
+
+/// Writes each key that says something, between `before` and `after`.
+template <class Owner>
+void write_rows(std::string& out, const Owner& owner, std::string_view before = " ",
+                std::string_view equals = "=", std::string_view after = "")
+{
+    for (const Row<Owner>& row : rows<Owner>)
+        if (row.is_written(owner)) {
+            out.append(before).append(row.key).append(equals);
+            row.write(out, owner);
+            out += after;
+        }
+}
+
+}  // namespace packtrace::language

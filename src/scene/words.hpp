@@ -1,0 +1,72 @@
+#pragma once
+
+#include <array>
+#include <span>
+#include <string_view>
+
+#include <packtrace/scene.hpp>
+
+// The words of the scene language that stand for values of enumerations, each with its value.
+namespace packtrace::language {
+
+template <class Enum>
+struct Spelling {
+    Enum value;
+    std::string_view word;
+};
+
+constexpr std::array<Spelling<Illumination>, 5> spellings(Illumination)
+{
+    return {{{Illumination::scratch, "scratch"},
+             {Illumination::sketch, "sketch"},
+             {Illumination::whitted, "whitted"},
+             {Illumination::shader, "shader"},
+             {Illumination::general, "general"}}};
+}
+
+constexpr std::array<Spelling<ShadowKind>, 3> spellings(ShadowKind)
+{
+    return {{{ShadowKind::none, "none"},
+             {ShadowKind::opaque, "opaque"},
+             {ShadowKind::transparent, "transparent"}}};
+}
+
+constexpr std::array<Spelling<DepthLimit>, 2> spellings(DepthLimit)
+{
+    return {{{DepthLimit::background, "background"}, {DepthLimit::local, "local"}}};
+}
+
+constexpr std::array<Spelling<LightType>, 3> spellings(LightType)
+{
+    return {{{LightType::ambient, "ambient"},
+             {LightType::point, "point"},
+             {LightType::directional, "directional"}}};
+}
+
+/// A word is taken for either value by more than one spelling; the first of each is written.
+constexpr std::array<Spelling<bool>, 4> spellings(bool)
+{
+    return {{{false, "no"}, {true, "yes"}, {false, "false"}, {true, "true"}}};
+}
+
+template <class Enum>
+[[nodiscard]] constexpr std::string_view word_of(Enum value)
+{
+    for (const Spelling<Enum>& spelling : spellings(value))
+        if (spelling.value == value)
+            return spelling.word;
+    return {};
+}
+
+/// `word { … }` is an object with a surface of this kind.
+struct SurfaceWord {
+    std::string_view word;
+    Surface blank;  ///< of the kind, with the coefficients that the kind has of its own
+    std::string_view equation;
+};
+
+/// All kinds, in the order in which they are listed.
+[[nodiscard]] std::span<const SurfaceWord> surface_words();
+[[nodiscard]] const SurfaceWord& word_of(const Surface& surface);
+
+}  // namespace packtrace::language
