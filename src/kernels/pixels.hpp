@@ -4,12 +4,15 @@
 #include "kernels/records.hpp"
 
 // The pixels of a tile while it is rendered: r, g, b and one unused element each, along the
-// tile's Z-order curve, so that a pixel is one load and one store.
+// tile's Z-order curve, so that a pixel is one load and one store. They are one array, which
+// packets of pixels may be moved through.
 namespace packtrace::PACKTRACE_ISA {
 namespace {
 
+constexpr int pixel_elements = 4;
+
 template <class Real>
-using TilePixelColors = Real[abi::tile_pixels][4];
+using TilePixelColors = Real[pixel_elements * abi::tile_pixels];
 
 /// `Count` reals moved at once; a vector extension of both compilers. They are copied from and to
 /// arrays as bytes, which has no alignment.
@@ -46,34 +49,35 @@ inline void write_colors(TilePixelColors<Real>& pixels, const vint<Real>& number
     // Hits keep their pixels' order, so that the ends of a packet tell whether any is missing.
     if (Write == PixelWrite::set && active == all_lanes<Real> &&
         at[lanes<Real> - 1] - at[0] == lanes<Real> - 1)
-        return store_pixels(pixels[at[0]], color.x, color.y, color.z);
-    alignas(64) Real colors[lanes<Real>][4];
-    store_pixels(colors[0], color.x, color.y, color.z);
+        return store_pixels(pixels + pixel_elements * at[0], color.x, color.y, color.z);
+    alignas(64) Real colors[pixel_elements * lanes<Real>];
+    store_pixels(colors, color.x, color.y, color.z);
     for (; active != 0; active &= active - 1) {
         const int lane = __builtin_ctz(active);
-        Reals<Real, 4> light;
-        __builtin_memcpy(&light, colors[lane], sizeof light);
+        Real* const pixel = pixels + pixel_elements * at[lane];
+        Reals<Real, pixel_elements> light;
+        __builtin_memcpy(&light, colors + pixel_elements * lane, sizeof light);
         if constexpr (Write == PixelWrite::add) {
-            Reals<Real, 4> before;
-            __builtin_memcpy(&before, pixels[at[lane]], sizeof before);
+            Reals<Real, pixel_elements> before;
+            __builtin_memcpy(&before, pixel, sizeof before);
             light += before;
         }
-        __builtin_memcpy(pixels[at[lane]], &light, sizeof light);
+        __builtin_memcpy(pixel, &light, sizeof light);
     }
 }
 
 template <class Real>
 inline void fill_pixels(TilePixelColors<Real>& pixels, const Real (&color)[3])
 {
-    alignas(64) Real pattern[4 * lanes<Real>];
-    for (int i = 0; i < 4 * lanes<Real>; ++i)
-        pattern[i] = i % 4 < 3 ? color[i % 4] : Real(0);
+    alignas(64) Real pattern[pixel_elements * lanes<Real>];
+    for (int i = 0; i < pixel_elements * lanes<Real>; ++i)
+        pattern[i] = i % pixel_elements < 3 ? color[i % pixel_elements] : Real(0);
     const vreal<Real> values = load(pattern);
     constexpr int step = lanes<Real> >= 4 ? lanes<Real> : 2;
-    const vreal<Real> more = load(pattern + step % 4);
-    for (int i = 0; i < 4 * abi::tile_pixels; i += 2 * step) {
-        store(pixels[0] + i, values);
-        store(pixels[0] + i + step, more);
+    const vreal<Real> more = load(pattern + step % pixel_elements);
+    for (int i = 0; i < pixel_elements * abi::tile_pixels; i += 2 * step) {
+        store(pixels + i, values);
+        store(pixels + i + step, more);
     }
 }
 
@@ -104,13 +108,17 @@ inline void write_row(Real* to, const TilePixelColors<Real>& pixels, int row, in
     int column = 0;
     for (; column + 2 < width; column += 2, to += 6) {
         Reals<Real, 8> two;
-        __builtin_memcpy(&two, pixels[row_bits | column_order.number[column]], sizeof two);
+        __builtin_memcpy(&two, pixels + pixel_elements * (row_bits | column_order.number[column]),
+                         sizeof two);
         two = __builtin_shufflevector(two, two, 0, 1, 2, 4, 5, 6, 3, 7);
         __builtin_memcpy(to, &two, sizeof two);
     }
-    for (; column < width; ++column, to += 3)
+    for (; column < width; ++column, to += 3) {
+        const Real* const pixel =
+            pixels + pixel_elements * (row_bits | column_order.number[column]);
         for (int channel = 0; channel < 3; ++channel)
-            to[channel] = pixels[row_bits | column_order.number[column]][channel];
+            to[channel] = pixel[channel];
+    }
 }
 
 }  // namespace
