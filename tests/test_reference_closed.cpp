@@ -13,6 +13,8 @@
 namespace packtrace::test {
 namespace {
 
+using V = reference::Vec3<double>;
+
 template <class Real>
 constexpr Real unbounded = reference::infinity<Real>;
 
@@ -173,7 +175,7 @@ TEMPLATE_TEST_CASE("every ray from inside a capped body leaves it once more than
 TEMPLATE_TEST_CASE("a ray mirrored within a capped body stays in it, at rims too",
                    "[reference_closed]", float, double, long double)
 {
-    using V = reference::Vec3<TestType>;
+    using Vec = reference::Vec3<TestType>;
     for (const CappedKind& kind : capped_kinds()) {
         CAPTURE(kind.name);
         Scene scene;
@@ -185,7 +187,7 @@ TEMPLATE_TEST_CASE("a ray mirrored within a capped body stays in it, at rims too
         int lost = 0;
         int entered_again = 0;
         for (int i = 0; i < 2'000; ++i) {
-            V org, dir;
+            Vec org, dir;
             rays.next(org, dir);
             dir = placement.vector_to_world(dir);
             org = placement.point_to_world(org);
@@ -211,7 +213,6 @@ TEMPLATE_TEST_CASE("a ray mirrored within a capped body stays in it, at rims too
 
 TEST_CASE("side and cap of a cylinder share their edge", "[reference_closed]")
 {
-    using V = reference::Vec3<double>;
     Scene scene;
     scene.objects = {capped(capped_kinds()[1])};
     const reference::Bodies<double> bodies(scene);
@@ -239,7 +240,6 @@ TEST_CASE("side and cap of a cylinder share their edge", "[reference_closed]")
 
 TEST_CASE("a clipped surface without caps has its edges", "[reference_closed]")
 {
-    using V = reference::Vec3<double>;
     Scene scene;
     scene.objects = {capped(capped_kinds()[1])};
     std::get<Quadric>(scene.objects[0].surface).capped = false;
