@@ -7,8 +7,6 @@
 #include <packtrace/image_io.hpp>
 #include <packtrace/renderer.hpp>
 
-#include <tbb/task_arena.h>
-
 #include "image/png.hpp"
 #include "png_picture.hpp"
 
@@ -30,37 +28,29 @@ void render_frame(benchmark::State& state)
 }
 BENCHMARK(render_frame)->Arg(1)->Arg(2)->Apply(use_wall_and_cpu_time);
 
-// The whole of write_image, into a file; argument: threads.
+// The whole of write_image, into a file.
 void write_png(benchmark::State& state)
 {
     const auto file = std::filesystem::temp_directory_path() / "packtrace_bench.png";
-    tbb::task_arena arena(static_cast<int>(state.range(0)));
-    arena.execute([&] {
-        for (auto _ : state)
-            write_image(file, picture());
-    });
+    for (auto _ : state)
+        write_image(file, picture());
     count(state, std::filesystem::file_size(file));
     std::filesystem::remove(file);
 }
-BENCHMARK(write_png)->Arg(1)->Arg(2)->Apply(use_wall_and_cpu_time);
+BENCHMARK(write_png)->Apply(use_wall_and_cpu_time);
 
-// Row filters (0 none, 1 sub, 2 up) and levels of libdeflate, on one thread.
-void encode_png_bands(benchmark::State& state)
+// The file's bytes without writing them, whole by stb_image_write (0) or row by row by libpng (1).
+void encode_png_bytes(benchmark::State& state)
 {
-    const PngSettings settings{.filter = static_cast<PngFilter>(state.range(0)),
-                               .level = static_cast<int>(state.range(1))};
-    tbb::task_arena arena(1);
+    PngSettings settings;
+    if (state.range(0) == 1)
+        settings.largest_whole = 0;
     std::size_t bytes = 0;
-    arena.execute([&] {
-        for (auto _ : state)
-            bytes = encode_png(picture(), settings).size();
-    });
+    for (auto _ : state)
+        bytes = encode_png(picture(), settings).size();
     count(state, bytes);
 }
-BENCHMARK(encode_png_bands)
-    ->ArgNames({"filter", "level"})
-    ->ArgsProduct({{0, 1, 2}, {1, 2, 3, 6}})
-    ->Apply(use_wall_and_cpu_time);
+BENCHMARK(encode_png_bytes)->ArgName("rows")->Arg(0)->Arg(1)->Apply(use_wall_and_cpu_time);
 
 }  // namespace
 }  // namespace packtrace

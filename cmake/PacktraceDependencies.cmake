@@ -28,6 +28,8 @@ packtrace_need(PACKTRACE_STB_DIR libstb-dev)
 find_path(PACKTRACE_DEFLATE_DIR libdeflate.h DOC "Folder that holds libdeflate.h")
 find_library(PACKTRACE_DEFLATE_LIBRARY deflate DOC "libdeflate")
 packtrace_need(PACKTRACE_DEFLATE_LIBRARY libdeflate-dev)
+find_package(PNG QUIET)
+packtrace_need(PNG_FOUND libpng-dev)
 
 if(PACKTRACE_BUILD_STUDY)
     find_path(PACKTRACE_BOOST_DIR boost/multiprecision/cpp_bin_float.hpp

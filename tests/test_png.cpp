@@ -5,14 +5,10 @@
 #include <cmath>
 #include <cstdint>
 #include <string>
+#include <string_view>
 #include <vector>
 
-#include <tbb/global_control.h>
-#include <tbb/task_arena.h>
-
 #include "catch.hpp"
-#include "image/deflate_end.hpp"
-#include "image/deflate_piece.hpp"
 
 namespace packtrace {
 namespace {
@@ -73,118 +69,138 @@ Image<float> mixed_picture(int width, int height)
     return image;
 }
 
-Bytes bytes_of(std::size_t count, unsigned kinds)
+Bytes bytes_of(std::string_view digits)
 {
-    Bytes bytes(count);
-    std::uint32_t state = 99;
-    for (std::uint8_t& byte : bytes) {
-        state = state * 1664525u + 1013904223u;
-        byte = static_cast<std::uint8_t>((state >> 24) % kinds);
-    }
+    Bytes bytes;
+    for (std::size_t i = 0; i < digits.size(); i += 2)
+        bytes.push_back(
+            static_cast<std::uint8_t>(std::stoi(std::string(digits.substr(i, 2)), nullptr, 16)));
     return bytes;
 }
 
 }  // namespace
 
-TEST_CASE("a PNG's chunks hold the filtered rows in one zlib stream", "[png]")
+TEST_CASE("a PNG's chunks hold the picture's rows in one zlib stream", "[png]")
 {
     const Image<float> image = mixed_picture(700, 900);
-    const Bytes file = encode_png(image, {.filter = PngFilter::none});
-    const std::vector<Chunk> chunks = chunks_of(file);
-    REQUIRE(chunks.size() > 5);
-    CHECK(chunks.front().type == "IHDR");
-    CHECK(chunks.back().type == "IEND");
-    Bytes stream;
-    for (std::size_t i = 1; i + 1 < chunks.size(); ++i) {
-        CHECK(chunks[i].type == "IDAT");
-        stream.insert(stream.end(), chunks[i].data.begin(), chunks[i].data.end());
-    }
-    CHECK((stream[0] * 256 + stream[1]) % 31 == 0);
+    const std::vector<Chunk> chunks = chunks_of(encode_png(image));
+    REQUIRE(chunks.size() == 3);
+    CHECK(chunks[0].type == "IHDR");
+    CHECK(chunks[1].type == "IDAT");
+    CHECK(chunks[2].type == "IEND");
 
+    // Each row is led by its filter, 2, and has the differences from the row above.
     Bytes rows;
     for (int y = 0; y < image.height; ++y) {
-        rows.push_back(0);
-        for (int i = 0; i < 3 * image.width; ++i)
-            rows.push_back(static_cast<std::uint8_t>(std::lround(image.pixel(0, y)[i] * 255.0f)));
-    }
-    CHECK((inflated(stream, rows.size()) == rows));
-}
-
-TEST_CASE("every filter and level gives the same picture", "[png]")
-{
-    const Image<float> image = mixed_picture(301, 700);
-    for (const PngFilter filter : {PngFilter::none, PngFilter::sub, PngFilter::up})
-        for (int level = 1; level <= 12; ++level) {
-            INFO("filter " << static_cast<int>(filter) << " level " << level);
-            const Image<float> back =
-                decode_png(encode_png(image, {.filter = filter, .level = level}));
-            CHECK((back.rgb == image.rgb));
+        rows.push_back(2);
+        for (int i = 0; i < 3 * image.width; ++i) {
+            const auto byte = [&](int row) { return std::lround(image.pixel(0, row)[i] * 255.0f); };
+            rows.push_back(static_cast<std::uint8_t>(byte(y) - (y > 0 ? byte(y - 1) : 0)));
         }
+    }
+    CHECK((inflated(chunks[1].data, rows.size()) == rows));
 }
 
-TEST_CASE("pictures of any shape survive a PNG", "[png]")
+TEST_CASE("pictures of any shape survive a PNG, whole or row by row", "[png]")
 {
     for (const auto& [width, height] : std::vector<std::pair<int, int>>{
              {1, 1}, {1, 5000}, {100000, 2}, {3, 87381}, {341, 257}, {340, 256}}) {
         INFO(width << " x " << height);
         const Image<float> image = mixed_picture(width, height);
-        const Image<float> back = decode_png(encode_png(image));
-        CHECK(back.width == width);
-        CHECK(back.height == height);
-        CHECK((back.rgb == image.rgb));
-    }
-}
-
-TEST_CASE("a PNG's bytes do not depend on the number of threads", "[png]")
-{
-    const Image<float> image = mixed_picture(640, 900);
-    const tbb::global_control allow(tbb::global_control::max_allowed_parallelism, 7);
-    const auto with = [&](int threads) {
-        tbb::task_arena arena(threads);
-        return arena.execute([&] { return encode_png(image); });
-    };
-    const Bytes one = with(1);
-    CHECK((with(2) == one));
-    CHECK((with(7) == one));
-}
-
-TEST_CASE("pieces of deflate join to one stream", "[png]")
-{
-    // 1 byte is a fixed block, noise a stored one, the others dynamic; level 12 makes many.
-    std::vector<Bytes> parts{bytes_of(1, 256),     bytes_of(70000, 256), bytes_of(0, 1),
-                             bytes_of(200000, 3),  bytes_of(5000, 1),    bytes_of(300, 20),
-                             bytes_of(300000, 60), bytes_of(2, 256)};
-    for (int level = 1; level <= 12; ++level) {
-        DeflatePieces pieces(level);
-        Bytes stream{0x78, 0x01};
-        Bytes all;
-        std::uint32_t adler = 1;
-        for (const Bytes& part : parts) {
-            pieces.append(part, stream);
-            all.insert(all.end(), part.begin(), part.end());
-            adler =
-                join_adler32(adler, libdeflate_adler32(1, part.data(), part.size()), part.size());
+        for (const std::size_t largest_whole : {PngSettings{}.largest_whole, std::size_t{0}}) {
+            const Image<float> back =
+                decode_png(encode_png(image, {.largest_whole = largest_whole}));
+            CHECK(back.width == width);
+            CHECK(back.height == height);
+            CHECK((back.rgb == image.rgb));
         }
-        const Bytes last = last_deflate_piece();
-        stream.insert(stream.end(), last.begin(), last.end());
-        CHECK(adler == libdeflate_adler32(1, all.data(), all.size()));
-        for (const unsigned shift : {24u, 16u, 8u, 0u})
-            stream.push_back(static_cast<std::uint8_t>(adler >> shift));
-        INFO("level " << level);
-        CHECK((inflated(stream, all.size()) == all));
     }
 }
 
-TEST_CASE("a damaged deflate stream is told, not followed", "[png]")
+TEST_CASE("a PNG holds its recipe, whole or row by row", "[png]")
 {
-    const auto find = [](const Bytes& stream) { return find_deflate_end(stream); };
-    CHECK_THROWS_AS(find({}), std::logic_error);
-    CHECK_THROWS_AS(find({0x07}), std::logic_error);  // block type 3
-    CHECK_THROWS_AS(find({0x01, 0x05, 0x00, 0xfa, 0xff, 0x61}), std::logic_error);
-    CHECK_THROWS_AS(find({0x03}), std::logic_error);  // no end of block
-    const DeflateEnd end = find({0x03, 0x00});
-    CHECK(end.last_block == 0);
-    CHECK(end.end == 10);
+    const Image<float> image = mixed_picture(9, 7);
+    for (const std::size_t largest_whole : {PngSettings{}.largest_whole, std::size_t{0}}) {
+        const Bytes file =
+            encode_png(image, {.recipe = "four eggs", .largest_whole = largest_whole});
+        const std::vector<Chunk> chunks = chunks_of(file);
+        CHECK(chunks[1].type == "tEXt");
+        CHECK(png_recipe(file) == "four eggs");
+        CHECK((decode_png(file).rgb == image.rgb));
+        CHECK(png_recipe(encode_png(image, {.largest_whole = largest_whole})).empty());
+    }
+}
+
+TEST_CASE("PNGs of other programs are read", "[png]")
+{
+    // 3 x 2 grey pixels, in ways that are not written here.
+    struct Sample {
+        const char* what;
+        const char* file;
+        std::vector<double> grey;  ///< of 255
+    };
+    const std::vector<Sample> samples{
+        {"grey of 1 bit",
+         "89504e470d0a1a0a0000000d4948445200000003000000020100000000b50f5bb70000000c494441"
+         "5478da6358c0e00000022400e14d16e85e0000000049454e44ae426082",
+         {255, 0, 255, 0, 255, 0}},
+        {"grey of 16 bits",
+         "89504e470d0a1a0a0000000d4948445200000003000000021000000000e88fe58500000016494441"
+         "5478da6360606060fcff9f8191a1818191110013100283b17987ce0000000049454e44ae426082",
+         {0, 0.0038910505836575876, 255, 0.99610894941634243, 127.50194552529183, 1}},
+        {"grey with alpha",
+         "89504e470d0a1a0a0000000d4948445200000003000000020804000000377dae9100000016494441"
+         "5478da6360f82fd0a0c0c060f0df81318009001a920372163d336d0000000049454e44ae426082",
+         {0, 16, 32, 48, 64, 80}},
+        {"a palette with alpha",
+         "89504e470d0a1a0a0000000d49484452000000030000000204030000006f5a7b2900000009504c54"
+         "450707070909090b0b0b0704200f0000000274524e5300809b2b4e180000000e4944415478da6360"
+         "54605064000000cd00437a58dbad0000000049454e44ae426082",
+         {7, 9, 11, 11, 9, 7}},
+        {"an interlaced one",
+         "89504e470d0a1a0a0000000d4948445200000003000000020800000001cf18095000000012494441"
+         "5478da63e06290631061d030b2010002b200d3e5a3a5ab0000000049454e44ae426082",
+         {10, 20, 30, 40, 50, 60}},
+    };
+    for (const Sample& sample : samples) {
+        INFO(sample.what);
+        const Image<float> image = decode_png(bytes_of(sample.file));
+        REQUIRE(image.width == 3);
+        REQUIRE(image.height == 2);
+        for (std::size_t i = 0; i < image.rgb.size(); ++i)
+            CHECK(image.rgb[i] == Approx(sample.grey[i / 3] / 255.0).epsilon(1e-6));
+    }
+}
+
+TEST_CASE("a PNG that is damaged or too short for its pixels is refused", "[png]")
+{
+    Bytes file = encode_png(mixed_picture(300, 200));
+    const auto error_of = [](const Bytes& bytes) -> std::string {
+        try {
+            (void)decode_png(bytes);
+        } catch (const ImageError& error) {
+            return error.what();
+        }
+        return "read";
+    };
+    CHECK(error_of(file) == "read");
+    for (const std::size_t length : {file.size() - 1, file.size() / 2, std::size_t{40}}) {
+        INFO("the first " << length << " bytes");
+        CHECK(error_of(Bytes(file.begin(), file.begin() + static_cast<std::ptrdiff_t>(length)))
+                  .starts_with("damaged PNG: "));
+    }
+    Bytes other = file;
+    other[file.size() / 2] ^= 1;
+    CHECK(error_of(other).starts_with("damaged PNG: "));
+    // A million by a million pixels, as the header has it, whose checksum is right.
+    Bytes huge = file;
+    for (const std::size_t at : {16, 20})
+        for (std::size_t i = 0; i < 4; ++i)
+            huge[at + i] = static_cast<std::uint8_t>(1000000u >> (24 - 8 * i));
+    const std::uint32_t sum = libdeflate_crc32(0, huge.data() + 12, 17);
+    for (std::size_t i = 0; i < 4; ++i)
+        huge[29 + i] = static_cast<std::uint8_t>(sum >> (24 - 8 * i));
+    CHECK(error_of(huge) == "damaged PNG: the file is too short for its size in pixels");
 }
 
 }  // namespace packtrace

@@ -1,26 +1,24 @@
 #pragma once
 
+#include <cstddef>
 #include <span>
 #include <string>
 
 #include <packtrace/image_io.hpp>
 
 #include "image/bytes.hpp"
-#include "image/png_filter.hpp"
 
 namespace packtrace {
 
-/// The defaults are the best trade of time and size on a rendered picture: see
-/// bench/bench_png.cpp and results/png.json.
 struct PngSettings {
-    double gamma = 1.0;  ///< as in ImageWriteOptions
-    PngFilter filter = PngFilter::up;
-    int level = 2;            ///< libdeflate's
+    double gamma = 1.0;       ///< as in ImageWriteOptions
     std::string recipe = {};  ///< as in ImageWriteOptions
+    /// Bytes of samples: more of them are compressed row by row, which takes three times as long
+    /// and little memory. stb_image_write counts in ints.
+    std::size_t largest_whole = std::size_t{1} << 30;
 };
 
-/// An 8-bit RGB PNG file, encoded by the threads of the arena the call runs in; the bytes do
-/// not depend on their number. Throws std::invalid_argument for a gamma that is not positive.
+/// An 8-bit RGB PNG file. Throws std::invalid_argument for a gamma that is not positive.
 template <class Real>
 [[nodiscard]] Bytes encode_png(const Image<Real>& image, const PngSettings& settings = {});
 

@@ -92,8 +92,9 @@ Row<Owner> row(std::string_view key, const Type<Value>& type, Access access,
             },
         .is_set =
             [access](const Owner& owner) {
+                [[maybe_unused]] const Member& member = std::invoke(access, owner);
                 if constexpr (is_optional<Member>)
-                    return std::invoke(access, owner).has_value();
+                    return member.has_value();
                 else
                     return true;
             },

@@ -1,0 +1,165 @@
+// libpng, row by row: reads every PNG, and writes those that are too large to be held whole.
+#include "image/png_rows.hpp"
+
+#include <algorithm>
+#include <csetjmp>
+#include <memory>
+#include <string>
+#include <utility>
+
+#include <png.h>
+
+#include "image/png.hpp"
+
+namespace packtrace {
+namespace {
+
+// A byte of deflate stands for at most 1032 bytes.
+constexpr std::size_t most_growth = 1040;
+
+/// What libpng's functions reach. It reports a fault by a jump over them, past no destructor: all
+/// that owns memory is here.
+struct PngState {
+    png_structp png = nullptr;
+    png_infop info = nullptr;
+    std::string fault;
+    std::span<const std::uint8_t> unread;  ///< of the file that is read
+    Bytes written;
+    Bytes samples;
+    Image<float> image;
+};
+
+PngState& state_of(png_structp png)
+{
+    return *static_cast<PngState*>(png_get_error_ptr(png));
+}
+
+[[noreturn]] void jump_out(png_structp png, png_const_charp fault)
+{
+    state_of(png).fault = fault;
+    png_longjmp(png, 1);
+}
+
+void ignore_warning(png_structp, png_const_charp)
+{
+}
+
+void give_bytes(png_structp png, png_bytep to, std::size_t count)
+{
+    std::span<const std::uint8_t>& unread = state_of(png).unread;
+    if (count > unread.size())
+        png_error(png, "the file ends early");
+    std::copy_n(unread.data(), count, to);
+    unread = unread.subspan(count);
+}
+
+void take_bytes(png_structp png, png_bytep from, std::size_t count)
+{
+    Bytes& written = state_of(png).written;
+    written.insert(written.end(), from, from + count);
+}
+
+/// Asks libpng for rows of red, green and blue, of 8 or 16 bits.
+void ask_for_rgb(png_structp png, png_infop info)
+{
+    png_set_expand(png);
+    png_set_strip_alpha(png);
+    png_set_gray_to_rgb(png);
+    png_set_interlace_handling(png);
+    png_read_update_info(png, info);
+}
+
+void take_row(const std::uint8_t* row, bool wide, std::span<float> to)
+{
+    for (std::size_t i = 0; i < to.size(); ++i)
+        to[i] = wide ? static_cast<float>(row[2 * i] << 8 | row[2 * i + 1]) / 65535.0f
+                     : static_cast<float>(row[i]) / 255.0f;
+}
+
+void read_picture(PngState& state)
+{
+    png_read_info(state.png, state.info);
+    const auto width = static_cast<int>(png_get_image_width(state.png, state.info));
+    const auto height = static_cast<int>(png_get_image_height(state.png, state.info));
+    // Before memory is asked for: what so few bytes can't hold.
+    if (png_get_rowbytes(state.png, state.info) * static_cast<std::size_t>(height) / most_growth >
+        state.unread.size())
+        png_error(state.png, "the file is too short for its size in pixels");
+    ask_for_rgb(state.png, state.info);
+    const std::size_t row_bytes = png_get_rowbytes(state.png, state.info);
+    const bool wide = png_get_bit_depth(state.png, state.info) == 16;
+    const bool interlaced = png_get_interlace_type(state.png, state.info) != PNG_INTERLACE_NONE;
+
+    state.image = Image<float>(width, height);
+    const auto give = [&](int y, const std::uint8_t* row) {
+        take_row(row, wide, {state.image.pixel(0, y), 3 * static_cast<std::size_t>(width)});
+    };
+    // An interlaced picture comes in seven passes, each over all its rows.
+    state.samples.resize(interlaced ? row_bytes * static_cast<std::size_t>(height) : row_bytes);
+    for (int pass = 0; pass < (interlaced ? PNG_INTERLACE_ADAM7_PASSES : 1); ++pass)
+        for (int y = 0; y < height; ++y) {
+            std::uint8_t* const row =
+                state.samples.data() + (interlaced ? static_cast<std::size_t>(y) * row_bytes : 0);
+            png_read_row(state.png, row, nullptr);
+            give(y, row);
+        }
+    png_read_end(state.png, nullptr);
+}
+
+void write_picture(PngState& state, int width, int height, const GiveRow& give_row)
+{
+    png_set_IHDR(state.png, state.info, static_cast<png_uint_32>(width),
+                 static_cast<png_uint_32>(height), 8, PNG_COLOR_TYPE_RGB, PNG_INTERLACE_NONE,
+                 PNG_COMPRESSION_TYPE_DEFAULT, PNG_FILTER_TYPE_DEFAULT);
+    png_set_filter(state.png, PNG_FILTER_TYPE_DEFAULT, PNG_FILTER_UP);
+    png_set_compression_level(state.png, 1);
+    png_write_info(state.png, state.info);
+    state.samples.resize(3 * static_cast<std::size_t>(width));
+    for (int y = 0; y < height; ++y) {
+        give_row(y, state.samples.data());
+        png_write_row(state.png, state.samples.data());
+    }
+    png_write_end(state.png, nullptr);
+}
+
+/// Runs `use`, whose fault becomes an ImageError.
+template <class Use>
+void guard(PngState& state, const std::string& what, const Use& use)
+{
+    state.info = png_create_info_struct(state.png);
+    if (setjmp(png_jmpbuf(state.png)) != 0)
+        throw ImageError(what + state.fault);
+    use();
+}
+
+}  // namespace
+
+Image<float> decode_png(std::span<const std::uint8_t> file)
+{
+    if (file.size() < 8 || png_sig_cmp(file.data(), 0, 8) != 0)
+        throw ImageError("not a PNG file");
+    PngState state;
+    state.unread = file;
+    state.png = png_create_read_struct(PNG_LIBPNG_VER_STRING, &state, jump_out, ignore_warning);
+    const auto destroy = [](PngState* used) {
+        png_destroy_read_struct(&used->png, &used->info, nullptr);
+    };
+    const std::unique_ptr<PngState, decltype(destroy)> owner(&state, destroy);
+    png_set_read_fn(state.png, nullptr, give_bytes);
+    guard(state, "damaged PNG: ", [&] { read_picture(state); });
+    return std::move(state.image);
+}
+
+Bytes encode_png_rows(int width, int height, const GiveRow& give_row)
+{
+    PngState state;
+    state.png = png_create_write_struct(PNG_LIBPNG_VER_STRING, &state, jump_out, ignore_warning);
+    const auto destroy = [](PngState* used) { png_destroy_write_struct(&used->png, &used->info); };
+    const std::unique_ptr<PngState, decltype(destroy)> owner(&state, destroy);
+    png_set_write_fn(state.png, nullptr, take_bytes, nullptr);
+    guard(state,
+          "can't be written as PNG: ", [&] { write_picture(state, width, height, give_row); });
+    return std::move(state.written);
+}
+
+}  // namespace packtrace
