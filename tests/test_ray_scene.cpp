@@ -168,6 +168,37 @@ TEST_CASE("packets list all hits of a ray in order", "[ray_scene]")
     CHECK(most >= 6);
 }
 
+TEST_CASE("a ray from just above a sphere meets it at once, not on its way out", "[ray_scene]")
+{
+    // Single precision puts its start inside: the two roots are -8e-7 and 0.33 by that.
+    Scene scene;
+    scene.objects = {
+        sphere({-2.0317530632019043, 3.1829373836517334, -1.6853139400482178}, 1.5742509365081787)};
+    const std::array<float, 8> ray = {-1.3746360540390015f,
+                                      3.3577628135681152f,
+                                      -0.26549023389816284f,
+                                      0.52764761447906494f,
+                                      0.72186774015426636f,
+                                      -0.44776657223701477f,
+                                      0.0f,
+                                      std::numeric_limits<float>::infinity()};
+    for (const IsaInfo& isa : list_isas()) {
+        if (!isa.supported)
+            continue;
+        INFO(isa.name);
+        RenderOptions options;
+        options.isa = isa.name;
+        const RayScene<float> rays(scene, options);
+        float t = 0;
+        std::int32_t object = -1;
+        rays.closest_hits(
+            {&ray[0], &ray[1], &ray[2], &ray[3], &ray[4], &ray[5], &ray[6], &ray[7], 1},
+            {&t, &object, {}, {}, {}});
+        CHECK(object == 0);
+        CHECK(t == Approx(1.2321839e-7f));
+    }
+}
+
 TEST_CASE("a ray with a NaN hits nothing", "[ray_scene]")
 {
     RayArrays rays = random_rays(8);

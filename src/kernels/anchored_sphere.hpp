@@ -17,7 +17,8 @@ struct AnchoredOrigin {
 /// (g + n)·p + k0 the form's value: no term is of the size of the radius, which a ground
 /// sphere's would drown in.
 template <class Real>
-inline AnchoredOrigin<Real> anchored_origin(const abi::AnchoredSphere<Real>& sphere, const Vec3v<Real>& org)
+inline AnchoredOrigin<Real> anchored_origin(const abi::AnchoredSphere<Real>& sphere,
+                                            const Vec3v<Real>& org)
 {
     const Vec3v<Real> normal = broadcast(sphere.normal);
     const Vec3v<Real> p = org - broadcast(sphere.anchor);
@@ -28,8 +29,9 @@ inline AnchoredOrigin<Real> anchored_origin(const abi::AnchoredSphere<Real>& sph
 /// The ray against a sphere given by a surface point and its curvature (abi::AnchoredSphere):
 /// F(t) = k a t² + 2 (g·d) t + F(0). `curved` is k F(0).
 template <class Real>
-inline Quadratic<Real> anchored_quadratic(const AnchoredOrigin<Real>& origin, const vreal<Real>& curvature,
-                                      const vreal<Real>& curved, const RayPacket<Real>& rays)
+inline Quadratic<Real> anchored_quadratic(const AnchoredOrigin<Real>& origin,
+                                          const vreal<Real>& curvature, const vreal<Real>& curved,
+                                          const RayPacket<Real>& rays)
 {
     Quadratic<Real> q;
     q.a = curvature * rays.dir2;
@@ -66,7 +68,7 @@ struct SharedOriginAnchored {
 
 template <class Real>
 inline SharedOriginAnchored<Real> share_origin(const abi::AnchoredSphere<Real>& sphere,
-                                           const Vec3v<Real>& origin)
+                                               const Vec3v<Real>& origin)
 {
     const AnchoredOrigin<Real> at = anchored_origin<Real>(sphere, origin);
     return {{first_lane<Real>(at.g.x), first_lane<Real>(at.g.y), first_lane<Real>(at.g.z)},
@@ -81,7 +83,8 @@ inline Quadratic<Real> quadratic_of(const SharedOriginAnchored<Real>& sphere,
                                     const RayPacket<Real>& rays)
 {
     return anchored_quadratic<Real>({broadcast(sphere.g), vreal<Real>(sphere.constant)},
-                                vreal<Real>(sphere.curvature), vreal<Real>(sphere.curved), rays);
+                                    vreal<Real>(sphere.curvature), vreal<Real>(sphere.curved),
+                                    rays);
 }
 
 }  // namespace

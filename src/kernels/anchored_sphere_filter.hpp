@@ -131,6 +131,20 @@ inline AnchoredLine line_of(const AnchoredFilter& filter, const RayPacket<float>
     return line;
 }
 
+/// Lanes that start outside, and go away from the surface or still towards it at t_end, outside
+/// there, too: F is convex.
+inline std::uint32_t stays_above(const AnchoredLine& line, const vreal<float>& t_end)
+{
+    const vreal<float> last_slope = madd(line.bend, t_end, line.b);
+    const vreal<float> climb = t_end * (line.b + last_slope);
+    const vreal<float> rounding = vreal<float>(roundoffs(8.0f)) * (line.value - climb);
+    const vreal<float> error = madd(t_end + t_end, line.slope_error, line.value_error + rounding);
+    const std::uint32_t outside = bits(line.value > line.value_error);
+    const std::uint32_t towards = bits(last_slope < negated(line.slope_error + line.slope_error));
+    return outside &
+           (bits(line.b > line.slope_error) | (towards & bits(line.value + climb > error)));
+}
+
 /// Where a line crosses an anchored sphere for sure: its one root ahead from inside, the first of
 /// two from outside.
 struct AnchoredHit {
@@ -156,22 +170,28 @@ inline AnchoredHit first_root(const AnchoredLine& line)
     if (hit.nothing == all_lanes<float>)
         return hit;
 
-    const vreal<float> root = sqrt(max(line.discriminant, zero));
-    // From outside, or from inside along the gradient: F(0) over what does not cancel. From inside
-    // against it the other root.
+    const vreal<float> inverse_root =
+        rough_inverse_sqrt(max(line.discriminant, vreal<float>(1e-30f)));
+    const vreal<float> root = line.discriminant * inverse_root;
     const vreal<float> sum = root + abs(line.b);
-    const std::uint32_t by_value = outside | ~bits(line.b < zero);
-    const vmask<float> of_value = from_bits<float>(by_value & all_lanes<float>);
-    const vreal<float> above_line = select(of_value, abs(line.value), sum);
-    const vreal<float> below_line = select(of_value, sum, line.bend);
-    const vreal<float> inverse = vreal<float>(1.0f) / below_line;
     const vreal<float> sum_error =
-        madd(vreal<float>(0.6f), line.discriminant_error / root, line.slope_error);
-    hit.t = above_line * inverse;
-    const vreal<float> of_sum = select(of_value, hit.t, vreal<float>(1.0f)) * sum_error;
-    const vreal<float> of_above = select(of_value, line.value_error, zero);
-    hit.error = madd(of_sum + of_above, inverse * vreal<float>(1.5f),
-                     hit.t * vreal<float>(roundoffs(10.0f)));
+        madd(vreal<float>(0.6f) * inverse_root, line.discriminant_error, line.slope_error);
+    const vreal<float> per_t(roundoffs(20.0f));
+    // From outside, or from inside along the gradient: F(0) over what does not cancel.
+    const std::uint32_t by_sum = hit.sure & inside & bits(line.b < zero);
+    const vreal<float> inverse = vreal<float>(1.0f) / sum;
+    hit.t = abs(line.value) * inverse;
+    hit.error =
+        madd(madd(hit.t, sum_error, line.value_error), inverse * vreal<float>(1.5f), hit.t * per_t);
+    if (by_sum == 0)
+        return hit;
+    // From inside against it the other root.
+    const vmask<float> of_sum = from_bits<float>(by_sum);
+    const vreal<float> inverse_bend = vreal<float>(1.0f) / line.bend;
+    const vreal<float> other = sum * inverse_bend;
+    hit.t = select(of_sum, other, hit.t);
+    hit.error = select(of_sum, madd(sum_error, inverse_bend * vreal<float>(1.5f), other * per_t),
+                       hit.error);
     return hit;
 }
 
@@ -198,8 +218,12 @@ template <bool Shared>
 inline Occlusion occludes(const AnchoredFilter& filter, const RayPacket<float>& rays,
                           const RayScale& scale, const vreal<float>& t_end)
 {
-    const AnchoredHit at = first_root(line_of<Shared>(filter, rays, scale));
-    const std::uint32_t open = ~at.nothing & all_lanes<float>;
+    const AnchoredLine line = line_of<Shared>(filter, rays, scale);
+    const std::uint32_t above = stays_above(line, t_end);
+    if (above == all_lanes<float>)
+        return {};
+    const AnchoredHit at = first_root(line);
+    const std::uint32_t open = ~at.nothing & ~above & all_lanes<float>;
     if (open == 0)
         return {};
     const vreal<float> low = at.t - at.error;

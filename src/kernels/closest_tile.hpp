@@ -28,7 +28,8 @@ inline void store_tile_hits(abi::TileHits<Real>& hits, int first, const abi::Sce
         const std::uint32_t found = hit_lanes(hit);
         if (found != 0)
             t = select(from_bits<Real>(found),
-                       refined<F>(scene.shapes, rays, hit, no_start<Real>(), found).t, t);
+                       refined<F, Refine::t>(scene.shapes, rays, hit, no_start<Real>(), found).t,
+                       t);
     }
     store(hits.t + first, t);
     store(hits.surface + first, hit.surface);

@@ -36,13 +36,20 @@ inline constexpr float largest_certain = 1e9f;
 inline constexpr float largest_direction2 = 1e18f;
 inline constexpr float smallest_direction2 = 1e-18f;
 
-/// Lanes whose rays are of magnitudes that the bounds hold for.
+/// Lanes whose directions are of magnitudes that the bounds hold for.
 inline vmask<float> certifiable(const RayPacket<float>& rays)
 {
-    const vreal<float> reach = max(max(abs(rays.org.x), abs(rays.org.y)), abs(rays.org.z));
-    return (reach <= vreal<float>(largest_certain)) &
-           (rays.dir2 <= vreal<float>(largest_direction2)) &
+    return (rays.dir2 <= vreal<float>(largest_direction2)) &
            (rays.dir2 >= vreal<float>(smallest_direction2));
+}
+
+/// Whether origins are. NaN is not.
+inline bool certifiable(const Origins& origins)
+{
+    bool within = origins.radius <= largest_certain;
+    for (const float x : origins.center)
+        within = within && x <= largest_certain && x >= -largest_certain;
+    return within;
 }
 
 /// The ball around a box of origins, and around places that are off them by offset_origin().
@@ -62,14 +69,22 @@ inline Origins origins_in(const float (&low)[3], const float (&high)[3])
     return origins;
 }
 
+/// 1 / sqrt(x) within 8 roundoffs, by a step of Newton's from what the processor estimates: a
+/// decision by bounds is the same however they were rounded.
+inline vreal<float> rough_inverse_sqrt(const vreal<float>& x)
+{
+    const vreal<float> y = estimate_inverse_sqrt(x);
+    const vreal<float> half = vreal<float>(0.5f) * x * y;
+    return y * nmadd(half, y, vreal<float>(1.5f));
+}
+
 /// What bounds of one ray need of it, which is the same for all surfaces.
 struct RayScale {
-    vreal<float> inverse2;  ///< 1 / d·d
-    vreal<float> inverse;   ///< 1 / |d|
+    vreal<float> inverse2;  ///< 1 / d·d, within 20 roundoffs
+    vreal<float> inverse;   ///< 1 / |d|, within 10
     vreal<float> length;    ///< |d|
 
-    explicit RayScale(const RayPacket<float>& rays)
-        : RayScale(rays, sqrt(vreal<float>(1.0f) / rays.dir2))
+    explicit RayScale(const RayPacket<float>& rays) : RayScale(rays, rough_inverse_sqrt(rays.dir2))
     {
     }
     RayScale(const RayPacket<float>& rays, const vreal<float>& inverse_length)

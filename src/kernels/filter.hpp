@@ -52,31 +52,26 @@ inline vreal<float> rounded_high(const vreal<float>& t)
     return madd(vreal<float>(roundoffs(2.0f)), abs(t), t);
 }
 
-/// The two roots of a surface along the rays, each with the most it may be off by.
+/// The two roots of a surface along the rays, and the most that each may be off by.
 struct RootIntervals {
-    vreal<float> near, near_error;
-    vreal<float> far, far_error;
+    vreal<float> near, far;
+    vreal<float> error;
 };
 
 /// Keeps the first root beyond t_min in the lanes of `sure`, whose rays cross the surface.
 inline void keep_first_of(HitPacket<float>& hit, const RootIntervals& roots, vmask<float> sure,
                           const vreal<float>& t_min, std::int32_t surface)
 {
-    const vreal<float> near_low = roots.near - roots.near_error;
-    const vreal<float> near_high = roots.near + roots.near_error;
-    const auto near_counts = sure & (near_low > t_min);
-    if (bits(near_counts) == bits(sure))
-        return keep_sure(hit, sure, near_low, near_high, surface);
-    const vreal<float> far_low = roots.far - roots.far_error;
-    const vreal<float> far_high = roots.far + roots.far_error;
-    const auto near_behind = near_high < t_min;
-    const auto far_counts = sure & near_behind & (far_low > t_min);
-    const auto none_counts = near_behind & (far_high < t_min);
-    keep_sure(hit, near_counts | far_counts, select(near_counts, near_low, far_low),
-              select(near_counts, near_high, far_high), surface);
-    const std::uint32_t certain = bits(near_counts) | bits(far_counts) | bits(none_counts);
-    keep_doubt(hit, from_bits<float>(bits(sure) & ~certain),
-               select(near_behind, far_low, near_low));
+    const auto near_behind = roots.near + roots.error < t_min;
+    const vreal<float> root = select(near_behind, roots.far, roots.near);
+    const vreal<float> low = root - roots.error;
+    const vreal<float> high = root + roots.error;
+    const auto counts = low > t_min;
+    keep_sure(hit, sure & counts, low, high, surface);
+    const std::uint32_t none_counts = bits(near_behind) & bits(high < t_min);
+    const std::uint32_t open = bits(sure) & ~bits(counts) & ~none_counts;
+    if (open != 0)
+        keep_doubt(hit, from_bits<float>(open), low);
 }
 
 /// What certain tests say of occlusion.
@@ -89,15 +84,19 @@ struct Occlusion {
 inline Occlusion root_between(const RootIntervals& roots, vmask<float> sure,
                               const vreal<float>& t_min, const vreal<float>& t_end)
 {
-    const vreal<float> near_low = roots.near - roots.near_error;
-    const vreal<float> near_high = roots.near + roots.near_error;
-    const vreal<float> far_low = roots.far - roots.far_error;
-    const vreal<float> far_high = roots.far + roots.far_error;
-    const std::uint32_t inside = bits((near_low > t_min) & (near_high < t_end)) |
-                                 bits((far_low > t_min) & (far_high < t_end));
-    const std::uint32_t outside = (bits(near_high < t_min) | bits(near_low > t_end)) &
-                                  (bits(far_high < t_min) | bits(far_low > t_end));
-    return {inside & bits(sure), bits(sure) & ~inside & ~outside};
+    const vreal<float> from = t_min + roots.error;
+    const vreal<float> to = t_end - roots.error;
+    const std::uint32_t inside = (bits((roots.near > from) & (roots.near < to)) |
+                                  bits((roots.far > from) & (roots.far < to))) &
+                                 bits(sure);
+    const std::uint32_t open = bits(sure) & ~inside;
+    if (open == 0)
+        return {inside, 0};
+    const vreal<float> before = t_min - roots.error;
+    const vreal<float> behind = t_end + roots.error;
+    const std::uint32_t outside = (bits(roots.near < before) | bits(roots.near > behind)) &
+                                  (bits(roots.far < before) | bits(roots.far > behind));
+    return {inside, open & ~outside};
 }
 
 /// The same of a single root in [low, high].

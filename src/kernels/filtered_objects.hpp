@@ -36,7 +36,7 @@ struct FilteredObjects {
     int anchored_count = 0;
     int plane_count = 0;
     int quadric_count = 0;
-    bool certifiable = false;  ///< the scene's sizes are such that bounds hold
+    bool certifiable = false;  ///< the scene's sizes and the origins are such that bounds hold
 
     bool empty() const
     {
@@ -50,8 +50,9 @@ inline void append_bounds(SphereFilters& list, std::uint32_t kept,
 {
     compress_store(list.bounds.outer2 + list.count, kept, bounds.outer2);
     compress_store(list.bounds.inner2 + list.count, kept, bounds.inner2);
-    compress_store(list.bounds.t_error + list.count, kept, bounds.t_error);
-    compress_store(list.bounds.root_error + list.count, kept, bounds.root_error);
+    compress_store(list.bounds.along + list.count, kept, bounds.along);
+    compress_store(list.bounds.moment + list.count, kept, bounds.moment);
+    compress_store(list.bounds.size + list.count, kept, bounds.size);
     compress_store(list.bounds.band2 + list.count, kept, bounds.band2);
 }
 
@@ -86,7 +87,7 @@ inline void filter_spheres(SphereFilters& list, const Origins& origins, const Be
         compress_store(list.z + list.count, kept, place.z);
         compress_store(list.radius2 + list.count, kept, load(spheres.radius2 + first));
         compress_store(list.surface + list.count, kept, load(spheres.surface + first));
-        append_bounds(list, kept, sphere_bounds(radius, error, length));
+        append_bounds(list, kept, sphere_bounds(radius, error, moment_error(error, length)));
         list.count += __builtin_popcount(kept);
     });
 }
@@ -115,7 +116,7 @@ template <abi::Features F, bool Shared>
                                       const Beam<float>& beam, const abi::SceneView<float>& scene)
 {
     const abi::GeometryView<double>& wide = *scene.wide;
-    objects.certifiable = scene.certifiable;
+    objects.certifiable = scene.certifiable && certifiable(origins);
     filter_spheres<Shared>(objects.spheres, origins, beam, scene.spheres, wide.spheres);
     objects.anchored_count = 0;
     for (int i = 0; i < wide.anchored_spheres.count; ++i) {
@@ -175,8 +176,8 @@ inline SphereTest test_of(const SphereFilters& list, int i, const Vec3v<float>& 
     return {w,
             vreal<float>(list.radius2[i]),
             {vreal<float>(list.bounds.outer2[i]), vreal<float>(list.bounds.inner2[i]),
-             vreal<float>(list.bounds.t_error[i]), vreal<float>(list.bounds.root_error[i]),
-             vreal<float>(list.bounds.band2[i])}};
+             vreal<float>(list.bounds.along[i]), vreal<float>(list.bounds.moment[i]),
+             vreal<float>(list.bounds.size[i]), vreal<float>(list.bounds.band2[i])}};
 }
 
 }  // namespace

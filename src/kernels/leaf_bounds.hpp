@@ -38,8 +38,10 @@ inline void bound_origins(RayGroup<float>& group, const abi::BvhView<float>& tre
     for (int first = 0; first < group_rays; first += lanes<float>)
         if (active_lanes(group, first) != 0)
             store(group.inverse + first, RayScale(load_rays(group, first)).inverse);
-    group.center_error = tree.center_error;
     group.length = (__builtin_sqrtf(distance2) + tree.radius) * inflation;
+    group.center_error = tree.center_error;
+    group.moment_error = first_lane<float>(
+        moment_error(vreal<float>(tree.center_error), vreal<float>(group.length)));
 }
 
 inline RayScale scale_of(const RayGroup<float>& group, int first, const RayPacket<float>& rays)
@@ -63,13 +65,14 @@ inline QuadricFilter leaf_filter(const abi::QuadricRecord<float>& record,
 inline SphereBounds<vreal<float>> leaf_bounds(const RayGroup<float>& group,
                                               const vreal<float>& radius)
 {
-    return sphere_bounds(radius, vreal<float>(group.center_error), vreal<float>(group.length));
+    return sphere_bounds(radius, vreal<float>(group.center_error),
+                         vreal<float>(group.moment_error));
 }
 
 /// The outer bound alone, above the one of sphere_bounds().
 inline vreal<float> leaf_outer2(const RayGroup<float>& group, const vreal<float>& radius)
 {
-    const vreal<float> moment(roundoffs(2.5f) * group.length + group.center_error);
+    const vreal<float> moment(group.moment_error * (1.0f + roundoffs(12.0f)));
     const vreal<float> outer = madd(radius, vreal<float>(1.0f + roundoffs(12.0f)), moment);
     return signed_square<float>(outer);
 }

@@ -6,43 +6,80 @@
 namespace packtrace::PACKTRACE_ISA {
 namespace {
 
-/// The spheres in whole packets, though a packet may have more lanes than a block has spheres.
-struct BlockLanes {
-    static constexpr int step = lanes<float> < abi::node_width ? lanes<float> : abi::node_width;
+/// a b + c, rounded once where the processor fuses (product_roundings).
+inline float fused(float a, float b, float c)
+{
+#if defined(__FMA__) || defined(__aarch64__)
+    return __builtin_fmaf(a, b, c);
+#else
+    return a * b + c;
+#endif
+}
 
-    static vreal<float> load_lanes(const float* from)
+inline float dot3(const float (&a)[3], const float (&b)[3])
+{
+    return fused(a[0], b[0], fused(a[1], b[1], a[2] * b[2]));
+}
+
+/// One ray of a group: few of a leaf's spheres are near, so that lanes would be idle.
+struct LoneRay {
+    float org[3];
+    float dir[3];
+    float dir2;
+    float inverse;
+    float t_min;
+
+    LoneRay(const RayGroup<float>& group, int ray)
+        : inverse(group.inverse[ray]), t_min(group.t_min[ray])
     {
-        if constexpr (lanes<float> <= abi::node_width) {
-            return load(from);
-        } else {
-            alignas(64) float values[lanes<float>];
-            __builtin_memcpy(values, from, sizeof(float) * abi::node_width);
-            for (int lane = abi::node_width; lane < lanes<float>; ++lane)
-                values[lane] = values[0];
-            return load(values);
+        for (int axis = 0; axis < 3; ++axis) {
+            org[axis] = group.org[axis][ray];
+            dir[axis] = group.dir[axis][ray];
         }
+        dir2 = dot3(dir, dir);
     }
 };
 
-/// The test of the spheres from `first` on of a block.
-inline SphereTest test_of(const RayGroup<float>& group, const RayPacket<float>& rays,
-                          const abi::SphereBlock<float>& block, int first)
-{
-    const Vec3v<float> center{BlockLanes::load_lanes(block.center[0] + first),
-                              BlockLanes::load_lanes(block.center[1] + first),
-                              BlockLanes::load_lanes(block.center[2] + first)};
-    const vreal<float> radius = BlockLanes::load_lanes(block.radius + first);
-    return {rays.org - center, signed_square<float>(radius), leaf_bounds(group, radius)};
-}
+/// What crossing() says of packets, of one ray and one sphere.
+struct LoneCrossing {
+    float near, far;
+    float error;  ///< of either root, or half the interval around both where not sure
+    bool sure;
+};
 
-/// The spheres of `near` that a group's ray does not start on.
-inline std::uint32_t without_own(const RayGroup<float>& group, int ray,
-                                 const SphereLeaf<float>& leaf, std::uint32_t near)
+inline LoneCrossing crossing(const RayGroup<float>& group, const LoneRay& ray,
+                             const abi::SphereBlock<float>& block, int slot)
 {
-    for (std::uint32_t left = near; left != 0; left &= left - 1)
-        if (leaf.surface_of(__builtin_ctz(left)) == group.own[ray])
-            near &= ~(1u << __builtin_ctz(left));
-    return near;
+    const float w[3] = {ray.org[0] - block.center[0][slot], ray.org[1] - block.center[1][slot],
+                        ray.org[2] - block.center[2][slot]};
+    const auto minor = [&](int i, int j) { return fused(w[i], ray.dir[j], -(w[j] * ray.dir[i])); };
+    const float moment[3] = {minor(1, 2), minor(2, 0), minor(0, 1)};
+    const float moment2 = dot3(moment, moment);
+    const float radius = block.radius[slot];
+    // As sphere_bounds() has them.
+    const float size = radius * (1.0f + roundoffs(2.0f));
+    const float inner = radius * (1.0f - roundoffs(2.0f)) - group.moment_error;
+    const float outer = size + group.moment_error;
+    const float b = dot3(w, ray.dir);
+    const float reach = magnitude(b) * ray.inverse;
+    const float inverse2 = ray.inverse * ray.inverse;
+    const float middle = -b * inverse2;
+    const float along =
+        fused(roundoffs(28.0f), reach, fused(roundoffs(60.0f), outer, group.center_error)) *
+        ray.inverse;
+    const float inner2 = inner * magnitude(inner) * (1.0f - roundoffs(16.0f));
+    if (!(moment2 < inner2 * ray.dir2)) {
+        const float widest = size * (1.0f + roundoffs(6.0f));
+        const float band2 = size * (widest - (inner < size ? inner : size));
+        const float quarter = __builtin_sqrtf(band2 > 0 ? band2 : 0.0f);
+        return {middle, middle, fused(2.0f * inflation * quarter, ray.inverse, along), false};
+    }
+    const float discriminant = fused(ray.dir2, radius * radius, -moment2);
+    const float root = __builtin_sqrtf(discriminant);
+    const float of_moment =
+        fused(roundoffs(2.6f), reach, fused(roundoffs(12.0f), outer, group.center_error));
+    const float half = root * inverse2;
+    return {middle - half, middle + half, 2.0f * inflation * size * of_moment / root + along, true};
 }
 
 /// As keep_sure() and keep_doubt() do with a packet of rays.
@@ -68,34 +105,22 @@ inline void keep_doubt(RayGroup<float>& group, int ray, float low)
 [[gnu::noinline]] inline void keep_near_spheres(RayGroup<float>& group, int ray,
                                                 const SphereLeaf<float>& leaf, std::uint32_t near)
 {
-    near = without_own(group, ray, leaf, near);
-    const RayPacket<float> rays = broadcast_ray(group, ray);
-    const RayScale scale(rays, vreal<float>(group.inverse[ray]));
-    for (int first = 0; first < abi::node_width && near != 0; first += BlockLanes::step) {
-        const std::uint32_t active = near >> first & ((1u << BlockLanes::step) - 1u);
-        if (active == 0)
+    const LoneRay lone(group, ray);
+    for (; near != 0; near &= near - 1) {
+        const int slot = __builtin_ctz(near);
+        const std::int32_t surface = leaf.surface_of(slot);
+        if (surface == group.own[ray])
             continue;
-        const SphereTest test = test_of(group, rays, leaf.block, first);
-        const SphereApproach at = approach(test.w, test.bounds.outer2, rays);
-        // One hit for all lanes, each of a sphere of its own: the first that counts, and from where
-        // on in doubt.
-        HitPacket<float> hit = no_hit<float>(__builtin_inff());
-        keep_near_sphere(hit, test, {at.moment2, from_bits<float>(active)}, rays, scale, 0);
-        alignas(64) float low[lanes<float>];
-        alignas(64) float high[lanes<float>];
-        alignas(64) float doubt[lanes<float>];
-        store(low, hit.t_low);
-        store(high, hit.t);
-        store(doubt, hit.other);
-        const std::uint32_t hits =
-            bits(int_equal(hit.surface, vint<float>(lane_int<float>{0}))) & active;
-        for (std::uint32_t left = active; left != 0; left &= left - 1) {
-            const int lane = __builtin_ctz(left);
-            if ((hits >> lane & 1u) != 0)
-                keep_sure(group, ray, low[lane], high[lane], leaf.surface_of(first + lane));
-            else if (doubt[lane] < __builtin_inff())
-                keep_doubt(group, ray, doubt[lane]);
-        }
+        const LoneCrossing at = crossing(group, lone, leaf.block, slot);
+        if (at.far + at.error < lone.t_min)
+            continue;
+        const bool near_behind = at.near + at.error < lone.t_min;
+        const float root = near_behind ? at.far : at.near;
+        const float low = root - at.error;
+        if (at.sure && low > lone.t_min)
+            keep_sure(group, ray, low, root + at.error, surface);
+        else
+            keep_doubt(group, ray, low);
     }
 }
 
@@ -105,20 +130,23 @@ inline void keep_doubt(RayGroup<float>& group, int ray, float low)
                                                         const SphereLeaf<float>& leaf,
                                                         std::uint32_t near)
 {
-    near = without_own(group, ray, leaf, near);
-    const RayPacket<float> rays = broadcast_ray(group, ray);
-    const RayScale scale(rays, vreal<float>(group.inverse[ray]));
+    const LoneRay lone(group, ray);
+    const float end = group.t[ray];
     std::uint32_t blocking = 0;
-    for (int first = 0; first < abi::node_width && near != 0; first += BlockLanes::step) {
-        const std::uint32_t active = near >> first & ((1u << BlockLanes::step) - 1u);
-        if (active == 0)
+    for (; near != 0; near &= near - 1) {
+        const int slot = __builtin_ctz(near);
+        if (leaf.surface_of(slot) == group.own[ray])
             continue;
-        const SphereTest test = test_of(group, rays, leaf.block, first);
-        const SphereApproach at = approach(test.w, test.bounds.outer2, rays);
-        const Occlusion occlusion = occludes(test, {at.moment2, from_bits<float>(active)}, rays,
-                                             scale, vreal<float>(group.t[ray]));
-        blocking |= occlusion.blocked << first;
-        if (occlusion.unsure != 0)
+        const LoneCrossing at = crossing(group, lone, leaf.block, slot);
+        const auto outside = [&](float root) {
+            return root + at.error < lone.t_min || root - at.error > end;
+        };
+        const auto inside = [&](float root) {
+            return root - at.error > lone.t_min && root + at.error < end;
+        };
+        if (at.sure && (inside(at.near) || inside(at.far)))
+            blocking |= 1u << slot;
+        else if (!outside(at.near) || !outside(at.far))
             group.unsure[ray / cell_rays] |= static_cast<std::uint16_t>(1u << ray % cell_rays);
     }
     return blocking;

@@ -104,12 +104,13 @@ template <bool Shared>
     filter.most_error = most_error(filter, row, reach);
     const float to_ball =
         (static_cast<float>(__builtin_sqrt(to_ball2)) + origins.radius) * inflation;
+    const vreal<float> center_error(ball_error * inflation);
     const SphereBounds<vreal<float>> ball =
-        sphere_bounds(vreal<float>(record.bound_radius * inflation),
-                      vreal<float>(ball_error * inflation), vreal<float>(to_ball));
+        sphere_bounds(vreal<float>(record.bound_radius * inflation), center_error,
+                      moment_error(center_error, vreal<float>(to_ball)));
     filter.ball_outer2 = first_lane<float>(ball.outer2);
     filter.ball_reach =
-        (__builtin_sqrtf(filter.ball_outer2) + first_lane<float>(ball.t_error)) * inflation;
+        (__builtin_sqrtf(filter.ball_outer2) + first_lane<float>(ball.along)) * inflation;
     return filter;
 }
 
@@ -183,7 +184,7 @@ inline std::uint32_t may_hit_ball(const QuadricFilter& filter, const RayPacket<f
         return 0;
     const vreal<float> middle = negated(dot(w, rays.dir)) * scale.inverse2;
     const vreal<float> reach = madd(vreal<float>(filter.ball_reach), scale.inverse,
-                                    vreal<float>(roundoffs(8.0f)) * abs(middle));
+                                    vreal<float>(roundoffs(28.0f)) * abs(middle));
     return near & ~bits(middle + reach < rays.t_min) & ~bits(middle - reach > t_end);
 }
 

@@ -28,8 +28,9 @@ struct alignas(64) RayGroup {
     std::uint16_t unsure[group_cells];
     // With Features::exact, for the objects of the hierarchy.
     Real inverse[group_rays];  ///< 1 / |d|
-    float center_error;        ///< of the hierarchy's spheres
-    float length;              ///< the largest distance of an origin from any of their centres
+    float length;        ///< the largest distance of an origin from any centre of a sphere there
+    float center_error;  ///< of the spheres there
+    float moment_error;  ///< likewise, by sphere_filter.hpp
 };
 
 /// Lanes of the packet at `first` become unsure.

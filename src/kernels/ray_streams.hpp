@@ -97,26 +97,26 @@ struct StreamWork {
     }
 };
 
-/// Prepares the lists for a chunk of a stream. Origins that no bound holds for count as ones that
-/// are just within.
+/// Prepares the lists for a chunk of a stream.
 template <abi::Features F, class Real>
 inline void find_nearby_of(StreamWork<F, Real>& work, const abi::SceneView<Real>& scene,
                            const abi::RaysView<Real>& view, int begin, int count)
 {
     if constexpr (F.exact) {
+        const vreal<float> never(__builtin_inff());
+        const vreal<float> before = negated(never);
+        Vec3v<float> lows{never, never, never};
+        Vec3v<float> highs{before, before, before};
+        for (int first = 0; first < count; first += lanes<float>) {
+            const Vec3v<float> org = load_some3(view.org, begin + first, count - first);
+            lows = {min(lows.x, org.x), min(lows.y, org.y), min(lows.z, org.z)};
+            highs = {max(highs.x, org.x), max(highs.y, org.y), max(highs.z, org.z)};
+        }
         float low[3];
         float high[3];
-        for (int axis = 0; axis < 3; ++axis) {
-            const vreal<float> most(largest_certain);
-            vreal<float> lows = most;
-            vreal<float> highs = negated(most);
-            for (int first = 0; first < count; first += lanes<float>) {
-                const vreal<float> org = load_some(view.org[axis] + begin + first, count - first);
-                lows = min(lows, org);
-                highs = max(highs, org);
-            }
-            extent_of_lanes(max(lows, negated(most)), min(highs, most), low[axis], high[axis]);
-        }
+        extent_of_lanes(lows.x, highs.x, low[0], high[0]);
+        extent_of_lanes(lows.y, highs.y, low[1], high[1]);
+        extent_of_lanes(lows.z, highs.z, low[2], high[2]);
         find_objects<F>(work.nearby, origins_in(low, high), scene);
     } else {
         work.nearby.scene = &scene;
@@ -135,9 +135,13 @@ inline void store_packet_hits(const abi::SceneView<Real>& scene, const RayPacket
     store_numbers<Real>(hits.object + at, objects_of(scene, hit.surface, found), live);
     if (hits.surface != nullptr)
         store_numbers<Real>(hits.surface + at, hit.surface, live);
-    if (hits.normal[0] == nullptr && (!F.exact || hits.t == nullptr)) {
-        if (hits.t != nullptr)
-            store_some(hits.t + at, select(missed, t_max, hit.t), live);
+    if (hits.normal[0] == nullptr) {
+        if (hits.t == nullptr)
+            return;
+        vreal<Real> t = hit.t;
+        if (F.exact && found != 0)
+            t = refined<F, Refine::t>(scene.shapes, rays, hit, start, found).t;
+        store_some(hits.t + at, select(missed, t_max, t), live);
         return;
     }
     const vreal<Real> zero(Real(0));
@@ -145,7 +149,7 @@ inline void store_packet_hits(const abi::SceneView<Real>& scene, const RayPacket
     RefinedHits<Real> places{t_max, nothing, nothing};
     Vec3v<Real> offset = nothing;
     if (found != 0) {
-        places = refined<F>(scene.shapes, rays, hit, start, found);
+        places = refined<F, Refine::place>(scene.shapes, rays, hit, start, found);
         places.t = select(missed, t_max, places.t);
         places.normal = select(missed, nothing, places.normal);
         if (scene.start_error > 0)
@@ -208,13 +212,17 @@ inline void closest_chunk_in_tree(const abi::SceneView<Real>& scene,
                              start_at(first), t_max_at(first), hits, begin + first, count - first);
 }
 
+/// Rays that the lists are prepared for together, where there is no hierarchy to go through.
+inline constexpr int list_chunk = 4 * group_rays;
+
 /// Calls `visit(begin, end)` for the chunks of a stream, for which the lists are prepared.
 template <abi::Features F, class Real, class Visit>
 inline void for_each_chunk(StreamWork<F, Real>& work, const abi::SceneView<Real>& scene,
                            const abi::RaysView<Real>& view, const Visit& visit)
 {
-    for (int begin = 0; begin < view.count; begin += group_rays) {
-        const int end = view.count - begin < group_rays ? view.count : begin + group_rays;
+    const int chunk = scene.tree.empty() ? list_chunk : group_rays;
+    for (int begin = 0; begin < view.count; begin += chunk) {
+        const int end = view.count - begin < chunk ? view.count : begin + chunk;
         find_nearby_of(work, scene, view, begin, end - begin);
         visit(begin, end);
     }

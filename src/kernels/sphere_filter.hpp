@@ -10,35 +10,40 @@
 namespace packtrace::PACKTRACE_ISA {
 namespace {
 
-/// The bounds of a sphere for the origins of a group, of one sphere or of one a lane.
+/// The bounds of a sphere for the origins of a group, of one sphere or of one a lane. What the
+/// distance from an origin to the centre adds, by the ray itself, is in crossing().
 template <class Value>
 struct SphereBounds {
-    Value outer2;      ///< (r + h)², rounded up
-    Value inner2;      ///< (r - h)², rounded down; negative for none
-    Value t_error;     ///< of t, times |d|, but for what a small discriminant adds
-    Value root_error;  ///< that is this over the root of the discriminant
-    Value band2;  ///< the square of a quarter of the way in the sphere, times d·d, of a ray in
-                  ///< between, at most
+    Value outer2;  ///< (r + h)², rounded up
+    Value inner2;  ///< (r - h)², rounded down; negative for none
+    Value along;   ///< of t, times |d|, but for what a small discriminant adds
+    Value moment;  ///< of |m|, per |d|
+    Value size;    ///< twice the radius, rounded up
+    Value band2;   ///< the square of a quarter of the way in the sphere, times d·d, of a ray in
+                   ///< between, at most
 };
 
-/// `center_error` is how far w may be off by but for the rounding of a subtraction, `length` the
-/// largest |w|.
+/// How far rounding may move |m| / |d| for rays whose origins are up to `length` from a centre that
+/// is known to `center_error`.
+inline vreal<float> moment_error(const vreal<float>& center_error, const vreal<float>& length)
+{
+    return madd(vreal<float>(roundoffs(2.4f)), length, center_error);
+}
+
+/// `moment` is the moment_error() of all rays of the group.
 inline SphereBounds<vreal<float>> sphere_bounds(const vreal<float>& radius,
                                                 const vreal<float>& center_error,
-                                                const vreal<float>& length)
+                                                const vreal<float>& moment)
 {
-    const vreal<float> shift = madd(vreal<float>(roundoffs(1.2f)), length, center_error);
-    const vreal<float> moment = madd(vreal<float>(roundoffs(1.2f)), length, shift);
     const vreal<float> size = radius * vreal<float>(1.0f + roundoffs(2.0f));
     const vreal<float> outer = size + moment;
     const vreal<float> inner = radius * vreal<float>(1.0f - roundoffs(2.0f)) - moment;
-    const vreal<float> along = madd(vreal<float>(roundoffs(4.0f)), length, shift);
-    const vreal<float> discriminant = madd(vreal<float>(roundoffs(9.0f)), size, moment);
     SphereBounds<vreal<float>> bounds;
     bounds.outer2 = signed_square<float>(outer) * vreal<float>(1.0f + roundoffs(16.0f));
     bounds.inner2 = signed_square<float>(inner) * vreal<float>(1.0f - roundoffs(16.0f));
-    bounds.t_error = madd(vreal<float>(roundoffs(2.0f)), size, along);
-    bounds.root_error = vreal<float>(2.0f * inflation) * size * discriminant;
+    bounds.along = madd(vreal<float>(roundoffs(60.0f)), outer, center_error);
+    bounds.moment = madd(vreal<float>(roundoffs(12.0f)), outer, center_error);
+    bounds.size = vreal<float>(2.0f * inflation) * size;
     const vreal<float> widest = size * vreal<float>(1.0f + roundoffs(6.0f));
     bounds.band2 = max(size * (widest - min(inner, size)), vreal<float>(0.0f));
     return bounds;
@@ -70,24 +75,31 @@ inline SphereApproach approach(const Vec3v<float>& w, const vreal<float>& outer2
 struct SphereCrossing {
     RootIntervals roots;
     vreal<float> middle;  ///< t of the nearest approach
+    vreal<float> along;   ///< its error
     vmask<float> sure;
 };
+
+/// How far a t may be off, times |d|: for rays that are near, |w| is up to |b| / |d| and outer.
+inline vreal<float> along_error(const SphereTest& test, const vreal<float>& reach)
+{
+    return madd(vreal<float>(roundoffs(28.0f)), reach, test.bounds.along);
+}
 
 inline SphereCrossing crossing(const SphereTest& test, const SphereApproach& near,
                                const RayPacket<float>& rays, const RayScale& scale)
 {
     const vreal<float> b = dot(test.w, rays.dir);
+    const vreal<float> reach = abs(b) * scale.inverse;
     const vreal<float> discriminant = msub(rays.dir2, test.radius2, near.moment2);
-    const vreal<float> root = sqrt(max(discriminant, vreal<float>(0.0f)));
-    const vreal<float> error =
-        madd(test.bounds.t_error, scale.inverse, test.bounds.root_error / root);
-    const vreal<float> per_t(roundoffs(12.0f));
+    const vreal<float> inverse_root = rough_inverse_sqrt(max(discriminant, vreal<float>(1e-30f)));
+    const vreal<float> half = (discriminant * inverse_root) * scale.inverse2;
+    const vreal<float> of_moment = madd(vreal<float>(roundoffs(2.6f)), reach, test.bounds.moment);
     SphereCrossing result;
+    result.along = along_error(test, reach) * scale.inverse;
     result.middle = negated(b) * scale.inverse2;
-    result.roots.near = (negated(b) - root) * scale.inverse2;
-    result.roots.far = (root - b) * scale.inverse2;
-    result.roots.near_error = madd(per_t, abs(result.roots.near), error);
-    result.roots.far_error = madd(per_t, abs(result.roots.far), error);
+    result.roots.near = result.middle - half;
+    result.roots.far = result.middle + half;
+    result.roots.error = madd(test.bounds.size * of_moment, inverse_root, result.along);
     result.sure = near.near & (near.moment2 < test.bounds.inner2 * rays.dir2);
     return result;
 }
@@ -96,9 +108,7 @@ inline SphereCrossing crossing(const SphereTest& test, const SphereApproach& nea
 inline vreal<float> band_error(const SphereTest& test, const SphereCrossing& at,
                                const RayScale& scale)
 {
-    const vreal<float> half =
-        madd(vreal<float>(2.0f * inflation), sqrt(test.bounds.band2), test.bounds.t_error);
-    return madd(half, scale.inverse, vreal<float>(roundoffs(12.0f)) * abs(at.middle));
+    return madd(vreal<float>(2.0f * inflation) * sqrt(test.bounds.band2), scale.inverse, at.along);
 }
 
 /// The closest hit of a packet that is near the sphere, but for the lanes that start on it.
@@ -116,14 +126,47 @@ inline void keep_near_sphere(HitPacket<float>& hit, const SphereTest& test,
     keep_doubt(hit, from_bits<float>(band & ~behind), at.middle - error);
 }
 
+/// What needs no root: rays from outside that go through between t_min and t_end, or that have the
+/// sphere behind them, or wholly beyond t_end. The other lanes of `near` are left.
+struct PlainOcclusion {
+    std::uint32_t blocked;
+    std::uint32_t left;
+};
+
+inline PlainOcclusion plainly_occludes(const SphereTest& test, const SphereApproach& near,
+                                       const RayPacket<float>& rays, const RayScale& scale,
+                                       const vreal<float>& t_end)
+{
+    const vreal<float> b = dot(test.w, rays.dir);
+    const vreal<float> slack = along_error(test, abs(b) * scale.inverse) * scale.length;
+    const vreal<float> first_slope = madd(rays.dir2, rays.t_min, b);
+    const vreal<float> last_slope = madd(rays.dir2, t_end, b);
+    // |w + t_min d|² is no less than |w|² + 2 t_min b.
+    const vreal<float> distance2 = madd(rays.t_min + rays.t_min, b - slack,
+                                        dot(test.w, test.w) * vreal<float>(1.0f - roundoffs(8.0f)));
+    const vreal<float> outer2 = test.bounds.outer2 * vreal<float>(1.0f + roundoffs(8.0f));
+    const std::uint32_t outside = bits(distance2 > outer2) & bits(near.near);
+    const std::uint32_t through = bits((near.moment2 < test.bounds.inner2 * rays.dir2) &
+                                       (first_slope < negated(slack)) & (last_slope > slack));
+    const vreal<float> beyond = negated(last_slope) - slack;
+    const std::uint32_t clear = bits(b > slack) | bits((beyond > vreal<float>(0.0f)) &
+                                                       (beyond * beyond > outer2 * rays.dir2));
+    return {outside & through, bits(near.near) & ~(outside & (through | clear))};
+}
+
 /// Whether the sphere is between t_min and t_end of the lanes that are near it.
 inline Occlusion occludes(const SphereTest& test, const SphereApproach& near,
                           const RayPacket<float>& rays, const RayScale& scale,
                           const vreal<float>& t_end)
 {
-    const SphereCrossing at = crossing(test, near, rays, scale);
+    const PlainOcclusion plain = plainly_occludes(test, near, rays, scale, t_end);
+    if (plain.left == 0)
+        return {plain.blocked, 0};
+    const SphereApproach left{near.moment2, from_bits<float>(plain.left)};
+    const SphereCrossing at = crossing(test, left, rays, scale);
     Occlusion result = root_between(at.roots, at.sure, rays.t_min, t_end);
-    const std::uint32_t band = bits(near.near) & ~bits(at.sure);
+    result.blocked |= plain.blocked;
+    const std::uint32_t band = plain.left & ~bits(at.sure);
     if (band == 0)
         return result;
     const vreal<float> error = band_error(test, at, scale);

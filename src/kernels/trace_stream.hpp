@@ -27,7 +27,8 @@ inline void append_places(const abi::SceneView<Real>& scene, HitStream<F, Real>&
 {
     if (!F.probe && scene.flat && scene.checkers == nullptr)
         return;
-    const RefinedHits<Real> places = refined<F>(scene.shapes, from.rays, hit, from.start, active);
+    const RefinedHits<Real> places =
+        refined<F, Refine::place>(scene.shapes, from.rays, hit, from.start, active);
     append3(hits.point, hits.count, active, places.point);
     append3(hits.normal, hits.count, active, places.normal);
     append3(hits.dir, hits.count, active, from.rays.dir);
@@ -112,8 +113,9 @@ inline void report_rays(const HitStream<F, Real>& hits, const abi::SceneView<Rea
         HitPacket<Real> told = hit;
         const std::uint32_t found = hit_lanes(hit) & active;
         if (found != 0)
-            told.t = select(from_bits<Real>(found),
-                            refined<F>(scene.shapes, from.rays, hit, from.start, found).t, hit.t);
+            told.t = select(
+                from_bits<Real>(found),
+                refined<F, Refine::t>(scene.shapes, from.rays, hit, from.start, found).t, hit.t);
         packet_probe(hits, from.path, active)
             .ray(scene, from.rays, told, escaped(scene, from.rays));
     }

@@ -67,8 +67,9 @@ inline FilteredObjects<Shared> take_filters(Arena& arena, const abi::GeometryVie
     objects.spheres.radius2 = arena.take<float>(spheres);
     objects.spheres.bounds.outer2 = arena.take<float>(spheres);
     objects.spheres.bounds.inner2 = arena.take<float>(spheres);
-    objects.spheres.bounds.t_error = arena.take<float>(spheres);
-    objects.spheres.bounds.root_error = arena.take<float>(spheres);
+    objects.spheres.bounds.along = arena.take<float>(spheres);
+    objects.spheres.bounds.moment = arena.take<float>(spheres);
+    objects.spheres.bounds.size = arena.take<float>(spheres);
     objects.spheres.bounds.band2 = arena.take<float>(spheres);
     objects.spheres.surface = arena.take<std::int32_t>(spheres);
     objects.anchored_spheres =

@@ -122,6 +122,12 @@ inline void store_pixels(float* to, vreal<float> r, vreal<float> g, vreal<float>
     _mm256_storeu_ps(to + 24, _mm256_permute2f128_ps(third, fourth, 0x31));
 }
 
+/// 1 / sqrt(x) within 1.5 2^-12.
+inline vreal<float> estimate_inverse_sqrt(vreal<float> x)
+{
+    return _mm256_rsqrt_ps(x);
+}
+
 inline vreal<double> widen_low(vreal<float> x)
 {
     return _mm256_cvtps_pd(_mm256_castps256_ps128(x));

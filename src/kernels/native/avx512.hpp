@@ -114,6 +114,12 @@ inline void store_pixels(float* to, vreal<float> r, vreal<float> g, vreal<float>
     _mm512_storeu_ps(to + 48, _mm512_shuffle_f32x4(high, high_more, 0xdd));
 }
 
+/// 1 / sqrt(x) within 2^-14.
+inline vreal<float> estimate_inverse_sqrt(vreal<float> x)
+{
+    return _mm512_rsqrt14_ps(x);
+}
+
 inline vreal<double> widen_low(vreal<float> x)
 {
     return _mm512_cvtps_pd(_mm512_castps512_ps256(x));

@@ -57,7 +57,7 @@ public:
             o[axis] = _mm256_sub_ps(org_[axis], _mm256_load_ps(block.center[axis]));
         const __m256 moment[3] = {cross(o, 1, 2), cross(o, 2, 0), cross(o, 0, 1)};
         // leaf_outer2() in eight lanes.
-        const __m256 shift = _mm256_set1_ps(roundoffs(2.5f) * group.length + group.center_error);
+        const __m256 shift = _mm256_set1_ps(group.moment_error * (1.0f + roundoffs(12.0f)));
         const __m256 outer = _mm256_fmadd_ps(_mm256_load_ps(block.radius),
                                              _mm256_set1_ps(1.0f + roundoffs(12.0f)), shift);
         const __m256 limit = _mm256_mul_ps(signed_square(outer), dir2_);

@@ -108,6 +108,13 @@ inline void store_pixels(float* to, vreal<float> r, vreal<float> g, vreal<float>
     vst4q_f32(to, (float32x4x4_t{{r, g, b, vdupq_n_f32(0.0f)}}));
 }
 
+/// 1 / sqrt(x) within 2^-14.
+inline vreal<float> estimate_inverse_sqrt(vreal<float> x)
+{
+    const float32x4_t rough = vrsqrteq_f32(x);
+    return vmulq_f32(rough, vrsqrtsq_f32(vmulq_f32(x, rough), rough));
+}
+
 inline vreal<double> widen_low(vreal<float> x)
 {
     return vcvt_f64_f32(vget_low_f32(x));

@@ -138,6 +138,12 @@ inline void store_pixels(float* to, vreal<float> r, vreal<float> g, vreal<float>
     _mm_storeu_ps(to + 12, _mm_movehl_ps(b_high, rg_high));
 }
 
+/// 1 / sqrt(x) within 1.5 2^-12.
+inline vreal<float> estimate_inverse_sqrt(vreal<float> x)
+{
+    return _mm_rsqrt_ps(x);
+}
+
 inline vreal<double> widen_low(vreal<float> x)
 {
     return _mm_cvtps_pd(x);
