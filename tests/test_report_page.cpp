@@ -71,6 +71,11 @@ addEventListener('load', async () => {
         plot.querySelector('svg').getBoundingClientRect().height > 100);
     const box = plots[0].querySelectorAll('label input')[1];
     const group = plots[0].querySelector('#' + box.dataset.groups.split(' ')[0]);
+    const colorOf = label => [
+        getComputedStyle(label.querySelector('.swatch')).backgroundColor,
+        getComputedStyle(plots[0].querySelector(
+            `#${label.querySelector('input').dataset.groups.split(' ')[0]} path`)).stroke];
+    seen.colors = [...plots[0].querySelectorAll('label')].map(colorOf);
     seen.marks = group.querySelectorAll('use, path, circle').length;
     const shown = () => group.getBoundingClientRect().width > 0;
     seen.shown = shown();
@@ -169,6 +174,9 @@ TEST_CASE("the page opens in a browser without an error, and its slider and plot
     CHECK(seen["plots"] == 3);
     CHECK(seen["drawn"] == true);
     CHECK(seen["marks"] >= 1);
+    CHECK(seen["colors"].size() >= 3);
+    for (const auto& colors : seen["colors"])
+        CHECK(colors[0] == colors[1]);
     CHECK(seen["shown"] == true);
     CHECK(seen["hidden"] == true);
     CHECK(seen["shownAgain"] == true);

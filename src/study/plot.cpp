@@ -38,14 +38,6 @@ std::string number_text(double value)
     return text;
 }
 
-// Colours that the colour-blind tell apart, too.
-const char* color_of(std::size_t series)
-{
-    static constexpr std::array<const char*, 6> colors{"#888888", "#009e73", "#d55e00",
-                                                       "#0072b2", "#000000", "#a03080"};
-    return colors[series % colors.size()];
-}
-
 struct Axes {
     PlotAxis x;
     PlotAxis y;
@@ -153,7 +145,7 @@ void write_frame(std::ostream& to, const Plot& plot, const Axes& axes)
 
 void write_series(std::ostream& to, const PlotSeries& series, std::size_t index)
 {
-    const std::string color = std::string(" lc rgb '") + color_of(index) + "'";
+    const std::string color = std::string(" lc rgb '") + series_color(index) + "'";
     if (series.line) {
         to << "$points" << index << " using 1:2 with lines lw 2" << color << " title "
            << quoted(series.name);
@@ -162,7 +154,7 @@ void write_series(std::ostream& to, const PlotSeries& series, std::size_t index)
     to << "$points" << index << " using 1:2:3:4 with xerrorbars pt 7 ps 0.8" << color << " title "
        << quoted(series.name) << ", $leaders" << index
        << " using 1:2 with lines lw 0.7 lc rgb '#999999' notitle, $labels" << index
-       << " using 1:2:3 with labels left font ',11' textcolor rgb '" << color_of(index)
+       << " using 1:2:3 with labels left font ',11' textcolor rgb '" << series_color(index)
        << "' notitle";
 }
 
@@ -181,6 +173,14 @@ std::string script_of(const Plot& plot)
 }
 
 }  // namespace
+
+const char* series_color(std::size_t series)
+{
+    // The colour-blind tell them apart, too.
+    static constexpr std::array<const char*, 6> colors{"#888888", "#009e73", "#d55e00",
+                                                       "#0072b2", "#000000", "#a03080"};
+    return colors[series % colors.size()];
+}
 
 void check_plots()
 {

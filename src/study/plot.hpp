@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstddef>
 #include <stdexcept>
 #include <string>
 #include <vector>
@@ -42,6 +43,9 @@ struct Plot {
 {
     return series.line ? 1 : 3;
 }
+
+/// The colour that a plot draws its series of an index in, as #rrggbb.
+[[nodiscard]] const char* series_color(std::size_t series);
 
 /// Throws the PlotError that draw_svg would throw for want of gnuplot.
 void check_plots();

@@ -146,10 +146,11 @@ void write_scale(std::ostream& to, const std::string& side, const Choice& choice
 {
     const double most = choice.is_error ? largest_error(*choice.study, choice.picture) : 0.0;
     to << "<div class=\"scale " << side << '"' << (choice.is_error ? "" : " hidden")
-       << "><span>error of a pixel, " << side << ":</span><span class=\"least\">"
+       << "><span>error of a pixel, " << side
+       << ":</span><span class=\"range\"><span class=\"least\">"
        << brief(least_error_shown(most), 2)
        << "</span><span class=\"bar\"></span><span class=\"most\">" << brief(most, 2)
-       << "</span><span class=\"soft\">logarithmic; black for less, or none</span></div>";
+       << "</span></span><span class=\"soft\">logarithmic; black for less, or none</span></div>";
 }
 
 void write_slider(std::ostream& to, const SceneReport& scene)
@@ -201,6 +202,7 @@ void write_plot(std::ostream& to, const SceneReport& scene, const StudyReport& s
     to << "<div class=\"plot\"><div class=\"series\">";
     for (const PlotGroup& group : plot_groups(study))
         to << "<label><input type=\"checkbox\" checked data-groups=\"" << group.ids << "\"> "
+           << "<span class=\"swatch\" style=\"background:" << group.color << "\"></span>"
            << escaped(group.name) << "</label>";
     // What stands before the element is for files.
     to << "</div><div class=\"canvas\">" << svg.substr(svg.find("<svg")) << "</div></div>\n";

@@ -30,7 +30,17 @@ section.scene { border-top: 2px solid var(--ink); margin-top: 2.5rem; padding-to
 section.study { margin-top: 2rem; }
 ul.judgement { background: var(--tint); border-left: 4px solid var(--mark); margin: .75rem 0;
                padding: .6rem .9rem .6rem 1.9rem; border-radius: 0 6px 6px 0; }
-.scroll { overflow-x: auto; margin: .75rem 0; }
+/* A shadow at an edge says that there is more behind it; covers that scroll along hide it there
+   where there is not. */
+.scroll, .plot .canvas {
+    overflow-x: auto;
+    background: linear-gradient(to right, #fff 40%, #fff0) 0 0 / 3rem 100% local,
+                linear-gradient(to left, #fff 40%, #fff0) 100% 0 / 3rem 100% local,
+                linear-gradient(to right, #0004, #0000) 0 0 / .8rem 100% scroll,
+                linear-gradient(to left, #0004, #0000) 100% 0 / .8rem 100% scroll;
+    background-repeat: no-repeat;
+}
+.scroll { margin: .75rem 0; }
 table { border-collapse: collapse; font-size: .82rem; width: 100%; }
 th, td { padding: .28rem .6rem; text-align: right; white-space: nowrap;
          border-bottom: 1px solid var(--line); font-variant-numeric: tabular-nums;
@@ -60,10 +70,15 @@ tr.undecided td:first-child { font-style: italic; }
 .scale { display: flex; align-items: center; gap: .5rem; font-size: .8rem; margin: .4rem 0;
          max-width: max(20rem, var(--width)); flex-wrap: wrap; }
 .scale[hidden] { display: none; }
-.scale .bar { flex: 1 1 8rem; height: .8rem; border: 1px solid var(--line);
+.scale .range { display: flex; flex: 1 1 14rem; align-items: center; gap: .5rem; }
+.scale .bar { flex: 1; height: .8rem; border: 1px solid var(--line);
               background: linear-gradient(to right, #000, #00f, #0f0, #ff0, #f00, #fff); }
-.plot .canvas { overflow-x: auto; }
 .plot svg { display: block; width: 100%; min-width: 640px; max-width: 900px; height: auto; }
+/* The white ground of a plot would hide the shadows; letters keep some, to be read over lines. */
+.plot svg > g > rect:first-child { fill: none; }
+.plot svg text { paint-order: stroke; stroke: #fff; stroke-width: 3px; stroke-linejoin: round; }
+.plot .swatch { display: inline-block; width: .7rem; height: .7rem; border-radius: 50%;
+                margin-right: .3rem; }
 .js .plot .series { display: flex; flex-wrap: wrap; gap: .25rem 1rem; font-size: .85rem;
                     margin: .5rem 0 0; }
 @media (max-width: 640px) {
@@ -72,6 +87,8 @@ tr.undecided td:first-child { font-style: italic; }
     .js .controls { grid-template-columns: 1fr; }
     dl.conditions { grid-template-columns: 1fr; }
     dl.conditions dd { margin-bottom: .4rem; }
+    .slider > .scale .soft { flex-basis: 100%; }
+    th:last-child, td:last-child { min-width: 22rem; }
     td:first-child { white-space: normal; min-width: 8.5rem; max-width: 9.5rem; }
 }
 )css";

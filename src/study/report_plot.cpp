@@ -86,7 +86,7 @@ std::vector<PlotGroup> plot_groups(const StudyReport& study)
         std::string ids;
         for (int i = 0; i < groups_of(series); ++i)
             ids += (i > 0 ? " " : "") + ("gnuplot_plot_" + std::to_string(++number));
-        groups.push_back({series.name, ids});
+        groups.push_back({series.name, ids, series_color(groups.size())});
     }
     return groups;
 }

@@ -32,7 +32,8 @@ namespace packtrace {
 /// What belongs together in that plot: the SVG groups of a series, by their ids.
 struct PlotGroup {
     std::string name;
-    std::string ids;  ///< with spaces between
+    std::string ids;    ///< with spaces between
+    std::string color;  ///< #rrggbb
 };
 [[nodiscard]] std::vector<PlotGroup> plot_groups(const StudyReport& study);
 /// All of a report in one page, which needs no other file and, for all but choosing pictures, no
