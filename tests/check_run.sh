@@ -79,6 +79,19 @@ prints_no 'the first time'
 ends 0 install
 prints 'catch2'
 
+# Sanitizers are clang's, of the version that CXX names.
+fake ctest 'echo "ctest $@"'
+rm configured
+ends 0 sanitize -R image
+prints 'Installing .* libclang-rt-dev'
+prints '^ctest --preset asan -L fast .*-R image'
+grep -q 'preset asan .*CMAKE_CXX_COMPILER=clang++' configured || wrong 'no sanitizers of clang'
+CXX=clang++-19
+export CXX
+ends 0 sanitize
+prints 'Installing .* libclang-rt-19-dev'
+unset CXX
+
 # What fails shows its output.
 fake apt-get 'echo "noise of apt-get"' 'exit 100'
 ends 1 demo

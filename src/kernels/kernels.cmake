@@ -18,6 +18,7 @@ set(PACKTRACE_KERNELS "" CACHE INTERNAL "Instruction sets compiled in")
 # (kernel_abi/features.hpp); the others, fallbacks for old processors and for comparison, have the
 # general ones only: each set costs seconds to build and a quarter of a megabyte.
 set(with_feature_sets avx2 avx512 neon64)
+option(PACKTRACE_FEATURE_SETS "Kernels for sets of features; without them, the general ones only" ON)
 
 # Unless PACKTRACE_ISAS leaves it out.
 function(packtrace_kernel isa lanes)
@@ -31,7 +32,7 @@ function(packtrace_kernel isa lanes)
     endif()
     add_library(packtrace_kernels_${isa} OBJECT ${kernel_sources})
     set(feature_sets 0)
-    if(isa IN_LIST with_feature_sets)
+    if(PACKTRACE_FEATURE_SETS AND isa IN_LIST with_feature_sets)
         set(feature_sets 1)
     endif()
     target_compile_definitions(packtrace_kernels_${isa} PRIVATE
