@@ -67,13 +67,22 @@ prints "The picture is $PWD/demo/four_spheres.png"
 prints "The program is $PWD/build/release/packtrace"
 prints 'Try next:'
 grep -q STUDY=OFF configured || wrong 'the demo builds the study'
+if [ "$(uname -m)" = x86_64 ]; then
+    grep -q 'ISAS=sse42' configured || wrong 'the demo builds no old instruction set'
+    grep -q sse_fma configured && wrong 'the demo builds what only comparisons need'
+fi
+
+# All is for all instruction sets, after a demo too.
+rm configured
+ends 0 build
+grep -q 'STUDY=ON.*ISAS=all' configured || wrong 'not all instruction sets are built'
+rm configured
 
 # A build folder that has everything keeps it.
 echo PACKTRACE_BUILD_STUDY:BOOL=ON >build/release/CMakeCache.txt
 touch build/release/build.ninja
-rm configured
 ends 0 demo
-grep -q STUDY configured && wrong 'the demo takes the study away'
+grep -q -e STUDY -e ISAS configured && wrong 'the demo takes the study away'
 prints_no 'the first time'
 
 ends 0 install
