@@ -305,7 +305,7 @@ TEST_CASE("the help of intersect names the columns and every option", "[intersec
     const ProgramResult result = run_packtrace({"intersect", "--help"});
     CHECK(result.exit_code == 0);
     for (const std::string word :
-         {"ox,oy,oz,dx,dy,dz[,t_min,t_max]", "hit,t,object,nx,ny,nz", "--all", "--any",
+         {"ox,oy,oz,dx,dy,dz[,t_min,t_max]", "hit,t,object,nx,ny,nz", "--all", "--any", "--bounds",
           "--kernel packet|scalar", "--precision single|double", "--isa", "--width", "--threads",
           "--output", "--accuracy", "--self-hits note|exact", "--traversal auto|list|tree"})
         CHECK_THAT(result.out, ContainsSubstring(word));
@@ -327,6 +327,9 @@ TEST_CASE("the reference page's example is what comes out", "[intersect_cli]")
     CHECK(
         run_packtrace({"intersect", (folder / "a.scene").string(), (folder / "rays.csv").string()})
             .out == block("hits"));
+    CHECK(run_packtrace({"intersect", (folder / "a.scene").string(), (folder / "rays.csv").string(),
+                         "--bounds"})
+              .out == block("bounds"));
 }
 
 TEST_CASE("a million rays take no more memory than fifty thousand", "[intersect_cli][slow]")

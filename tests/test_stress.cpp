@@ -389,6 +389,11 @@ TEST_CASE("a verdict names the families that are wrong", "[stress]")
     CHECK(study::stress_verdict({good, bad}) ==
           "verdict: exact is WRONG in rims (3 wrong decisions, 0 self-hits, 0 second hits lost, "
           "200 rays)");
+    StressRow bounded = good;
+    bounded.bounds = 300;
+    CHECK(study::stress_verdict({bounded}) ==
+          "verdict: exact is right in all 1 families (0 wrong decisions, 0 self-hits, 0 second "
+          "hits lost, 0 of 300 bounds missed, 100 rays)");
     StressRow fast = bad;
     fast.held = false;
     fast.faults.clear();
@@ -398,7 +403,8 @@ TEST_CASE("a verdict names the families that are wrong", "[stress]")
           &StressRow::occluded, &StressRow::order, &StressRow::not_closed,
           &StressRow::beyond_own_band, &StressRow::not_finite, &StressRow::no_normal,
           &StressRow::wrong_side, &StressRow::t_beyond, &StressRow::t_beyond_half,
-          &StressRow::self_hits, &StressRow::second_lost, &StressRow::second_inexact}) {
+          &StressRow::self_hits, &StressRow::second_lost, &StressRow::second_inexact,
+          &StressRow::bounds_missed}) {
         StressRow row = good;
         row.*count = 1;
         CHECK(study::faults_of(row).size() == 1);

@@ -5,23 +5,25 @@
 namespace packtrace::cli {
 
 template <class Real>
-BlockTracer<Real>::BlockTracer(const Scene& scene, const RenderOptions& options, RayQuery query)
-    : scene_(scene, options), rows_(scene), query_(query)
+BlockTracer<Real>::BlockTracer(const Scene& scene, const RenderOptions& options, RayQuery query,
+                               RayBounds bounds)
+    : scene_(scene, options), rows_(scene), query_(query), bounds_(bounds)
 {
 }
 
 template <class Real>
 std::string_view BlockTracer<Real>::header() const
 {
+    const bool bounded = bounds_ == RayBounds::proven;
     switch (query_) {
         case RayQuery::all:
-            return HitRows::all_header;
+            return bounded ? HitRows::bounded_all_header : HitRows::all_header;
         case RayQuery::any:
             return HitRows::any_header;
         case RayQuery::closest:
             break;
     }
-    return HitRows::closest_header;
+    return bounded ? HitRows::bounded_closest_header : HitRows::closest_header;
 }
 
 template <class Real>
@@ -53,21 +55,32 @@ void BlockTracer<Real>::append_closest(std::string& rows, Scratch& s) const
     s.object.resize(rays.count);
     scene_.closest_hits(rays, {s.t.data(), s.object.data(), s.normal_x.data(), s.normal_y.data(),
                                s.normal_z.data()});
+    const bool bounded = bounds_ == RayBounds::proven;
+    s.bounds.resize(bounded ? rays.count : 0);
+    if (bounded)
+        scene_.bound_closest_hits(rays, s.object.data(), s.bounds.data());
     for (std::size_t i = 0; i < rays.count; ++i) {
         SurfaceHit<Real> hit{s.t[i], s.object[i], {}};
         hit.normal[0] = s.normal_x[i];
         hit.normal[1] = s.normal_y[i];
         hit.normal[2] = s.normal_z[i];
-        rows_.append_closest(rows, hit);
+        if (bounded)
+            rows_.append_closest(rows, hit, s.bounds[i]);
+        else
+            rows_.append_closest(rows, hit);
     }
 }
 
 template <class Real>
-void BlockTracer<Real>::append_all(std::string& rows, std::uint64_t first_ray,
-                                   const Scratch& s) const
+void BlockTracer<Real>::append_all(std::string& rows, std::uint64_t first_ray, Scratch& s) const
 {
-    scene_.all_hits(s.rays.view(), [&](std::size_t ray, std::span<const SurfaceHit<Real>> hits) {
-        rows_.append_all(rows, first_ray + ray, hits);
+    const RaysView<Real> rays = s.rays.view();
+    scene_.all_hits(rays, [&](std::size_t ray, std::span<const SurfaceHit<Real>> hits) {
+        if (bounds_ == RayBounds::none)
+            return rows_.append_all(rows, first_ray + ray, hits);
+        s.bounds.resize(hits.size());
+        scene_.bound_all_hits(rays, ray, hits, s.bounds);
+        rows_.append_all(rows, first_ray + ray, hits, std::span<const HitBounds>(s.bounds));
     });
 }
 

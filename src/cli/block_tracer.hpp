@@ -21,7 +21,7 @@ template <class Real>
 class BlockTracer {
 public:
     /// Throws as RayScene does.
-    BlockTracer(const Scene& scene, const RenderOptions& options, RayQuery query);
+    BlockTracer(const Scene& scene, const RenderOptions& options, RayQuery query, RayBounds bounds);
 
     /// The line above all rows.
     [[nodiscard]] std::string_view header() const;
@@ -36,15 +36,17 @@ private:
         std::vector<Real> t, normal_x, normal_y, normal_z;
         std::vector<std::int32_t> object;
         std::vector<std::uint8_t> mask;
+        std::vector<HitBounds> bounds;
     };
 
     void append_closest(std::string& rows, Scratch& s) const;
-    void append_all(std::string& rows, std::uint64_t first_ray, const Scratch& s) const;
+    void append_all(std::string& rows, std::uint64_t first_ray, Scratch& s) const;
     void append_any(std::string& rows, Scratch& s) const;
 
     RayScene<Real> scene_;
     HitRows rows_;
     RayQuery query_;
+    RayBounds bounds_;
     tbb::enumerable_thread_specific<Scratch> scratch_;
 };
 

@@ -26,6 +26,18 @@ void append_number(std::string& rows, double value)
     rows.append(digits, end.ptr);
 }
 
+/// Two more columns for the row that ends the text.
+void append_bounds(std::string& rows, const HitBounds& bounds)
+{
+    rows.back() = ',';
+    if (!bounds.empty())
+        append_number(rows, bounds.low);
+    rows += ',';
+    if (!bounds.empty())
+        append_number(rows, bounds.high);
+    rows += '\n';
+}
+
 }  // namespace
 
 HitRows::HitRows(const Scene& scene)
@@ -44,7 +56,6 @@ void HitRows::append_hit(std::string& rows, const SurfaceHit<Real>& hit) const
         rows += ',';
         append_number(rows, component);
     }
-    rows += '\n';
 }
 
 template <class Real>
@@ -56,6 +67,15 @@ void HitRows::append_closest(std::string& rows, const SurfaceHit<Real>& hit) con
     }
     rows += "1,";
     append_hit(rows, hit);
+    rows += '\n';
+}
+
+template <class Real>
+void HitRows::append_closest(std::string& rows, const SurfaceHit<Real>& hit,
+                             const HitBounds& bounds) const
+{
+    append_closest(rows, hit);
+    append_bounds(rows, bounds);
 }
 
 template <class Real>
@@ -66,6 +86,18 @@ void HitRows::append_all(std::string& rows, std::uint64_t ray,
         rows += std::to_string(ray);
         rows += ',';
         append_hit(rows, hit);
+        rows += '\n';
+    }
+}
+
+template <class Real>
+void HitRows::append_all(std::string& rows, std::uint64_t ray,
+                         std::span<const SurfaceHit<Real>> hits,
+                         std::span<const HitBounds> bounds) const
+{
+    for (std::size_t i = 0; i < hits.size(); ++i) {
+        append_all(rows, ray, hits.subspan(i, 1));
+        append_bounds(rows, bounds[i]);
     }
 }
 
@@ -75,10 +107,18 @@ void HitRows::append_any(std::string& rows, std::uint8_t hit)
 }
 
 template void HitRows::append_closest(std::string&, const SurfaceHit<float>&) const;
+template void HitRows::append_closest(std::string&, const SurfaceHit<float>&,
+                                      const HitBounds&) const;
 template void HitRows::append_closest(std::string&, const SurfaceHit<double>&) const;
+template void HitRows::append_closest(std::string&, const SurfaceHit<double>&,
+                                      const HitBounds&) const;
 template void HitRows::append_all(std::string&, std::uint64_t,
                                   std::span<const SurfaceHit<float>>) const;
+template void HitRows::append_all(std::string&, std::uint64_t, std::span<const SurfaceHit<float>>,
+                                  std::span<const HitBounds>) const;
 template void HitRows::append_all(std::string&, std::uint64_t,
                                   std::span<const SurfaceHit<double>>) const;
+template void HitRows::append_all(std::string&, std::uint64_t, std::span<const SurfaceHit<double>>,
+                                  std::span<const HitBounds>) const;
 
 }  // namespace packtrace::cli

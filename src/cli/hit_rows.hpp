@@ -17,6 +17,9 @@ public:
     static constexpr std::string_view closest_header = "hit,t,object,nx,ny,nz\n";
     static constexpr std::string_view all_header = "ray,t,object,nx,ny,nz\n";
     static constexpr std::string_view any_header = "hit\n";
+    static constexpr std::string_view bounded_closest_header =
+        "hit,t,object,nx,ny,nz,t_low,t_high\n";
+    static constexpr std::string_view bounded_all_header = "ray,t,object,nx,ny,nz,t_low,t_high\n";
 
     explicit HitRows(const Scene& scene);
 
@@ -29,10 +32,19 @@ public:
     void append_all(std::string& rows, std::uint64_t ray,
                     std::span<const SurfaceHit<Real>> hits) const;
 
+    // The same with bounds of t, which are left empty where they are, and for a miss.
+    template <class Real>
+    void append_closest(std::string& rows, const SurfaceHit<Real>& hit,
+                        const HitBounds& bounds) const;
+    template <class Real>
+    void append_all(std::string& rows, std::uint64_t ray, std::span<const SurfaceHit<Real>> hits,
+                    std::span<const HitBounds> bounds) const;
+
     /// Appends a row of `any_header`.
     static void append_any(std::string& rows, std::uint8_t hit);
 
 private:
+    /// Without the line's end.
     template <class Real>
     void append_hit(std::string& rows, const SurfaceHit<Real>& hit) const;
 

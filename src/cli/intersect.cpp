@@ -18,6 +18,7 @@ struct IntersectArguments {
     KernelArguments kernel;
     bool all = false;
     bool any = false;
+    bool bounds = false;
 };
 
 RayQuery query_of(const IntersectArguments& arguments)
@@ -36,10 +37,11 @@ void run_intersect(const IntersectArguments& arguments)
     TextOutput output(arguments.output);
     const Scene scene = read_scene_input(arguments.scene).scene;
     RayBlocks rays(arguments.rays);
+    const RayBounds bounds = arguments.bounds ? RayBounds::proven : RayBounds::none;
     if (arguments.kernel.precision == "single")
-        intersect_rays<float>(scene, options, query_of(arguments), rays, output);
+        intersect_rays<float>(scene, options, query_of(arguments), bounds, rays, output);
     else
-        intersect_rays<double>(scene, options, query_of(arguments), rays, output);
+        intersect_rays<double>(scene, options, query_of(arguments), bounds, rays, output);
 }
 
 // Not add_kernel_options: here double is the default, and nothing is wider.
@@ -77,8 +79,13 @@ void add_intersect(CLI::App& app)
         ->type_name("FILE");
     CLI::Option* all = command->add_flag(
         "--all", arguments->all, "Write every hit of each ray in order: ray,t,object,nx,ny,nz");
-    command->add_flag("--any", arguments->any, "Write only whether a ray hits anything: hit")
-        ->excludes(all);
+    CLI::Option* any =
+        command->add_flag("--any", arguments->any, "Write only whether a ray hits anything: hit")
+            ->excludes(all);
+    command
+        ->add_flag("--bounds", arguments->bounds,
+                   "Write proven bounds of each t, too: t_low,t_high; some 10 µs a hit")
+        ->excludes(any);
     add_options(*command, arguments->kernel);
     command->callback([arguments] { run_intersect(*arguments); });
 }

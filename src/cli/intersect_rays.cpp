@@ -49,9 +49,9 @@ Task read_block(RayBlocks& rays, tbb::flow_control& control, bool& ended)
 
 template <class Real>
 void intersect_rays(const Scene& scene, const RenderOptions& options, RayQuery query,
-                    RayBlocks& rays, TextOutput& output)
+                    RayBounds bounds, RayBlocks& rays, TextOutput& output)
 {
-    BlockTracer<Real> tracer(scene, options, query);
+    BlockTracer<Real> tracer(scene, options, query, bounds);
     output.write(tracer.header());
 
     bool ended = false;
@@ -75,9 +75,9 @@ void intersect_rays(const Scene& scene, const RenderOptions& options, RayQuery q
     output.finish();
 }
 
-template void intersect_rays<float>(const Scene&, const RenderOptions&, RayQuery, RayBlocks&,
-                                    TextOutput&);
-template void intersect_rays<double>(const Scene&, const RenderOptions&, RayQuery, RayBlocks&,
-                                     TextOutput&);
+template void intersect_rays<float>(const Scene&, const RenderOptions&, RayQuery, RayBounds,
+                                    RayBlocks&, TextOutput&);
+template void intersect_rays<double>(const Scene&, const RenderOptions&, RayQuery, RayBounds,
+                                     RayBlocks&, TextOutput&);
 
 }  // namespace packtrace::cli

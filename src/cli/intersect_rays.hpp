@@ -13,6 +13,6 @@ namespace packtrace::cli {
 /// their number. Throws FileError for the first wrong line.
 template <class Real>
 void intersect_rays(const Scene& scene, const RenderOptions& options, RayQuery query,
-                    RayBlocks& rays, TextOutput& output);
+                    RayBounds bounds, RayBlocks& rays, TextOutput& output);
 
 }  // namespace packtrace::cli

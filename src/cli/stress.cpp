@@ -53,12 +53,12 @@ std::vector<std::string> mode_names()
 
 TextTable make_table()
 {
-    return {5, {"family",   "precision", "kernel", "mode",      "instruction sets",
-                "rays",     "hits",      "wrong",  "lost",      "false",
-                "object",   "root",      "other",  "own band",  "self",
-                "2nd lost", "t 50%",     "99%",    "max",       "normal 99%",
-                "max",      "side",      "none",   "2nd t 99%", "ns",
-                "best"}};
+    return {5, {"family",     "precision",     "kernel", "mode",     "instruction sets",
+                "rays",       "hits",          "wrong",  "lost",     "false",
+                "object",     "root",          "other",  "own band", "self",
+                "2nd lost",   "bounds missed", "t 50%",  "99%",      "max",
+                "normal 99%", "max",           "side",   "none",     "2nd t 99%",
+                "ns",         "best"}};
 }
 
 void add_row(TextTable& table, const StressRow& row)
@@ -80,6 +80,7 @@ void add_row(TextTable& table, const StressRow& row)
                count(row.beyond_own_band),
                count(row.self_hits),
                count(row.second_lost),
+               row.held ? count(row.bounds_missed) : "",
                brief(row.ulp.median),
                brief(row.ulp.p99),
                brief(row.ulp.max),
@@ -131,6 +132,9 @@ nlohmann::ordered_json row_json(const StressRow& row)
             {"second_lost", row.second_lost},
             {"second_inexact", row.second_inexact},
             {"second_error", spread_json(row.second)},
+            {"bounds", row.bounds},
+            {"bounds_missed", row.bounds_missed},
+            {"bounds_ulp", spread_json(row.bounds_ulp)},
             {"ns_per_ray", row.ns},
             {"pareto", row.pareto},
             {"first_wrong", row.example},

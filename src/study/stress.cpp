@@ -9,6 +9,7 @@
 #include <tbb/parallel_for.h>
 #include <packtrace/write_scene.hpp>
 
+#include "study/bound_checks.hpp"
 #include "study/second_hits.hpp"
 #include "study/stress_measure.hpp"
 #include "study/stress_subject.hpp"
@@ -197,6 +198,21 @@ void add_second_hits(StressRow& row, const StressSubject& subject,
 }
 
 template <class Real>
+void add_bounds(StressRow& row, const StressSubject& subject,
+                const std::vector<StressGroup>& groups)
+{
+    std::vector<BoundChecks> by_group(groups.size());
+    tbb::parallel_for(std::size_t{0}, groups.size(),
+                      [&](std::size_t g) { by_group[g] = check_bounds<Real>(subject, groups[g]); });
+    BoundChecks sum;
+    for (const BoundChecks& some : by_group)
+        sum.add(some);
+    row.bounds = sum.bounds;
+    row.bounds_missed = sum.missed;
+    row.bounds_ulp = spread_of(sum.ulp);
+}
+
+template <class Real>
 StressRow row_of(const StressSubject& subject, const std::vector<StressGroup>& groups,
                  const std::vector<StressRun>& runs)
 {
@@ -244,8 +260,10 @@ void add_rows(const StressFamily& family, const StressOptions& options,
         add_second_hits<Real>(rows.back(), subject, groups, options.self_hits);
         rows.back().family = family.name;
         add_example<Real>(rows.back(), groups, runs);
-        if (rows.back().held)
+        if (rows.back().held) {
+            add_bounds<Real>(rows.back(), subject, groups);
             rows.back().faults = faults_of(rows.back());
+        }
         evaluated.push_back({rows.size() - 1, std::move(runs)});
     }
 }

@@ -63,12 +63,16 @@ struct StressRow {
     std::uint64_t second_lost = 0;
     std::uint64_t second_inexact = 0;  ///< t off by more than 1e-6, and than double's limit
     ErrorSpread second;                ///< relative errors of t
-    double ns = 0.0;                   ///< a ray, of the first of the instruction sets
-    bool pareto = false;               ///< no other of the family is both quicker and more exact
-    std::string example_scene;         ///< the scene of the first wrong closest hit
-    std::string example_ray;           ///< and its ray, as `packtrace intersect` reads it
-    std::string example;               ///< the first wrong closest hit
-    std::vector<std::string> faults;   ///< what the verdict holds against it
+    // Proven bounds of t, of rows that count for the verdict.
+    std::uint64_t bounds = 0;
+    std::uint64_t bounds_missed = 0;  ///< that do not hold the true t
+    ErrorSpread bounds_ulp;           ///< how far apart they are, in last places of double
+    double ns = 0.0;                  ///< a ray, of the first of the instruction sets
+    bool pareto = false;              ///< no other of the family is both quicker and more exact
+    std::string example_scene;        ///< the scene of the first wrong closest hit
+    std::string example_ray;          ///< and its ray, as `packtrace intersect` reads it
+    std::string example;              ///< the first wrong closest hit
+    std::vector<std::string> faults;  ///< what the verdict holds against it
 };
 
 /// Runs families of extreme rays through the kernels and holds the answers against 113 bits.

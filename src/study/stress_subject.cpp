@@ -1,7 +1,6 @@
 #include "study/stress_subject.hpp"
 
 #include <algorithm>
-#include <array>
 #include <chrono>
 #include <limits>
 #include <stdexcept>
@@ -9,6 +8,7 @@
 #include <packtrace/intersect.hpp>
 #include <packtrace/isa.hpp>
 
+#include "study/ray_columns.hpp"
 #include "study/textbook.hpp"
 
 namespace packtrace::study {
@@ -35,29 +35,14 @@ double quickest(const Work& work)
 }
 
 template <class Real>
-std::array<std::vector<Real>, 8> columns_of(const std::vector<StressRay>& rays)
-{
-    std::array<std::vector<Real>, 8> columns;
-    for (const StressRay& ray : rays) {
-        const double values[8] = {ray.org.x, ray.org.y, ray.org.z, ray.dir.x,
-                                  ray.dir.y, ray.dir.z, ray.t_min, ray.t_max};
-        for (std::size_t i = 0; i < 8; ++i)
-            columns[i].push_back(static_cast<Real>(values[i]));
-    }
-    return columns;
-}
-
-template <class Real>
 StressRun run_ray_scene(const RenderOptions& options, const StressGroup& group)
 {
     const RayScene<Real> scene(group.scene, options);
-    const auto c = columns_of<Real>(group.rays);
-    const std::size_t n = group.rays.size();
+    const RayColumns<Real> columns(group.rays);
+    const RaysView<Real> rays = columns.view();
+    const std::size_t n = rays.count;
     std::vector<Real> t(n), x(n), y(n), z(n);
     std::vector<std::int32_t> object(n);
-    const RaysView<Real> rays{c[0].data(), c[1].data(), c[2].data(),
-                              c[3].data(), c[4].data(), c[5].data(),
-                              c[6].data(), c[7].data(), n};
     const HitsView<Real> hits{t.data(), object.data(), x.data(), y.data(), z.data()};
     StressRun run;
     run.seconds = quickest([&] { scene.closest_hits(rays, hits); });

@@ -48,6 +48,8 @@ std::string verdict_of_precision(const std::vector<StressRow>& rows, const std::
     std::uint64_t wrong = 0;
     std::uint64_t self_hits = 0;
     std::uint64_t lost = 0;
+    std::uint64_t bounds = 0;
+    std::uint64_t missed = 0;
     std::set<std::string> families;
     std::string mode;
     for (const StressRow& row : rows) {
@@ -58,15 +60,21 @@ std::string verdict_of_precision(const std::vector<StressRow>& rows, const std::
         wrong += row.wrong;
         self_hits += row.self_hits;
         lost += row.second_lost;
+        bounds += row.bounds;
+        missed += row.bounds_missed;
         families.insert(row.family);
     }
     if (families.empty())
         return "";
     const std::string name = precision == "single" ? mode : precision;
     const std::string bad = families_of(rows, precision);
-    const std::string counts = std::to_string(wrong) + " wrong decisions, " +
-                               std::to_string(self_hits) + " self-hits, " + std::to_string(lost) +
-                               " second hits lost, " + std::to_string(rays) + " rays";
+    const std::string counts =
+        std::to_string(wrong) + " wrong decisions, " + std::to_string(self_hits) + " self-hits, " +
+        std::to_string(lost) + " second hits lost, " +
+        (bounds == 0
+             ? ""
+             : std::to_string(missed) + " of " + std::to_string(bounds) + " bounds missed, ") +
+        std::to_string(rays) + " rays";
     return name +
            (bad.empty() ? " is right in all " + std::to_string(families.size()) + " families"
                         : " is WRONG in " + bad) +
@@ -97,6 +105,7 @@ std::vector<std::string> faults_of(const StressRow& row)
     faults.count(row.self_hits, "self-hits");
     faults.count(row.second_lost, "second hits lost");
     faults.count(row.second_inexact, "second hits off by more than 1e-6");
+    faults.count(row.bounds_missed, "bounds that miss the true t");
     return faults.list;
 }
 

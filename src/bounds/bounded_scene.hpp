@@ -1,0 +1,40 @@
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include <packtrace/intersect.hpp>
+
+#include "bounds/choose_bounds.hpp"
+
+namespace packtrace::bounds {
+
+/// The surfaces of a scene, for bounds of hits with them.
+class BoundedScene {
+public:
+    explicit BoundedScene(const Scene& scene);
+
+    /// Bounds of the first hit of a line with an object.
+    [[nodiscard]] HitBounds first_hit(std::int32_t object, const Line& line,
+                                      const Range& range) const;
+
+    /// Bounds of several hits with an object, whose t are given in rising order.
+    void all_hits(std::int32_t object, const Line& line, const Range& range,
+                  std::span<const double> t, std::span<HitBounds> bounds) const;
+
+private:
+    /// Most objects of large scenes are unplaced spheres, which take little room.
+    struct Placed {
+        Surface surface;
+        Mat4 transform;
+    };
+
+    [[nodiscard]] std::vector<HitInterval> hits_of(std::int32_t object, const Line& line) const;
+
+    std::vector<std::int32_t> index_;  ///< in `spheres_`, or the complement of one in `placed_`
+    std::vector<Sphere> spheres_;
+    std::vector<Placed> placed_;
+};
+
+}  // namespace packtrace::bounds

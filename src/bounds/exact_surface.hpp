@@ -1,0 +1,37 @@
+#pragma once
+
+#include <optional>
+
+#include <packtrace/scene.hpp>
+
+#include "bounds/ball.hpp"
+
+namespace packtrace::bounds {
+
+/// A surface as p·S p + 2 l·p + k = 0 in a space of its own, negative inside: p = M⁻¹ (P - offset)
+/// - center. All of it means what the scene's numbers say to the last digit.
+struct ExactSurface {
+    BallVec square[3];  ///< rows of the symmetric S
+    BallVec linear;
+    Ball constant;
+    Vec3 center{0.0};
+    bool placed = false;  ///< false: M is 1, and offset 0
+    BallVec inverse[3];   ///< rows of M⁻¹
+    Vec3 offset{0.0};
+    std::optional<ZRange> z_range;
+    bool capped = false;
+    /// Of a x² = b y², along any two axes: normals of the two planes that it is.
+    std::optional<std::array<BallVec, 2>> sheets;
+
+    ExactSurface(const Surface& from, const Mat4& transform);
+
+    [[nodiscard]] BallVec point_to_own(const Vec3& P) const;
+    [[nodiscard]] BallVec direction_to_own(const BallVec& d) const;
+    [[nodiscard]] Ball value(const BallVec& p) const;
+    /// Half the gradient of `value`.
+    [[nodiscard]] BallVec gradient(const BallVec& p) const;
+    /// S v.
+    [[nodiscard]] BallVec second_order(const BallVec& v) const;
+};
+
+}  // namespace packtrace::bounds

@@ -1,0 +1,233 @@
+#include "bounds/line_hits.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "bounds/exact_surface.hpp"
+#include "bounds/quadratic_roots.hpp"
+
+namespace packtrace::bounds {
+namespace {
+
+using reference::dot;
+
+/// What is proven of a condition.
+enum class Proof { no, open, yes };
+
+Proof is_between(const Ball& x, double low, double high)
+{
+    const Ball above = x - Ball(low);
+    const Ball below = Ball(high) - x;
+    if (is_negative(above) || is_negative(below))
+        return Proof::no;
+    const bool at_end = is_zero(above) || is_zero(below);
+    return (is_positive(above) || at_end) && (is_positive(below) || at_end) ? Proof::yes
+                                                                            : Proof::open;
+}
+
+/// The ball that holds an interval.
+Ball ball_of(Quad low, Quad high)
+{
+    const Quad middle = (low + high) / 2;
+    return {middle, static_cast<double>(high - middle) * inflation + size_of(middle) * 0x1p-110};
+}
+
+/// A line in the space of one surface. Its direction has a length near 1 there is in the world, so
+/// that no square of it over- or underflows; t counts in those.
+class OwnLine {
+public:
+    OwnLine(const ExactSurface& surface, const Vec3& org, const BallVec& dir)
+        : surface_(surface),
+          p_(surface.point_to_own(org)),
+          v_(surface.direction_to_own(dir)),
+          a_(dot(surface.second_order(v_), v_))
+    {
+    }
+
+    [[nodiscard]] std::vector<HitInterval> hits() const
+    {
+        std::vector<HitInterval> found;
+        if (surface_.sheets) {
+            for (const BallVec& sheet : *surface_.sheets)
+                add_plane(dot(sheet, p_), dot(sheet, v_), found);
+            return found;
+        }
+        add_sides(found);
+        if (surface_.capped) {
+            add_cap(surface_.z_range->low, found);
+            add_cap(surface_.z_range->high, found);
+        }
+        return found;
+    }
+
+    /// Whether the line is inside a capped body at t.
+    [[nodiscard]] Proof inside(Quad t) const
+    {
+        const BallVec p = at(Ball(t, 0.0));
+        const Ball value = surface_.value(p);
+        const Proof z = is_between(p.z, surface_.z_range->low, surface_.z_range->high);
+        if (is_positive(value) || z == Proof::no)
+            return Proof::no;
+        return is_negative(value) ? z : Proof::open;
+    }
+
+private:
+    [[nodiscard]] BallVec at(const Ball& t) const
+    {
+        return p_ + t * v_;
+    }
+
+    [[nodiscard]] Quadratic from(Quad t) const
+    {
+        const BallVec p = at(Ball(t, 0.0));
+        return {a_, dot(surface_.gradient(p), v_), surface_.value(p)};
+    }
+
+    /// The point nearest to the middle of the line's own space.
+    [[nodiscard]] Quad start() const
+    {
+        const auto t = static_cast<double>((-dot(p_, v_) / dot(v_, v_)).mid);
+        return std::isfinite(t) ? Quad(t) : Quad(0);
+    }
+
+    void add_sides(std::vector<HitInterval>& found) const
+    {
+        for (const RootInterval& root : roots_of([this](Quad t) { return from(t); }, start())) {
+            HitInterval hit{root.low, root.high, root.certain, root.roots};
+            const Proof in_range = in_z_range(hit);
+            if (in_range == Proof::no)
+                continue;
+            hit.certain = hit.certain && in_range == Proof::yes;
+            found.push_back(hit);
+        }
+    }
+
+    [[nodiscard]] Proof in_z_range(const HitInterval& hit) const
+    {
+        if (!surface_.z_range)
+            return Proof::yes;
+        if (!(hit.high < Quad(infinity)) || !(hit.low > -Quad(infinity)))
+            return Proof::open;
+        return is_between(at(ball_of(hit.low, hit.high)).z, surface_.z_range->low,
+                          surface_.z_range->high);
+    }
+
+    void add_cap(double height, std::vector<HitInterval>& found) const
+    {
+        std::vector<HitInterval> crossing;
+        add_plane(p_.z - Ball(height), v_.z, crossing);
+        for (HitInterval& hit : crossing) {
+            if (hit.certain) {
+                const Ball value = surface_.value(at(ball_of(hit.low, hit.high)));
+                if (is_positive(value))
+                    continue;
+                hit.certain = is_negative(value) || is_zero(value);
+            }
+            found.push_back(hit);
+        }
+    }
+
+    /// Where height + t slope is 0.
+    static void add_plane(const Ball& height, const Ball& slope, std::vector<HitInterval>& found)
+    {
+        if (is_zero(slope))
+            return;
+        const Ball t = -height / slope;
+        const Quad low = lower_end(t);
+        const Quad high = upper_end(t);
+        if (low <= high)
+            found.push_back({low, high, true, 1});
+        else
+            found.push_back({-Quad(infinity), Quad(infinity), false, 1});
+    }
+
+    const ExactSurface& surface_;
+    BallVec p_;
+    BallVec v_;
+    Ball a_;
+};
+
+/// A power of two near the length of a direction.
+int exponent_of(const Vec3& dir)
+{
+    return std::ilogb(std::max({std::abs(dir.x), std::abs(dir.y), std::abs(dir.z)}));
+}
+
+Quad scaled(Quad x, int exponent)
+{
+    // Twice, as the power itself may be out of double's range.
+    const int half = exponent / 2;
+    return x * Quad(std::ldexp(1.0, half)) * Quad(std::ldexp(1.0, exponent - half));
+}
+
+/// All from one interval on that overlap, directly or by others between them.
+struct Cluster {
+    HitInterval all;
+    std::size_t end;  ///< number of the first one behind them
+};
+
+Cluster cluster_from(const std::vector<HitInterval>& hits, std::size_t first)
+{
+    Cluster cluster{hits[first], first + 1};
+    for (; cluster.end < hits.size() && hits[cluster.end].low <= cluster.all.high; ++cluster.end) {
+        const HitInterval& more = hits[cluster.end];
+        cluster.all.high = std::max(cluster.all.high, more.high);
+        cluster.all.certain = cluster.all.certain || more.certain;
+        cluster.all.hits += more.hits;
+    }
+    return cluster;
+}
+
+/// Of a closed body: intervals that overlap, as those of side and cap at a rim, become one that has
+/// a hit for sure where the line is inside the body on one side of them and outside on the other.
+void prove_crossings(const OwnLine& line, std::vector<HitInterval>& hits)
+{
+    Quad last = 0;
+    for (std::size_t first = 0; first < hits.size(); ++first) {
+        auto [all, end] = cluster_from(hits, first);
+        const Quad apart = magnitude(all.low) + magnitude(all.high) + 1;
+        const Quad before = first > 0 ? (last + all.low) / 2 : all.low - apart;
+        const Quad behind = end < hits.size() ? (hits[end].low + all.high) / 2 : all.high + apart;
+        last = all.high;
+        if (!all.certain && magnitude(before) < Quad(infinity) &&
+            magnitude(behind) < Quad(infinity)) {
+            const Proof was = line.inside(before);
+            const Proof is = line.inside(behind);
+            all.certain = was != Proof::open && is != Proof::open && was != is;
+        }
+        if (all.certain) {
+            hits[first] = all;
+            hits.erase(hits.begin() + static_cast<std::ptrdiff_t>(first) + 1,
+                       hits.begin() + static_cast<std::ptrdiff_t>(end));
+        } else {
+            first = end - 1;
+        }
+    }
+}
+
+}  // namespace
+
+std::vector<HitInterval> line_hits(const Surface& from, const Mat4& transform, const Line& line)
+{
+    if (line.dir == Vec3(0.0))
+        return {};
+    const ExactSurface surface(from, transform);
+    const int exponent = exponent_of(line.dir);
+    BallVec dir;
+    Ball* const components[3] = {&dir.x, &dir.y, &dir.z};
+    for (int axis = 0; axis < 3; ++axis)
+        *components[axis] = Ball(scaled(Quad(line.dir[axis]), -exponent), 0.0);
+    const OwnLine own(surface, line.org, dir);
+    std::vector<HitInterval> hits = own.hits();
+    std::sort(hits.begin(), hits.end(),
+              [](const HitInterval& a, const HitInterval& b) { return a.low < b.low; });
+    if (surface.capped)
+        prove_crossings(own, hits);
+    for (HitInterval& hit : hits) {
+        hit.low = scaled(hit.low, -exponent);
+        hit.high = scaled(hit.high, -exponent);
+    }
+    return hits;
+}
+
+}  // namespace packtrace::bounds

@@ -1,0 +1,49 @@
+#pragma once
+
+#include <cmath>
+#include <limits>
+
+// Floating point with 113 bits, in software, as compilers bring it along.
+namespace packtrace {
+
+// long double has them on 64-bit Arm, not on x86-64.
+#if defined(__SIZEOF_FLOAT128__)
+__extension__ typedef __float128 Quad;
+#else
+using Quad = long double;
+static_assert(__LDBL_MANT_DIG__ == 113);
+#endif
+
+[[nodiscard]] inline Quad magnitude(Quad x)
+{
+    return x < 0 ? -x : x;
+}
+
+/// The square root, to a few units in the last place, of a number in double's range; 0 of what is
+/// not above 0.
+[[nodiscard]] inline Quad square_root(Quad x)
+{
+    const double start = std::sqrt(static_cast<double>(x));
+    if (!(x > 0) || !(start > 0.0) || !(start < std::numeric_limits<double>::infinity()))
+        return 0;
+    Quad root = start;
+    for (int step = 0; step < 2; ++step)
+        root = (root + x / root) / 2;
+    return root;
+}
+
+/// The next double at or below x.
+[[nodiscard]] inline double round_down(Quad x)
+{
+    const double near = static_cast<double>(x);
+    return near > x ? std::nextafter(near, -std::numeric_limits<double>::infinity()) : near;
+}
+
+/// The next double at or above x.
+[[nodiscard]] inline double round_up(Quad x)
+{
+    const double near = static_cast<double>(x);
+    return near < x ? std::nextafter(near, std::numeric_limits<double>::infinity()) : near;
+}
+
+}  // namespace packtrace

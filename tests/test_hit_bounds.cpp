@@ -1,0 +1,333 @@
+// Proven bounds of hits: they hold what is truly hit.
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numeric>
+
+#include <packtrace/intersect.hpp>
+#include <packtrace/isa.hpp>
+#include <packtrace/read_scene.hpp>
+
+#include <boost/multiprecision/cpp_int.hpp>
+
+#include "catch.hpp"
+#include "intersect_program.hpp"
+#include "study/bound_checks.hpp"
+#include "study/stress_family.hpp"
+#include "study/stress_group.hpp"
+
+namespace packtrace::test {
+namespace {
+
+constexpr double endless = std::numeric_limits<double>::infinity();
+
+/// One ray for a scene, and what bounds it gets.
+template <class Real>
+class OneRay {
+public:
+    OneRay(const Vec3& org, const Vec3& dir, double t_min = 0.0, double t_max = endless)
+        : numbers_{Real(org.x), Real(org.y), Real(org.z), Real(dir.x),
+                   Real(dir.y), Real(dir.z), Real(t_min), Real(t_max)}
+    {
+    }
+
+    [[nodiscard]] RaysView<Real> view() const
+    {
+        const Real* n = numbers_;
+        return {n, n + 1, n + 2, n + 3, n + 4, n + 5, n + 6, n + 7, 1};
+    }
+
+    /// Of the first hit, which is with that object.
+    [[nodiscard]] HitBounds first(const RayScene<Real>& scene, std::int32_t object = 0) const
+    {
+        HitBounds bounds;
+        scene.bound_closest_hits(view(), &object, &bounds);
+        return bounds;
+    }
+
+    /// Of all hits.
+    [[nodiscard]] std::vector<HitBounds> all(const RayScene<Real>& scene) const
+    {
+        std::vector<HitBounds> bounds;
+        scene.all_hits(view(), [&](std::size_t ray, std::span<const SurfaceHit<Real>> hits) {
+            bounds.resize(hits.size());
+            scene.bound_all_hits(view(), ray, hits, bounds);
+        });
+        return bounds;
+    }
+
+private:
+    Real numbers_[8];
+};
+
+bool holds(const HitBounds& bounds, double t)
+{
+    return bounds.low <= t && t <= bounds.high;
+}
+
+/// How far bounds are apart, in last places of double.
+double ulps(const HitBounds& bounds)
+{
+    return (bounds.high - bounds.low) / std::ldexp(0x1p-52, std::ilogb(bounds.low));
+}
+
+Scene scene_of(const std::string& text)
+{
+    return parse_scene(text, "scene");
+}
+
+Scene scene_of(Object object)
+{
+    Scene scene;
+    scene.objects.push_back(std::move(object));
+    return scene;
+}
+
+using Rational = boost::multiprecision::cpp_rational;
+
+/// The side of an unplaced sphere that a ray's point at t is on, without any rounding.
+int side_of(const Sphere& sphere, const Vec3& org, const Vec3& dir, double t)
+{
+    Rational value = -Rational(sphere.radius) * Rational(sphere.radius);
+    for (int axis = 0; axis < 3; ++axis) {
+        const Rational w =
+            Rational(org[axis]) + Rational(t) * Rational(dir[axis]) - Rational(sphere.center[axis]);
+        value += w * w;
+    }
+    return value.sign();
+}
+
+/// Below 0 if the ray's line surely misses the sphere.
+int discriminant_of(const Sphere& sphere, const Vec3& org, const Vec3& dir)
+{
+    Rational a = 0;
+    Rational b = 0;
+    Rational c = -Rational(sphere.radius) * Rational(sphere.radius);
+    for (int axis = 0; axis < 3; ++axis) {
+        const Rational w = Rational(org[axis]) - Rational(sphere.center[axis]);
+        a += Rational(dir[axis]) * Rational(dir[axis]);
+        b += w * Rational(dir[axis]);
+        c += w * w;
+    }
+    return Rational(b * b - a * c).sign();
+}
+
+study::StressGroup group_of(const study::StressFamily& family, int rays, std::uint64_t seed)
+{
+    std::vector<study::StressGroup> groups = study::make_groups<double>(family, seed, rays);
+    return groups.front();
+}
+
+template <class Real>
+study::BoundChecks check_family(const study::StressFamily& family, int rays, std::uint64_t seed)
+{
+    study::BoundChecks sum;
+    const study::StressSubject subject{"packet", "exact", "auto", true, {}};
+    for (const study::StressGroup& group : study::make_groups<Real>(family, seed, rays))
+        sum.add(study::check_bounds<Real>(subject, group));
+    return sum;
+}
+
+/// All families, with that many rays each; the number of bounds.
+std::uint64_t check_families(int rays, std::uint64_t seed)
+{
+    std::uint64_t bounds = 0;
+    for (const study::StressFamily& family : study::stress_families()) {
+        CAPTURE(family.name, seed);
+        study::BoundChecks single = check_family<float>(family, rays, seed);
+        CHECK(single.missed == 0);
+        study::BoundChecks wide = check_family<double>(family, rays, seed);
+        CHECK(wide.missed == 0);
+        bounds += single.bounds + wide.bounds;
+    }
+    return bounds;
+}
+
+}  // namespace
+
+TEST_CASE("bounds of a plain hit are a few last places of double apart", "[hit_bounds]")
+{
+    const Scene scene = scene_of(hand_scene);
+    const RayScene<double> doubles(scene);
+    const RayScene<float> floats(scene);
+    const HitBounds ball = OneRay<double>({0, 0, 0}, {0, 0, 1}).first(doubles);
+    CHECK(holds(ball, 4.0));
+    CHECK(ulps(ball) <= 3.0);
+    const HitBounds single = OneRay<float>({0, 0, 0}, {0, 0, 1}).first(floats);
+    CHECK(single.low == ball.low);
+    CHECK(single.high == ball.high);
+    CHECK(holds(OneRay<double>({0, 0, 0}, {0, -1, 0}).first(doubles, 1), 2.0));
+    CHECK(holds(OneRay<double>({10.5, 0, -5}, {0, 0, 0.5}).first(doubles, 2), 8.0));
+    // From inside, and beyond t_min.
+    CHECK(holds(OneRay<double>({0, 0, 5}, {0, 0, 2}).first(doubles), 0.5));
+    CHECK(holds(OneRay<double>({0, 0, 0}, {0, 0, 1}, 4.5).first(doubles), 6.0));
+}
+
+TEST_CASE("bounds are empty where there is no hit", "[hit_bounds]")
+{
+    const RayScene<double> scene(scene_of(hand_scene));
+    CHECK(OneRay<double>({0, 0, 0}, {0, 0, 1}).first(scene, -1).empty());
+    CHECK(OneRay<double>({0, 0, 0}, {0, 0, 1}, 0.0, 3.0).first(scene).empty());
+    CHECK(OneRay<double>({0, 0, 0}, {0, 0, 1}, 7.0).first(scene).empty());
+    CHECK(OneRay<double>({0, 0, 0}, {0, 1, 0}).first(scene).empty());
+    CHECK(OneRay<double>({0, 0, 0}, {0, 0, 0}).first(scene).empty());
+    // Past the ball by less than single precision tells.
+    CHECK(OneRay<double>({1.0 + 0x1p-50, 0, 0}, {0, 0, 1}).first(scene).empty());
+}
+
+TEST_CASE("bounds hold the near of two hits that single precision cannot tell apart",
+          "[hit_bounds]")
+{
+    const Scene scene = scene_of(study::sphere_object({0, 0, 10000}, 0.0003));
+    const RayScene<float> tiny(scene);
+    const OneRay<float> ray({0, 0, 0}, {1e-8, 1e-8, 1});
+    const HitBounds first = ray.first(tiny);
+    CHECK(first.high < 10000.0);
+    CHECK(ulps(first) <= 3.0);
+    const auto all = ray.all(tiny);
+    REQUIRE(all.size() == 2);
+    CHECK(all[0].high < 10000.0);
+    CHECK(all[1].low > 10000.0);
+}
+
+TEST_CASE("bounds of a ray that only touches hold the point of touch", "[hit_bounds]")
+{
+    const RayScene<double> scene(scene_of(hand_scene));
+    const HitBounds touch = OneRay<double>({1, 0, 0}, {0, 0, 1}).first(scene);
+    CHECK(holds(touch, 5.0));
+    CHECK(touch.high - touch.low < 1e-14);
+}
+
+TEST_CASE("bounds at a rim are one interval", "[hit_bounds]")
+{
+    // Each of side and cap alone is in doubt there; that the ray leaves the body is not.
+    const RayScene<double> scene(scene_of("cylinder { z_range = (-1, 1)  capped = true }"));
+    const HitBounds rim = OneRay<double>({0.5, 0, 0}, {0.5, 0, 1}).first(scene);
+    CHECK(holds(rim, 1.0));
+    CHECK(rim.high - rim.low < 1e-14);
+    const HitBounds axis = OneRay<double>({0.5, 0, 0}, {0, 0, -0.5}).first(scene);
+    CHECK(holds(axis, 2.0));
+    CHECK(axis.high - axis.low < 1e-14);
+}
+
+TEST_CASE("bounds stay tight along generators, across scales and for long directions",
+          "[hit_bounds]")
+{
+    const RayScene<double> cone(scene_of("cone {}"));
+    const HitBounds along = OneRay<double>({0.5, 0, 0.25}, {0, 1, 1}).first(cone);
+    CHECK(holds(along, 0.375));
+    CHECK(ulps(along) <= 3.0);
+    const RayScene<double> needle(
+        scene_of("ellipsoid { scale = (0.001, 3, 1)  rotate = (0, 1, 1, 40)  "
+                 "translate = (100, 20, 3000) }"));
+    for (const double length : {1e-100, 1.0, 1e100}) {
+        CAPTURE(length);
+        const OneRay<double> ray({0, 0, 0}, length * Vec3(100, 20, 3000));
+        const auto both = ray.all(needle);
+        REQUIRE(both.size() == 2);
+        CHECK(ulps(both[0]) <= 3.0);
+        CHECK(both[0].high * length < 1.0);
+        CHECK(both[1].low * length > 1.0);
+    }
+}
+
+TEST_CASE("bounds know nothing of kernels, precisions and modes", "[hit_bounds]")
+{
+    const Scene scene = scene_of(hand_scene);
+    RenderOptions scalar;
+    scalar.kernel = Kernel::scalar;
+    RenderOptions fast;
+    fast.accuracy = Accuracy::fast;
+    const OneRay<float> ray({0.25f, -0.5f, 0}, {0.01f, 0.1f, 1});
+    const HitBounds usual = ray.first(RayScene<float>(scene));
+    for (const RenderOptions& options : {scalar, fast}) {
+        const HitBounds other = ray.first(RayScene<float>(scene, options));
+        CHECK(other.low == usual.low);
+        CHECK(other.high == usual.high);
+    }
+}
+
+TEST_CASE("a sphere's surface lies between its bounds by exact arithmetic", "[hit_bounds]")
+{
+    study::StressRandom random(7);
+    int crossings = 0;
+    for (int i = 0; i < 300; ++i) {
+        Sphere sphere;
+        sphere.center = random.box(random.power(1.0, 1e6));
+        sphere.radius = random.power(1e-3, 1e3);
+        const Vec3 org = random.box(random.power(1.0, 1e6));
+        // Near the silhouette as often as not.
+        const Vec3 target = sphere.center + (i % 2 == 0 ? 0.9 : 1.0 - 1e-9) * sphere.radius *
+                                                study::across(random, sphere.center - org);
+        Object object;
+        object.surface = sphere;
+        const RayScene<double> scene(scene_of(object));
+        const OneRay<double> ray(org, target - org);
+        for (const HitBounds& bounds : ray.all(scene)) {
+            CAPTURE(i, bounds.low, bounds.high);
+            // Double may have hits that there are not.
+            if (bounds.empty()) {
+                CHECK(discriminant_of(sphere, org, target - org) < 0);
+                continue;
+            }
+            CHECK(side_of(sphere, org, target - org, bounds.low) *
+                      side_of(sphere, org, target - org, bounds.high) <=
+                  0);
+            ++crossings;
+        }
+    }
+    CHECK(crossings > 300);
+}
+
+TEST_CASE("a changed bound would be found to miss the truth", "[hit_bounds]")
+{
+    // The check itself: hits of another scene, slightly larger.
+    const auto& families = study::stress_families();
+    const auto sphere = std::find_if(families.begin(), families.end(),
+                                     [](const auto& f) { return f.name == "sphere"; });
+    REQUIRE(sphere != families.end());
+    study::StressGroup group = group_of(*sphere, 160, 1);
+    const study::StressSubject subject{"packet", "exact", "auto", true, {}};
+    CHECK(study::check_bounds<double>(subject, group).missed == 0);
+    std::get<Sphere>(group.scene.objects[0].surface).radius *= 1.0 + 1e-9;
+    CHECK(study::check_bounds<double>(subject, group).missed > 0);
+}
+
+TEST_CASE("no bound of extreme rays misses the truth", "[hit_bounds]")
+{
+    CHECK(check_families(48, 11) > 2000);
+}
+
+TEST_CASE("no bound of a hundred thousand extreme rays misses the truth", "[hit_bounds][slow]")
+{
+    CHECK(check_families(1500, 12) > 100000);
+}
+
+TEST_CASE("intersect prints bounds behind the normal", "[hit_bounds]")
+{
+    const std::string rays = "0,0,0,0,0,1,0,inf\n0,0,0,0,1,0,0,inf\n0,0,0,0,-1,0,0,inf\n";
+    for (const std::string precision : {"single", "double"})
+        for (const std::string kernel : {"packet", "scalar"}) {
+            const ProgramResult result =
+                intersect(rays, {"--bounds", "--precision", precision, "--kernel", kernel});
+            CHECK(result.exit_code == 0);
+            CHECK(result.out ==
+                  "hit,t,object,nx,ny,nz,t_low,t_high\n"
+                  "1,4,ball,0,0,-1,4,4\n"
+                  "0,,,,,,,\n"
+                  "1,2,\"floor, tiled\",0,1,0,2,2\n");
+        }
+    const ProgramResult all = intersect(rays, {"--bounds", "--all"});
+    CHECK(all.out ==
+          "ray,t,object,nx,ny,nz,t_low,t_high\n"
+          "0,4,ball,0,0,-1,4,4\n"
+          "0,6,ball,0,0,1,6,6\n"
+          "2,2,\"floor, tiled\",0,1,0,2,2\n");
+    // Bounds of no hit are empty: the ray passes the ball by, if only just.
+    const ProgramResult past =
+        intersect("1.00000001,0,0,0,0,1,0,inf\n", {"--bounds", "--precision", "single"});
+    CHECK(past.exit_code == 0);
+    CHECK(intersect(rays, {"--bounds", "--any"}).exit_code == 2);
+}
+
+}  // namespace packtrace::test
