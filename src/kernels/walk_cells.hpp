@@ -42,14 +42,17 @@ private:
     int size_ = 0;
 };
 
-/// Has the memory bring a child that will be looked at soon.
+/// Has the memory bring a child that will be looked at soon. Addresses are integers here: a tree of
+/// cells alone has no blocks, and nothing is read.
 template <class Real>
 inline void fetch_child(const abi::BvhView<Real>& tree, std::uint32_t child)
 {
     const bool leaf = abi::is_leaf(child);
-    const char* const from =
-        leaf ? reinterpret_cast<const char*>(tree.blocks + (child & abi::block_mask))
-             : reinterpret_cast<const char*>(tree.nodes + child);
+    const std::uintptr_t address =
+        leaf ? reinterpret_cast<std::uintptr_t>(tree.blocks) +
+                   sizeof(*tree.blocks) * (child & abi::block_mask)
+             : reinterpret_cast<std::uintptr_t>(tree.nodes) + sizeof(*tree.nodes) * child;
+    const char* const from = reinterpret_cast<const char*>(address);
     __builtin_prefetch(from);
     __builtin_prefetch(from + 64);
     if (leaf)
