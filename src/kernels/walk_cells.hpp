@@ -52,13 +52,16 @@ inline void fetch_child(const abi::BvhView<Real>& tree, std::uint32_t child)
         leaf ? reinterpret_cast<std::uintptr_t>(tree.blocks) +
                    sizeof(*tree.blocks) * (child & abi::block_mask)
              : reinterpret_cast<std::uintptr_t>(tree.nodes) + sizeof(*tree.nodes) * child;
-    const char* const from = reinterpret_cast<const char*>(address);
-    __builtin_prefetch(from);
-    __builtin_prefetch(from + 64);
+    const auto fetch = [address](int line) {
+        __builtin_prefetch(
+            reinterpret_cast<const char*>(address + 64u * static_cast<unsigned>(line)));
+    };
+    fetch(0);
+    fetch(1);
     if (leaf)
         return;
-    __builtin_prefetch(from + 128);
-    __builtin_prefetch(from + 192);
+    fetch(2);
+    fetch(3);
 }
 
 /// Puts the children of a node that the cells may meet on the stack.
