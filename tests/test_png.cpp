@@ -194,7 +194,7 @@ TEST_CASE("a PNG that is damaged or too short for its pixels is refused", "[png]
     CHECK(error_of(other).starts_with("damaged PNG: "));
     // A million by a million pixels, as the header has it, whose checksum is right.
     Bytes huge = file;
-    for (const std::size_t at : {16, 20})
+    for (const std::size_t at : {std::size_t{16}, std::size_t{20}})
         for (std::size_t i = 0; i < 4; ++i)
             huge[at + i] = static_cast<std::uint8_t>(1000000u >> (24 - 8 * i));
     const std::uint32_t sum = libdeflate_crc32(0, huge.data() + 12, 17);
