@@ -13,6 +13,7 @@
 #include "render_scene.hpp"
 #include "run_program.hpp"
 #include "scenes.hpp"
+#include "study/kernel_profile.hpp"
 #include "study/observed_frame.hpp"
 #include "study/piece_times.hpp"
 #include "study/stage_seconds.hpp"
@@ -404,6 +405,28 @@ TEST_CASE("stages belong to rays that there are", "[kernel_profile]")
         rays += row.seconds;
     CHECK(rays > 0.0);
     CHECK(rays < sum);
+}
+
+TEST_CASE("rays traced again in double are a stage, and counted by cause", "[kernel_profile]")
+{
+    // Two balls that are nearly one: nothing tells which is hit first.
+    Scene scene = four_spheres(48, 48);
+    std::get<Sphere>(scene.objects[1].surface) = std::get<Sphere>(scene.objects[0].surface);
+    std::get<Sphere>(scene.objects[1].surface).radius *= 1.0 + 1e-9;
+    ProfileOptions options;
+    options.repetitions = 2;
+    const KernelProfile single = observe_kernels<float>(scene, options).profile;
+    CHECK(std::any_of(single.stages.begin(), single.stages.end(), [](const KernelStage& stage) {
+        return stage.name == "unsure rays again in double" && stage.rays == "camera";
+    }));
+    std::uint64_t camera = 0;
+    for (const UnsureUse& row : single.unsure)
+        camera += row.depth == 0 && row.rays == "closest" && row.cause == "order" ? row.count : 0;
+    CHECK(camera > 50);
+    const KernelProfile doubles = observe_kernels<double>(scene, options).profile;
+    CHECK(doubles.unsure.empty());
+    for (const KernelStage& stage : doubles.stages)
+        CHECK(stage.name != "unsure rays again in double");
 }
 
 }  // namespace packtrace::test

@@ -92,6 +92,14 @@ struct TestUse {
     std::uint64_t single = 0;
 };
 
+/// Rays of a generation that single precision could not decide about, for one cause.
+struct UnsureUse {
+    int depth = 0;
+    std::string rays;         ///< "closest" or "shadow"
+    std::string cause;        ///< of unsure_causes()
+    std::uint64_t count = 0;  ///< above 0
+};
+
 /// The inside of a frame, on one thread, by kernels that observe themselves: those with every
 /// feature, and hooks that other kernels are compiled without.
 struct KernelProfile {
@@ -103,6 +111,7 @@ struct KernelProfile {
     std::vector<RayTime> rays;
     std::vector<LaneUse> lanes;
     std::vector<TestUse> tests;
+    std::vector<UnsureUse> unsure;  ///< none for packets of doubles, or in fast accuracy
 };
 
 struct Profile {

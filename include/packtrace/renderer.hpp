@@ -17,6 +17,7 @@ struct FrameCounts {
     std::uint64_t shadow = 0;
     std::uint64_t reflected = 0;
     std::uint64_t refracted = 0;
+    std::uint64_t unsure = 0;  ///< of all these, traced again in double (Accuracy::exact)
 
     [[nodiscard]] std::uint64_t total() const
     {

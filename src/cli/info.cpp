@@ -10,6 +10,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "cli/certainty.hpp"
 #include "cli/command.hpp"
 #include "cli/common_options.hpp"
 #include "cli/scene_features.hpp"
@@ -108,14 +109,41 @@ std::string joined(const std::vector<std::string>& words)
     return text.empty() ? "nothing" : text;
 }
 
-void print_features(const SceneFeatures& features, const IsaInfo& isa)
+// The rays of a small picture that are unsure, by cause.
+void print_unsure(const UnsureSample& sample)
+{
+    std::uint64_t sum = 0;
+    std::string causes;
+    for (const auto& [cause, count] : sample.causes) {
+        sum += count;
+        if (count > 0)
+            causes += (causes.empty() ? ": " : ", ") + cause + ' ' + std::to_string(count);
+    }
+    std::cout << "unsure   " << sum << " of the " << sample.rays << " rays of a " << sample.width
+              << " x " << sample.height << " picture" << causes << '\n';
+}
+
+void print_features(const SceneFeatures& features, const IsaInfo& isa,
+                    const std::optional<UnsureSample>& unsure)
 {
     std::cout << "kernel   " << features.kernel << ", " << isa.name << ", " << isa.lanes_single
-              << " lanes\nuses     " << joined(features.uses) << "\n\n";
+              << " lanes\nuses     " << joined(features.uses) << '\n';
+    if (unsure)
+        print_unsure(*unsure);
+    std::cout << '\n';
     TextTable table(2, {"left out", "as"});
     for (const LeftOut& left : features.left_out)
         table.add({left.what, left.why});
     table.print(std::cout);
+}
+
+nlohmann::ordered_json unsure_json(const UnsureSample& sample)
+{
+    nlohmann::ordered_json json{
+        {"width", sample.width}, {"height", sample.height}, {"rays", sample.rays}};
+    for (const auto& [cause, count] : sample.causes)
+        json[cause] = count;
+    return json;
 }
 
 nlohmann::ordered_json features_json(const SceneFeatures& features)
@@ -164,6 +192,8 @@ void print_json(const IsaInfo& chosen, const std::optional<SceneInput>& input)
         const SceneFeatures features = scene_features(input->scene, chosen);
         json["scene"] = scene_json(input->name, input->scene, features);
         json["scene"]["features"] = features_json(features);
+        if (const auto sample = sample_unsure(input->scene, chosen.name))
+            json["scene"]["unsure"] = unsure_json(*sample);
     }
     std::cout << json.dump(2, ' ', false, nlohmann::json::error_handler_t::replace) << '\n';
 }
@@ -194,7 +224,7 @@ void run_info(const InfoArguments& arguments)
     if (input) {
         const SceneFeatures features = scene_features(input->scene, chosen);
         print_scene(input->name, input->scene, features);
-        print_features(features, chosen);
+        print_features(features, chosen, sample_unsure(input->scene, chosen.name));
     }
 }
 

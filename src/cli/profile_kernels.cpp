@@ -110,8 +110,9 @@ void print_lanes(std::ostream& to, const Profile& profile)
     table.print(to);
 }
 
-// Rays that the tests of a row are made for.
-std::uint64_t rays_tested(const KernelProfile& kernels, const TestUse& test)
+// Rays of the kind and generation of a row.
+template <class Row>
+std::uint64_t rays_tested(const KernelProfile& kernels, const Row& test)
 {
     std::uint64_t rays = 0;
     for (const RayTime& row : kernels.rays)
@@ -138,6 +139,29 @@ void print_tests(std::ostream& to, const KernelProfile& kernels)
     table.print(to);
 }
 
+// Nothing where no ray is unsure.
+void print_unsure(std::ostream& to, const KernelProfile& kernels)
+{
+    if (kernels.unsure.empty())
+        return;
+    TextTable table(3, {"generation", "rays", "unsure for", "number", "share"});
+    const auto rows = with_deep_ones_joined(
+        kernels.unsure,
+        [](const UnsureUse& a, const UnsureUse& b) {
+            return a.rays == b.rays && a.cause == b.cause;
+        },
+        [](UnsureUse& sum, const UnsureUse& row) { sum.count += row.count; });
+    for (const UnsureUse& row : rows)
+        table.add({depth_name(row.depth, deepest_of(kernels.unsure)), row.rays, row.cause,
+                   std::to_string(row.count),
+                   fixed(100.0 * static_cast<double>(row.count) /
+                             static_cast<double>(rays_tested(kernels, row)),
+                         4) +
+                       " %"});
+    to << '\n';
+    table.print(to);
+}
+
 }  // namespace
 
 void print_kernels(std::ostream& to, const Profile& profile)
@@ -156,6 +180,7 @@ void print_kernels(std::ostream& to, const Profile& profile)
     print_lanes(to, profile);
     to << '\n';
     print_tests(to, kernels);
+    print_unsure(to, kernels);
 }
 
 }  // namespace packtrace::cli

@@ -19,7 +19,8 @@ nlohmann::ordered_json kernels_json(const KernelProfile& kernels)
                                 {"stages", nlohmann::ordered_json::array()},
                                 {"rays", nlohmann::ordered_json::array()},
                                 {"lanes", nlohmann::ordered_json::array()},
-                                {"tests", nlohmann::ordered_json::array()}};
+                                {"tests", nlohmann::ordered_json::array()},
+                                {"unsure", nlohmann::ordered_json::array()}};
     for (const KernelStage& row : kernels.stages)
         json["stages"].push_back({{"depth", row.depth},
                                   {"rays", row.rays},
@@ -43,6 +44,9 @@ nlohmann::ordered_json kernels_json(const KernelProfile& kernels)
                                  {"tested", row.tested},
                                  {"together", row.tests},
                                  {"single", row.single}});
+    for (const UnsureUse& row : kernels.unsure)
+        json["unsure"].push_back(
+            {{"depth", row.depth}, {"rays", row.rays}, {"cause", row.cause}, {"count", row.count}});
     return json;
 }
 

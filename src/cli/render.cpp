@@ -8,6 +8,7 @@
 
 #include <packtrace/image_io.hpp>
 
+#include "cli/certainty.hpp"
 #include "cli/command.hpp"
 #include "cli/progress_bar.hpp"
 #include "cli/render_animation.hpp"
@@ -53,6 +54,12 @@ void render_one(const RenderArguments& arguments, const Scene& scene, RenderOpti
     write_picture(arguments.output, picture, arguments.write);
     if (!arguments.quiet)
         print_summary(arguments, options, scene, time.count());
+    if (!arguments.certainty)
+        return;
+    options.progress = {};
+    const std::string line = write_certainty(arguments, scene, options);
+    if (!arguments.quiet)
+        std::cerr << line << '\n';
 }
 
 void run_render(const RenderArguments& arguments)
@@ -62,6 +69,8 @@ void run_render(const RenderArguments& arguments)
     check_animation_options(arguments);
     check_gamma(arguments);
     // Before the work, so that a wrong name doesn't cost it.
+    if (arguments.certainty)
+        check_certainty(arguments, options);
     if (!arguments.animation.many())
         check_image_writable(arguments.output);
     Scene scene = read_scene_input(arguments.scene).scene;
@@ -83,6 +92,11 @@ void add_render(CLI::App& app)
     add_scene_option(*command, arguments->scene);
     command->add_option("-o,--output", arguments->output, "Picture to write: .png, .pfm or .hdr")
         ->required()
+        ->type_name("IMAGE");
+    command
+        ->add_option("--certainty", arguments->certainty,
+                     "Picture of where single precision was unsure: red is the share of a pixel's "
+                     "rays traced again in double, blue of those that double can't decide either")
         ->type_name("IMAGE");
     add_kernel_options(*command, arguments->kernel);
     add_picture_options(*command, arguments->picture);

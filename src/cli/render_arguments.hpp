@@ -27,6 +27,7 @@ struct AnimationArguments {
 struct RenderArguments {
     std::string scene;
     std::string output;
+    std::optional<std::string> certainty;  ///< where a picture of unsure rays goes
     KernelArguments kernel;
     PictureArguments picture;
     SamplingArguments sampling;

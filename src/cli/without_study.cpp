@@ -1,6 +1,7 @@
 #include <stdexcept>
 #include <string>
 
+#include "cli/certainty.hpp"
 #include "cli/command.hpp"
 
 // Stands in for the commands of src/study in programs built without it (PACKTRACE_BUILD_STUDY).
@@ -17,7 +18,29 @@ void add_left_out(CLI::App& app, const std::string& name)
     });
 }
 
+[[noreturn]] void fail_certainty()
+{
+    throw std::runtime_error(
+        "packtrace: this build leaves out 'render --certainty'; type ./run "
+        "build, which builds all commands");
+}
+
 }  // namespace
+
+void check_certainty(const RenderArguments&, const RenderOptions&)
+{
+    fail_certainty();
+}
+
+std::string write_certainty(const RenderArguments&, const Scene&, const RenderOptions&)
+{
+    fail_certainty();
+}
+
+std::optional<UnsureSample> sample_unsure(const Scene&, const std::string&)
+{
+    return std::nullopt;
+}
 
 void add_bench(CLI::App& app)
 {

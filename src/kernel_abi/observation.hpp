@@ -77,6 +77,23 @@ struct TestCounts {
 enum class Primitive : std::int32_t { sphere, anchored_sphere, plane, quadric };
 inline constexpr int primitive_count = 4;
 
+/// Why single precision could not decide about a ray.
+enum class Cause : std::int32_t {
+    tangent,   ///< it may touch a surface or pass it, or nothing tells two roots apart
+    order,     ///< either of two objects may come first
+    range,     ///< a hit may lie on either side of an end of the ray
+    clip,      ///< either of two pieces of one object may come first, as at a rim
+    magnitude  ///< its numbers, or the scene's, are beyond those that error bounds hold for
+};
+inline constexpr int cause_count = 5;
+
+/// The rays of a pixel's tree.
+struct PixelRays {
+    std::uint32_t traced = 0;
+    std::uint32_t unsure = 0;     ///< of these, traced again in double
+    std::uint32_t undecided = 0;  ///< of these, such as double cannot decide either
+};
+
 /// What happened in a generation.
 struct WorkCounts {
     PacketCounts work[packet_work_count];
@@ -85,15 +102,19 @@ struct WorkCounts {
     std::uint64_t ray_nodes[role_count] = {};    ///< nodes met by single rays
     std::uint64_t untraced = 0;                  ///< camera rays of tiles that can meet nothing
     std::uint64_t refracted = 0;                 ///< of the rays traced
+    std::uint64_t unsure[role_count][cause_count] = {};  ///< rays traced again in double
 };
 
 /// What to record, added to what is there: any of three arrays of `generations` elements, the last
-/// of which takes all later ones too. Parts are not clocked together with spans.
+/// of which takes all later ones too. Parts are not clocked together with spans. Pixels are those
+/// of the tile, by their numbers along its Z-order curve; camera rays of tiles that can meet
+/// nothing are not counted there.
 struct Observation {
     int generations = 0;
     SpanLaps* spans = nullptr;
     PartLaps* parts = nullptr;
     WorkCounts* counts = nullptr;
+    PixelRays* pixels = nullptr;
     std::uint64_t end = 0;      ///< the clock as the last tile ended
     std::uint64_t reading = 0;  ///< ticks that a reading of the clock takes between parts
 };

@@ -211,7 +211,8 @@ inline void keep_anchored(HitPacket<float>& hit, const AnchoredFilter& filter,
     const std::uint32_t rest = open & ~(at.sure & ahead);
     if (rest != 0)
         keep_doubt(hit, from_bits<float>(rest),
-                   select(from_bits<float>(at.sure), low, vreal<float>(-__builtin_inff())));
+                   select(from_bits<float>(at.sure), low, vreal<float>(-__builtin_inff())),
+                   at.sure);
 }
 
 template <bool Shared>
@@ -232,7 +233,10 @@ inline Occlusion occludes(const AnchoredFilter& filter, const RayPacket<float>& 
     const std::uint32_t first = at.sure & bits(low > rays.t_min);
     const std::uint32_t blocked = open & first & bits(high < t_end);
     const std::uint32_t behind = first & bits(low > t_end);
-    return {blocked, open & ~blocked & ~behind};
+    const std::uint32_t unsure = open & ~blocked & ~behind;
+    note_in_the_way(unsure & at.sure, abi::Cause::range);
+    note_in_the_way(unsure & ~at.sure, abi::Cause::tangent);
+    return {blocked, unsure};
 }
 
 }  // namespace

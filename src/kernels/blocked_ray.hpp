@@ -63,8 +63,10 @@ inline bool goes_behind_quadrics(const abi::BvhView<Real>& tree, RayGroup<Real>&
         count_tests(abi::Primitive::quadric, 1);
         const Occlusion occlusion = leaf_quadric_occludes<F>(
             tree, number, group, rays, vreal<Real>(group.t[ray]), own, closed);
-        if (occlusion.unsure != 0)
+        if (occlusion.unsure != 0) {
+            keep_noted_of_ray(ray, occlusion.unsure);
             group.unsure[ray / cell_rays] |= static_cast<std::uint16_t>(1u << ray % cell_rays);
+        }
         if (occlusion.blocked != 0 &&
             !goes_behind(group, ray, leaf_quadric(tree, number).surface, blocker))
             return false;

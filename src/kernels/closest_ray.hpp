@@ -44,6 +44,7 @@ inline void closest_of_quadrics(const abi::BvhView<Real>& tree, RayGroup<Real>& 
     tell_live(1);
     count_tests(abi::Primitive::quadric, count);
     const RayPacket<Real> rays = broadcast_ray(group, ray);
+    load_rival_of_ray<Real>(ray);
     HitPacket<Real> hit{vreal<Real>(group.t[ray]), vint<Real>(group.surface[ray]),
                         vreal<Real>(group.t_low[ray]), vreal<Real>(group.other[ray])};
     const OwnSurface own{vint<Real>(group.own[ray])};
@@ -56,6 +57,7 @@ inline void closest_of_quadrics(const abi::BvhView<Real>& tree, RayGroup<Real>& 
     if constexpr (F.exact) {
         group.t_low[ray] = first_lane<Real>(hit.t_low);
         group.other[ray] = first_lane<Real>(hit.other);
+        store_rival_of_ray<Real>(ray);
     }
 }
 

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "kernels/error_bounds.hpp"
+#include "kernels/observe.hpp"
 
 // A floating-point filter (Brönnimann, Burnikel and Pion, "Interval arithmetic yields efficient
 // dynamic filters", 2001) for the closest hit: each test gives the interval that its t is in, or
@@ -15,23 +16,29 @@ inline void keep_sure(HitPacket<float>& hit, vmask<float> active, const vreal<fl
 {
     const auto first = active & (high < hit.t);
     const vreal<float> behind = select(first, hit.t_low, low);
+    const vint<float> number(lane_int<float>{surface});
+    note_rival<float>(active & (behind < hit.other), select(first, hit.surface, number));
     hit.other = select(active & (behind < hit.other), behind, hit.other);
     hit.t = select(first, high, hit.t);
     hit.t_low = select(first, low, hit.t_low);
-    hit.surface = select(first, vint<float>(lane_int<float>{surface}), hit.surface);
+    hit.surface = select(first, number, hit.surface);
 }
 
-/// The lanes of `active` may have a hit, not before `low`.
-inline void keep_doubt(HitPacket<float>& hit, vmask<float> active, const vreal<float>& low)
+/// The lanes of `active` may have a hit, not before `low`. Those of `at_end` have it, but maybe
+/// before t_min; the others may touch the surface or pass it.
+inline void keep_doubt(HitPacket<float>& hit, vmask<float> active, const vreal<float>& low,
+                       std::uint32_t at_end)
 {
     // A NaN says that it may be anywhere.
     const vreal<float> from = select(low == low, low, vreal<float>(-__builtin_inff()));
+    note_doubt<float>(active & (from < hit.other), at_end);
     hit.other = select(active & (from < hit.other), from, hit.other);
 }
 
 /// Nothing is certain of the lanes of `active`.
 inline void doubt_all(HitPacket<float>& hit, vmask<float> active)
 {
+    note_magnitude<float>(active);
     hit.other = select(active, vreal<float>(-__builtin_inff()), hit.other);
 }
 
@@ -71,7 +78,7 @@ inline void keep_first_of(HitPacket<float>& hit, const RootIntervals& roots, vma
     const std::uint32_t none_counts = bits(near_behind) & bits(high < t_min);
     const std::uint32_t open = bits(sure) & ~bits(counts) & ~none_counts;
     if (open != 0)
-        keep_doubt(hit, from_bits<float>(open), low);
+        keep_doubt(hit, from_bits<float>(open), low, all_lanes<float>);
 }
 
 /// What certain tests say of occlusion.
@@ -96,6 +103,7 @@ inline Occlusion root_between(const RootIntervals& roots, vmask<float> sure,
     const vreal<float> behind = t_end + roots.error;
     const std::uint32_t outside = (bits(roots.near < before) | bits(roots.near > behind)) &
                                   (bits(roots.far < before) | bits(roots.far > behind));
+    note_in_the_way(open & ~outside, abi::Cause::range);
     return {inside, open & ~outside};
 }
 
@@ -106,6 +114,7 @@ inline Occlusion root_between(const vreal<float>& low, const vreal<float>& high,
 {
     const std::uint32_t inside = bits((low > t_min) & (high < t_end));
     const std::uint32_t outside = bits(high < t_min) | bits(low > t_end);
+    note_in_the_way(active & ~inside & ~outside, abi::Cause::range);
     return {active & inside, active & ~inside & ~outside};
 }
 

@@ -87,18 +87,22 @@ inline void keep_sure(RayGroup<float>& group, int ray, float low, float high, st
 {
     const bool first = high < group.t[ray];
     const float behind = first ? group.t_low[ray] : low;
-    if (behind < group.other[ray])
+    if (behind < group.other[ray]) {
         group.other[ray] = behind;
+        note_rival_of_ray(ray, first ? group.surface[ray] : surface);
+    }
     if (first) {
         group.t[ray] = high;
         group.t_low[ray] = low;
         group.surface[ray] = surface;
     }
 }
-inline void keep_doubt(RayGroup<float>& group, int ray, float low)
+inline void keep_doubt(RayGroup<float>& group, int ray, float low, std::int32_t rival)
 {
-    if (!(low >= group.other[ray]))
-        group.other[ray] = low == low ? low : -__builtin_inff();
+    if (low >= group.other[ray])
+        return;
+    group.other[ray] = low == low ? low : -__builtin_inff();
+    note_rival_of_ray(ray, rival);
 }
 
 /// Keeps the hits of a ray on the spheres of `near`.
@@ -120,7 +124,7 @@ inline void keep_doubt(RayGroup<float>& group, int ray, float low)
         if (at.sure && low > lone.t_min)
             keep_sure(group, ray, low, root + at.error, surface);
         else
-            keep_doubt(group, ray, low);
+            keep_doubt(group, ray, low, rival_in_doubt(at.sure));
     }
 }
 
@@ -146,8 +150,11 @@ inline void keep_doubt(RayGroup<float>& group, int ray, float low)
         };
         if (at.sure && (inside(at.near) || inside(at.far)))
             blocking |= 1u << slot;
-        else if (!outside(at.near) || !outside(at.far))
+        else if (!outside(at.near) || !outside(at.far)) {
+            note_in_the_way(1u, at.sure ? abi::Cause::range : abi::Cause::tangent);
+            keep_noted_of_ray(ray, 1u);
             group.unsure[ray / cell_rays] |= static_cast<std::uint16_t>(1u << ray % cell_rays);
+        }
     }
     return blocking;
 }

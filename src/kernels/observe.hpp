@@ -53,7 +53,82 @@ inline void count_packet(abi::PacketWork, std::uint32_t, std::uint32_t = 0)
 }
 
 template <class Real>
-inline void count_traced(std::uint32_t, const vint<Real>&)
+inline void count_traced(std::uint32_t, const vint<Real>&, const vint<Real>&)
+{
+}
+template <class Int>
+inline void tell_pixels(const Int*)
+{
+}
+inline void tell_first(int)
+{
+}
+inline void count_shadow_pixels(int, std::uint32_t)
+{
+}
+template <class Real>
+inline void note_rival(const vmask<Real>&, const vint<Real>&)
+{
+}
+template <class Real>
+inline void note_doubt(const vmask<Real>&, std::uint32_t)
+{
+}
+template <class Real>
+inline void note_magnitude(const vmask<Real>&)
+{
+}
+inline void note_rival_of_ray(int, std::int32_t)
+{
+}
+inline std::int32_t rival_in_doubt(bool)
+{
+    return 0;
+}
+template <class Real>
+inline void load_rivals(int)
+{
+}
+template <class Real>
+inline void store_rivals(int)
+{
+}
+template <class Real>
+inline void load_rival_of_ray(int)
+{
+}
+template <class Real>
+inline void store_rival_of_ray(int)
+{
+}
+inline void note_in_the_way(std::uint32_t, abi::Cause)
+{
+}
+inline void keep_noted(int, std::uint32_t)
+{
+}
+inline void keep_noted_of_ray(int, std::uint32_t)
+{
+}
+template <class ObjectOf>
+inline void count_unsure_lanes(std::uint32_t, const lane_int<float>*, const ObjectOf&)
+{
+}
+template <class ObjectOf>
+inline void count_unsure_ray(int, std::int32_t, const ObjectOf&)
+{
+}
+inline void count_unsure_shadows(std::uint32_t)
+{
+}
+inline void count_unsure_shadow(int)
+{
+}
+inline bool asks_for_undecided()
+{
+    return false;
+}
+inline void count_undecided(int)
 {
 }
 template <class Real>
@@ -73,6 +148,12 @@ struct PartScope {
 
 struct ShadowScope {
     explicit ShadowScope(abi::Part)
+    {
+    }
+};
+
+struct RetraceScope {
+    RetraceScope()
     {
     }
 };

@@ -127,6 +127,7 @@ inline std::uint32_t visit_blockers(const vreal<float>& t_end,
     const RayScale scale(rays);
     const std::uint32_t certain = objects.certifiable ? bits(certifiable(rays)) : 0;
     std::uint32_t unsure = ~certain & all_lanes<float>;
+    note_in_the_way(unsure, abi::Cause::magnitude);
     // Whether to go on.
     const auto take = [&](std::int32_t surface, const Occlusion& occlusion) {
         const std::uint32_t blocked = occlusion.blocked & certain;

@@ -107,7 +107,7 @@ inline void keep_plane(HitPacket<float>& hit, const PlaneFilter& filter,
     const std::uint32_t rest = ~ahead & ~behind & not_own;
     if (rest != 0)
         keep_doubt(hit, from_bits<float>(rest),
-                   select(from_bits<float>(at.sure), at.low, not_before(filter, at)));
+                   select(from_bits<float>(at.sure), at.low, not_before(filter, at)), at.sure);
 }
 
 template <bool Shared>
@@ -117,8 +117,11 @@ inline Occlusion occludes(const PlaneFilter& filter, const RayPacket<float>& ray
     const PlaneCrossing at = crossing<Shared>(filter, rays, scale);
     Occlusion result = root_between(at.low, at.high, at.sure, rays.t_min, t_end);
     const std::uint32_t flat = ~at.sure & all_lanes<float>;
-    if (flat != 0)
-        result.unsure |= flat & ~bits(not_before(filter, at) > t_end);
+    if (flat != 0) {
+        const std::uint32_t unsure = flat & ~bits(not_before(filter, at) > t_end);
+        note_in_the_way(unsure, abi::Cause::tangent);
+        result.unsure |= unsure;
+    }
     return result;
 }
 

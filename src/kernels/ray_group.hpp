@@ -1,6 +1,7 @@
 #pragma once
 
 #include "kernel_abi/kernel_table.hpp"
+#include "kernels/observe.hpp"
 #include "kernels/own_surface.hpp"
 
 // Rays that go through the hierarchy together: a tile's, or as many of a stream.
@@ -37,6 +38,7 @@ struct alignas(64) RayGroup {
 template <class Real>
 inline void doubt_lanes(RayGroup<Real>& group, int first, std::uint32_t unsure)
 {
+    keep_noted(first, unsure);
     group.unsure[first / cell_rays] |= static_cast<std::uint16_t>(unsure << first % cell_rays);
 }
 
@@ -77,6 +79,7 @@ inline void store_rays(RayGroup<Real>& group, int first, const RayPacket<Real>& 
 template <class Real>
 inline HitPacket<Real> load_hits(const RayGroup<Real>& group, int first)
 {
+    load_rivals<Real>(first);
     return {load(group.t + first), load(group.surface + first), load(group.t_low + first),
             load(group.other + first)};
 }
@@ -87,6 +90,7 @@ inline void store_hits(RayGroup<Real>& group, int first, const HitPacket<Real>& 
     store(group.t + first, hit.t);
     store(group.surface + first, hit.surface);
     if constexpr (F.exact) {
+        store_rivals<Real>(first);
         store(group.t_low + first, hit.t_low);
         store(group.other + first, hit.other);
     }

@@ -280,7 +280,7 @@ template <abi::Features F>
     }
     if (wide.count == 0)
         return;
-    block_wide<F>(*scene.wide, wide, false, [&](int ray, std::int32_t) {
+    block_wide<F>(*scene.wide, wide, false, Blockers::any, [&](int ray, std::int32_t) {
         const int first = ray / lanes<float> * lanes<float>;
         finish_lanes(group, first, 1u << (ray - first));
         return true;

@@ -74,11 +74,63 @@ inline void add_lanes(WideGroup& group, int first, const RayPacket<float>& rays,
     }
 }
 
+/// How far a ray is moved to see whether double decides about it: each of its numbers by four of
+/// double's roundoffs, up or down.
+inline constexpr double double_band = 0x1p-51;
+
+/// Moves rays along one of eight patterns of signs, which have every pair of signs of every two of
+/// the six numbers equally often.
+inline void move_rays(RayGroup<double>& rays, int count, int pattern)
+{
+    const int bit[3] = {pattern & 1, pattern >> 1 & 1, pattern >> 2 & 1};
+    for (int axis = 0; axis < 3; ++axis) {
+        const int next = (axis + 1) % 3;
+        const double of_org = bit[axis] != 0 ? 1 + double_band : 1 - double_band;
+        const double of_dir = (bit[axis] ^ bit[next]) != 0 ? 1 + double_band : 1 - double_band;
+        for (int i = 0; i < count; ++i) {
+            rays.org[axis][i] *= of_org;
+            rays.dir[axis][i] *= of_dir;
+        }
+    }
+}
+
+/// Counts the rays of a group whose `answers(rays, answer)` change when the rays are moved so.
+template <class Answers>
+inline void count_undecided_of(const RayGroup<double>& rays, const WideGroup& group,
+                               const Answers& answers)
+{
+    std::uint64_t still[group_rays];
+    RayGroup<double> copy = rays;
+    answers(copy, still);
+    bool changes[group_rays] = {};
+    for (int pattern = 0; pattern < 8; ++pattern) {
+        std::uint64_t moved[group_rays];
+        copy = rays;
+        move_rays(copy, group.count, pattern);
+        end_group(copy, group.count);
+        answers(copy, moved);
+        for (int i = 0; i < group.count; ++i)
+            changes[i] = changes[i] || moved[i] != still[i];
+    }
+    for (int i = 0; i < group.count; ++i)
+        if (changes[i])
+            count_undecided(group.from[i]);
+}
+
 /// Finds their closest hits in double, and calls `take(ray, t, surface)` for each.
 template <abi::Features F, class Take>
 inline void find_wide(const abi::GeometryView<double>& wide, WideGroup& group, const Take& take)
 {
+    const RetraceScope retracing;
     end_group(group.rays, group.count);
+    if constexpr (F.probe)
+        if (asks_for_undecided())
+            count_undecided_of(group.rays, group,
+                               [&](RayGroup<double>& rays, std::uint64_t* surface) {
+                                   closest_of_group<wide_features<F>>(wide, wide, rays);
+                                   for (int i = 0; i < group.count; ++i)
+                                       surface[i] = static_cast<std::uint64_t>(rays.surface[i]);
+                               });
     closest_of_group<wide_features<F>>(wide, wide, group.rays);
     for (int i = 0; i < group.count; ++i)
         take(group.from[i], static_cast<float>(group.rays.t[i]),
@@ -87,7 +139,7 @@ inline void find_wide(const abi::GeometryView<double>& wide, WideGroup& group, c
 
 /// The closest hits of the lanes of `unsure`, by double.
 template <abi::Features F>
-[[gnu::noinline]] void retrace_packet(const abi::GeometryView<double>& wide,
+[[gnu::noinline]] void retrace_packet(const abi::SceneView<float>& scene,
                                       const RayPacket<float>& rays, HitPacket<float>& hit,
                                       const StartPacket<float>& start, const vreal<float>& t_max,
                                       std::uint32_t unsure)
@@ -96,9 +148,11 @@ template <abi::Features F>
     alignas(64) std::int32_t surface[lanes<float>];
     store(t, hit.t);
     store(surface, hit.surface);
+    count_unsure_lanes(unsure, surface,
+                       [&](std::int32_t number) { return scene.material_index[number].object; });
     WideGroup group;
     add_lanes(group, 0, rays, start, t_max, unsure);
-    find_wide<F>(wide, group, [&](int lane, float closest, std::int32_t number) {
+    find_wide<F>(*scene.wide, group, [&](int lane, float closest, std::int32_t number) {
         t[lane] = closest;
         surface[lane] = number;
     });
@@ -115,7 +169,7 @@ inline std::uint32_t settle_packet(const abi::SceneView<Real>& scene, const RayP
     if constexpr (F.exact) {
         const std::uint32_t unsure = unsure_lanes(hit) & active;
         if (unsure != 0)
-            retrace_packet<F>(*scene.wide, rays, hit, start, t_max, unsure);
+            retrace_packet<F>(scene, rays, hit, start, t_max, unsure);
         return unsure;
     } else {
         return 0;
@@ -136,6 +190,9 @@ template <abi::Features F, class StartOf, class EndOf>
             add_lanes(again, first, load_rays(group, first), start_of(first), t_max_of(first),
                       lanes_of);
     }
+    for (int i = 0; i < again.count; ++i)
+        count_unsure_ray(again.from[i], group.surface[again.from[i]],
+                         [&](std::int32_t number) { return scene.material_index[number].object; });
     find_wide<F>(*scene.wide, again, [&](int ray, float t, std::int32_t surface) {
         group.t[ray] = t;
         group.surface[ray] = surface;
@@ -169,13 +226,40 @@ inline int settle_group(const abi::SceneView<Real>& scene, RayGroup<Real>& group
     }
 }
 
+/// Whether it matters what is in the way of a ray, or only that something is.
+enum class Blockers { any, all };
+
+/// Counts the rays of which double does not tell what is in their way.
+template <abi::Features F>
+inline void count_undecided_shadows(const abi::GeometryView<double>& wide, const WideGroup& group,
+                                    bool closed, Blockers which)
+{
+    count_undecided_of(group.rays, group, [&](RayGroup<double>& rays, std::uint64_t* found) {
+        for (int i = 0; i < group.count; ++i)
+            found[i] = 0;
+        visit_blockers_of_group<wide_features<F>>(
+            wide, wide, rays, closed, [&](std::int32_t surface, int first, std::uint32_t lanes_of) {
+                // A sum that hardly any two sets of surfaces share.
+                const std::uint64_t of_surface =
+                    (static_cast<std::uint64_t>(surface) + 1) * 0x9e3779b97f4a7c15u;
+                for (std::uint32_t left = lanes_of; left != 0; left &= left - 1)
+                    found[first + __builtin_ctz(left)] += which == Blockers::all ? of_surface : 1;
+                return which == Blockers::all ? 0 : lanes_of;
+            });
+    });
+}
+
 /// What is in the way of rays up to their end, in double: calls `blocked(ray, surface)` for each
 /// object until it returns true.
 template <abi::Features F, class Blocked>
 inline void block_wide(const abi::GeometryView<double>& wide, WideGroup& group, bool closed,
-                       const Blocked& blocked)
+                       [[maybe_unused]] Blockers which, const Blocked& blocked)
 {
+    const RetraceScope retracing;
     end_group(group.rays, group.count);
+    if constexpr (F.probe)
+        if (asks_for_undecided())
+            count_undecided_shadows<F>(wide, group, closed, which);
     visit_blockers_of_group<wide_features<F>>(
         wide, wide, group.rays, closed,
         [&](std::int32_t surface, int first, std::uint32_t lanes_of) {
@@ -207,7 +291,7 @@ template <abi::Features F>
     WideGroup group;
     add_segments(group, 0, rays, own, t_end, unsure);
     std::uint32_t lanes_blocked = 0;
-    block_wide<F>(wide, group, closed, [&](int lane, std::int32_t) {
+    block_wide<F>(wide, group, closed, Blockers::any, [&](int lane, std::int32_t) {
         lanes_blocked |= 1u << lane;
         return true;
     });

@@ -120,6 +120,7 @@ inline std::uint32_t blocked_lanes(const ShadeContext<F, Real>& context, int lig
             if (occlusion.unsure == 0)
                 return occlusion.blocked;
             count_unsure(*context.counts, occlusion.unsure);
+            count_unsure_shadows(occlusion.unsure);
             return occlusion.blocked | retrace_occluded<F>(*casters_of(scene).wide, rays, own,
                                                            t_end, closed, occlusion.unsure);
         } else {
@@ -147,10 +148,11 @@ inline void visit_light_blockers(const ShadeContext<F, Real>& context, int light
             if (unsure == 0)
                 return;
             count_unsure(*context.counts, unsure);
+            count_unsure_shadows(unsure);
             start_again(unsure);
             WideGroup group;
             add_segments(group, 0, rays, own, t_end, unsure);
-            block_wide<F>(*casters_of(scene).wide, group, closed,
+            block_wide<F>(*casters_of(scene).wide, group, closed, Blockers::all,
                           [&](int lane, std::int32_t blocker) {
                               pass_on(blocker, 1u << lane);
                               return false;
@@ -161,8 +163,9 @@ inline void visit_light_blockers(const ShadeContext<F, Real>& context, int light
     });
 }
 
-inline void count_shadow_rays(abi::RayCounts& counts, std::uint32_t traced)
+inline void count_shadow_rays(abi::RayCounts& counts, int first, std::uint32_t traced)
 {
+    count_shadow_pixels(first, traced);
     counts.shadow += static_cast<unsigned>(__builtin_popcount(traced));
     counts.stages |= abi::stage_shadow_rays;
 }
@@ -175,11 +178,12 @@ inline std::uint32_t unshadowed(const ShadeContext<F, Real>& context, int light,
 {
     if (!context.scene->lights.data[light].casts_shadow || wanted == 0)
         return wanted;
-    count_shadow_rays(*context.counts, wanted);
+    count_shadow_rays(*context.counts, first, wanted);
     if (context.shadows != nullptr)
         return count_lit<Real>(wanted, wanted & context.shadows[light].lit_lanes(first));
     const ShadowScope shadow(abi::Part::ray_generation);
     tell_live(wanted);
+    tell_first(first);
     const abi::SceneView<Real>& scene = *context.scene;
     const std::uint32_t open =
         wanted & ~own_shadow(scene, scene.lights.data[light], packet, surface, wanted);
@@ -209,12 +213,13 @@ inline Vec3v<Real> transmitted(const ShadeContext<F, Real>& context, int light,
     const abi::SceneView<Real>& scene = *context.scene;
     const vreal<Real> one(Real(1));
     Vec3v<Real> share{one, one, one};
-    count_shadow_rays(*context.counts, wanted);
+    count_shadow_rays(*context.counts, first, wanted);
     context.counts->stages |= abi::stage_glass_shadows;
     if (context.shadows != nullptr)
         return context.shadows[light].shares(first);
     const ShadowScope shadow(abi::Part::ray_generation);
     tell_live(wanted);
+    tell_first(first);
     const auto pass_on = [&](std::int32_t blocker, std::uint32_t blocked) {
         if ((blocked & wanted) == 0)
             return true;

@@ -69,8 +69,12 @@ inline void settle_shadow_group(const ShadeContext<F, Real>& context, int light,
         if (wide.count == 0)
             return;
         context.counts->unsure += static_cast<unsigned>(wide.count);
+        for (int i = 0; i < wide.count; ++i)
+            count_unsure_shadow(wide.from[i]);
         block_wide<F>(*casters_of(*context.scene).wide, wide,
-                      has_closed_reach(*context.scene, light), [&](int ray, std::int32_t surface) {
+                      has_closed_reach(*context.scene, light),
+                      context.scene->transparent_shadows ? Blockers::all : Blockers::any,
+                      [&](int ray, std::int32_t surface) {
                           const int first = ray / lanes<Real> * lanes<Real>;
                           const std::uint32_t lane = 1u << (ray - first);
                           const std::uint32_t done = blocker(surface, first, lane);

@@ -123,7 +123,7 @@ inline void keep_near_sphere(HitPacket<float>& hit, const SphereTest& test,
         return;
     const vreal<float> error = band_error(test, at, scale);
     const std::uint32_t behind = bits(at.middle + error < rays.t_min);
-    keep_doubt(hit, from_bits<float>(band & ~behind), at.middle - error);
+    keep_doubt(hit, from_bits<float>(band & ~behind), at.middle - error, 0);
 }
 
 /// What needs no root: rays from outside that go through between t_min and t_end, or that have the
@@ -172,6 +172,7 @@ inline Occlusion occludes(const SphereTest& test, const SphereApproach& near,
     const vreal<float> error = band_error(test, at, scale);
     const std::uint32_t outside =
         bits(at.middle + error < rays.t_min) | bits(at.middle - error > t_end);
+    note_in_the_way(band & ~outside, abi::Cause::tangent);
     result.unsure |= band & ~outside;
     return result;
 }

@@ -96,6 +96,7 @@ inline RayStream<F, Real>* shade_chunk(const TileRun<F, Real>& run, int depth)
     const HitStream<F, Real>& hits = run.work.memory->hits;
     if (hits.count == 0)
         return nullptr;
+    tell_pixels(hits.pixel);
     run.counts.stages |= abi::stage_normals;
     if constexpr (F.exact)
         run.counts.stages |= abi::stage_refined;
@@ -135,6 +136,7 @@ void trace_generation(const TileRun<F, Real>& run, const RayStream<F, Real>& ray
     for (int begin = 0; begin < rays.count; begin += chunk_rays) {
         const int end = begin + chunk_rays < rays.count ? begin + chunk_rays : rays.count;
         begin_span(abi::Span::trace, depth, abi::Part::ray_generation);
+        tell_pixels(rays.pixel + begin);
         if constexpr (F.probe)
             tell_chunk(refracted_rays(rays, begin, end), end - begin);
         find_nearby<F, Real>(run.work.nearby,

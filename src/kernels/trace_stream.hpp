@@ -128,7 +128,7 @@ inline void take_camera_hits(const abi::SceneView<Real>& scene, TileMemory<F, Re
                              std::uint32_t pixels)
 {
     const std::uint32_t hits = hit_lanes(hit) & pixels;
-    count_traced<Real>(pixels, hit.surface);
+    count_traced<Real>(pixels, hit.surface, from.path.pixel);
     append_hits(scene, memory.hits, from, hit, hits);
     report_rays(memory.hits, scene, from, hit, pixels);
     const PartScope part(abi::Part::film);
@@ -160,6 +160,7 @@ inline void trace_camera(const abi::TileJob<Real>& job, const FromPoint<F, Real>
         const RayPacket<Real> rays = camera_rays(camera, first, job.scene->units);
         HitPacket<Real> hit = no_hit<Real>(static_cast<Real>(__builtin_inf()));
         tell_live(pixels);
+        tell_first(first);
         closest_hit<F>(hit, visible, rays, NoOwn{});
         count_unsure(counts,
                      settle_packet<F>(*job.scene, rays, hit, no_start<Real>(), no_end_yet, pixels));
@@ -226,7 +227,7 @@ inline void take_secondary_hits(const abi::SceneView<Real>& scene, TileMemory<F,
                                 std::uint32_t active)
 {
     const std::uint32_t hits = hit_lanes(hit) & active;
-    count_traced<Real>(active, hit.surface);
+    count_traced<Real>(active, hit.surface, from.path.pixel);
     append_hits(scene, memory.hits, from, hit, hits);
     report_rays(memory.hits, scene, from, hit, active);
     const PartScope part(abi::Part::film);
@@ -247,6 +248,7 @@ inline void trace_secondary(const abi::SceneView<Real>& scene, const RayStream<F
         const std::uint32_t active = first_lanes<Real>(end - first);
         HitPacket<Real> hit = start_of_search(from.start, no_end_yet);
         tell_live(active);
+        tell_first(first - begin);
         if (stream.starts != nullptr)
             closest_hit<F>(hit, nearby, from.rays, OwnSurface{from.start.surface});
         else

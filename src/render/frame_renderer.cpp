@@ -12,7 +12,7 @@ namespace {
 FrameCounts operator+(const FrameCounts& a, const FrameCounts& b)
 {
     return {a.camera + b.camera, a.shadow + b.shadow, a.reflected + b.reflected,
-            a.refracted + b.refracted};
+            a.refracted + b.refracted, a.unsure + b.unsure};
 }
 
 }  // namespace

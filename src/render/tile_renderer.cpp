@@ -46,8 +46,8 @@ TileRenderer<Real>::TileRenderer(const Scene& scene, LoweredScene lowered,
 }
 
 template <class Real>
-abi::TileJob<Real> TileRenderer<Real>::job_at(const abi::CameraView<Real>& camera, int x,
-                                              int y) const
+abi::TileJob<Real> TileRenderer<Real>::job_at(const abi::CameraView<Real>& camera, int x, int y,
+                                              abi::Observation* observation) const
 {
     abi::TileJob<Real> job;
     job.scene = &packed_.view();
@@ -57,14 +57,35 @@ abi::TileJob<Real> TileRenderer<Real>::job_at(const abi::CameraView<Real>& camer
     job.width = std::min(abi::tile_size, width_ - x);
     job.height = std::min(abi::tile_size, height_ - y);
     job.scratch = scratch_.local().data();
-    job.observation = observation_;
+    job.observation = observation;
     return job;
 }
 
 template <class Real>
 abi::RayCounts TileRenderer<Real>::render_once(Image<Real>& image, int x, int y) const
 {
-    abi::TileJob<Real> job = job_at(once_, x, y);
+    return render_once(image, x, y, observation_);
+}
+
+template <class Real>
+abi::RayCounts TileRenderer<Real>::render_mean(Image<Real>& image, int x, int y) const
+{
+    return render_mean(image, x, y, observation_);
+}
+
+template <class Real>
+abi::RayCounts TileRenderer<Real>::render_observed(Image<Real>& image, int x, int y,
+                                                   abi::Observation& observation) const
+{
+    return pattern_.size() > 1 ? render_mean(image, x, y, &observation)
+                               : render_once(image, x, y, &observation);
+}
+
+template <class Real>
+abi::RayCounts TileRenderer<Real>::render_once(Image<Real>& image, int x, int y,
+                                               abi::Observation* observation) const
+{
+    abi::TileJob<Real> job = job_at(once_, x, y, observation);
     job.rgb = image.pixel(x, y);
     job.row_stride = std::ptrdiff_t{3} * width_;
     return kernels_.render_tile(job);
@@ -72,13 +93,14 @@ abi::RayCounts TileRenderer<Real>::render_once(Image<Real>& image, int x, int y)
 
 // One sample of all pixels after the other, so that packets are as compact as with one sample.
 template <class Real>
-abi::RayCounts TileRenderer<Real>::render_mean(Image<Real>& image, int x, int y) const
+abi::RayCounts TileRenderer<Real>::render_mean(Image<Real>& image, int x, int y,
+                                               abi::Observation* observation) const
 {
     constexpr int row_length = 3 * abi::tile_size;
     Real sums[row_length * abi::tile_size] = {};
     Real sample[row_length * abi::tile_size] = {};
     abi::CameraView<Real> camera = corner_;
-    abi::TileJob<Real> job = job_at(camera, x, y);
+    abi::TileJob<Real> job = job_at(camera, x, y, observation);
     job.rgb = sample;
     job.row_stride = row_length;
     abi::RayCounts counts;
@@ -100,7 +122,7 @@ template <class Real>
 abi::RayCounts TileRenderer<Real>::refine(Image<Real>& image, const ContrastMap<Real>& contrast,
                                           int x, int y) const
 {
-    abi::TileJob<Real> job = job_at(corner_, x, y);
+    abi::TileJob<Real> job = job_at(corner_, x, y, observation_);
     abi::RayCounts counts;
     SampleBatch<Real> batch(pattern_, [&](const abi::TileSamples<Real>& samples, Real* rgb) {
         job.samples = &samples;

@@ -34,6 +34,11 @@ public:
     /// several the centre.
     abi::RayCounts render_once(Image<Real>& image, int x, int y) const;
 
+    /// Fills it with as many samples as the options say, none of them adaptive, and records into
+    /// `observation`, from any thread.
+    abi::RayCounts render_observed(Image<Real>& image, int x, int y,
+                                   abi::Observation& observation) const;
+
     /// The same with the mean of all samples.
     abi::RayCounts render_mean(Image<Real>& image, int x, int y) const;
 
@@ -53,8 +58,12 @@ public:
     }
 
 private:
-    [[nodiscard]] abi::TileJob<Real> job_at(const abi::CameraView<Real>& camera, int x,
-                                            int y) const;
+    [[nodiscard]] abi::TileJob<Real> job_at(const abi::CameraView<Real>& camera, int x, int y,
+                                            abi::Observation* observation) const;
+    abi::RayCounts render_once(Image<Real>& image, int x, int y,
+                               abi::Observation* observation) const;
+    abi::RayCounts render_mean(Image<Real>& image, int x, int y,
+                               abi::Observation* observation) const;
 
     int width_;
     int height_;

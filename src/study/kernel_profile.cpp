@@ -8,6 +8,7 @@
 #include "study/profile_subjects.hpp"
 #include "study/span_times.hpp"
 #include "study/stage_seconds.hpp"
+#include "study/unsure_rows.hpp"
 #include "study/work_rows.hpp"
 
 namespace packtrace {
@@ -95,6 +96,7 @@ ObservedKernels observe_kernels(const Scene& scene, const ProfileOptions& option
     result.profile.rays = ray_rows(result.counts, result.profile.stages);
     result.profile.lanes = lane_rows(result.counts);
     result.profile.tests = test_rows(result.counts);
+    result.profile.unsure = unsure_rows(result.counts);
     return result;
 }
 

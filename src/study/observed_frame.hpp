@@ -65,7 +65,7 @@ public:
                                             : tiles_.render_once(image_, x, y);
             });
         }
-        return {sum.camera, sum.shadow, sum.reflected, sum.refracted};
+        return {sum.camera, sum.shadow, sum.reflected, sum.refracted, sum.unsure};
     }
 
     [[nodiscard]] const Image<Real>& image() const
