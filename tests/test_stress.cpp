@@ -108,6 +108,20 @@ bool meets_after(const Object& object, const StressRay& ray, double change)
     return false;
 }
 
+/// In exact mode and packets of doubles, all families. Of the instruction sets the widest: those
+/// with fused multiply-add answer alike.
+void check_faultless(study::StressOptions options)
+{
+    options.isa = choose_isa("auto").name;
+    options.kernels = {"packet"};
+    options.modes = {"exact"};
+    for (const StressRow& row : rows_of(options)) {
+        CAPTURE(row.family, row.precision, row.isa, row.example);
+        CHECK(row.held);
+        CHECK(row.faults == std::vector<std::string>{});
+    }
+}
+
 const StressRow& row_of(const std::vector<StressRow>& rows, const std::string& kernel,
                         const std::string& mode)
 {
@@ -194,6 +208,8 @@ TEST_CASE("t, normals and numbers that are wrong are counted", "[stress]")
     CHECK(errors({0, 8.0, {0, 0, 0}}).no_normal == 1);
     CHECK(errors({0, 8.0, {0, 0, 1}}).wrong_side == 1);
     CHECK(errors({0, 8.0, {0.6, 0, -0.8}}).normal == std::vector<float>{0.6f});
+    CHECK(errors({0, 8.0, {0.6, 0, -0.8}}).normal_beyond == 1);
+    CHECK(errors({0, 8.0, {0, 0, -1}}).normal_beyond == 0);
     CHECK(errors({0, 8.0, {0, 0, std::nan("")}}).not_finite == 1);
     CHECK(errors({0, std::nan(""), {0, 0, -1}}).not_finite == 1);
 }
@@ -289,6 +305,20 @@ TEST_CASE("a ray inside a capped body has to leave it, at its rim as well", "[st
     CHECK(not_closed(1.0, 2) == 1);
     CHECK(not_closed(0.5, 1) == 0);
     CHECK(not_closed(0.5, 3) == 1);
+
+    const auto not_even = [&](const Vec3& org, const Vec3& dir, std::size_t crossings) {
+        Expected expected = expected_of({cylinder}, endless(org, dir));
+        expected.even = true;
+        study::Evaluation evaluation(single_roundoff);
+        evaluation.add_crossings(expected, crossings);
+        return evaluation.errors().not_closed;
+    };
+    for (const std::size_t crossings : {0, 2})
+        CHECK(not_even({0, 0, 2}, {1, 0, -1}, crossings) == 0);
+    for (const std::size_t crossings : {1, 3})
+        CHECK(not_even({0, 0, 2}, {1, 0, -1}, crossings) == 1);
+    CHECK(not_even({0, 0, 2}, {0.25, 0, -1}, 2) == 0);
+    CHECK(not_even({0, 0, 2}, {0.25, 0, -1}, 0) == 1);
 }
 
 TEST_CASE("any-hit answers and the first of all hits are held to the truth", "[stress]")
@@ -394,6 +424,25 @@ TEST_CASE("a verdict names the families that are wrong", "[stress]")
     CHECK(study::stress_verdict({bounded}) ==
           "verdict: exact is right in all 1 families (0 wrong decisions, 0 self-hits, 0 second "
           "hits lost, 0 of 300 bounds missed, 100 rays)");
+    // What is beyond the bounds because double has no more digits is named, and no fault.
+    StressRow limit = good;
+    limit.family = "far";
+    limit.hits = 90;
+    limit.t_at_limit = 2;
+    limit.normal_beyond = 1;
+    CHECK(study::faults_of(limit).empty());
+    CHECK(study::stress_verdict({good, limit}) ==
+          "verdict: exact is right in all 2 families (0 wrong decisions, 0 self-hits, 0 second "
+          "hits lost, 200 rays), double itself at its limit in far (2 t, 1 normals of 90)");
+    // Packets of doubles do not refine: an ulp of double is not held to, what inputs make is.
+    StressRow doubles = good;
+    doubles.precision = "double";
+    doubles.hits = 100;
+    doubles.t_beyond = doubles.t_beyond_half = 50;
+    doubles.rho = 3.9;
+    CHECK(study::faults_of(doubles).empty());
+    doubles.rho = 4.1;
+    CHECK(study::faults_of(doubles).size() == 1);
     StressRow fast = bad;
     fast.held = false;
     fast.faults.clear();
@@ -454,7 +503,27 @@ TEST_CASE("second hits are those of rays from where they start", "[stress]")
         CHECK(row.second_rays > 1000);
         CHECK(row.self_hits == 0);
         CHECK(row.second_lost == 0);
+        if (row.held)
+            CHECK(row.second_inexact == 0);
     }
+}
+
+TEST_CASE("no family finds a fault in exact mode and in packets of doubles", "[stress]")
+{
+    for (const Traversal traversal : {Traversal::list, Traversal::tree}) {
+        study::StressOptions options;
+        options.rays = 128;
+        options.traversal = traversal;
+        check_faultless(options);
+    }
+}
+
+TEST_CASE("no family finds a fault in a quarter of a million rays", "[stress][slow]")
+{
+    study::StressOptions options;
+    options.rays = 4096;
+    options.seed = 5;
+    check_faultless(options);
 }
 
 TEST_CASE("packets are right outside the band of their own precision", "[stress]")

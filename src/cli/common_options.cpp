@@ -149,14 +149,14 @@ void add_kernel_options(CLI::App& command, KernelArguments& arguments)
     add_threads_option(command, arguments.threads);
 }
 
-namespace {
-
 Traversal traversal_named(const std::string& name)
 {
     return name == "list"   ? Traversal::list
            : name == "tree" ? Traversal::tree
                             : Traversal::automatic;
 }
+
+namespace {
 
 /// The option given that only packets have, or nothing.
 std::string packet_option(const KernelArguments& arguments)

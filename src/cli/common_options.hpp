@@ -49,6 +49,7 @@ struct SamplingArguments {
 
 void add_accuracy_options(CLI::App& command, AccuracyArguments& arguments);
 void add_traversal_option(CLI::App& command, std::optional<std::string>& traversal);
+[[nodiscard]] Traversal traversal_named(const std::string& name);
 void add_sampling_options(CLI::App& command, SamplingArguments& arguments);
 void add_isa_options(CLI::App& command, IsaArguments& arguments);
 /// `--size` alone.

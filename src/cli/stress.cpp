@@ -29,6 +29,7 @@ constexpr int most_rays = 10000000;
 struct StressArguments {
     study::StressOptions options;
     std::optional<std::string> isa;
+    std::optional<std::string> traversal;
     std::optional<std::string> cases;  ///< a folder for scenes and rays of wrong answers
     int threads = 0;
     bool list = false;
@@ -123,8 +124,10 @@ nlohmann::ordered_json row_json(const StressRow& row)
             {"wrong_side", row.wrong_side},
             {"t_beyond_ulp", row.t_beyond},
             {"t_beyond_half_ulp", row.t_beyond_half},
+            {"t_at_doubles_limit", row.t_at_limit},
             {"ulp", spread_json(row.ulp)},
             {"normal_error", spread_json(row.normal)},
+            {"normal_beyond_1e-6", row.normal_beyond},
             {"rho", row.rho},
             {"distance_roundoffs", row.distance},
             {"second_rays", row.second_rays},
@@ -210,6 +213,7 @@ void run(const StressArguments& arguments)
     study::StressOptions options = arguments.options;
     if (arguments.isa)
         options.isa = chosen_isa({arguments.isa, {}}).name;
+    options.traversal = traversal_named(arguments.traversal.value_or("auto"));
     const ThreadLimit limit(arguments.threads);
     std::vector<StressRow> rows;
     study::run_stress(options, [&](const std::vector<StressRow>& some) {
@@ -256,6 +260,7 @@ void add_stress(CLI::App& app)
         ->type_name("single|double");
     command->add_option("--isa", arguments->isa, "Only this instruction set (default all)")
         ->type_name("NAME");
+    add_traversal_option(*command, arguments->traversal);
     command
         ->add_option_function<std::string>(
             "--self-hits",

@@ -54,10 +54,35 @@ inline Vec3v<Real> apply_transposed(const abi::QuadricRecord<double>& quadric, c
                                  scale<Real>(g.z, broadcast_as<Real>(quadric.inverse[2]))));
 }
 
+/// Whether a quadric is two planes that cross: s_i x_i² + s_j x_j² = 0.
+inline bool crossing_planes(const abi::QuadricRecord<double>& quadric)
+{
+    const double(&s)[3] = quadric.square;
+    const int flat = (s[0] == 0) + (s[1] == 0) + (s[2] == 0);
+    return quadric.constant == 0 && quadric.linear == 0 && flat == 1;
+}
+
+/// The gradient of two planes that cross is that of one of them, and of no other direction however
+/// near to their edge: |s_i| x_i² = |s_j| x_j² there.
+template <class Real>
+inline Vec3v<Real> plane_gradient(const abi::QuadricRecord<double>& quadric, const Vec3v<Real>& p)
+{
+    const auto component = [](double s, const vreal<Real>& x) {
+        const vreal<Real> size(static_cast<Real>(__builtin_sqrt(s < 0 ? -s : s)));
+        const vreal<Real> g = with_sign_of(size, s < 0 ? negated(x) : x);
+        return select(x == vreal<Real>(Real(0)), x, g);
+    };
+    return apply_transposed<Real>(
+        quadric, {component(quadric.square[0], p.x), component(quadric.square[1], p.y),
+                  component(quadric.square[2], p.z)});
+}
+
 /// Of the side, at a point given in canonical space.
 template <class Real>
 inline Vec3v<Real> side_gradient(const abi::QuadricRecord<double>& quadric, const Vec3v<Real>& p)
 {
+    if (crossing_planes(quadric))
+        return plane_gradient<Real>(quadric, p);
     Vec3v<Real> g = broadcast_as<Real>(quadric.square) * p;
     g.z = g.z + vreal<Real>(static_cast<Real>(quadric.linear));
     return apply_transposed<Real>(quadric, g);

@@ -133,7 +133,8 @@ inline ClipCrossings<Real> clip_crossings(const abi::QuadricRecord<Real>& quadri
 
 /// Calls `visit(valid, t, piece)` for the places where the rays cross the clipped and capped
 /// surface: piece 0 is the side, 1 and 2 the low and the high cap. A t may be infinite. Side and
-/// caps share one decision, the order of their t: at the rim a ray crosses exactly one.
+/// caps share one decision, the order of their t: at the rim a ray crosses exactly one, or, where
+/// it only touches the rim, both.
 template <class Real, class Visit>
 inline void visit_crossings(const abi::QuadricRecord<Real>& quadric,
                             const QuadricOrigin<Real>& origin, const RayPacket<Real>& rays,
@@ -168,13 +169,17 @@ inline void visit_crossings(const abi::QuadricRecord<Real>& quadric,
         return;
     const LineInterval<Real> side = ordered<Real>(first, second);
     const std::uint32_t opens = bits(quadratic.a < zero);
+    const std::uint32_t climbs = bits(clip.low_t <= clip.high_t);
     const std::uint32_t never_crosses =
         bits((quadratic.a < zero) | ((quadratic.a == zero) & (quadratic.c < zero)));
     for (int cap = 1; cap <= 2; ++cap) {
         const vreal<Real> t = cap == 1 ? clip.low_t : clip.high_t;
-        const std::uint32_t within = bits((t > side.low) & (t < side.high));
-        const std::uint32_t beyond = bits(t < side.low) | bits(t > side.high);
-        const std::uint32_t by_order = (opens & beyond) | (~opens & within);
+        // A ray that only touches the rim has two hits there: it comes in by one and leaves by the
+        // other.
+        const std::uint32_t comes_in = cap == 1 ? climbs : ~climbs;
+        const std::uint32_t within = (comes_in & bits((t > side.low) & (t <= side.high))) |
+                                     (~comes_in & bits((t >= side.low) & (t < side.high)));
+        const std::uint32_t by_order = opens ^ within;
         visit(from_bits<Real>((crosses & by_order) | (~crosses & never_crosses & all_lanes<Real>)),
               t, cap);
     }

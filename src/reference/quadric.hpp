@@ -27,9 +27,23 @@ struct QuadricBody {
     {
         return {dot(form.axes[0], own), dot(form.axes[1], own), dot(form.axes[2], own)};
     }
-    /// Half the gradient at a canonical point.
+    /// Whether it is two planes that cross.
+    [[nodiscard]] bool crossing_planes() const
+    {
+        const Vec3<Real>& s = form.square;
+        return form.constant == 0 && form.linear == 0 && (s.x == 0) + (s.y == 0) + (s.z == 0) == 1;
+    }
+    /// Half the gradient at a canonical point. Of two planes it is that of one of them, and of no
+    /// other direction however near to their edge, where |s_i| x_i² = |s_j| x_j².
     [[nodiscard]] Vec3<Real> half_gradient(const Vec3<Real>& p) const
     {
+        if (crossing_planes()) {
+            const auto component = [](Real s, Real x) {
+                return x == 0 ? x : std::copysign(std::sqrt(std::abs(s)), s * x);
+            };
+            return {component(form.square.x, p.x), component(form.square.y, p.y),
+                    component(form.square.z, p.z)};
+        }
         const Vec3<Real> bent = form.square * p;
         return {bent.x, bent.y, bent.z + form.linear};
     }

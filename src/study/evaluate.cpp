@@ -11,6 +11,9 @@ namespace {
 /// t may be wrong by its inputs' rounding times this.
 constexpr double condition_slack = 4.0;
 
+/// What a component of a normal is within.
+constexpr double normal_bound = 1e-6;
+
 bool finite(const Answer& answer)
 {
     return std::isfinite(answer.t + answer.normal.x + answer.normal.y + answer.normal.z);
@@ -111,6 +114,8 @@ void Errors::add(const Errors& other)
     wrong_side += other.wrong_side;
     t_beyond += other.t_beyond;
     t_beyond_half += other.t_beyond_half;
+    t_at_limit += other.t_at_limit;
+    normal_beyond += other.normal_beyond;
     rho = std::max(rho, other.rho);
     distance = std::max(distance, other.distance);
     ulp.insert(ulp.end(), other.ulp.begin(), other.ulp.end());
@@ -146,13 +151,15 @@ void Evaluation::measure(const StressRay& ray, const Expected& expected, const A
 {
     const double t = static_cast<double>(expected.t);
     const double error = distance_of(expected.t, answer);
-    const double ulp = std::ldexp(2.0 * roundoff_, std::ilogb(t));
+    const double least = roundoff_ > 0x1p-40 ? 0x1p-149 : 0x1p-1074;
+    const double ulp = std::max(least, std::ldexp(2.0 * roundoff_, std::ilogb(t)));
     errors_.ulp.push_back(static_cast<float>(error / ulp));
     if (expected.root_decided(undecided_band * roundoff_))
         errors_.rho = std::max(errors_.rho, error / (t * expected.condition * roundoff_));
     const double allowed = condition_slack * expected.condition * t * 0x1p-53;
     errors_.t_beyond += error > ulp + allowed;
     errors_.t_beyond_half += error > 0.51 * ulp + allowed;
+    errors_.t_at_limit += error > ulp && error <= ulp + allowed;
 
     if (!(std::abs(glm::length(answer.normal) - 1.0) < 8.0 * roundoff_)) {
         ++errors_.no_normal;
@@ -160,7 +167,9 @@ void Evaluation::measure(const StressRay& ray, const Expected& expected, const A
     }
     if (expected.normal == Vec3(0.0))
         return;
-    errors_.normal.push_back(static_cast<float>(largest_of(answer.normal - expected.normal)));
+    const double off = largest_of(answer.normal - expected.normal);
+    errors_.normal.push_back(static_cast<float>(off));
+    errors_.normal_beyond += off > normal_bound;
     const double cosine = glm::dot(answer.normal, ray.dir) / glm::length(ray.dir);
     const double told = 4.0 * roundoff_ + double_band * expected.normal_spread;
     errors_.wrong_side += cosine * expected.cosine < 0.0 && std::abs(expected.cosine) > told;
@@ -180,13 +189,14 @@ void Evaluation::add_first_of_all(const Expected& expected, std::int32_t first,
 
 void Evaluation::add_crossings(const Expected& expected, std::size_t count)
 {
-    if (!expected.certain)
+    if (!expected.certain && !expected.even)
         return;
     const bool sure = std::none_of(expected.hits.begin(), expected.hits.end(),
                                    [](const TrueHit& hit) { return hit.margin < double_band; });
     const auto exist = static_cast<std::size_t>(std::count_if(
         expected.hits.begin(), expected.hits.end(), [](const TrueHit& hit) { return hit.exists; }));
-    errors_.not_closed += count % 2 == 0 || (sure && count != exist);
+    const std::size_t odd = expected.certain ? 1 : 0;
+    errors_.not_closed += count % 2 != odd || (sure && count != exist);
 }
 
 }  // namespace packtrace::study

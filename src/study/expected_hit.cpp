@@ -47,6 +47,7 @@ Expected expect(const StressRay& ray, std::vector<TrueHit> hits, double roundoff
     expected.margin = expected.root_margin = expected.end_margin = never;
     if (first != nullptr) {
         expected.object = first->object;
+        expected.piece = first->piece;
         expected.t = first->t;
         expected.normal = narrow(first->normal);
         expected.cosine = static_cast<double>(reference::dot(first->normal, wide(ray.dir))) /

@@ -15,6 +15,7 @@ inline constexpr double double_band = undecided_band * 0x1p-53;
 /// The one hit that is the right answer, or the miss; fixed by the truth, before any answer.
 struct Expected {
     std::int32_t object = -1;  ///< -1 for a miss
+    int piece = 0;             ///< of the object, as in TrueHit
     Wide t = 0;
     Vec3 normal{0.0};            ///< unit, outwards; 0 where the surface has none
     double cosine = 0.0;         ///< of the ray and the normal: below 0 where it enters
@@ -27,6 +28,7 @@ struct Expected {
     /// The same that brings some hit to within a last place of t of an end of the range.
     double end_margin = 0.0;
     bool certain = false;       ///< from inside a closed body: there is a hit, whatever the margins
+    bool even = false;          ///< from outside a closed body: it is left as often as entered
     std::vector<TrueHit> hits;  ///< all, by t, then object; also such as nearly exist
 
     [[nodiscard]] bool decided(double band) const

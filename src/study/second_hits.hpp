@@ -22,7 +22,7 @@ struct SecondHits {
     void add(const SecondHits& other);
 };
 
-/// For packets, on groups whose surfaces are not clipped; else nothing is counted.
+/// For packets; of groups with crossing planes nothing is counted.
 template <class Real>
 [[nodiscard]] SecondHits trace_second_hits(const StressSubject& subject, const StressGroup& group,
                                            SelfHits rule);

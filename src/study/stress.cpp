@@ -57,30 +57,36 @@ std::string hit_text(std::int32_t object, double t, const Vec3& normal)
     return object < 0 ? "a miss" : text + text_of(normal);
 }
 
-const char* name_of(Verdict verdict)
+/// What is wrong with the answers to one ray, in a word or two; empty where nothing is.
+const char* fault_of(const Errors& one)
 {
-    switch (verdict) {
-        case Verdict::right:
-            return "right";
-        case Verdict::lost:
-            return "lost";
-        case Verdict::false_hit:
-            return "false hit";
-        case Verdict::wrong_object:
-            return "wrong object";
-        case Verdict::wrong_root:
-            return "wrong root";
-    }
-    return "";
+    if (one.wrong() > 0)
+        return one.lost > 0           ? "lost"
+               : one.false_hits > 0   ? "false hit"
+               : one.wrong_object > 0 ? "wrong object"
+                                      : "wrong root";
+    if (one.occluded > 0)
+        return "any-hit answer wrong";
+    if (one.order > 0)
+        return "another object first in the list of all hits";
+    if (one.not_closed > 0)
+        return "does not leave once";
+    if (one.not_finite + one.no_normal > 0)
+        return "no number, or no normal";
+    if (one.wrong_side > 0)
+        return "normal on the wrong side";
+    if (one.t_beyond > 0)
+        return "t off";
+    return one.normal_beyond > 0 ? "normal off" : "";
 }
 
 /// Which ray it is, what it should hit, and what was said.
 std::string example_text(const StressGroup& group, std::size_t scene, std::size_t ray,
-                         const Answer& answer, Verdict verdict)
+                         const Answer& answer, const char* fault)
 {
     const StressRay& r = group.rays[ray];
     const Expected& e = group.expected[ray];
-    return std::string(name_of(verdict)) + ": scene " + std::to_string(scene) + ", ray " +
+    return std::string(fault) + ": scene " + std::to_string(scene) + ", ray " +
            std::to_string(ray) + " " + text_of(r.org) + " -> " + text_of(r.dir) + ": expected " +
            hit_text(e.object, static_cast<double>(e.t), e.normal) + "; got " +
            hit_text(answer.object, answer.t, answer.normal);
@@ -89,20 +95,25 @@ std::string example_text(const StressGroup& group, std::size_t scene, std::size_
 template <class Real>
 constexpr double roundoff_of = std::numeric_limits<Real>::epsilon() / 2.0;
 
-/// The answers to the rays of one scene, held against what is expected.
+/// The answers to one ray of a scene, held against what is expected.
+void evaluate_ray(Evaluation& evaluation, const StressGroup& group, const StressRun& run,
+                  std::size_t i)
+{
+    const Expected& expected = group.expected[i];
+    evaluation.add(group.rays[i], expected, run.answers[i]);
+    if (run.occluded.empty())
+        return;
+    evaluation.add_occluded(expected, run.occluded[i] != 0);
+    evaluation.add_first_of_all(expected, run.first[i], run.answers[i].object);
+    evaluation.add_crossings(expected, run.crossings[i]);
+}
+
 template <class Real>
 Errors evaluate_run(const StressGroup& group, const StressRun& run)
 {
     Evaluation evaluation(roundoff_of<Real>);
-    for (std::size_t i = 0; i < group.rays.size(); ++i) {
-        const Expected& expected = group.expected[i];
-        evaluation.add(group.rays[i], expected, run.answers[i]);
-        if (run.occluded.empty())
-            continue;
-        evaluation.add_occluded(expected, run.occluded[i] != 0);
-        evaluation.add_first_of_all(expected, run.first[i], run.answers[i].object);
-        evaluation.add_crossings(expected, run.crossings[i]);
-    }
+    for (std::size_t i = 0; i < group.rays.size(); ++i)
+        evaluate_ray(evaluation, group, run, i);
     return evaluation.errors();
 }
 
@@ -127,18 +138,19 @@ std::string csv_of(const StressRay& ray)
     return text;
 }
 
-/// The first wrong closest hit; nothing where all are right.
+/// The first wrong answer: a wrong decision if there is one, else t, a normal or what else is off.
 template <class Real>
 void add_example(StressRow& row, const std::vector<StressGroup>& groups,
                  const std::vector<StressRun>& runs)
 {
     for (std::size_t g = 0; g < groups.size(); ++g)
         for (std::size_t i = 0; i < groups[g].rays.size(); ++i) {
-            const Verdict verdict = verdict_of(groups[g].expected[i], runs[g].answers[i],
-                                               double_band, roundoff_of<Real>);
-            if (verdict == Verdict::right)
+            Evaluation one(roundoff_of<Real>);
+            evaluate_ray(one, groups[g], runs[g], i);
+            const char* fault = fault_of(one.errors());
+            if (*fault == '\0' || (one.errors().wrong() == 0 && row.wrong > 0))
                 continue;
-            row.example = example_text(groups[g], g, i, runs[g].answers[i], verdict);
+            row.example = example_text(groups[g], g, i, runs[g].answers[i], fault);
             row.example_scene = scene_text(groups[g].scene);
             row.example_ray = csv_of(groups[g].rays[i]);
             return;
@@ -171,6 +183,8 @@ StressRow row_of(const StressSubject& subject, const char* precision, Errors err
     row.wrong_side = errors.wrong_side;
     row.t_beyond = errors.t_beyond;
     row.t_beyond_half = errors.t_beyond_half;
+    row.t_at_limit = errors.t_at_limit;
+    row.normal_beyond = errors.normal_beyond;
     row.ulp = spread_of(errors.ulp);
     row.normal = spread_of(errors.normal);
     row.rho = errors.rho;

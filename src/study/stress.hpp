@@ -16,7 +16,8 @@ struct StressOptions {
     std::vector<std::string> precisions;   ///< single, double; empty: both
     std::string isa;                       ///< empty: all that run here
     SelfHits self_hits = SelfHits::exact;  ///< how second rays keep from their own start
-    int rays = 4096;                       ///< of each family and precision
+    Traversal traversal = Traversal::automatic;
+    int rays = 4096;  ///< of each family and precision
     std::uint64_t seed = 1;
 };
 
@@ -46,13 +47,15 @@ struct StressRow {
     std::uint64_t wrong_root = 0;  ///< of the right object
     std::uint64_t occluded = 0;    ///< any-hit answers that are wrong
     std::uint64_t order = 0;       ///< the first of all hits is another object than the closest
-    std::uint64_t not_closed = 0;  ///< rays that do not leave a closed body just once
+    std::uint64_t not_closed = 0;  ///< closed bodies not left as often as they are entered
     std::uint64_t beyond_own_band = 0;  ///< wrong even outside the band of the precision itself
     std::uint64_t not_finite = 0;
     std::uint64_t no_normal = 0;
     std::uint64_t wrong_side = 0;
     std::uint64_t t_beyond = 0;       ///< t off by more than 1 ulp, and than double's limit
     std::uint64_t t_beyond_half = 0;  ///< the same for 0.51 ulp
+    std::uint64_t t_at_limit = 0;     ///< t off by more than 1 ulp, as inputs make it in double
+    std::uint64_t normal_beyond = 0;  ///< normals off by more than 1e-6
     ErrorSpread ulp;                  ///< of t, in units in the last place of the precision
     ErrorSpread normal;
     double rho = 0.0;
@@ -69,9 +72,9 @@ struct StressRow {
     ErrorSpread bounds_ulp;           ///< how far apart they are, in last places of double
     double ns = 0.0;                  ///< a ray, of the first of the instruction sets
     bool pareto = false;              ///< no other of the family is both quicker and more exact
-    std::string example_scene;        ///< the scene of the first wrong closest hit
+    std::string example_scene;        ///< the scene of the first wrong answer
     std::string example_ray;          ///< and its ray, as `packtrace intersect` reads it
-    std::string example;              ///< the first wrong closest hit
+    std::string example;              ///< the first wrong answer
     std::vector<std::string> faults;  ///< what the verdict holds against it
 };
 

@@ -26,7 +26,7 @@ struct StressFamily {
     std::function<StressCase(StressRandom&)> make;
     /// The first scenes, if these are known ones.
     std::vector<std::function<StressCase()>> known = {};
-    bool closed = false;  ///< rays from inside a body that they must leave
+    bool closed = false;  ///< one closed body, which endless rays leave as often as they enter it
     int scenes = 16;
     bool packets_only = false;  ///< too many objects for one after the other
 };
@@ -41,6 +41,7 @@ struct StressFamily {
 [[nodiscard]] std::vector<StressFamily> far_families();
 [[nodiscard]] std::vector<StressFamily> touching_families();
 [[nodiscard]] std::vector<StressFamily> edge_families();
+[[nodiscard]] std::vector<StressFamily> mixed_families();
 
 [[nodiscard]] StressRay ray_towards(const Vec3& org, const Vec3& target);
 [[nodiscard]] Object sphere_object(const Vec3& center, double radius);

@@ -109,13 +109,14 @@ StressGroup stress_group(Scene scene)
 
 namespace {
 
-/// Whether a ray starts well inside a closed body.
-bool starts_inside(const WideSurface& body, const StressRay& ray)
+/// How far a ray's start is inside a closed body, in the body's own space; negative outside.
+double depth_inside(const WideSurface& body, const StressRay& ray)
 {
-    constexpr double well = 1e-6;
     const WideVec p = body.point_to_own(wide(ray.org));
-    return body.capped && body.value(p) < -well && p.z > body.z_range->low + well &&
-           p.z < body.z_range->high - well;
+    const double side = -static_cast<double>(body.value(p));
+    const double above = static_cast<double>(p.z) - body.z_range->low;
+    const double below = body.z_range->high - static_cast<double>(p.z);
+    return std::min({side, above, below});
 }
 
 template <class Real>
@@ -131,7 +132,12 @@ StressGroup make_group(const StressFamily& family, std::uint64_t seed, std::size
         round_to_precision<Real>(ray);
         Expected expected =
             expect(ray, group.hits_of(ray), std::numeric_limits<Real>::epsilon() / 2.0);
-        expected.certain = family.closed && starts_inside(group.surfaces[0], ray);
+        if (family.closed && group.surfaces[0].capped) {
+            constexpr double well = 1e-6;
+            const double depth = depth_inside(group.surfaces[0], ray);
+            expected.certain = depth > well;
+            expected.even = depth < -well;
+        }
         group.rays.push_back(ray);
         group.expected.push_back(std::move(expected));
     }

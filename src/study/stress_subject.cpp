@@ -81,6 +81,7 @@ void add_packets(const StressOptions& options, std::vector<StressSubject>& subje
             RenderOptions render;
             render.isa = isa.name;
             render.accuracy = mode.accuracy;
+            render.traversal = options.traversal;
             subjects.push_back({"packet", mode.name, isa.name, mode.exact, render});
         }
     }

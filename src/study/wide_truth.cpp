@@ -217,6 +217,9 @@ private:
         const Wide t = -b_ / a_;
         const WideVec own = own_at(t);
         const double half_value = narrow((c_ + t * b_) / 2);
+        // Through an apex both this and its change are 0, but for what 113 bits round off.
+        if (std::abs(half_value) <= 0x1p-104 * std::abs(narrow(c_)))
+            return 0.0;
         return std::abs(half_value) / change_at(surface_.gradient(own), t, own);
     }
 
@@ -311,8 +314,20 @@ private:
         const Wide side = dot(other, own);
         TrueHit& hit = add(t, spread, side > 0 ? g : -g, true, steep / turn, found);
         const double blur = reach(other, t, own) + std::abs(narrow(dot(other, v_))) * spread;
-        // By the quadratic that the product is, nothing tells the two apart where they nearly meet.
-        hit.side_margin = std::min(std::abs(narrow(side)) / blur, touching_margin());
+        hit.side_margin = std::abs(narrow(side)) / blur;
+        limit_to_quadratic(hit);
+    }
+
+    /// Who solves the product of two planes as a quadratic rounds the terms of a: along one of the
+    /// planes it nearly vanishes, which moves the other's t as well.
+    void limit_to_quadratic(TrueHit& hit) const
+    {
+        const Vec3 terms = narrow3(surface_.second_order(v_) * v_);
+        const double size = std::abs(terms.x) + std::abs(terms.y) + std::abs(terms.z);
+        if (a_ == 0)
+            return;
+        hit.condition = std::max(hit.condition, own_roundings * size / std::abs(narrow(a_)));
+        hit.spread = hit.condition * std::abs(narrow(hit.t));
     }
 
     void find_cap(double height, int side, std::vector<TrueHit>& found) const
@@ -326,8 +341,9 @@ private:
         const Wide value = surface_.value(own) / 2;
         const WideVec g = surface_.gradient(own);
         const double change = std::abs(narrow(dot(g, v_))) * spread;
-        add(t, spread, up, value <= 0, std::abs(narrow(value)) / (change_at(g, t, own) + change),
-            found);
+        TrueHit& hit = add(t, spread, up, value <= 0,
+                           std::abs(narrow(value)) / (change_at(g, t, own) + change), found);
+        hit.piece = side < 0 ? 1 : 2;
     }
 
     const WideSurface& surface_;

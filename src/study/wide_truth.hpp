@@ -22,6 +22,7 @@ struct TrueHit {
     bool exists = false;
     Wide t = 0;
     std::int32_t object = -1;
+    int piece = 0;           ///< 0: side, 1 and 2: low and high cap
     WideVec normal;          ///< unit, outwards; 0 where there is none
     double spread = 0.0;     ///< change of t for relative changes 1 of every input
     double condition = 0.0;  ///< the same over t
