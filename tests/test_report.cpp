@@ -41,7 +41,7 @@ ReportOptions short_options()
 
 ReportScene small_scene()
 {
-    return {"small", "some text", four_spheres(48, 40)};
+    return {"small", four_spheres(48, 40)};
 }
 
 /// A run of a name, with a time and an error.
@@ -390,7 +390,6 @@ TEST_CASE("a truth is kept, found again, and made anew when it is not whole or n
     const TempFolder folder;
     const Scene scene = four_spheres(24, 20);
     TruthRequest request;
-    request.text = "a scene";
     request.cache = folder / "cache";
     const Truth made = find_truth(scene, request);
     CHECK_FALSE(made.cached);
@@ -401,14 +400,17 @@ TEST_CASE("a truth is kept, found again, and made anew when it is not whole or n
 
     // Other scenes and settings have files of their own.
     TruthRequest other = request;
-    other.text = "another scene";
-    CHECK_FALSE(find_truth(scene, other).cached);
-    other = request;
     other.samples = 2;
     CHECK_FALSE(find_truth(scene, other).cached);
-    Scene flat = scene;
-    flat.max_depth = 0;
-    CHECK_FALSE(find_truth(flat, request).cached);
+    const auto is_kept_apart = [&](const auto& change) {
+        Scene changed = scene;
+        change(changed);
+        return !find_truth(changed, request).cached && find_truth(scene, request).cached;
+    };
+    CHECK(is_kept_apart([](Scene& changed) { changed.max_depth = 0; }));
+    CHECK(is_kept_apart([](Scene& changed) { changed.camera.position.x = 0.25; }));
+    CHECK(is_kept_apart([](Scene& changed) { changed.lights.pop_back(); }));
+    CHECK(is_kept_apart([](Scene& changed) { changed.background = Rgb(0.5); }));
 
     // The first file, cut short; then with pixels of another picture.
     std::filesystem::remove_all(request.cache);

@@ -121,7 +121,7 @@ TEST_CASE("a depth limit that is too low is named", "[report_defects]")
 
 TEST_CASE("errors of sampling sit where trees of a pixel's samples part", "[report_defects]")
 {
-    ReportScene scene{"four spheres", "", four_spheres(96, 96)};
+    ReportScene scene{"four spheres", four_spheres(96, 96)};
     ReportOptions options;
     options.repetitions = 1;
     options.samples = {1};

@@ -23,7 +23,7 @@ std::string write_page(const TempFolder& folder)
     options.repetitions = 1;
     options.truth_samples = 8;
     options.classified = 4;
-    const SceneReport scene = report({"four <spheres>", "", four_spheres(96, 64)}, options);
+    const SceneReport scene = report({"four <spheres>", four_spheres(96, 64)}, options);
     write_report({scene}, options, {"p", 1, "c", "x", "cmd"}, folder / "out");
     return (folder / "out" / "report.html").string();
 }

@@ -45,10 +45,8 @@ struct Variant {
     return variant.kernel == Kernel::packet && variant.precision == "single";
 }
 
-/// A scene, and the bytes that tell it from others in the cache of truths.
 struct ReportScene {
     std::string name;
-    std::string text;
     Scene scene;
 };
 

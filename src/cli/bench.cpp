@@ -233,7 +233,7 @@ void run_bench_command(const BenchArguments& arguments)
     std::vector<ReportScene> scenes;
     for (const std::string& file : arguments.scenes) {
         SceneInput input = read_scene_input(file);
-        scenes.push_back({input.stem, {}, std::move(input.scene)});
+        scenes.push_back({input.stem, std::move(input.scene)});
         apply(arguments.picture, scenes.back().scene);
     }
     if (arguments.against.empty())

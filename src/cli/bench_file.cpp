@@ -5,6 +5,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "core/json_text.hpp"
 #include "core/read_file.hpp"
 #include "study/machine.hpp"
 
@@ -100,7 +101,7 @@ std::string bench_text(const BenchFigures& figures)
                                       {"spread", relative_spread(reference.seconds)}});
     for (const BenchLine& line : figures.lines)
         json["lines"].push_back(bench_line_json(line));
-    return json.dump(2) + "\n";
+    return json_text(json);
 }
 
 BenchFigures read_bench_file(const std::filesystem::path& file)

@@ -14,6 +14,7 @@
 
 #include "cli/command.hpp"
 #include "cli/validators.hpp"
+#include "core/json_text.hpp"
 
 namespace packtrace::cli {
 namespace {
@@ -49,13 +50,8 @@ void print_text(const Comparison& result, const CompareOptions& options)
                   << '\n';
 }
 
-// JSON has no infinity: an infinite number is null, and `equal` tells the PSNR of equal
-// pictures from that of pictures infinitely far apart.
-nlohmann::json finite_or_null(double value)
-{
-    return std::isfinite(value) ? nlohmann::json(value) : nlohmann::json();
-}
-
+// An infinite number is null, and `equal` tells the PSNR of equal pictures from that of pictures
+// infinitely far apart.
 void print_json(const CompareArguments& arguments, const Image<float>& image,
                 const Comparison& result)
 {
@@ -76,7 +72,7 @@ void print_json(const CompareArguments& arguments, const Image<float>& image,
     for (const PixelError& pixel : result.worst)
         json["worst"].push_back(
             {{"x", pixel.x}, {"y", pixel.y}, {"error", finite_or_null(pixel.error)}});
-    std::cout << json.dump(2, ' ', false, nlohmann::json::error_handler_t::replace) << '\n';
+    std::cout << json_text(json);
 }
 
 void run_compare(const CompareArguments& arguments)

@@ -3,6 +3,7 @@
 #include <memory>
 #include <string>
 #include <system_error>
+#include <utility>
 #include <vector>
 
 #include <packtrace/compare.hpp>
@@ -17,6 +18,8 @@
 #include "cli/text_table.hpp"
 #include "cli/thread_limit.hpp"
 #include "cli/validators.hpp"
+#include "study/statistics.hpp"
+#include "study/stopwatch.hpp"
 
 namespace packtrace::cli {
 namespace {
@@ -29,12 +32,12 @@ struct DemoArguments {
     int rounds = 5;
 };
 
-// The entries take turns, so that a busy moment of the machine falls on all of them.
 void render_rounds(const Scene& scene, int rounds, std::vector<DemoEntry>& entries)
 {
-    for (int round = 0; round < rounds; ++round)
-        for (DemoEntry& entry : entries)
-            render_entry(scene, entry);
+    auto seconds = time_in_turns(entries.size(), rounds,
+                                 [&](std::size_t i) { return render_entry(scene, entries[i]); });
+    for (std::size_t i = 0; i < entries.size(); ++i)
+        entries[i].seconds = std::move(seconds[i]);
     // The reference traces the packets' rays, but does not count them.
     for (DemoEntry& entry : entries)
         entry.rays = entry.packet ? entry.rays : entries[1].rays;
@@ -51,7 +54,7 @@ const DemoEntry& scalar_of(const DemoEntry& entry, const std::vector<DemoEntry>&
 
 std::vector<std::string> table_row(const DemoEntry& entry, const std::vector<DemoEntry>& entries)
 {
-    const double seconds = median_seconds(entry);
+    const double seconds = median_of(entry.seconds);
     // The first entry is the truth: the reference in double.
     const Comparison error = compare(entry.image, entries.front().image);
     return {entry.packet ? "packet" : "scalar",
@@ -61,7 +64,7 @@ std::vector<std::string> table_row(const DemoEntry& entry, const std::vector<Dem
             std::to_string(entry.threads),
             fixed(1e3 * seconds, 2),
             fixed(1e-6 * static_cast<double>(entry.rays) / seconds, 1),
-            fixed(median_seconds(scalar_of(entry, entries)) / seconds, 2),
+            fixed(median_of(scalar_of(entry, entries).seconds) / seconds, 2),
             brief(error.max_abs),
             brief(error.rmse),
             std::to_string(error.pixels_off)};

@@ -1,25 +1,16 @@
 #include "cli/demo_entry.hpp"
 
-#include <algorithm>
-#include <chrono>
-
 #include <packtrace/isa.hpp>
 #include <packtrace/render.hpp>
 #include <packtrace/renderer.hpp>
 
+#include "study/stopwatch.hpp"
+
 namespace packtrace::cli {
 namespace {
 
-template <class Work>
-double seconds_of(const Work& work)
-{
-    const auto start = std::chrono::steady_clock::now();
-    work();
-    return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-}
-
 template <class Real>
-void render_packets(const Scene& scene, DemoEntry& entry)
+double render_packets(const Scene& scene, DemoEntry& entry)
 {
     RenderOptions options;
     options.isa = entry.isa;
@@ -28,19 +19,22 @@ void render_packets(const Scene& scene, DemoEntry& entry)
     Image<Real> image;
     // A renderer's first frame pays for the memory that later ones reuse.
     entry.rays = renderer.render(image).total();
-    entry.seconds.push_back(seconds_of([&] { static_cast<void>(renderer.render(image)); }));
+    const double seconds =
+        seconds_of(entry.threads, [&] { static_cast<void>(renderer.render(image)); });
     entry.image = convert<double>(image);
+    return seconds;
 }
 
 template <class Real>
-void render_scalar(const Scene& scene, DemoEntry& entry)
+double render_scalar(const Scene& scene, DemoEntry& entry)
 {
     RenderOptions options;
     options.kernel = Kernel::scalar;
     options.threads = entry.threads;
     Image<Real> image;
-    entry.seconds.push_back(seconds_of([&] { image = render<Real>(scene, options); }));
+    const double seconds = seconds_of(entry.threads, [&] { image = render<Real>(scene, options); });
     entry.image = convert<double>(image);
+    return seconds;
 }
 
 }  // namespace
@@ -67,20 +61,12 @@ std::vector<DemoEntry> demo_entries(int threads)
     return entries;
 }
 
-void render_entry(const Scene& scene, DemoEntry& entry)
+double render_entry(const Scene& scene, DemoEntry& entry)
 {
     if (entry.packet)
-        entry.single ? render_packets<float>(scene, entry) : render_packets<double>(scene, entry);
-    else
-        entry.single ? render_scalar<float>(scene, entry) : render_scalar<double>(scene, entry);
-}
-
-double median_seconds(const DemoEntry& entry)
-{
-    std::vector<double> sorted = entry.seconds;
-    std::sort(sorted.begin(), sorted.end());
-    const std::size_t half = sorted.size() / 2;
-    return sorted.size() % 2 != 0 ? sorted[half] : (sorted[half - 1] + sorted[half]) / 2.0;
+        return entry.single ? render_packets<float>(scene, entry)
+                            : render_packets<double>(scene, entry);
+    return entry.single ? render_scalar<float>(scene, entry) : render_scalar<double>(scene, entry);
 }
 
 }  // namespace packtrace::cli

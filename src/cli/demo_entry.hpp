@@ -25,9 +25,7 @@ struct DemoEntry {
 /// one thread; then the widest single packets on `threads` when there are more than one.
 [[nodiscard]] std::vector<DemoEntry> demo_entries(int threads);
 
-/// Renders the scene once more, adding a time; keeps the picture.
-void render_entry(const Scene& scene, DemoEntry& entry);
-
-[[nodiscard]] double median_seconds(const DemoEntry& entry);
+/// Renders the scene once more and keeps the picture; the seconds it took.
+[[nodiscard]] double render_entry(const Scene& scene, DemoEntry& entry);
 
 }  // namespace packtrace::cli

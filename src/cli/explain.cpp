@@ -11,6 +11,7 @@
 #include "cli/explain_print.hpp"
 #include "cli/scene_input.hpp"
 #include "cli/validators.hpp"
+#include "core/json_text.hpp"
 
 namespace packtrace::cli {
 namespace {
@@ -94,9 +95,7 @@ void run_explain(const ExplainArguments& arguments)
     check_inside(arguments, scene);
     const Explanation explanation = explain(arguments, input.name, scene);
     if (arguments.json)
-        std::cout << explanation_json(scene, explanation)
-                         .dump(2, ' ', false, nlohmann::json::error_handler_t::replace)
-                  << '\n';
+        std::cout << json_text(explanation_json(scene, explanation));
     else
         print_explanation(std::cout, scene, explanation);
 }

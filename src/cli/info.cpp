@@ -17,6 +17,7 @@
 #include "cli/scene_input.hpp"
 #include "cli/text_table.hpp"
 #include "cli/validators.hpp"
+#include "core/json_text.hpp"
 #include "scene/key_tables.hpp"
 #include "scene/words.hpp"
 
@@ -195,7 +196,7 @@ void print_json(const IsaInfo& chosen, const std::optional<SceneInput>& input)
         if (const auto sample = sample_unsure(input->scene, chosen.name))
             json["scene"]["unsure"] = unsure_json(*sample);
     }
-    std::cout << json.dump(2, ' ', false, nlohmann::json::error_handler_t::replace) << '\n';
+    std::cout << json_text(json);
 }
 
 void print_keys(const std::string& name)

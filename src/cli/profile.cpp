@@ -13,6 +13,7 @@
 #include "cli/thread_limit.hpp"
 #include "cli/validators.hpp"
 #include "core/atomic_file.hpp"
+#include "core/json_text.hpp"
 
 namespace packtrace::cli {
 namespace {
@@ -70,9 +71,7 @@ void profile_as(const ProfileArguments& arguments, const SceneInput& input)
     const Profile result = profile<Real>(input.text, scene, options);
     write_extras<Real>(arguments, scene, options);
     if (arguments.json)
-        std::cout << profile_json(input.name, result)
-                         .dump(2, ' ', false, nlohmann::json::error_handler_t::replace)
-                  << '\n';
+        std::cout << json_text(profile_json(input.name, result));
     else
         print_profile(std::cout, input.name, result);
 }

@@ -81,8 +81,7 @@ std::vector<ReportScene> read_scenes(const ReportArguments& arguments)
     std::set<std::string> taken;
     for (const std::string& file : arguments.scenes) {
         SceneInput input = read_scene_input(file);
-        ReportScene scene{free_name(input.stem, taken), {}, std::move(input.scene)};
-        scene.text = std::move(input.text);
+        ReportScene scene{free_name(input.stem, taken), std::move(input.scene)};
         apply(arguments.picture, scene.scene);
         scenes.push_back(std::move(scene));
     }

@@ -15,6 +15,7 @@
 #include "cli/thread_limit.hpp"
 #include "cli/validators.hpp"
 #include "core/atomic_file.hpp"
+#include "core/json_text.hpp"
 #include "study/stress.hpp"
 #include "study/stress_subject.hpp"
 #include "study/stress_verdict.hpp"
@@ -185,7 +186,7 @@ void print_json(const study::StressOptions& options, const std::vector<StressRow
     json["rows"] = nlohmann::ordered_json::array();
     for (const StressRow& row : rows)
         json["rows"].push_back(row_json(row));
-    std::cout << json.dump(2) << '\n';
+    std::cout << json_text(json);
 }
 
 /// The first wrong ray of each row and its scene, for `packtrace intersect`.

@@ -8,20 +8,13 @@ namespace {
 // Short frames are repeated until they take this share of the reference's time.
 constexpr double least_share = 0.25;
 
-double seconds_of(const Subject& subject)
-{
-    const Stopwatch watch(1);
-    subject.render();
-    return watch.seconds();
-}
-
 // Seconds of one frame, the mean of as many as take `least` seconds.
 double mean_seconds(const Subject& subject, double least)
 {
     double sum = 0.0;
     int frames = 0;
     for (; sum < least || frames == 0; ++frames)
-        sum += seconds_of(subject);
+        sum += seconds_of(1, subject.render);
     return sum / frames;
 }
 
@@ -72,7 +65,7 @@ void SceneBench::measure(int repetitions, const std::function<bool(const BenchLi
 
 void SceneBench::measure_once(std::size_t line)
 {
-    const double reference = seconds_of(subjects_.front());
+    const double reference = seconds_of(1, subjects_.front().render);
     const double seconds = mean_seconds(subjects_[line + 1], least_share * reference);
     reference_.seconds.push_back(reference);
     reference_.ratios.push_back(1.0);

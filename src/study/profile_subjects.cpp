@@ -119,14 +119,13 @@ TimeDifference time_difference(const std::vector<double>& whole, const std::vect
 
 void take_times(std::vector<ProfileRun>& runs, const ProfileOptions& options)
 {
-    for (int repetition = -1; repetition < options.repetitions; ++repetition)
-        for (ProfileRun& run : runs) {
-            const Stopwatch watch(options.threads);
-            run.rays = run.render();
-            const double seconds = watch.seconds();
-            if (repetition >= 0)
-                run.seconds.push_back(seconds);
-        }
+    const auto time = [&](std::size_t i) {
+        return seconds_of(options.threads, [&] { runs[i].rays = runs[i].render(); });
+    };
+    (void)time_in_turns(runs.size(), 1, time);
+    auto seconds = time_in_turns(runs.size(), options.repetitions, time);
+    for (std::size_t i = 0; i < runs.size(); ++i)
+        runs[i].seconds = std::move(seconds[i]);
 }
 
 template <class Real>

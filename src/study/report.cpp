@@ -11,7 +11,6 @@ namespace {
 Truth truth_of(const ReportScene& scene, Study study, const ReportOptions& options)
 {
     TruthRequest request;
-    request.text = scene.text;
     request.samples = study == Study::sampling ? options.truth_samples : 1;
     request.cache = options.cache;
     if (options.progress)

@@ -1,7 +1,6 @@
-#include <cmath>
-
 #include <nlohmann/json.hpp>
 
+#include "core/json_text.hpp"
 #include "study/accuracy_name.hpp"
 #include "study/report_text.hpp"
 
@@ -9,12 +8,6 @@ namespace packtrace {
 namespace {
 
 using Json = nlohmann::ordered_json;
-
-// JSON has no infinity.
-Json finite_or_null(double value)
-{
-    return std::isfinite(value) ? Json(value) : Json();
-}
 
 Json error_json(const ReportRun& run)
 {
@@ -107,7 +100,7 @@ std::string report_json(const std::vector<SceneReport>& scenes, const ReportOpti
                                   {"height", scene.height},
                                   {"studies", studies}});
     }
-    return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
+    return json_text(json);
 }
 
 }  // namespace packtrace

@@ -1,12 +1,13 @@
 #include "study/report_study.hpp"
 
 #include <algorithm>
-#include <chrono>
+#include <utility>
 
 #include "scene/sample_pattern.hpp"
 #include "study/error_shares.hpp"
 #include "study/report_choice.hpp"
 #include "study/statistics.hpp"
+#include "study/stopwatch.hpp"
 
 namespace packtrace {
 namespace {
@@ -23,29 +24,21 @@ std::string file_name_of(const std::string& name)
     return result;
 }
 
-double seconds_of(const Subject& subject)
-{
-    const auto start = std::chrono::steady_clock::now();
-    subject.render();
-    return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-}
-
-// The subjects take turns, so that a busy moment of the machine falls on all of them.
 void take_times(const std::vector<Subject>& subjects, const ReportOptions& options,
                 std::vector<ReportRun>& runs)
 {
     const auto total =
         static_cast<double>(options.repetitions) * static_cast<double>(subjects.size());
     double done = 0.0;
-    for (int repetition = 0; repetition < options.repetitions; ++repetition)
-        for (std::size_t i = 0; i < subjects.size(); ++i) {
-            runs[i].seconds.push_back(seconds_of(subjects[i]));
-            if (options.progress)
-                options.progress("timing", ++done / total);
-        }
-    for (ReportRun& run : runs) {
-        run.median = median_of(run.seconds);
-        run.spread = relative_spread(run.seconds);
+    auto seconds = time_in_turns(subjects.size(), options.repetitions, [&](std::size_t i) {
+        if (options.progress)
+            options.progress("timing", done++ / total);
+        return seconds_of(subjects[i].variant.threads, subjects[i].render);
+    });
+    for (std::size_t i = 0; i < runs.size(); ++i) {
+        runs[i].seconds = std::move(seconds[i]);
+        runs[i].median = median_of(runs[i].seconds);
+        runs[i].spread = relative_spread(runs[i].seconds);
     }
 }
 

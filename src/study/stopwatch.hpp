@@ -1,5 +1,8 @@
 #pragma once
 
+#include <cstddef>
+#include <vector>
+
 namespace packtrace {
 
 /// Times work that runs on some threads from its making on. On one thread these are processor
@@ -20,5 +23,27 @@ private:
     bool one_thread_;
     double start_;
 };
+
+/// Seconds that `work` takes on some threads.
+template <class Work>
+[[nodiscard]] double seconds_of(int threads, const Work& work)
+{
+    const Stopwatch watch(threads);
+    work();
+    return watch.seconds();
+}
+
+/// What each of `count` works takes, by repetition: `time(i)` does work i once and gives its
+/// seconds. They take turns, so that a busy moment of the machine falls on all of them.
+template <class Time>
+[[nodiscard]] std::vector<std::vector<double>> time_in_turns(std::size_t count, int repetitions,
+                                                             const Time& time)
+{
+    std::vector<std::vector<double>> seconds(count);
+    for (int repetition = 0; repetition < repetitions; ++repetition)
+        for (std::size_t i = 0; i < count; ++i)
+            seconds[i].push_back(time(i));
+    return seconds;
+}
 
 }  // namespace packtrace

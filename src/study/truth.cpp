@@ -1,11 +1,15 @@
 #include "study/truth.hpp"
 
-#include <chrono>
 #include <system_error>
 
+#include <packtrace/write_scene.hpp>
+
+#include "core/text_hash.hpp"
 #include "reference/reference.hpp"
 #include "reference/render_reference.hpp"
 #include "scene/sample_pattern.hpp"
+#include "study/machine.hpp"
+#include "study/stopwatch.hpp"
 #include "study/truth_file.hpp"
 
 namespace packtrace {
@@ -14,14 +18,15 @@ namespace {
 // Pixels of a cached truth that are traced again.
 constexpr int checked_pixels = 32;
 
+// Named for all that the truth depends on: the scene with its camera, size and depth, the samples,
+// the program and its compiler.
 std::filesystem::path file_of(const Scene& scene, const TruthRequest& request)
 {
-    const std::string settings = std::to_string(scene.width) + "x" + std::to_string(scene.height) +
-                                 " depth " + std::to_string(scene.max_depth) + " samples " +
-                                 std::to_string(request.samples) + "\n";
+    const std::string key = PACKTRACE_VERSION " " + commit_name() + ", " + compiler_name() + ", " +
+                            std::to_string(request.samples) + " samples\n" + scene_text(scene);
     char name[32];
     std::snprintf(name, sizeof name, "%016llx.truth",
-                  static_cast<unsigned long long>(hash_of(request.text, hash_of(settings))));
+                  static_cast<unsigned long long>(text_hash(key)));
     return request.cache / name;
 }
 
@@ -57,13 +62,13 @@ Truth make_truth(const Scene& scene, const TruthRequest& request)
     RenderOptions options;
     options.samples = request.samples;
     options.progress = request.progress;
-    const auto start = std::chrono::steady_clock::now();
     Truth truth;
-    if (request.samples > 1)
-        truth.image = render_reference<double>(scene, options);
-    else
-        truth.image = convert<double>(render_reference<long double>(scene, options));
-    truth.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+    truth.seconds = seconds_of(options.threads, [&] {
+        if (request.samples > 1)
+            truth.image = render_reference<double>(scene, options);
+        else
+            truth.image = convert<double>(render_reference<long double>(scene, options));
+    });
     return truth;
 }
 
@@ -75,10 +80,12 @@ Truth find_truth(const Scene& scene, const TruthRequest& request)
         request.samples > 1
             ? "scalar reference, double, " + std::to_string(request.samples) + " samples a pixel"
             : "scalar reference, long double, the scene's one sample a pixel";
-    const auto file = file_of(scene, request);
+    std::filesystem::path file;
     std::optional<Truth> truth;
-    if (!request.cache.empty())
+    if (!request.cache.empty()) {
+        file = file_of(scene, request);
         truth = read_truth(file);
+    }
     if (!truth || !still_true(*truth, scene, request.samples)) {
         truth = make_truth(scene, request);
         if (!request.cache.empty()) {

@@ -17,16 +17,16 @@ struct Truth {
 };
 
 struct TruthRequest {
-    std::string text;             ///< tells the scene from others
     int samples = 1;              ///< a pixel; one is the scene's own
     std::filesystem::path cache;  ///< folder; nothing is kept where empty
     std::function<void(double)> progress;
 };
 
 /// The scalar reference's picture: in long double at one sample a pixel, in double at more. A file
-/// of the cache is used only if its name agrees with the scene, its bytes with their checksum, and
-/// some of its pixels with what the reference gives now; else it is made anew. Throws FileError
-/// when it can't be kept.
+/// of the cache is used only if its name agrees with all that the truth depends on (the scene,
+/// the samples, the program), its bytes with their checksum, and some of its pixels with what the
+/// reference gives now; else it is made anew. Throws FileError when it can't be kept, and
+/// std::invalid_argument for a scene to be kept that has no text (write_scene.hpp).
 [[nodiscard]] Truth find_truth(const Scene& scene, const TruthRequest& request);
 
 }  // namespace packtrace

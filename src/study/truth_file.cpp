@@ -1,10 +1,13 @@
 #include "study/truth_file.hpp"
 
+#include <cstdint>
 #include <cstring>
 #include <sstream>
+#include <string_view>
 
 #include "core/atomic_file.hpp"
 #include "core/read_file.hpp"
+#include "core/text_hash.hpp"
 
 namespace packtrace {
 namespace {
@@ -18,20 +21,12 @@ std::string_view bytes_of(const Image<double>::Pixels& values)
 
 }  // namespace
 
-std::uint64_t hash_of(std::string_view bytes, std::uint64_t start)
-{
-    std::uint64_t hash = start;
-    for (const char byte : bytes)
-        hash = (hash ^ static_cast<unsigned char>(byte)) * 0x100000001b3;
-    return hash;
-}
-
 void write_truth(const std::filesystem::path& file, const Truth& truth)
 {
     const std::string_view bytes = bytes_of(truth.image.rgb);
     std::ostringstream head;
     head << magic << ' ' << truth.image.width << ' ' << truth.image.height << ' ' << truth.seconds
-         << ' ' << hash_of(bytes) << '\n';
+         << ' ' << text_hash(bytes) << '\n';
     AtomicFile output(file);
     output.write(std::string_view(head.str()));
     output.write(bytes);
@@ -58,7 +53,7 @@ std::optional<Truth> read_truth(const std::filesystem::path& file)
         return std::nullopt;
     const std::string_view data = std::string_view(bytes).substr(end + 1);
     const auto pixels = static_cast<std::size_t>(width) * static_cast<std::size_t>(height);
-    if (data.size() != pixels * 3 * sizeof(double) || hash_of(data) != hash)
+    if (data.size() != pixels * 3 * sizeof(double) || text_hash(data) != hash)
         return std::nullopt;
     truth.image = Image<double>(width, height);
     std::memcpy(truth.image.rgb.data(), data.data(), data.size());
