@@ -13,8 +13,8 @@ namespace packtrace {
 struct PngSettings {
     double gamma = 1.0;       ///< as in ImageWriteOptions
     std::string recipe = {};  ///< as in ImageWriteOptions
-    /// Bytes of samples: more of them are compressed row by row, which takes three times as long
-    /// and little memory. stb_image_write counts in ints.
+    /// Bytes of samples: more of them are compressed row by row, in little memory, into a larger
+    /// file. stb_image_write counts in ints.
     std::size_t largest_whole = std::size_t{1} << 30;
 };
 
