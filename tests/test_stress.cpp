@@ -313,9 +313,9 @@ TEST_CASE("a ray inside a capped body has to leave it, at its rim as well", "[st
         evaluation.add_crossings(expected, crossings);
         return evaluation.errors().not_closed;
     };
-    for (const std::size_t crossings : {0, 2})
+    for (const std::size_t crossings : {0u, 2u})
         CHECK(not_even({0, 0, 2}, {1, 0, -1}, crossings) == 0);
-    for (const std::size_t crossings : {1, 3})
+    for (const std::size_t crossings : {1u, 3u})
         CHECK(not_even({0, 0, 2}, {1, 0, -1}, crossings) == 1);
     CHECK(not_even({0, 0, 2}, {0.25, 0, -1}, 2) == 0);
     CHECK(not_even({0, 0, 2}, {0.25, 0, -1}, 0) == 1);
