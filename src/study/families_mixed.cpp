@@ -10,15 +10,15 @@
 namespace packtrace::study {
 namespace {
 
-constexpr int kinds = 7;
+constexpr int kinds_of_all = 7;
 
 QuadricKind any_kind(StressRandom& random)
 {
-    static const QuadricKind every[kinds] = {QuadricKind::ellipsoid,   QuadricKind::cylinder,
-                                             QuadricKind::cone,        QuadricKind::paraboloid,
-                                             QuadricKind::hyperboloid, QuadricKind::hyperboloid2,
-                                             QuadricKind::saddle};
-    return every[random.below(kinds)];
+    static const QuadricKind every[kinds_of_all] = {
+        QuadricKind::ellipsoid,  QuadricKind::cylinder,    QuadricKind::cone,
+        QuadricKind::paraboloid, QuadricKind::hyperboloid, QuadricKind::hyperboloid2,
+        QuadricKind::saddle};
+    return every[random.below(kinds_of_all)];
 }
 
 /// A quadric of any kind, with a place of its surface that rays can aim at.
