@@ -86,7 +86,7 @@ TEST_CASE("rays leave capped bodies as often as they enter them", "[closed_bodie
 TEST_CASE("half a million rays leave capped bodies as often as they enter them",
           "[closed_bodies][slow]")
 {
-    for (const std::uint64_t seed : {21, 22, 23})
+    for (const std::uint64_t seed : {21u, 22u, 23u})
         check_closed(80000, seed);
 }
 
