@@ -23,9 +23,25 @@ def milliseconds(program, scene, size, rule, mode, folder):
     return float(re.search(r"([\d.]+) ms", done.stdout + done.stderr).group(1))
 
 
+def commit():
+    """What the program was built of, if nobody built it of something else."""
+    described = subprocess.run(["git", "describe", "--always", "--dirty"], cwd=ROOT,
+                               capture_output=True, text=True, check=True).stdout.strip()
+    if described.endswith("-dirty"):
+        sys.exit("accuracy_cost.py: the tree has changes that are not committed; commit them first")
+    return described
+
+
+def machine():
+    lines = pathlib.Path("/proc/cpuinfo").read_text().splitlines()
+    name = next((line.split(":")[1].strip() for line in lines if line.startswith("model name")), "")
+    return f"{name}, {os.cpu_count()} cores, load {os.getloadavg()[0]:.1f}"
+
+
 def main():
     if len(sys.argv) < 2:
         sys.exit(__doc__)
+    commit()
     program = sys.argv[1]
     repetitions = int(sys.argv[2]) if len(sys.argv) > 2 else 11
     with tempfile.TemporaryDirectory() as folder:
@@ -54,6 +70,7 @@ def main():
               f"{rows[-1]['over_fast']:6.3f}")
     part = ROOT / "results/accuracy_cost.json.part"
     part.write_text(json.dumps({"command": "results/accuracy_cost.py build/release/packtrace",
+                                "commit": commit(), "machine": machine(),
                                 "repetitions": repetitions, "rows": rows}, indent=1) + "\n")
     os.replace(part, ROOT / "results/accuracy_cost.json")
 
