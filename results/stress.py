@@ -1,7 +1,8 @@
 #!/usr/bin/env python3
 """Writes results/stress.json: ten million extreme rays, family by family, without their times.
+With --exact, results/stress_exact.json: as many in the default mode alone, with its verdict.
 
-usage: results/stress.py build/release/packtrace [RAYS_OF_EACH_FAMILY]
+usage: results/stress.py [--exact] build/release/packtrace [RAYS_OF_EACH_FAMILY]
 """
 import json
 import pathlib
@@ -9,6 +10,7 @@ import subprocess
 import sys
 
 COMMAND = ["--precision", "single", "--kernel", "packet", "--kernel", "textbook", "--isa", "avx512"]
+FOLDER = pathlib.Path(__file__).resolve().parent
 LEFT_OUT = ("ns_per_ray", "pareto")  # of use only from a machine at rest
 
 
@@ -25,17 +27,47 @@ def rows_of(program, family, rays):
     return [{key: value for key, value in row.items() if key not in LEFT_OUT} for row in rows]
 
 
+def commit():
+    described = subprocess.run(["git", "describe", "--always", "--dirty"], cwd=FOLDER,
+                               capture_output=True, text=True, check=True).stdout.strip()
+    if described.endswith("-dirty"):
+        sys.exit("stress.py: the tree has changes that are not committed; commit them first")
+    return described
+
+
+def write(report, target):
+    part = target.with_suffix(".json.part")
+    part.write_text(json.dumps(report, indent=1) + "\n")
+    part.replace(target)
+
+
+def write_exact(program, rays):
+    arguments = ["stress", "--kernel", "packet", "--mode", "exact", "--precision", "single", "--isa",
+                 "avx512", "--seed", "7", "--rays", str(rays)]
+    report = {"command": "packtrace " + " ".join(arguments), "commit": commit()}
+    done = subprocess.run([program, *arguments, "--json"], capture_output=True, text=True)
+    report |= json.loads(done.stdout)
+    report["rows"] = [{key: value for key, value in row.items() if key not in LEFT_OUT}
+                      for row in report["rows"]]
+    write(report, FOLDER / "stress_exact.json")
+    print(report["verdict"])
+
+
 def main():
-    program = sys.argv[1]
-    rays = int(sys.argv[2]) if len(sys.argv) > 2 else 300000
-    report = {"command": f"packtrace stress --rays {rays} " + " ".join(COMMAND), "rows": []}
-    target = pathlib.Path(__file__).with_name("stress.json")
+    exact = "--exact" in sys.argv
+    positional = [argument for argument in sys.argv[1:] if argument != "--exact"]
+    if not positional:
+        sys.exit(__doc__)
+    program = positional[0]
+    if exact:
+        return write_exact(program, int(positional[1]) if len(positional) > 1 else 160000)
+    rays = int(positional[1]) if len(positional) > 1 else 300000
+    report = {"command": f"packtrace stress --rays {rays} " + " ".join(COMMAND),
+              "commit": commit(), "rows": []}
     for family in families(program):
         print(family, file=sys.stderr)
         report["rows"] += rows_of(program, family, rays)
-        part = target.with_suffix(".json.part")
-        part.write_text(json.dumps(report, indent=1) + "\n")
-    part.replace(target)
+    write(report, FOLDER / "stress.json")
 
 
 main()
