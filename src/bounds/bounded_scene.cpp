@@ -8,6 +8,7 @@ namespace packtrace::bounds {
 
 BoundedScene::BoundedScene(const Scene& scene)
 {
+    index_.reserve(scene.objects.size());
     for (const Object& object : scene.objects) {
         const Sphere* sphere = std::get_if<Sphere>(&object.surface);
         if (sphere != nullptr && object.transform == Mat4(1.0)) {

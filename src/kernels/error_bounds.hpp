@@ -24,6 +24,30 @@ inline constexpr float roundoffs(float count)
     return count * product_roundings * roundoff * inflation;
 }
 
+// A number by itself where a packet may stand, for what is written once for both.
+
+/// a b + c, rounded once where the processor fuses (product_roundings).
+inline float madd(float a, float b, float c)
+{
+#if defined(__FMA__) || defined(__aarch64__)
+    return __builtin_fmaf(a, b, c);
+#else
+    return a * b + c;
+#endif
+}
+inline float min(float a, float b)
+{
+    return b < a ? b : a;
+}
+inline float max(float a, float b)
+{
+    return b > a ? b : a;
+}
+inline float signed_square(float x)
+{
+    return x * (x < 0 ? -x : x);
+}
+
 /// Where the rays of a group start.
 struct Origins {
     float center[3] = {};

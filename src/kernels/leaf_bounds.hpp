@@ -1,5 +1,6 @@
 #pragma once
 
+#include "kernels/bounds.hpp"
 #include "kernels/closest.hpp"
 #include "kernels/sphere_leaf.hpp"
 
@@ -22,17 +23,10 @@ inline void bound_origins(RayGroup<float>& group, const abi::BvhView<float>& tre
             low = select(active, min(low, org), low);
             high = select(active, max(high, org), high);
         }
-        alignas(64) float lows[lanes<float>];
-        alignas(64) float highs[lanes<float>];
-        store(lows, low);
-        store(highs, high);
-        float most = 0;
-        for (int lane = 0; lane < lanes<float>; ++lane) {
-            const float below = tree.middle[axis] - lows[lane];
-            const float above = highs[lane] - tree.middle[axis];
-            most = below > most ? below : most;
-            most = above > most ? above : most;
-        }
+        float lowest;
+        float highest;
+        extent_of_lanes(low, high, lowest, highest);
+        const float most = max(max(0.0f, tree.middle[axis] - lowest), highest - tree.middle[axis]);
         distance2 += most * most;
     }
     for (int first = 0; first < group_rays; first += lanes<float>)

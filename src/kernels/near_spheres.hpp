@@ -6,19 +6,9 @@
 namespace packtrace::PACKTRACE_ISA {
 namespace {
 
-/// a b + c, rounded once where the processor fuses (product_roundings).
-inline float fused(float a, float b, float c)
-{
-#if defined(__FMA__) || defined(__aarch64__)
-    return __builtin_fmaf(a, b, c);
-#else
-    return a * b + c;
-#endif
-}
-
 inline float dot3(const float (&a)[3], const float (&b)[3])
 {
-    return fused(a[0], b[0], fused(a[1], b[1], a[2] * b[2]));
+    return madd(a[0], b[0], madd(a[1], b[1], a[2] * b[2]));
 }
 
 /// One ray of a group: few of a leaf's spheres are near, so that lanes would be idle.
@@ -52,34 +42,25 @@ inline LoneCrossing crossing(const RayGroup<float>& group, const LoneRay& ray,
 {
     const float w[3] = {ray.org[0] - block.center[0][slot], ray.org[1] - block.center[1][slot],
                         ray.org[2] - block.center[2][slot]};
-    const auto minor = [&](int i, int j) { return fused(w[i], ray.dir[j], -(w[j] * ray.dir[i])); };
+    const auto minor = [&](int i, int j) { return madd(w[i], ray.dir[j], -(w[j] * ray.dir[i])); };
     const float moment[3] = {minor(1, 2), minor(2, 0), minor(0, 1)};
     const float moment2 = dot3(moment, moment);
     const float radius = block.radius[slot];
-    // As sphere_bounds() has them.
-    const float size = radius * (1.0f + roundoffs(2.0f));
-    const float inner = radius * (1.0f - roundoffs(2.0f)) - group.moment_error;
-    const float outer = size + group.moment_error;
+    const SphereBounds<float> bounds =
+        sphere_bounds(radius, group.center_error, group.moment_error);
     const float b = dot3(w, ray.dir);
     const float reach = magnitude(b) * ray.inverse;
     const float inverse2 = ray.inverse * ray.inverse;
     const float middle = -b * inverse2;
-    const float along =
-        fused(roundoffs(28.0f), reach, fused(roundoffs(60.0f), outer, group.center_error)) *
-        ray.inverse;
-    const float inner2 = inner * magnitude(inner) * (1.0f - roundoffs(16.0f));
-    if (!(moment2 < inner2 * ray.dir2)) {
-        const float widest = size * (1.0f + roundoffs(6.0f));
-        const float band2 = size * (widest - (inner < size ? inner : size));
-        const float quarter = __builtin_sqrtf(band2 > 0 ? band2 : 0.0f);
-        return {middle, middle, fused(2.0f * inflation * quarter, ray.inverse, along), false};
+    const float along = along_error(bounds, reach) * ray.inverse;
+    if (!(moment2 < bounds.inner2 * ray.dir2)) {
+        const float quarter = __builtin_sqrtf(bounds.band2);
+        return {middle, middle, madd(2.0f * inflation * quarter, ray.inverse, along), false};
     }
-    const float discriminant = fused(ray.dir2, radius * radius, -moment2);
+    const float discriminant = madd(ray.dir2, radius * radius, -moment2);
     const float root = __builtin_sqrtf(discriminant);
-    const float of_moment =
-        fused(roundoffs(2.6f), reach, fused(roundoffs(12.0f), outer, group.center_error));
     const float half = root * inverse2;
-    return {middle - half, middle + half, 2.0f * inflation * size * of_moment / root + along, true};
+    return {middle - half, middle + half, root_error(bounds, reach) / root + along, true};
 }
 
 /// As keep_sure() and keep_doubt() do with a packet of rays.

@@ -39,18 +39,6 @@ inline BothHalves<Vec3v<double>> widen(const Vec3v<float>& v)
 {
     return {widen_low(v), widen_high(v)};
 }
-inline BothHalves<vreal<double>> widen(const vreal<float>& x)
-{
-    return {widen_low(x), widen_high(x)};
-}
-inline vreal<float> narrow(const BothHalves<vreal<double>>& x)
-{
-    return narrow(x.low, x.high);
-}
-inline Vec3v<float> narrow(const BothHalves<Vec3v<double>>& v)
-{
-    return narrow(v.low, v.high);
-}
 
 inline Vec3v<double> point_at(const RayPacket<double>& rays, const vreal<double>& t)
 {
@@ -472,7 +460,9 @@ inline RefinedHits<Real> refined(const abi::ShapesView& shapes, const RayPacket<
         const std::uint32_t again = bits(int_equal(hit.surface, start.surface)) & active;
         if (active != again)
             refine_others<R>(hits, shapes, rays, hit.surface, active & ~again);
-        if (again != 0)
+        if constexpr (R == Refine::t)
+            hits.t = select(from_bits<Real>(again), start.second, hits.t);
+        else if (again != 0)
             refine_second(hits, shapes, start, rays, again);
     } else {
         const auto again = int_equal(hit.surface, start.surface);

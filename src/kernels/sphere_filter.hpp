@@ -31,22 +31,38 @@ inline vreal<float> moment_error(const vreal<float>& center_error, const vreal<f
 }
 
 /// `moment` is the moment_error() of all rays of the group.
-inline SphereBounds<vreal<float>> sphere_bounds(const vreal<float>& radius,
-                                                const vreal<float>& center_error,
-                                                const vreal<float>& moment)
+template <class Value>
+inline SphereBounds<Value> sphere_bounds(const Value& radius, const Value& center_error,
+                                         const Value& moment)
 {
-    const vreal<float> size = radius * vreal<float>(1.0f + roundoffs(2.0f));
-    const vreal<float> outer = size + moment;
-    const vreal<float> inner = radius * vreal<float>(1.0f - roundoffs(2.0f)) - moment;
-    SphereBounds<vreal<float>> bounds;
-    bounds.outer2 = signed_square<float>(outer) * vreal<float>(1.0f + roundoffs(16.0f));
-    bounds.inner2 = signed_square<float>(inner) * vreal<float>(1.0f - roundoffs(16.0f));
-    bounds.along = madd(vreal<float>(roundoffs(60.0f)), outer, center_error);
-    bounds.moment = madd(vreal<float>(roundoffs(12.0f)), outer, center_error);
-    bounds.size = vreal<float>(2.0f * inflation) * size;
-    const vreal<float> widest = size * vreal<float>(1.0f + roundoffs(6.0f));
-    bounds.band2 = max(size * (widest - min(inner, size)), vreal<float>(0.0f));
+    const Value size = radius * Value(1.0f + roundoffs(2.0f));
+    const Value outer = size + moment;
+    const Value inner = radius * Value(1.0f - roundoffs(2.0f)) - moment;
+    SphereBounds<Value> bounds;
+    bounds.outer2 = signed_square(outer) * Value(1.0f + roundoffs(16.0f));
+    bounds.inner2 = signed_square(inner) * Value(1.0f - roundoffs(16.0f));
+    bounds.along = madd(Value(roundoffs(60.0f)), outer, center_error);
+    bounds.moment = madd(Value(roundoffs(12.0f)), outer, center_error);
+    bounds.size = Value(2.0f * inflation) * size;
+    const Value widest = size * Value(1.0f + roundoffs(6.0f));
+    bounds.band2 = max(size * (widest - min(inner, size)), Value(0.0f));
     return bounds;
+}
+
+/// How far a t may be off, times |d|, of a ray that is near with |b| / |d| = `reach`: its |w| is up
+/// to that and outer.
+template <class Value>
+inline Value along_error(const SphereBounds<Value>& bounds, const Value& reach)
+{
+    return madd(Value(roundoffs(28.0f)), reach, bounds.along);
+}
+
+/// The same of |m|, per |d|, times twice the radius: over the root of the discriminant what that
+/// may be off by.
+template <class Value>
+inline Value root_error(const SphereBounds<Value>& bounds, const Value& reach)
+{
+    return bounds.size * madd(Value(roundoffs(2.6f)), reach, bounds.moment);
 }
 
 /// What certain tests of a packet of rays and a sphere, or of a ray and a packet of spheres, need.
@@ -79,12 +95,6 @@ struct SphereCrossing {
     vmask<float> sure;
 };
 
-/// How far a t may be off, times |d|: for rays that are near, |w| is up to |b| / |d| and outer.
-inline vreal<float> along_error(const SphereTest& test, const vreal<float>& reach)
-{
-    return madd(vreal<float>(roundoffs(28.0f)), reach, test.bounds.along);
-}
-
 inline SphereCrossing crossing(const SphereTest& test, const SphereApproach& near,
                                const RayPacket<float>& rays, const RayScale& scale)
 {
@@ -93,13 +103,12 @@ inline SphereCrossing crossing(const SphereTest& test, const SphereApproach& nea
     const vreal<float> discriminant = msub(rays.dir2, test.radius2, near.moment2);
     const vreal<float> inverse_root = rough_inverse_sqrt(max(discriminant, vreal<float>(1e-30f)));
     const vreal<float> half = (discriminant * inverse_root) * scale.inverse2;
-    const vreal<float> of_moment = madd(vreal<float>(roundoffs(2.6f)), reach, test.bounds.moment);
     SphereCrossing result;
-    result.along = along_error(test, reach) * scale.inverse;
+    result.along = along_error(test.bounds, reach) * scale.inverse;
     result.middle = negated(b) * scale.inverse2;
     result.roots.near = result.middle - half;
     result.roots.far = result.middle + half;
-    result.roots.error = madd(test.bounds.size * of_moment, inverse_root, result.along);
+    result.roots.error = madd(root_error(test.bounds, reach), inverse_root, result.along);
     result.sure = near.near & (near.moment2 < test.bounds.inner2 * rays.dir2);
     return result;
 }
@@ -138,7 +147,8 @@ inline PlainOcclusion plainly_occludes(const SphereTest& test, const SphereAppro
                                        const vreal<float>& t_end)
 {
     const vreal<float> b = dot(test.w, rays.dir);
-    const vreal<float> slack = along_error(test, abs(b) * scale.inverse) * scale.length;
+    const vreal<float> slack =
+        along_error<vreal<float>>(test.bounds, abs(b) * scale.inverse) * scale.length;
     const vreal<float> first_slope = madd(rays.dir2, rays.t_min, b);
     const vreal<float> last_slope = madd(rays.dir2, t_end, b);
     // |w + t_min d|² is no less than |w|² + 2 t_min b.
