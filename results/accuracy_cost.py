@@ -3,14 +3,14 @@
 
 Usage: results/accuracy_cost.py PACKTRACE [REPETITIONS]
 """
-import json
-import os
 import pathlib
 import re
 import statistics
 import subprocess
 import sys
 import tempfile
+
+from provenance import commit, machine, write
 
 ROOT = pathlib.Path(__file__).resolve().parents[1]
 MODES = ("fast", "exact")
@@ -23,25 +23,10 @@ def milliseconds(program, scene, size, rule, mode, folder):
     return float(re.search(r"([\d.]+) ms", done.stdout + done.stderr).group(1))
 
 
-def commit():
-    """What the program was built of, if nobody built it of something else."""
-    described = subprocess.run(["git", "describe", "--always", "--dirty"], cwd=ROOT,
-                               capture_output=True, text=True, check=True).stdout.strip()
-    if described.endswith("-dirty"):
-        sys.exit("accuracy_cost.py: the tree has changes that are not committed; commit them first")
-    return described
-
-
-def machine():
-    lines = pathlib.Path("/proc/cpuinfo").read_text().splitlines()
-    name = next((line.split(":")[1].strip() for line in lines if line.startswith("model name")), "")
-    return f"{name}, {os.cpu_count()} cores, load {os.getloadavg()[0]:.1f}"
-
-
 def main():
     if len(sys.argv) < 2:
         sys.exit(__doc__)
-    commit()
+    built_of = commit()
     program = sys.argv[1]
     repetitions = int(sys.argv[2]) if len(sys.argv) > 2 else 11
     with tempfile.TemporaryDirectory() as folder:
@@ -68,11 +53,8 @@ def main():
                      "over_fast_lowest": min(ratios), "over_fast_highest": max(ratios)})
         print(f"{name:13} {rule:6} {mode:7} {rows[-1]['milliseconds']:7.1f} "
               f"{rows[-1]['over_fast']:6.3f}")
-    part = ROOT / "results/accuracy_cost.json.part"
-    part.write_text(json.dumps({"command": "results/accuracy_cost.py build/release/packtrace",
-                                "commit": commit(), "machine": machine(),
-                                "repetitions": repetitions, "rows": rows}, indent=1) + "\n")
-    os.replace(part, ROOT / "results/accuracy_cost.json")
+    write({"command": "results/accuracy_cost.py build/release/packtrace", "commit": built_of,
+           "machine": machine(), "repetitions": repetitions, "rows": rows}, "accuracy_cost.json")
 
 
 if __name__ == "__main__":

@@ -5,12 +5,12 @@ With --exact, results/stress_exact.json: as many in the default mode alone, with
 usage: results/stress.py [--exact] build/release/packtrace [RAYS_OF_EACH_FAMILY]
 """
 import json
-import pathlib
 import subprocess
 import sys
 
+from provenance import commit, write
+
 COMMAND = ["--precision", "single", "--kernel", "packet", "--kernel", "textbook", "--isa", "avx512"]
-FOLDER = pathlib.Path(__file__).resolve().parent
 LEFT_OUT = ("ns_per_ray", "pareto")  # of use only from a machine at rest
 
 
@@ -19,26 +19,16 @@ def families(program):
     return [line.split()[0] for line in lines.stdout.splitlines()[1:]]
 
 
+def without_times(rows):
+    return [{key: value for key, value in row.items() if key not in LEFT_OUT} for row in rows]
+
+
 def rows_of(program, family, rays):
     arguments = ["stress", "--family", family, "--rays", str(rays), *COMMAND, "--json"]
     done = subprocess.run([program, *arguments], capture_output=True, text=True)
     sys.stderr.write(done.stderr)
     rows = json.loads(done.stdout)["rows"]
-    return [{key: value for key, value in row.items() if key not in LEFT_OUT} for row in rows]
-
-
-def commit():
-    described = subprocess.run(["git", "describe", "--always", "--dirty"], cwd=FOLDER,
-                               capture_output=True, text=True, check=True).stdout.strip()
-    if described.endswith("-dirty"):
-        sys.exit("stress.py: the tree has changes that are not committed; commit them first")
-    return described
-
-
-def write(report, target):
-    part = target.with_suffix(".json.part")
-    part.write_text(json.dumps(report, indent=1) + "\n")
-    part.replace(target)
+    return without_times(rows)
 
 
 def write_exact(program, rays):
@@ -47,9 +37,8 @@ def write_exact(program, rays):
     report = {"command": "packtrace " + " ".join(arguments), "commit": commit()}
     done = subprocess.run([program, *arguments, "--json"], capture_output=True, text=True)
     report |= json.loads(done.stdout)
-    report["rows"] = [{key: value for key, value in row.items() if key not in LEFT_OUT}
-                      for row in report["rows"]]
-    write(report, FOLDER / "stress_exact.json")
+    report["rows"] = without_times(report["rows"])
+    write(report, "stress_exact.json")
     print(report["verdict"])
 
 
@@ -67,7 +56,7 @@ def main():
     for family in families(program):
         print(family, file=sys.stderr)
         report["rows"] += rows_of(program, family, rays)
-    write(report, FOLDER / "stress.json")
+    write(report, "stress.json")
 
 
 main()
