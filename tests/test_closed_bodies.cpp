@@ -1,8 +1,12 @@
 // Capped bodies are closed for packets too: rays from inside leave once more than they enter, lines
 // from outside leave as often as they enter, at rims as well.
+#include <algorithm>
 #include <array>
+#include <cmath>
 #include <limits>
+#include <random>
 
+#include <glm/gtc/matrix_transform.hpp>
 #include <packtrace/intersect.hpp>
 
 #include "catch.hpp"
@@ -88,6 +92,156 @@ TEST_CASE("half a million rays leave capped bodies as often as they enter them",
 {
     for (const std::uint64_t seed : {21u, 22u, 23u})
         check_closed(80000, seed);
+}
+
+/// A body between two caps, a x² + b y² + c z² + linear z + d <= 0, moved by an affine map.
+Object capped_body(const glm::dvec4& squares_and_constant, double linear, const ZRange& range,
+                   std::mt19937_64& random)
+{
+    const glm::dvec4& s = squares_and_constant;
+    Object object = quadric({s.x, s.y, s.z, 0, 0, 0, 0, 0, linear, s.w});
+    auto& surface = std::get<Quadric>(object.surface);
+    surface.z_range = range;
+    surface.capped = true;
+    std::uniform_real_distribution<double> number(-1, 1);
+    const glm::dvec3 axis(number(random), number(random), number(random));
+    object.transform = glm::translate(glm::dmat4(1), 3.0 * axis) *
+                       glm::rotate(glm::dmat4(1), 3 * number(random), axis) *
+                       glm::scale(glm::dmat4(1), glm::dvec3(1.7, 0.6, 1.2));
+    return object;
+}
+
+/// Every capped kind: cylinder, band of an ellipsoid, cone's frustum, paraboloid, hyperboloids of
+/// one sheet and of two.
+std::vector<Object> capped_bodies(std::mt19937_64& random)
+{
+    return {capped_body({1, 1, 0, -1}, 0, {-1, 1}, random),
+            capped_body({1, 1, 1, -1}, 0, {-0.3, 0.8}, random),
+            capped_body({1, 1, -1, 0}, 0, {0.2, 1.5}, random),
+            capped_body({1, 1, 0, 0}, -1, {0.1, 1}, random),
+            capped_body({1, 1, -1, -0.25}, 0, {-1, 1}, random),
+            capped_body({1, 1, -1, 0.25}, 0, {-1.5, 1}, random)};
+}
+
+/// How far from the axis the side of such a body, as defined, is at height z.
+double rim_radius(const Quadric& quadric, double z)
+{
+    const auto& k = quadric.coefficients;
+    return std::sqrt(std::max(0.0, -(k[2] * z * z + k[8] * z + k[9]) / k[0]));
+}
+
+/// A place on a rim, a little inside or outside of it or right there as often.
+glm::dvec3 near_rim(const Quadric& quadric, std::mt19937_64& random)
+{
+    std::uniform_real_distribution<double> unit(0, 1);
+    const double z = unit(random) < 0.5 ? quadric.z_range->low : quadric.z_range->high;
+    const double turn = 6.2831853 * unit(random);
+    const double off = (unit(random) - 0.5) * std::pow(10.0, -16 * unit(random));
+    const double r = rim_radius(quadric, z) * (1 + off);
+    return {r * std::cos(turn), r * std::sin(turn), z};
+}
+
+/// Rays through places near the rims of one body.
+template <class Real>
+Columns<Real> rays_at_rims(const Object& body, int count, std::mt19937_64& random)
+{
+    std::uniform_real_distribution<double> number(-1, 1);
+    Columns<Real> rays;
+    for (int i = 0; i < count; ++i) {
+        const glm::dvec3 place(body.transform *
+                               glm::dvec4(near_rim(std::get<Quadric>(body.surface), random), 1));
+        const glm::dvec3 dir =
+            glm::normalize(glm::dvec3(number(random), number(random), number(random)));
+        add_ray<Real>(rays, place - (8 + 5 * std::abs(number(random))) * dir, dir);
+    }
+    return rays;
+}
+
+/// The hits of rays with all that rays need which leave them.
+template <class Real>
+struct HitColumns {
+    std::array<std::vector<Real>, 13> real;
+    std::array<std::vector<std::int32_t>, 2> number;
+
+    explicit HitColumns(std::size_t count)
+    {
+        for (auto& column : real)
+            column.resize(count);
+        for (auto& column : number)
+            column.resize(count);
+    }
+    [[nodiscard]] HitsView<Real> view()
+    {
+        const auto at = [&](std::size_t i) { return real[i].data(); };
+        return {at(0),
+                number[0].data(),
+                at(1),
+                at(2),
+                at(3),
+                {at(4), at(5), at(6)},
+                {at(7), at(8), at(9)},
+                {at(10), at(11), at(12)},
+                number[1].data()};
+    }
+    [[nodiscard]] StartsView<Real> starts() const
+    {
+        return {{real[10].data(), real[11].data(), real[12].data()}, number[1].data()};
+    }
+};
+
+/// Follows rays straight on through a body by the surfaces they start on; returns how many enter it
+/// and do not leave it, or leave what they have not entered.
+template <class Real>
+int count_open_paths(const RayScene<Real>& scene, Columns<Real> rays)
+{
+    const std::size_t count = rays[0].size();
+    HitColumns<Real> hits(count);
+    scene.closest_hits(view_of(rays), hits.view());
+    std::vector<bool> inside(count, false);
+    int open = 0;
+    for (int generation = 0; generation < 6; ++generation) {
+        for (std::size_t i = 0; i < count; ++i) {
+            if (hits.number[0][i] < 0) {
+                open += inside[i];
+                inside[i] = false;
+                hits.number[1][i] = no_start;
+                rays[0][i] = std::numeric_limits<Real>::quiet_NaN();  // hits nothing from now on
+                continue;
+            }
+            const Real slope = rays[3][i] * hits.real[1][i] + rays[4][i] * hits.real[2][i] +
+                               rays[5][i] * hits.real[3][i];
+            const bool goes_in = slope < 0;
+            // A tangent's slope may have either sign: the second hit of a touch is the same place.
+            open += goes_in == inside[i] && std::abs(slope) > Real(1e-3);
+            inside[i] = !inside[i];
+            for (std::size_t axis = 0; axis < 3; ++axis)
+                rays[axis][i] = hits.real[(inside[i] ? 7 : 4) + axis][i];
+            if (inside[i])
+                hits.number[1][i] = ~hits.number[1][i];
+        }
+        const HitColumns<Real> from = hits;
+        scene.closest_hits(view_of(rays), from.starts(), hits.view());
+    }
+    return open;
+}
+
+TEST_CASE("paths that go on from hits at rims leave every capped body they enter",
+          "[closed_bodies]")
+{
+    for (const std::string& isa : supported_isas()) {
+        std::mt19937_64 random(11);
+        for (const Object& body : capped_bodies(random)) {
+            Scene scene;
+            scene.objects = {body};
+            RenderOptions options;
+            options.isa = isa;
+            const Columns<float> singles = rays_at_rims<float>(body, 3000, random);
+            const Columns<double> doubles = rays_at_rims<double>(body, 3000, random);
+            CAPTURE(isa, std::get<Quadric>(body.surface).coefficients);
+            CHECK(count_open_paths(RayScene<float>(scene, options), singles) == 0);
+            CHECK(count_open_paths(RayScene<double>(scene, options), doubles) == 0);
+        }
+    }
 }
 
 TEST_CASE("a line that only touches a rim has two hits there, or none", "[closed_bodies]")

@@ -180,9 +180,9 @@ TEMPLATE_TEST_CASE("scratch memory grows by one stream a level, whatever the tre
                    "[glass_physics]", float, double)
 {
     // A stream holds two children for each of 256 rays and a packet's padding: origin, direction,
-    // weight, pixel, eight bodies, and where it starts: point, surface and second meeting; then its
-    // count.
-    const std::size_t stream = 528 * (3 + 3 + 3 + 1 + 8 + 3 + 1 + 1) * sizeof(TestType) + 64;
+    // weight, pixel, eight bodies, and where it starts: point, surface, other root and the piece
+    // met there; then its count.
+    const std::size_t stream = 528 * (3 + 3 + 3 + 1 + 8 + 3 + 1 + 2) * sizeof(TestType) + 64;
     for (const std::string& isa : supported_isas()) {
         CAPTURE(isa);
         const std::size_t flat = scratch_bytes<TestType>(shells(1), isa);

@@ -36,12 +36,17 @@ template <class Quadric, class Real, class Own>
 inline void keep_quadric(HitPacket<Real>& hit, const Quadric& quadric, const RayPacket<Real>& rays,
                          const Own& own)
 {
-    const std::int32_t surface = record_of<Real>(quadric).surface;
+    const abi::QuadricRecord<Real>& record = record_of<Real>(quadric);
+    const std::uint32_t others =
+        own.template lanes_on_others<Real>(record.surface, pieces_of(record));
     visit_crossings(quadric, rays, [&](vmask<Real> valid, const vreal<Real>& t, int piece) {
-        const std::uint32_t ahead = bits(valid & (t > rays.t_min));
-        keep_closer<Real>(
-            hit, from_bits<Real>(ahead & own.template lanes_on_others<Real>(surface + piece)), t,
-            surface + piece);
+        std::uint32_t counts = others & bits(valid & (t > rays.t_min));
+        // A ray that touches the rim enters by the cap where the cap was visited first.
+        const std::uint32_t ties = piece == 0 ? counts & bits(t == hit.t) : 0;
+        if (ties != 0)
+            counts &= ~(
+                ties & lanes_on_body<Real>(hit.surface, record.surface + 1, pieces_of(record) - 1));
+        keep_closer<Real>(hit, from_bits<Real>(counts), t, record.surface + piece);
     });
 }
 
@@ -86,14 +91,15 @@ template <bool Shared, class Own>
 inline void keep_quadric(HitPacket<float>& hit, const QuadricFilter& filter,
                          const RayPacket<float>& rays, const RayScale& scale, const Own& own)
 {
-    const std::uint32_t active = may_hit<Shared>(filter, rays, scale, hit.t);
+    const std::int32_t surface = filter.record->surface;
+    const std::uint32_t active =
+        may_hit<Shared>(filter, rays, scale, hit.t) &
+        own.template lanes_on_others<float>(surface, pieces_of(*filter.record));
     if (active == 0)
         return;
-    const std::int32_t surface = filter.record->surface;
     visit_in_double(
         *filter.wide, rays, active,
         [&](std::uint32_t lanes_of, const vreal<float>& low, const vreal<float>& high, int piece) {
-            lanes_of &= own.template lanes_on_others<float>(surface + piece);
             keep_sure(hit, from_bits<float>(lanes_of), low, high, surface + piece);
         });
 }

@@ -2,33 +2,45 @@
 
 #include "kernels/filter.hpp"
 #include "kernels/gradient.hpp"
+#include "kernels/leave_body.hpp"
 #include "kernels/own_surface.hpp"
 #include "kernels/records.hpp"
 #include "kernels/widen.hpp"
 
 // How rays leave the surface they start on. One root of its equation along such a ray is known to
 // be 0, so that it is not looked for, and the constant is 0 whatever rounding makes of it: the
-// other root is -2 slope / bend, for every kind of surface. It is found once, when the ray is made,
-// in double; the search passes over the surface. Of other surfaces rays keep off by what rounding
-// does to the place they start at.
+// other root is -2 slope / bend, for every kind of surface (leave_body.hpp). Where the ray meets
+// its own body again is found once, when the ray is made, in double; the search passes over all
+// pieces of it. Of other surfaces rays keep off by what rounding does to the place they start at.
 namespace packtrace::PACKTRACE_ISA {
 namespace {
+
+/// Where rays meet the surface they start on again, or another piece of the same body.
+template <class Real>
+struct SecondHit {
+    vreal<Real> t;       ///< infinite for nowhere
+    vint<Real> surface;  ///< the piece that is met; of no meaning where t is infinite
+};
 
 /// What a packet of rays starts on.
 template <class Real>
 struct StartPacket {
     Vec3v<Real> point;
     vint<Real> surface;  ///< -1: none
-    vreal<Real> second;  ///< where the ray meets that surface again; infinite for nowhere
+    SecondHit<Real> second;
 };
+
+template <class Real>
+inline SecondHit<Real> no_second_hit()
+{
+    return {vreal<Real>(static_cast<Real>(__builtin_inf())), no_surface<Real>()};
+}
 
 template <class Real>
 inline StartPacket<Real> no_start()
 {
     const vreal<Real> zero(Real(0));
-    return {{zero, zero, zero},
-            vint<Real>(lane_int<Real>(-1)),
-            vreal<Real>(static_cast<Real>(__builtin_inf()))};
+    return {{zero, zero, zero}, no_surface<Real>(), no_second_hit<Real>()};
 }
 
 /// What a search that passes over the own surface has found before it begins.
@@ -36,24 +48,20 @@ template <class Real>
 inline HitPacket<Real> start_of_search(const StartPacket<Real>& start, const vreal<Real>& t_max)
 {
     const vreal<Real> never(static_cast<Real>(__builtin_inf()));
-    const auto again = start.second < t_max;
+    const vreal<Real>& second = start.second.t;
+    const auto again = second < t_max;
     HitPacket<Real> hit;
     hit.t = hit.t_low = t_max;
     hit.other = never;
-    hit.surface = select(again, start.surface, no_surface<Real>());
+    hit.surface = select(again, start.second.surface, no_surface<Real>());
     if constexpr (sizeof(Real) == sizeof(float)) {
-        hit.t = select(again, rounded_high(start.second), t_max);
-        hit.t_low = select(again, rounded_low(start.second), t_max);
+        hit.t = select(again, rounded_high(second), t_max);
+        hit.t_low = select(again, rounded_low(second), t_max);
     } else {
-        hit.t = select(again, start.second, t_max);
+        hit.t = select(again, second, t_max);
     }
     return hit;
 }
-
-/// A surface along lines from a point on it: 2 slope t + bend t² = 0.
-struct SurfaceLine {
-    vreal<double> slope, bend;
-};
 
 /// Whether a surface may be met again from its inner side alone, from anywhere, or never.
 enum class HitAgain { never, from_inside, from_anywhere };
@@ -69,111 +77,124 @@ inline HitAgain hit_again(const abi::ShapesView& shapes, const abi::SurfaceIndex
             return s[0] >= 0 && s[1] >= 0 && s[2] >= 0 ? HitAgain::from_inside
                                                        : HitAgain::from_anywhere;
         }
+        case abi::SurfaceKind::low_cap:
+        case abi::SurfaceKind::high_cap:
+            return HitAgain::from_inside;
         default:
             return HitAgain::never;
     }
 }
 
-/// The other root of `line`, whose slope has the sign of the side that the rays leave on, so that
-/// rounding cannot turn it for grazing rays.
-inline vreal<double> other_root(const SurfaceLine& line, vmask<double> outside)
-{
-    const vreal<double> never(__builtin_inf());
-    const vreal<double> twice = abs(line.slope) + abs(line.slope);
-    const vreal<double> t = select(outside, negated(twice), twice) / line.bend;
-    return select((t > vreal<double>(0.0)) & (t < never), t, never);
-}
-
-inline vreal<double> other_root(const abi::SphereShape& sphere, const Vec3v<double>& point,
-                                const Vec3v<double>& dir, vmask<double> outside)
-{
-    return other_root({dot(point - broadcast(sphere.center), dir), dot(dir, dir)}, outside);
-}
-
-inline vreal<double> other_root(const abi::AnchoredSphere<double>& sphere,
-                                const Vec3v<double>& point, const Vec3v<double>& dir,
-                                vmask<double> outside)
-{
-    return other_root({dot(normal_at<double>(sphere, point), dir),
-                       vreal<double>(sphere.curvature) * dot(dir, dir)},
-                      outside);
-}
-
-inline vreal<double> other_root(const abi::QuadricRecord<double>& quadric,
-                                const Vec3v<double>& point, const Vec3v<double>& dir,
-                                vmask<double> outside)
-{
-    const auto [p, height] = quadric_origin<double>(quadric, point);
-    const Vec3v<double> v = apply_inverse(quadric, dir);
-    const Vec3v<double> scaled = broadcast(quadric.square) * v;
-    const vreal<double> slope = madd(vreal<double>(quadric.linear), v.z, dot(scaled, p));
-    const vreal<double> t = other_root({slope, dot(scaled, v)}, outside);
-    if (!quadric.clipped)
-        return t;
-    const LineInterval<double> between = clip_crossings<double>(quadric, height, dir).between;
-    return select((t >= between.low) & (t <= between.high), t, vreal<double>(__builtin_inf()));
-}
-
-inline vreal<double> other_root(const abi::ShapesView& shapes, const abi::SurfaceIndex& index,
-                                const Vec3v<double>& point, const Vec3v<double>& dir,
-                                vmask<double> outside)
-{
-    if (index.kind == abi::SurfaceKind::sphere)
-        return other_root(shapes.spheres[index.record], point, dir, outside);
-    if (index.kind == abi::SurfaceKind::anchored_sphere)
-        return other_root(shapes.anchored_spheres[index.record], point, dir, outside);
-    return other_root(shapes.quadrics[index.record], point, dir, outside);
-}
-
-/// The same for a packet of either precision.
-inline vreal<double> other_root_of(const abi::ShapesView& shapes, const abi::SurfaceIndex& index,
+/// Where rays from points of one surface meet it again beyond t_min, in double. `outside` are the
+/// lanes that leave it on the outer side.
+inline OwnCrossing second_crossing(const abi::ShapesView& shapes, const abi::SurfaceIndex& index,
                                    const Vec3v<double>& point, const Vec3v<double>& dir,
-                                   std::uint32_t outside)
+                                   const vreal<double>& t_min, vmask<double> outside)
 {
-    return other_root(shapes, index, point, dir, from_bits<double>(outside & all_lanes<double>));
+    switch (index.kind) {
+        case abi::SurfaceKind::sphere: {
+            const abi::SphereShape& sphere = shapes.spheres[index.record];
+            return only_crossing({dot(point - broadcast(sphere.center), dir), dot(dir, dir)}, t_min,
+                                 outside);
+        }
+        case abi::SurfaceKind::anchored_sphere: {
+            const abi::AnchoredSphere<double>& sphere = shapes.anchored_spheres[index.record];
+            return only_crossing({dot(normal_at<double>(sphere, point), dir),
+                                  vreal<double>(sphere.curvature) * dot(dir, dir)},
+                                 t_min, outside);
+        }
+        case abi::SurfaceKind::quadric_side:
+            return crossing_from_side(shapes.quadrics[index.record], point, dir, t_min, outside);
+        default:
+            return crossing_from_cap(shapes.quadrics[index.record],
+                                     index.kind == abi::SurfaceKind::low_cap, point, dir, t_min);
+    }
 }
-inline vreal<float> other_root_of(const abi::ShapesView& shapes, const abi::SurfaceIndex& index,
-                                  const Vec3v<float>& point, const Vec3v<float>& dir,
-                                  std::uint32_t outside)
+
+/// The surface numbers of a crossing; `first` is that of the body's side.
+template <class Real>
+inline vint<Real> pieces_met(std::int32_t first, std::uint32_t low_cap, std::uint32_t high_cap)
 {
-    return narrow(other_root_of(shapes, index, widen_low(point), widen_low(dir), outside),
-                  other_root_of(shapes, index, widen_high(point), widen_high(dir),
-                                (outside & all_lanes<float>) >> lanes<double>));
+    const auto number = [&](int piece) {
+        return vint<Real>(static_cast<lane_int<Real>>(first + piece));
+    };
+    return select(from_bits<Real>(low_cap), number(1),
+                  select(from_bits<Real>(high_cap), number(2), number(0)));
+}
+
+/// What is met again of the body whose side has the number `first`.
+inline SecondHit<double> second_hit_of(const abi::ShapesView& shapes,
+                                       const abi::SurfaceIndex& index, std::int32_t first,
+                                       const Vec3v<double>& point, const Vec3v<double>& dir,
+                                       const vreal<double>& t_min, std::uint32_t outside)
+{
+    const OwnCrossing met = second_crossing(shapes, index, point, dir, t_min,
+                                            from_bits<double>(outside & all_lanes<double>));
+    return {met.t, pieces_met<double>(first, met.low_cap, met.high_cap)};
+}
+inline SecondHit<float> second_hit_of(const abi::ShapesView& shapes, const abi::SurfaceIndex& index,
+                                      std::int32_t first, const Vec3v<float>& point,
+                                      const Vec3v<float>& dir, const vreal<float>& t_min,
+                                      std::uint32_t outside)
+{
+    const OwnCrossing low =
+        second_crossing(shapes, index, widen_low(point), widen_low(dir), widen_low(t_min),
+                        from_bits<double>(outside & all_lanes<double>));
+    const OwnCrossing high =
+        second_crossing(shapes, index, widen_high(point), widen_high(dir), widen_high(t_min),
+                        from_bits<double>((outside & all_lanes<float>) >> lanes<double>));
+    // A body that a ray leaves at once is left beyond 0 all the same.
+    const vreal<float> t =
+        max(narrow(low.t, high.t), vreal<float>(std::numeric_limits<float>::min()));
+    return {t, pieces_met<float>(first, narrow_bits(low.low_cap, high.low_cap),
+                                 narrow_bits(low.high_cap, high.high_cap))};
+}
+
+/// The number of the body's side, of a surface of it.
+inline std::int32_t first_piece(const abi::SurfaceIndex& index, std::int32_t surface)
+{
+    if (index.kind == abi::SurfaceKind::low_cap)
+        return surface - 1;
+    return index.kind == abi::SurfaceKind::high_cap ? surface - 2 : surface;
 }
 
 /// For the lanes of `active`, each from a point of its own surface; `outside` are those that leave
 /// it on the outer side.
 template <class Real>
-[[gnu::noinline]] vreal<Real> look_for_second_root(const abi::ShapesView& shapes,
-                                                   const vint<Real>& surface,
-                                                   const Vec3v<Real>& point, const Vec3v<Real>& dir,
-                                                   std::uint32_t outside, std::uint32_t active)
+[[gnu::noinline]] SecondHit<Real> look_for_second_hit(
+    const abi::ShapesView& shapes, const vint<Real>& surface, const Vec3v<Real>& point,
+    const Vec3v<Real>& dir, const vreal<Real>& t_min, std::uint32_t outside, std::uint32_t active)
 {
-    vreal<Real> t(static_cast<Real>(__builtin_inf()));
+    SecondHit<Real> hit = no_second_hit<Real>();
     for_each_distinct<Real>(surface, active, [&](lane_int<Real> number, vmask<Real> same) {
         const abi::SurfaceIndex& index = shapes.index[number];
         const HitAgain again = hit_again(shapes, index);
         if (again == HitAgain::never)
             return;
         const std::uint32_t leavers =
-            again == HitAgain::from_inside ? bits(same) & ~outside : bits(same);
-        if ((leavers & active) != 0)
-            t = select(from_bits<Real>(leavers), other_root_of(shapes, index, point, dir, outside),
-                       t);
+            (again == HitAgain::from_inside ? bits(same) & ~outside : bits(same)) & active;
+        if (leavers == 0)
+            return;
+        const SecondHit<Real> met =
+            second_hit_of(shapes, index, first_piece(index, static_cast<std::int32_t>(number)),
+                          point, dir, t_min, outside);
+        hit.t = select(from_bits<Real>(leavers), met.t, hit.t);
+        hit.surface = select(from_bits<Real>(leavers), met.surface, hit.surface);
     });
-    return t;
+    return hit;
 }
 
 /// The same, without looking where nothing is met again.
 template <class Real>
-inline vreal<Real> second_root(const abi::ShapesView& shapes, const vint<Real>& surface,
-                               const Vec3v<Real>& point, const Vec3v<Real>& dir,
-                               std::uint32_t outside, std::uint32_t active)
+inline SecondHit<Real> second_hit(const abi::ShapesView& shapes, const vint<Real>& surface,
+                                  const Vec3v<Real>& point, const Vec3v<Real>& dir,
+                                  const vreal<Real>& t_min, std::uint32_t outside,
+                                  std::uint32_t active)
 {
     const std::uint32_t may_meet = shapes.hit_again_outside ? active : active & ~outside;
     if (may_meet == 0)
-        return vreal<Real>(static_cast<Real>(__builtin_inf()));
-    return look_for_second_root<Real>(shapes, surface, point, dir, outside, may_meet);
+        return no_second_hit<Real>();
+    return look_for_second_hit<Real>(shapes, surface, point, dir, t_min, outside, may_meet);
 }
 
 /// The sum of |a_i| |b_i|.

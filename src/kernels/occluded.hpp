@@ -36,38 +36,37 @@ struct Reach {
     }
 };
 
-/// `blocked` without the lanes whose own surface is what blocks them: whether that is in the way
-/// is known without looking (leave_surface.hpp).
+/// `blocked` without the lanes whose own body is what blocks them: whether that is in the way is
+/// known without looking (leave_surface.hpp).
 template <class Real>
-inline std::uint32_t but_own(std::uint32_t blocked, const vint<Real>& own, std::int32_t surface)
+inline std::uint32_t but_own(std::uint32_t blocked, const vint<Real>& own, std::int32_t first,
+                             int pieces = 1)
 {
-    if (blocked == 0)
-        return 0;
-    return blocked & ~bits(int_equal(own, vint<Real>(static_cast<lane_int<Real>>(surface))));
+    return blocked == 0 ? 0 : blocked & ~lanes_on_body<Real>(own, first, pieces);
 }
 
-/// Lanes that any piece of a quadric blocks, but for their own.
+/// Lanes that any piece of a quadric blocks, but for those that start on it.
 template <class Quadric, class Real>
 inline std::uint32_t quadric_blocks(const Reach<Real>& reach, const Quadric& quadric,
                                     const RayPacket<Real>& rays, const vint<Real>& own)
 {
-    const std::int32_t surface = record_of<Real>(quadric).surface;
+    const abi::QuadricRecord<Real>& record = record_of<Real>(quadric);
     std::uint32_t blocked = 0;
-    visit_crossings(quadric, rays, [&](vmask<Real> valid, const vreal<Real>& t, int piece) {
-        blocked |= but_own<Real>(bits(valid & reach.blocked_at(t, rays)), own, surface + piece);
+    visit_crossings(quadric, rays, [&](vmask<Real> valid, const vreal<Real>& t, int) {
+        blocked |= bits(valid & reach.blocked_at(t, rays));
     });
-    return blocked;
+    return but_own<Real>(blocked, own, record.surface, pieces_of(record));
 }
 
-/// What any piece of a quadric but their own does to the lanes of `active`, in double.
+/// What any piece of a quadric does to the lanes of `active` that do not start on it, in double.
 inline Occlusion occludes(const abi::QuadricRecord<double>& quadric, const RayPacket<float>& rays,
                           const vreal<float>& t_end, const vint<float>& own, std::uint32_t active)
 {
     Occlusion result;
+    const std::uint32_t others = but_own<float>(active, own, quadric.surface, pieces_of(quadric));
     visit_in_double(
-        quadric, rays, active,
-        [&](std::uint32_t lanes_of, const vreal<float>& low, const vreal<float>& high, int piece) {
-            lanes_of = but_own<float>(lanes_of, own, quadric.surface + piece);
+        quadric, rays, others,
+        [&](std::uint32_t lanes_of, const vreal<float>& low, const vreal<float>& high, int) {
             const Occlusion at = root_between(low, high, lanes_of, rays.t_min, t_end);
             result.blocked |= at.blocked;
             result.unsure |= at.unsure;

@@ -132,9 +132,9 @@ inline ClipCrossings<Real> clip_crossings(const abi::QuadricRecord<Real>& quadri
 }
 
 /// Calls `visit(valid, t, piece)` for the places where the rays cross the clipped and capped
-/// surface: piece 0 is the side, 1 and 2 the low and the high cap. A t may be infinite. Side and
-/// caps share one decision, the order of their t: at the rim a ray crosses exactly one, or, where
-/// it only touches the rim, both.
+/// surface: piece 0 is the side, 1 and 2 the low and the high cap. A t may be infinite, and a piece
+/// may be visited twice for different lanes. Side and caps share one decision, the order of their
+/// t: at the rim a ray crosses exactly one, or, where it only touches the rim, both.
 template <class Real, class Visit>
 inline void visit_crossings(const abi::QuadricRecord<Real>& quadric,
                             const QuadricOrigin<Real>& origin, const RayPacket<Real>& rays,
@@ -163,26 +163,34 @@ inline void visit_crossings(const abi::QuadricRecord<Real>& quadric,
     const auto between = [&](const vreal<Real>& t) {
         return (t >= clip.between.low) & (t <= clip.between.high);
     };
-    visit(from_bits<Real>(crosses & bits(between(first))), first, 0);
-    visit(from_bits<Real>(crosses & bits(between(second))), second, 0);
+    const auto visit_side = [&] {
+        visit(from_bits<Real>(crosses & bits(between(first))), first, 0);
+        visit(from_bits<Real>(crosses & bits(between(second))), second, 0);
+    };
     if (!quadric.capped)
-        return;
+        return visit_side();
     const LineInterval<Real> side = ordered<Real>(first, second);
     const std::uint32_t opens = bits(quadratic.a < zero);
     const std::uint32_t climbs = bits(clip.low_t <= clip.high_t);
     const std::uint32_t never_crosses =
-        bits((quadratic.a < zero) | ((quadratic.a == zero) & (quadratic.c < zero)));
-    for (int cap = 1; cap <= 2; ++cap) {
-        const vreal<Real> t = cap == 1 ? clip.low_t : clip.high_t;
-        // A ray that only touches the rim has two hits there: it comes in by one and leaves by the
-        // other.
-        const std::uint32_t comes_in = cap == 1 ? climbs : ~climbs;
-        const std::uint32_t within = (comes_in & bits((t > side.low) & (t <= side.high))) |
-                                     (~comes_in & bits((t >= side.low) & (t < side.high)));
-        const std::uint32_t by_order = opens ^ within;
-        visit(from_bits<Real>((crosses & by_order) | (~crosses & never_crosses & all_lanes<Real>)),
-              t, cap);
-    }
+        ~crosses & bits((quadratic.a < zero) | ((quadratic.a == zero) & (quadratic.c < zero)));
+    // Rays come in by one cap and leave by the other. One that only touches the rim has two hits
+    // there: it comes in by one piece and leaves by the other, in this order.
+    const std::uint32_t comes_in[2] = {climbs, ~climbs};
+    const vreal<Real> cap_t[2] = {clip.low_t, clip.high_t};
+    const auto visit_cap = [&](int cap, std::uint32_t lanes_of) {
+        const vreal<Real>& t = cap_t[cap];
+        const std::uint32_t within = (comes_in[cap] & bits((t > side.low) & (t <= side.high))) |
+                                     (~comes_in[cap] & bits((t >= side.low) & (t < side.high)));
+        const std::uint32_t met = lanes_of & ((crosses & (opens ^ within)) | never_crosses);
+        if (met != 0)
+            visit(from_bits<Real>(met), t, cap + 1);
+    };
+    for (int cap = 0; cap < 2; ++cap)
+        visit_cap(cap, comes_in[cap]);
+    visit_side();
+    for (int cap = 0; cap < 2; ++cap)
+        visit_cap(cap, ~comes_in[cap]);
 }
 
 /// A quadric seen from an origin that all rays share.

@@ -216,7 +216,7 @@ struct HalfCrossings {
                     [&](vmask<double> valid, const vreal<double>& t, int piece) {
                         const int at = piece == 0 ? sides++ : piece + 1;
                         result.t[at] = t;
-                        result.valid[at] = bits(valid & (t > rays.t_min));
+                        result.valid[at] |= bits(valid & (t > rays.t_min));
                     });
     return result;
 }

@@ -62,7 +62,7 @@ inline std::uint32_t numbers(const StreamPacket<Real>& packet)
 template <class Real>
 inline StartPacket<Real> start_of(const abi::SceneView<Real>& scene,
                                   const abi::RaysView<Real>& view, int first,
-                                  const Vec3v<Real>& dir)
+                                  const RayPacket<Real>& rays)
 {
     if (view.start_surface == nullptr || !(scene.start_error > 0))
         return no_start<Real>();
@@ -73,10 +73,10 @@ inline StartPacket<Real> start_of(const abi::SceneView<Real>& scene,
     const auto elsewhere = int_equal(code, vint<Real>(lane_int<Real>{abi::no_start}));
     const vint<Real> number = select(elsewhere, none, select(inner, none - code, code));
     const std::uint32_t active = first_lanes<Real>(count) & ~bits(elsewhere);
-    StartPacket<Real> start{load_some3(view.start_point, first, count), number,
-                            vreal<Real>(static_cast<Real>(__builtin_inf()))};
-    start.second = second_root<Real>(scene.shapes, number, start.point, dir, ~bits(inner), active);
-    return start;
+    const Vec3v<Real> point = load_some3(view.start_point, first, count);
+    return {
+        point, number,
+        second_hit<Real>(scene.shapes, number, point, rays.dir, rays.t_min, ~bits(inner), active)};
 }
 
 /// What is prepared of the lists for one call.
@@ -171,7 +171,7 @@ inline void closest_chunk_in_lists(const abi::SceneView<Real>& scene,
 {
     for (int first = begin; first < end; first += lanes<Real>) {
         const StreamPacket<Real> packet(view, first);
-        const StartPacket<Real> start = start_of(scene, view, first, packet.rays.dir);
+        const StartPacket<Real> start = start_of(scene, view, first, packet.rays);
         HitPacket<Real> hit = start_of_search(start, packet.t_max);
         if (view.start_surface != nullptr)
             closest_hit<F>(hit, work.nearby, packet.rays, OwnSurface{start.surface});
@@ -192,14 +192,14 @@ inline void closest_chunk_in_tree(const abi::SceneView<Real>& scene,
     RayGroup<Real>& group = *work.group;
     const int count = end - begin;
     const auto start_at = [&](int first) {
-        return start_of(scene, view, begin + first, load_rays(group, first).dir);
+        return start_of(scene, view, begin + first, load_rays(group, first));
     };
     const auto t_max_at = [&](int first) {
         return load_some(view.t_max + begin + first, count - first);
     };
     for (int first = 0; first < count; first += lanes<Real>) {
         const StreamPacket<Real> packet(view, begin + first);
-        const StartPacket<Real> start = start_of(scene, view, begin + first, packet.rays.dir);
+        const StartPacket<Real> start = start_of(scene, view, begin + first, packet.rays);
         store_rays(group, first, packet.rays);
         start_rays<F>(group, first, start_of_search(start, packet.t_max), start.surface,
                       first_lanes<Real>(count - first) & numbers(packet));

@@ -379,7 +379,7 @@ inline SphereForm blended(const SphereForm& form, const abi::SphereShape& sphere
     hits.normal = select(same, narrow(a.normal, b.normal), hits.normal);
 }
 
-/// Hits on the surfaces that rays start on, whose t is known.
+/// Hits on the bodies that rays start on, whose t is known.
 [[gnu::noinline]] inline void refine_second(RefinedHits<float>& hits, const abi::ShapesView& shapes,
                                             const StartPacket<float>& start,
                                             const RayPacket<float>& rays, std::uint32_t again)
@@ -388,17 +388,19 @@ inline SphereForm blended(const SphereForm& form, const abi::SphereShape& sphere
                           const vreal<double>& t) { return madd<double>(t, dir, from); };
     const Vec3v<double> low_dir = widen_low(rays.dir);
     const Vec3v<double> high_dir = widen_high(rays.dir);
-    const Vec3v<double> low = half(widen_low(start.point), low_dir, widen_low(start.second));
-    const Vec3v<double> high = half(widen_high(start.point), high_dir, widen_high(start.second));
+    const Vec3v<double> low = half(widen_low(start.point), low_dir, widen_low(start.second.t));
+    const Vec3v<double> high = half(widen_high(start.point), high_dir, widen_high(start.second.t));
     const vmask<float> lanes_again = from_bits<float>(again);
-    hits.t = select(lanes_again, start.second, hits.t);
+    hits.t = select(lanes_again, start.second.t, hits.t);
     hits.point = select(lanes_again, narrow(low, high), hits.point);
-    for_each_distinct<float>(start.surface, again, [&](std::int32_t number, vmask<float> same) {
-        const abi::SurfaceIndex& index = shapes.index[number];
-        const Vec3v<float> normal = narrow(surface_normal<double>(shapes, index, low, low_dir),
-                                           surface_normal<double>(shapes, index, high, high_dir));
-        hits.normal = select(from_bits<float>(bits(same) & again), normal, hits.normal);
-    });
+    for_each_distinct<float>(
+        start.second.surface, again, [&](std::int32_t number, vmask<float> same) {
+            const abi::SurfaceIndex& index = shapes.index[number];
+            const Vec3v<float> normal =
+                narrow(surface_normal<double>(shapes, index, low, low_dir),
+                       surface_normal<double>(shapes, index, high, high_dir));
+            hits.normal = select(from_bits<float>(bits(same) & again), normal, hits.normal);
+        });
 }
 
 /// Of the lanes of `active`, which are on more than one surface: all spheres together.
@@ -446,8 +448,7 @@ inline void refine_others(RefinedHits<float>& hits, const abi::ShapesView& shape
     });
 }
 
-/// The places of the hits of `active`. Those on a ray's own surface are where it starts and second
-/// root say.
+/// The places of the hits of `active`. Those on a ray's own body are where its start says.
 template <abi::Features F, Refine R, class Real>
 inline RefinedHits<Real> refined(const abi::ShapesView& shapes, const RayPacket<Real>& rays,
                                  const HitPacket<Real>& hit, const StartPacket<Real>& start,
@@ -457,16 +458,16 @@ inline RefinedHits<Real> refined(const abi::ShapesView& shapes, const RayPacket<
     hits.t = hit.t;
     hits.point = hits.normal = rays.dir;
     if constexpr (F.exact) {
-        const std::uint32_t again = bits(int_equal(hit.surface, start.surface)) & active;
+        const std::uint32_t again = bits(int_equal(hit.surface, start.second.surface)) & active;
         if (active != again)
             refine_others<R>(hits, shapes, rays, hit.surface, active & ~again);
         if constexpr (R == Refine::t)
-            hits.t = select(from_bits<Real>(again), start.second, hits.t);
+            hits.t = select(from_bits<Real>(again), start.second.t, hits.t);
         else if (again != 0)
             refine_second(hits, shapes, start, rays, again);
     } else {
-        const auto again = int_equal(hit.surface, start.surface);
-        hits.t = select(again, start.second, hit.t);
+        const auto again = int_equal(hit.surface, start.second.surface);
+        hits.t = select(again, start.second.t, hit.t);
         if constexpr (R == Refine::place) {
             hits.point = madd<Real>(hits.t, rays.dir, select(again, start.point, rays.org));
             for_each_distinct<Real>(

@@ -55,6 +55,7 @@ inline void add_lanes(WideGroup& group, int first, const RayPacket<float>& rays,
 {
     alignas(64) float value[9][lanes<float>];
     alignas(64) std::int32_t own[lanes<float>];
+    alignas(64) std::int32_t met_again[lanes<float>];
     store(value[0], rays.org.x);
     store(value[1], rays.org.y);
     store(value[2], rays.org.z);
@@ -63,14 +64,15 @@ inline void add_lanes(WideGroup& group, int first, const RayPacket<float>& rays,
     store(value[5], rays.dir.z);
     store(value[6], rays.t_min);
     store(value[7], t_max);
-    store(value[8], start.second);
+    store(value[8], start.second.t);
     store(own, start.surface);
+    store(met_again, start.second.surface);
     for (; unsure != 0; unsure &= unsure - 1) {
         const int lane = __builtin_ctz(unsure);
         const bool again = value[8][lane] < value[7][lane];
         group.add(first + lane, {value[0][lane], value[1][lane], value[2][lane]},
                   {value[3][lane], value[4][lane], value[5][lane]}, value[6][lane],
-                  again ? value[8][lane] : value[7][lane], again ? own[lane] : -1, own[lane]);
+                  again ? value[8][lane] : value[7][lane], again ? met_again[lane] : -1, own[lane]);
     }
 }
 

@@ -48,7 +48,7 @@ inline vint<Real> own_of(const abi::SceneView<Real>& scene, const SurfacePacket<
     return scene.start_error > 0 ? surface.number : no_surface<Real>();
 }
 
-/// Lanes of `wanted` that their own surface keeps from a light, by SelfHits::exact.
+/// Lanes of `wanted` that their own body keeps from a light, by SelfHits::exact.
 template <class Real>
 inline std::uint32_t own_shadow(const abi::SceneView<Real>& scene,
                                 const abi::LightRecord<Real>& light,
@@ -58,8 +58,10 @@ inline std::uint32_t own_shadow(const abi::SceneView<Real>& scene,
     if (!(scene.start_error > 0))
         return 0;
     const std::uint32_t outside = ~bits(dot(surface.lift, packet.to_light) < vreal<Real>(Real(0)));
-    const vreal<Real> again = second_root<Real>(casters_of(scene).shapes, surface.number,
-                                                surface.point, packet.to_light, outside, wanted);
+    const vreal<Real> again =
+        second_hit<Real>(casters_of(scene).shapes, surface.number, surface.point, packet.to_light,
+                         vreal<Real>(Real(0)), outside, wanted)
+            .t;
     const Real end =
         light.kind == abi::LightKind::directional ? static_cast<Real>(__builtin_inf()) : Real(1);
     return bits(again < vreal<Real>(end)) & wanted;

@@ -91,20 +91,6 @@ inline void copy_active(const RayGroup<Real>& group, std::uint16_t (&to)[group_c
         to[cell] = group.active[cell];
 }
 
-/// The lanes whose own surface is a piece of object number `object`.
-template <class Real>
-inline std::uint32_t own_pieces(const abi::SceneView<Real>& scene, const RayGroup<Real>& group,
-                                int first, std::uint32_t active, std::int32_t object)
-{
-    std::uint32_t own = 0;
-    for (; active != 0; active &= active - 1) {
-        const int lane = __builtin_ctz(active);
-        const bool same = scene.material_index[group.own[first + lane]].object == object;
-        own |= std::uint32_t{same} << lane;
-    }
-    return own;
-}
-
 /// Fills the shadows of one light where blockers pass on a share of it.
 template <abi::Features F, class Real>
 inline void find_shares(const ShadeContext<F, Real>& context, const HitStream<F, Real>& hits,
@@ -128,12 +114,7 @@ inline void find_shares(const ShadeContext<F, Real>& context, const HitStream<F,
         by_own[first / lanes<Real>] = own;
         return dim_by_own(first, own);
     });
-    // An object takes its share once, also where its other pieces are in the way.
     const auto pass_on = [&](std::int32_t surface, int first, std::uint32_t blocked) {
-        const std::uint32_t again = blocked & by_own[first / lanes<Real>];
-        if (again != 0)
-            blocked &=
-                ~own_pieces(scene, group, first, again, scene.material_index[surface].object);
         return shadows.dim(scene, surface, first, blocked);
     };
     visit_shadow_blockers<F>(context, light, group, pass_on);

@@ -55,9 +55,11 @@ inline void append_start(RayStream<F, Real>& next, const abi::SceneView<Real>& s
         return;
     append3(next.starts->point, next.count, active, surface.point);
     compress_store(next.starts->surface + next.count, active, surface.number);
-    compress_store(
-        next.starts->second + next.count, active,
-        second_root<Real>(scene.shapes, surface.number, surface.point, dir, outside, active));
+    const SecondHit<Real> second =
+        second_hit<Real>(scene.shapes, surface.number, surface.point, dir,
+                         vreal<Real>(scene.secondary_t_min), outside, active);
+    compress_store(next.starts->second + next.count, active, second.t);
+    compress_store(next.starts->met_again + next.count, active, second.surface);
 }
 
 template <class Real>

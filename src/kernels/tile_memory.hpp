@@ -53,7 +53,8 @@ template <abi::Features F, class Real>
 struct StartArrays {
     StreamArray<F, Real> point[3];
     StreamArray<F, lane_int<Real>> surface;
-    StreamArray<F, Real> second;  ///< t at which they meet it again, from `point`
+    StreamArray<F, Real> second;  ///< t at which they meet its body again, from `point`
+    StreamArray<F, lane_int<Real>> met_again;  ///< the surface they meet there
 };
 
 /// Rays of one generation, in an order that does not depend on the packet width.
@@ -156,8 +157,9 @@ inline StartPacket<Real> load_start(const RayStream<F, Real>& stream, int first)
 {
     if (stream.starts == nullptr)
         return no_start<Real>();
-    return {load3(stream.starts->point, first), load(stream.starts->surface + first),
-            load(stream.starts->second + first)};
+    return {load3(stream.starts->point, first),
+            load(stream.starts->surface + first),
+            {load(stream.starts->second + first), load(stream.starts->met_again + first)}};
 }
 
 /// The surfaces of a packet of a stream of hits.
@@ -200,6 +202,7 @@ inline void append_stream(RayStream<F, Real>& to, const RayStream<F, Real>& from
             copy(to.starts->point[axis] + to.count, from.starts->point[axis], from.count);
         copy(to.starts->surface + to.count, from.starts->surface, from.count);
         copy(to.starts->second + to.count, from.starts->second, from.count);
+        copy(to.starts->met_again + to.count, from.starts->met_again, from.count);
     }
     to.count += from.count;
 }
