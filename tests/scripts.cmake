@@ -10,6 +10,8 @@ function(packtrace_script_test name label script)
     set_tests_properties(${name} PROPERTIES LABELS ${label} SKIP_RETURN_CODE 77)
 endfunction()
 
+packtrace_script_test(rooms fast check_rooms.sh ${PROJECT_SOURCE_DIR}/src)
+
 foreach(isa IN LISTS PACKTRACE_KERNELS)
     set(objects $<TARGET_OBJECTS:packtrace_kernels_${isa}>)
     packtrace_script_test(symbols.${isa} fast check_symbols.sh ${CMAKE_NM} ${isa} ${objects})

@@ -4,7 +4,7 @@
 
 namespace packtrace::abi {
 
-/// The operations of kernels/simd.hpp, for tests that hold each against plain scalar code.
+/// The operations of kernels/simd/simd.hpp, for tests that hold each against plain scalar code.
 enum class SimdOp : std::int32_t {
     add,
     sub,

@@ -1,9 +1,9 @@
 // Before any header of the kernels.
 #define PACKTRACE_OBSERVED
 
-#include "kernels/probe_kernels.hpp"
+#include "kernels/table.hpp"
 
-#include "kernels/tile.hpp"
+#include "kernels/stream/tile.hpp"
 
 namespace packtrace::PACKTRACE_ISA {
 namespace {

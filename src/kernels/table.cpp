@@ -2,11 +2,11 @@
 
 #include <utility>
 
-#include "kernels/closest_tile.hpp"
-#include "kernels/onedim.hpp"
-#include "kernels/ray_streams.hpp"
-#include "kernels/self_test.hpp"
-#include "kernels/tile.hpp"
+#include "kernels/simd/self_test.hpp"
+#include "kernels/stream/closest_tile.hpp"
+#include "kernels/stream/ray_streams.hpp"
+#include "kernels/stream/tile.hpp"
+#include "onedim/onedim_kernel.hpp"
 
 namespace packtrace::PACKTRACE_ISA {
 namespace {

@@ -2,9 +2,15 @@
 
 #include "kernel_abi/kernel_table.hpp"
 
-// The one symbol that the kernels of an instruction set offer to others.
+// The symbols that the kernels of an instruction set offer to others.
 namespace packtrace::PACKTRACE_ISA {
 
 [[nodiscard]] const abi::KernelTable& kernel_table();
+
+/// The kernels of Features::probe. They have a source of their own because in one object with the
+/// others they would sway the compiler's choice of what to inline there, and because programs
+/// without src/study do without them.
+/// A reference, which takes no instruction that the machine may lack.
+[[nodiscard]] const abi::ProbeKernels& probe_kernels();
 
 }  // namespace packtrace::PACKTRACE_ISA

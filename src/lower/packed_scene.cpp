@@ -30,7 +30,7 @@ constexpr std::size_t frame_tree_objects(int lanes)
 template <class Real>
 constexpr Real start_roundoffs = sizeof(Real) == sizeof(float) ? Real(4) : Real(32);
 
-/// The magnitudes that error bounds in single precision hold for; kernels/error_bounds.hpp.
+/// The magnitudes that error bounds in single precision hold for; kernels/geometry/error_bounds.hpp.
 constexpr double largest_certain = 1e9;
 constexpr double smallest_certain = 1e-9;
 

@@ -1,5 +1,5 @@
 #include "kernels/table.hpp"
-#include "kernels/tile.hpp"
+#include "kernels/stream/tile.hpp"
 
 // Of the kernels with a defect those that its test runs: packets of floats in the default mode, one
 // kernel for every scene and one that tells of its rays.

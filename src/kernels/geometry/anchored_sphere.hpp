@@ -1,0 +1,91 @@
+#pragma once
+
+#include "kernel_abi/lists.hpp"
+#include "kernels/geometry/quadratic.hpp"
+
+namespace packtrace::PACKTRACE_ISA {
+namespace {
+
+/// What an anchored sphere's quadratic needs of the ray's origin alone.
+template <class Real>
+struct AnchoredOrigin {
+    Vec3v<Real> g;
+    vreal<Real> constant;
+};
+
+/// With p the origin relative to the anchor, g = n + k p is half the gradient there and
+/// (g + n)·p + k0 the form's value: no term is of the size of the radius, which a ground
+/// sphere's would drown in.
+template <class Real>
+inline AnchoredOrigin<Real> anchored_origin(const abi::AnchoredSphere<Real>& sphere,
+                                            const Vec3v<Real>& org)
+{
+    const Vec3v<Real> normal = broadcast(sphere.normal);
+    const Vec3v<Real> p = org - broadcast(sphere.anchor);
+    const Vec3v<Real> g = madd<Real>(vreal<Real>(sphere.curvature), p, normal);
+    return {g, dot(g + normal, p) + vreal<Real>(sphere.offset)};
+}
+
+/// The ray against a sphere given by a surface point and its curvature (abi::AnchoredSphere):
+/// F(t) = k a t² + 2 (g·d) t + F(0). `curved` is k F(0).
+template <class Real>
+inline Quadratic<Real> anchored_quadratic(const AnchoredOrigin<Real>& origin,
+                                          const vreal<Real>& curvature, const vreal<Real>& curved,
+                                          const RayPacket<Real>& rays)
+{
+    Quadratic<Real> q;
+    q.a = curvature * rays.dir2;
+    q.b = dot(origin.g, rays.dir);
+    q.c = origin.constant;
+    q.discriminant = msub(q.b, q.b, curved * rays.dir2);
+    // From afar both terms are large; as |g|² - k F(0) = 1, their difference is a - |g × d|² too.
+    const auto far = dot(origin.g, origin.g) > vreal<Real>(Real(4));
+    if (none(far))
+        return q;
+    const Vec3v<Real> moment = cross(origin.g, rays.dir);
+    q.discriminant = select(far, rays.dir2 - dot(moment, moment), q.discriminant);
+    return q;
+}
+
+template <class Real>
+inline Quadratic<Real> quadratic_of(const abi::AnchoredSphere<Real>& sphere,
+                                    const RayPacket<Real>& rays)
+{
+    const AnchoredOrigin<Real> origin = anchored_origin<Real>(sphere, rays.org);
+    const vreal<Real> curvature(sphere.curvature);
+    return anchored_quadratic<Real>(origin, curvature, curvature * origin.constant, rays);
+}
+
+/// An anchored sphere seen from an origin that all rays share.
+template <class Real>
+struct SharedOriginAnchored {
+    Real g[3];
+    Real constant;
+    Real curvature;
+    Real curved;
+    std::int32_t surface;
+};
+
+template <class Real>
+inline SharedOriginAnchored<Real> share_origin(const abi::AnchoredSphere<Real>& sphere,
+                                               const Vec3v<Real>& origin)
+{
+    const AnchoredOrigin<Real> at = anchored_origin<Real>(sphere, origin);
+    return {{first_lane<Real>(at.g.x), first_lane<Real>(at.g.y), first_lane<Real>(at.g.z)},
+            first_lane<Real>(at.constant),
+            sphere.curvature,
+            first_lane<Real>(vreal<Real>(sphere.curvature) * at.constant),
+            sphere.surface};
+}
+
+template <class Real>
+inline Quadratic<Real> quadratic_of(const SharedOriginAnchored<Real>& sphere,
+                                    const RayPacket<Real>& rays)
+{
+    return anchored_quadratic<Real>({broadcast(sphere.g), vreal<Real>(sphere.constant)},
+                                    vreal<Real>(sphere.curvature), vreal<Real>(sphere.curved),
+                                    rays);
+}
+
+}  // namespace
+}  // namespace packtrace::PACKTRACE_ISA

@@ -1,0 +1,191 @@
+#pragma once
+
+#include "kernels/geometry/packet.hpp"
+
+// A bound of many rays: a cone of directions around an axis, started anywhere in a ball. It
+// tells which objects none of the rays can reach.
+namespace packtrace::PACKTRACE_ISA {
+namespace {
+
+template <class Real>
+struct Cone {
+    Real base[3] = {};  ///< centre of the ball of origins
+    Real radius = 0;    ///< of that ball
+    Real axis[3] = {};  ///< unit to rounding
+    Real sine = 0;      ///< of the cone's half angle, which is below a right angle
+    Real cosine = 1;
+    Real reach = 0;        ///< no ray goes further from the base; may be infinite
+    bool bounded = false;  ///< false: the rays go everywhere, nothing can be left out
+};
+
+template <class Real>
+inline Real square_root(Real x)
+{
+    return static_cast<Real>(__builtin_sqrt(static_cast<double>(x)));
+}
+
+template <class Real>
+inline Real magnitude(Real x)
+{
+    return x < 0 ? -x : x;
+}
+
+/// Share of a length by which a bound may be wrong through rounding; more than three times what
+/// the operations below and a ray's own test can lose (docs/numerics_derivations.md has the proof),
+/// so that a sphere is left out only when the exact and the rounded test of every ray say miss.
+template <class Real>
+inline constexpr Real cone_slack = sizeof(Real) == 4 ? Real(1e-5) : Real(1e-13);
+
+/// Lanes whose sphere, `v` from the cone's base to its centre, may be met by a ray.
+template <class Real>
+inline vmask<Real> may_meet(const Cone<Real>& cone, const Vec3v<Real>& v, const vreal<Real>& radius)
+{
+    const Vec3v<Real> axis = broadcast(cone.axis);
+    const vreal<Real> distance = sqrt(dot(v, v));
+    const vreal<Real> along = dot(v, axis);
+    const Vec3v<Real> moment = cross(v, axis);
+    const vreal<Real> across = sqrt(dot(moment, moment));
+
+    const vreal<Real> slack = vreal<Real>(cone_slack<Real>) * (distance + radius);
+    const vreal<Real> size = radius + vreal<Real>(cone.radius) + slack;
+    const vreal<Real> outside =
+        msub(across, vreal<Real>(cone.cosine), along * vreal<Real>(cone.sine));
+    return (outside <= size) & (along >= negated(size)) &
+           (distance <= (vreal<Real>(cone.reach) + size));
+}
+
+/// Whether every ray runs against `direction` or across it, by more than rounding can turn:
+/// the cone is further than a right angle from it.
+template <class Real>
+inline bool runs_against(const Cone<Real>& cone, const Real (&direction)[3])
+{
+    Real along = 0;
+    Real length2 = 0;
+    for (int i = 0; i < 3; ++i) {
+        along += cone.axis[i] * direction[i];
+        length2 += direction[i] * direction[i];
+    }
+    return cone.bounded && along < -(cone.sine + cone_slack<Real>)*square_root(length2);
+}
+
+// Bounds of a stream's points, and the cones of shadow rays towards or along them.
+
+template <class Real>
+struct Box {
+    Real low[3];
+    Real high[3];
+};
+
+/// The least of the lanes of one packet and the most of another's.
+template <class Real>
+inline void extent_of_lanes(batch<Real> smallest, batch<Real> largest, Real& low, Real& high)
+{
+    alignas(64) Real smallest_lanes[lanes<Real>];
+    alignas(64) Real largest_lanes[lanes<Real>];
+    store(smallest_lanes, smallest);
+    store(largest_lanes, largest);
+    low = smallest_lanes[0];
+    high = largest_lanes[0];
+    for (int lane = 1; lane < lanes<Real>; ++lane) {
+        low = smallest_lanes[lane] < low ? smallest_lanes[lane] : low;
+        high = largest_lanes[lane] > high ? largest_lanes[lane] : high;
+    }
+}
+
+template <class Real>
+inline void extent(const Real* values, int count, Real& low, Real& high)
+{
+    // Lanes beyond the end repeat the first value.
+    const vreal<Real> first(values[0]);
+    vreal<Real> smallest = first;
+    vreal<Real> largest = first;
+    for (int i = 0; i < count; i += lanes<Real>) {
+        const auto active = from_bits<Real>(first_lanes<Real>(count - i));
+        const vreal<Real> value = select(active, load(values + i), first);
+        smallest = min(smallest, value);
+        largest = max(largest, value);
+    }
+    extent_of_lanes<Real>(smallest, largest, low, high);
+}
+
+/// `count` > 0.
+template <class Real, std::size_t Size>
+inline Box<Real> box_of(const Real (&points)[3][Size], int count)
+{
+    Box<Real> box;
+    for (int axis = 0; axis < 3; ++axis)
+        extent(points[axis], count, box.low[axis], box.high[axis]);
+    return box;
+}
+
+template <class Real>
+struct Ball {
+    Real center[3];
+    Real radius;
+};
+
+/// The ball around a box, with room for what rounding does to coordinates as large as its own:
+/// to its centre, and to rays that start lifted off the points in it.
+template <class Real>
+inline Ball<Real> ball_around(const Box<Real>& box)
+{
+    Ball<Real> ball;
+    Real radius2 = 0;
+    Real size = 0;
+    for (int axis = 0; axis < 3; ++axis) {
+        const Real half = Real(0.5) * (box.high[axis] - box.low[axis]);
+        ball.center[axis] = box.low[axis] + half;
+        radius2 += half * half;
+        size += magnitude(ball.center[axis]) + half;
+    }
+    ball.radius = square_root(radius2) + cone_slack<Real> * size;
+    return ball;
+}
+
+/// From everything in `box` along `direction`.
+template <class Real>
+inline Cone<Real> parallel_cone(const Real (&direction)[3], const Box<Real>& box)
+{
+    const Ball<Real> ball = ball_around(box);
+    Cone<Real> cone;
+    Real length2 = 0;
+    for (int axis = 0; axis < 3; ++axis)
+        length2 += direction[axis] * direction[axis];
+    const Real length = square_root(length2);
+    for (int axis = 0; axis < 3; ++axis) {
+        cone.base[axis] = ball.center[axis];
+        cone.axis[axis] = direction[axis] / length;
+    }
+    cone.radius = ball.radius;
+    cone.reach = static_cast<Real>(__builtin_inf());
+    cone.bounded = true;
+    return cone;
+}
+
+/// From a point light to everything in `box`: a cone around the ball that holds the box.
+template <class Real>
+inline Cone<Real> segment_cone(const Real (&light)[3], const Box<Real>& box)
+{
+    const Ball<Real> ball = ball_around(box);
+    Cone<Real> cone;
+    Real distance2 = 0;
+    for (int axis = 0; axis < 3; ++axis) {
+        cone.base[axis] = light[axis];
+        cone.axis[axis] = ball.center[axis] - light[axis];
+        distance2 += cone.axis[axis] * cone.axis[axis];
+    }
+    const Real distance = square_root(distance2);
+    const Real radius = ball.radius + cone_slack<Real> * distance;
+    cone.bounded = radius < distance;
+    if (!cone.bounded)
+        return cone;
+    for (Real& component : cone.axis)
+        component /= distance;
+    cone.sine = radius / distance;
+    cone.cosine = square_root((distance - radius) * (distance + radius)) / distance;
+    cone.reach = distance + radius;
+    return cone;
+}
+
+}  // namespace
+}  // namespace packtrace::PACKTRACE_ISA

@@ -1,0 +1,122 @@
+#pragma once
+
+#include "kernels/geometry/error_bounds.hpp"
+#include "kernels/stats/observe.hpp"
+
+// A floating-point filter (Brönnimann, Burnikel and Pion, "Interval arithmetic yields efficient
+// dynamic filters", 2001) for the closest hit: each test gives the interval that its t is in, or
+// says that it cannot tell. The search keeps the hit that ends first, and where anything else may
+// begin; where those overlap the ray is unsure, and is traced again in double (retrace.hpp).
+namespace packtrace::PACKTRACE_ISA {
+namespace {
+
+/// The hits in [low, high] of the lanes of `active` are there for sure.
+inline void keep_sure(HitPacket<float>& hit, vmask<float> active, const vreal<float>& low,
+                      const vreal<float>& high, std::int32_t surface)
+{
+    const auto first = active & (high < hit.t);
+    const vreal<float> behind = select(first, hit.t_low, low);
+    const vint<float> number(lane_int<float>{surface});
+    note_rival<float>(active & (behind < hit.other), select(first, hit.surface, number));
+    hit.other = select(active & (behind < hit.other), behind, hit.other);
+    hit.t = select(first, high, hit.t);
+    hit.t_low = select(first, low, hit.t_low);
+    hit.surface = select(first, number, hit.surface);
+}
+
+/// The lanes of `active` may have a hit, not before `low`. Those of `at_end` have it, but maybe
+/// before t_min; the others may touch the surface or pass it.
+inline void keep_doubt(HitPacket<float>& hit, vmask<float> active, const vreal<float>& low,
+                       std::uint32_t at_end)
+{
+    // A NaN says that it may be anywhere.
+    const vreal<float> from = select(low == low, low, vreal<float>(-__builtin_inff()));
+    note_doubt<float>(active & (from < hit.other), at_end);
+    hit.other = select(active & (from < hit.other), from, hit.other);
+}
+
+/// Nothing is certain of the lanes of `active`.
+inline void doubt_all(HitPacket<float>& hit, vmask<float> active)
+{
+    note_magnitude<float>(active);
+    hit.other = select(active, vreal<float>(-__builtin_inff()), hit.other);
+}
+
+/// Lanes whose hit is not certain.
+inline std::uint32_t unsure_lanes(const HitPacket<float>& hit)
+{
+    const vreal<float> never(__builtin_inff());
+    return bits((hit.other <= hit.t) & (hit.other < never));
+}
+
+/// The interval of a t that was rounded once.
+inline vreal<float> rounded_low(const vreal<float>& t)
+{
+    return nmadd(vreal<float>(roundoffs(2.0f)), abs(t), t);
+}
+inline vreal<float> rounded_high(const vreal<float>& t)
+{
+    return madd(vreal<float>(roundoffs(2.0f)), abs(t), t);
+}
+
+/// The two roots of a surface along the rays, and the most that each may be off by.
+struct RootIntervals {
+    vreal<float> near, far;
+    vreal<float> error;
+};
+
+/// Keeps the first root beyond t_min in the lanes of `sure`, whose rays cross the surface.
+inline void keep_first_of(HitPacket<float>& hit, const RootIntervals& roots, vmask<float> sure,
+                          const vreal<float>& t_min, std::int32_t surface)
+{
+    const auto near_behind = roots.near + roots.error < t_min;
+    const vreal<float> root = select(near_behind, roots.far, roots.near);
+    const vreal<float> low = root - roots.error;
+    const vreal<float> high = root + roots.error;
+    const auto counts = low > t_min;
+    keep_sure(hit, sure & counts, low, high, surface);
+    const std::uint32_t none_counts = bits(near_behind) & bits(high < t_min);
+    const std::uint32_t open = bits(sure) & ~bits(counts) & ~none_counts;
+    if (open != 0)
+        keep_doubt(hit, from_bits<float>(open), low, all_lanes<float>);
+}
+
+/// What certain tests say of occlusion.
+struct Occlusion {
+    std::uint32_t blocked = 0;  ///< lanes
+    std::uint32_t unsure = 0;   ///< lanes, not among the blocked
+};
+
+/// Whether a root of the lanes of `sure` lies between t_min and t_end.
+inline Occlusion root_between(const RootIntervals& roots, vmask<float> sure,
+                              const vreal<float>& t_min, const vreal<float>& t_end)
+{
+    const vreal<float> from = t_min + roots.error;
+    const vreal<float> to = t_end - roots.error;
+    const std::uint32_t inside = (bits((roots.near > from) & (roots.near < to)) |
+                                  bits((roots.far > from) & (roots.far < to))) &
+                                 bits(sure);
+    const std::uint32_t open = bits(sure) & ~inside;
+    if (open == 0)
+        return {inside, 0};
+    const vreal<float> before = t_min - roots.error;
+    const vreal<float> behind = t_end + roots.error;
+    const std::uint32_t outside = (bits(roots.near < before) | bits(roots.near > behind)) &
+                                  (bits(roots.far < before) | bits(roots.far > behind));
+    note_in_the_way(open & ~outside, abi::Cause::range);
+    return {inside, open & ~outside};
+}
+
+/// The same of a single root in [low, high].
+inline Occlusion root_between(const vreal<float>& low, const vreal<float>& high,
+                              std::uint32_t active, const vreal<float>& t_min,
+                              const vreal<float>& t_end)
+{
+    const std::uint32_t inside = bits((low > t_min) & (high < t_end));
+    const std::uint32_t outside = bits(high < t_min) | bits(low > t_end);
+    note_in_the_way(active & ~inside & ~outside, abi::Cause::range);
+    return {active & inside, active & ~inside & ~outside};
+}
+
+}  // namespace
+}  // namespace packtrace::PACKTRACE_ISA

@@ -1,0 +1,148 @@
+#pragma once
+
+#include <limits>
+
+#include "kernels/geometry/quadric.hpp"
+
+// Where rays that start on a piece of a body meet that body again, in double. That the start is on
+// the piece is known, whatever rounding made of the point: along the ray the side has a root at 0,
+// the start is between the planes that clip, and at a cap it is inside the side. So every ray that
+// enters a capped body leaves it, however near to a rim it starts; one that leaves it where it
+// starts does so at the least number above 0.
+namespace packtrace::PACKTRACE_ISA {
+namespace {
+
+/// A surface along lines from a point on it: 2 slope t + bend t² = 0.
+struct SurfaceLine {
+    vreal<double> slope, bend;
+};
+
+/// Where the rays of half a packet meet their own body again, and the lanes that meet it in a cap.
+struct OwnCrossing {
+    vreal<double> t;  ///< infinite for nowhere
+    std::uint32_t low_cap = 0;
+    std::uint32_t high_cap = 0;
+};
+
+/// The least t that counts as beyond the start.
+inline vreal<double> at_once()
+{
+    return vreal<double>(std::numeric_limits<double>::min());
+}
+
+/// The other root of `line`, whose slope has the sign of the side that the rays leave on, so that
+/// rounding cannot turn it for grazing rays. Negative or NaN where there is none ahead.
+inline vreal<double> other_root(const SurfaceLine& line, vmask<double> outside)
+{
+    const vreal<double> twice = abs(line.slope) + abs(line.slope);
+    return select(outside, negated(twice), twice) / line.bend;
+}
+
+/// The other root of a surface that no other piece belongs to.
+inline OwnCrossing only_crossing(const SurfaceLine& line, const vreal<double>& t_min,
+                                 vmask<double> outside)
+{
+    const vreal<double> never(__builtin_inf());
+    const vreal<double> root = other_root(line, outside);
+    // A ray along the surface, on its inner side, leaves what bends away from it at once.
+    const std::uint32_t inwards = ~bits(outside) & bits(line.bend > vreal<double>(0.0));
+    const std::uint32_t ahead = inwards | bits(root > vreal<double>(0.0));
+    const vreal<double> t = max(root, at_once());
+    return {select(from_bits<double>(ahead & bits(t > t_min) & bits(t < never)), t, never)};
+}
+
+/// The crossings ahead in their order: two of the side at most, then one of a cap.
+struct CrossingsAhead {
+    vreal<double> side[2];
+    vreal<double> cap;
+    std::uint32_t meets_side[2];
+    std::uint32_t meets_cap;
+    std::uint32_t cap_is_high;
+};
+
+/// The first of them beyond t_min.
+inline OwnCrossing first_of(const CrossingsAhead& ahead, const vreal<double>& t_min)
+{
+    const vreal<double> never(__builtin_inf());
+    const auto counts = [&](const vreal<double>& t, std::uint32_t meets) {
+        return meets & bits(t > t_min) & bits(t < never);
+    };
+    const vreal<double> cap_t = max(ahead.cap, at_once());
+    const std::uint32_t by_cap = counts(cap_t, ahead.meets_cap);
+    OwnCrossing first{select(from_bits<double>(by_cap), cap_t, never), by_cap & ~ahead.cap_is_high,
+                      by_cap & ahead.cap_is_high};
+    for (int i = 1; i >= 0; --i) {
+        const vreal<double> side_t = max(ahead.side[i], at_once());
+        const std::uint32_t by_side = counts(side_t, ahead.meets_side[i]);
+        first.t = select(from_bits<double>(by_side), side_t, first.t);
+        first.low_cap &= ~by_side;
+        first.high_cap &= ~by_side;
+    }
+    return first;
+}
+
+/// From a point of a quadric's side.
+inline OwnCrossing crossing_from_side(const abi::QuadricRecord<double>& quadric,
+                                      const Vec3v<double>& point, const Vec3v<double>& dir,
+                                      const vreal<double>& t_min, vmask<double> outside)
+{
+    const vreal<double> zero(0.0);
+    const auto [p, height] = quadric_origin<double>(quadric, point);
+    const Vec3v<double> v = apply_inverse(quadric, dir);
+    const Vec3v<double> scaled = broadcast(quadric.square) * v;
+    const SurfaceLine line{madd(vreal<double>(quadric.linear), v.z, dot(scaled, p)),
+                           dot(scaled, v)};
+    if (!quadric.clipped)
+        return only_crossing(line, t_min, outside);
+    const ClipCrossings<double> clip = clip_crossings<double>(quadric, height, dir);
+    const std::uint32_t climbs = bits(dot(broadcast(quadric.clip), dir) > zero);
+    const auto along = dot(broadcast(quadric.clip), dir) == zero;
+    const vreal<double> out =
+        select(along, vreal<double>(__builtin_inf()),
+               max(select(from_bits<double>(climbs), clip.high_t, clip.low_t), zero));
+    const vreal<double> root = other_root(line, outside);
+    // The inside is ahead up to the other root where the surface bends away, beyond it where the
+    // surface bends towards rays outside.
+    const std::uint32_t bends_away = bits(line.bend > zero) & ~bits(outside);
+    const std::uint32_t bends_towards = bits(line.bend < zero) & bits(outside);
+    const std::uint32_t by_side = (bends_away | bends_towards) & bits(root <= out);
+    const std::uint32_t ends_inside = quadric.capped ? by_side ^ ~bits(outside) : 0;
+    return first_of({{root, root}, out, {by_side, 0}, ends_inside, climbs}, t_min);
+}
+
+/// From a point of a cap into the body.
+inline OwnCrossing crossing_from_cap(const abi::QuadricRecord<double>& quadric, bool from_low,
+                                     const Vec3v<double>& point, const Vec3v<double>& dir,
+                                     const vreal<double>& t_min)
+{
+    const vreal<double> zero(0.0);
+    const vreal<double> never(__builtin_inf());
+    const vreal<double> far = vreal<double>(quadric.clip_high - quadric.clip_low) /
+                              abs(dot(broadcast(quadric.clip), dir));
+    const vreal<double> across = select(far < never, far, never);
+    const auto [side, start] = side_quadratic<double>(
+        quadric, quadric_origin<double>(quadric, point).p, apply_inverse(quadric, dir));
+    const vreal<double> root = sqrt(max(side.discriminant, zero));
+    const vreal<double> minus_q = side.b + with_sign_of(root, side.b);
+    const auto at_start = minus_q == zero;
+    const vreal<double> first = start + select(at_start, zero, negated(side.c) / minus_q);
+    const vreal<double> second = select(at_start, first, start + negated(minus_q) / side.a);
+    const LineInterval<double> between = ordered<double>(first, second);
+    const std::uint32_t along = bits(at_start & (side.a == zero));
+    const std::uint32_t opens = bits(side.a < zero);
+    const std::uint32_t gap = opens & bits(side.discriminant >= zero);
+    // Of a body of two halves the gap between them is ahead, or just behind where rounding put the
+    // start into its nearer half.
+    const std::uint32_t before_gap =
+        gap & bits(between.high > zero) & bits(between.low > negated(between.high));
+    const vreal<double> leaves =
+        max(select(from_bits<double>(opens), between.low, between.high), zero);
+    const std::uint32_t by_side = ((~opens & ~along) | before_gap) & bits(leaves <= across);
+    const std::uint32_t enters = by_side & before_gap & bits(between.high <= across);
+    return first_of(
+        {{leaves, between.high}, across, {by_side, enters}, ~by_side | enters, from_low ? ~0u : 0u},
+        t_min);
+}
+
+}  // namespace
+}  // namespace packtrace::PACKTRACE_ISA

@@ -1,0 +1,71 @@
+#pragma once
+
+#include "kernels/simd/vec3.hpp"
+
+namespace packtrace::PACKTRACE_ISA {
+namespace {
+
+/// One ray per lane. Directions need not be unit; t counts in their lengths.
+template <class Real>
+struct RayPacket {
+    Vec3v<Real> org;
+    Vec3v<Real> dir;
+    vreal<Real> dir2;   ///< dir·dir
+    vreal<Real> t_min;  ///< >= 0; hits must lie beyond it
+};
+
+/// The closest hit so far of each lane. With Features::exact its t is known to an interval.
+template <class Real>
+struct HitPacket {
+    vreal<Real> t;       ///< hits must lie before it; with Features::exact the interval's upper end
+    vint<Real> surface;  ///< -1: none yet
+    vreal<Real> t_low;   ///< with Features::exact: its lower end
+    vreal<Real> other;   ///< likewise: nothing but the hit lies before it for sure
+};
+
+template <class Real>
+inline RayPacket<Real> make_rays(const Vec3v<Real>& org, const Vec3v<Real>& dir, Real t_min)
+{
+    return {org, dir, dot(dir, dir), vreal<Real>(t_min)};
+}
+
+template <class Real>
+inline HitPacket<Real> no_hit(Real t_max)
+{
+    const vreal<Real> end(t_max);
+    return {end, vint<Real>(lane_int<Real>(-1)), end,
+            vreal<Real>(static_cast<Real>(__builtin_inf()))};
+}
+
+/// Takes the hits at `t` where `valid` and closer; at equal t the lower surface number wins, so
+/// that the order of testing does not matter.
+template <class Real>
+inline void keep_closer(HitPacket<Real>& hit, batch_bool<Real> valid, batch<Real> t,
+                        std::int32_t surface)
+{
+    const vint<Real> number(static_cast<lane_int<Real>>(surface));
+    const auto nearer = valid & (t < hit.t);
+    const auto ties = valid & (t == hit.t) & int_less(number, hit.surface);
+    const auto take = either(nearer, ties);
+    hit.t = select(take, t, hit.t);
+    hit.surface = select(take, number, hit.surface);
+}
+
+// A packet of floats as two of doubles.
+
+inline RayPacket<double> with_square(const Vec3v<double>& org, const Vec3v<double>& dir,
+                                     const vreal<double>& t_min)
+{
+    return {org, dir, dot(dir, dir), t_min};
+}
+inline RayPacket<double> widen_low(const RayPacket<float>& rays)
+{
+    return with_square(widen_low(rays.org), widen_low(rays.dir), widen_low(rays.t_min));
+}
+inline RayPacket<double> widen_high(const RayPacket<float>& rays)
+{
+    return with_square(widen_high(rays.org), widen_high(rays.dir), widen_high(rays.t_min));
+}
+
+}  // namespace
+}  // namespace packtrace::PACKTRACE_ISA

@@ -1,0 +1,80 @@
+#pragma once
+
+#include "kernels/geometry/packet.hpp"
+
+// The quadratic a t² + 2 b t + c = 0 with a > 0 that every curved surface comes down to, and
+// its discriminant b² - a c, which each surface computes in its own stable way.
+namespace packtrace::PACKTRACE_ISA {
+namespace {
+
+template <class Real>
+struct Quadratic {
+    vreal<Real> a, b, c;
+    vreal<Real> discriminant;
+};
+
+/// Lanes where a root may lie at t > 0: with b >= 0 and c >= 0 both roots are behind.
+template <class Real>
+inline vmask<Real> may_hit(const Quadratic<Real>& q)
+{
+    const vreal<Real> zero(Real(0));
+    return (q.discriminant >= zero) & ((q.b < zero) | (q.c < zero));
+}
+
+/// Takes the smallest root beyond t_min, after Press et al., Numerical Recipes, section 5.6:
+/// q = -(b + sign(b) √D), roots c/q and q/a, neither of which cancels. For t_min >= 0, c/q is
+/// the first root that can count, and q/a only matters where b < 0 and c/q is too near.
+template <class Real>
+inline void keep_first_root(HitPacket<Real>& hit, const Quadratic<Real>& quadratic,
+                            vmask<Real> active, const vreal<Real>& t_min, std::int32_t surface)
+{
+    // Lanes that miss may hold a NaN here; no comparison lets it through. -q is used for q.
+    const vreal<Real> root = sqrt(quadratic.discriminant);
+    const vreal<Real> minus_q = quadratic.b + with_sign_of(root, quadratic.b);
+    vreal<Real> t = negated(quadratic.c) / minus_q;
+    const auto in_front = t > t_min;
+    const std::uint32_t too_near = bits(active) & ~bits(in_front);
+    if ((too_near & bits(minus_q < vreal<Real>(Real(0)))) == 0) {
+        keep_closer<Real>(hit, active & in_front, t, surface);
+        return;
+    }
+    const vreal<Real> other = negated(minus_q) / quadratic.a;
+    const auto retry = from_bits<Real>(too_near) & (minus_q < vreal<Real>(Real(0)));
+    t = select(retry, other, t);
+    keep_closer<Real>(hit, active & (t > t_min), t, surface);
+}
+
+/// Calls `visit(valid, t)` for either root, which may be infinite or NaN.
+template <class Real, class Visit>
+inline void visit_roots(const Quadratic<Real>& quadratic, const Visit& visit)
+{
+    const auto crosses = quadratic.discriminant >= vreal<Real>(Real(0));
+    if (none(crosses))
+        return;
+    const vreal<Real> root = sqrt(quadratic.discriminant);
+    const vreal<Real> minus_q = quadratic.b + with_sign_of(root, quadratic.b);
+    visit(crosses, negated(quadratic.c) / minus_q);
+    visit(crosses, negated(minus_q) / quadratic.a);
+}
+
+/// Lanes with a root between t_min and t_max, from the signs of the quadratic F at both ends:
+/// either they differ, or both are positive and F dips below zero between them. No square
+/// root, no division. At an infinite t_max F is positive, as a > 0.
+template <class Real>
+inline vmask<Real> root_between(const Quadratic<Real>& q, const vreal<Real>& t_min,
+                                const vreal<Real>& t_max)
+{
+    const vreal<Real> zero(Real(0));
+    const vreal<Real> slope_near = madd(q.a, t_min, q.b);
+    const vreal<Real> slope_far = madd(q.a, t_max, q.b);
+    const vreal<Real> near = madd(slope_near + q.b, t_min, q.c);
+    const vreal<Real> far = madd(slope_far + q.b, t_max, q.c);
+    const auto enters = (near < zero) & (far >= zero);
+    const auto leaves = (near >= zero) & (far < zero);
+    const auto dips = (near >= zero) & (far >= zero) & (q.discriminant >= zero) &
+                      (slope_near < zero) & (slope_far > zero);
+    return enters | leaves | dips;
+}
+
+}  // namespace
+}  // namespace packtrace::PACKTRACE_ISA

@@ -1,0 +1,241 @@
+#pragma once
+
+#include "kernel_abi/lists.hpp"
+#include "kernels/geometry/quadratic.hpp"
+
+// Quadrics after the inverse transform (abi::QuadricRecord).
+namespace packtrace::PACKTRACE_ISA {
+namespace {
+
+/// What a quadric needs to know of a ray's origin, in the quadric's canonical space.
+template <class Real>
+struct QuadricOrigin {
+    Vec3v<Real> p;
+    vreal<Real> height;  ///< in the space that clipping goes by
+};
+
+template <class Real>
+inline Vec3v<Real> apply_inverse(const abi::QuadricRecord<Real>& quadric, const Vec3v<Real>& v)
+{
+    return {dot(broadcast(quadric.inverse[0]), v), dot(broadcast(quadric.inverse[1]), v),
+            dot(broadcast(quadric.inverse[2]), v)};
+}
+
+/// The centre is subtracted in two parts, so that a quadric far from the origin keeps its digits.
+template <class Real>
+inline QuadricOrigin<Real> quadric_origin(const abi::QuadricRecord<Real>& quadric,
+                                          const Vec3v<Real>& org)
+{
+    const Vec3v<Real> w = (org - broadcast(quadric.center)) - broadcast(quadric.center_low);
+    const Vec3v<Real> p = apply_inverse(quadric, w);
+    QuadricOrigin<Real> origin;
+    origin.p = p;
+    origin.height = dot(broadcast(quadric.clip), w) + vreal<Real>(quadric.clip_offset);
+    return origin;
+}
+
+/// The left side of the equation at p.
+template <class Real>
+inline vreal<Real> quadric_value(const abi::QuadricRecord<Real>& quadric, const Vec3v<Real>& p)
+{
+    const Vec3v<Real> squares = broadcast(quadric.square) * p;
+    const vreal<Real> linear(quadric.linear);
+    return madd(linear + linear, p.z, dot(squares, p)) + vreal<Real>(quadric.constant);
+}
+
+/// The discriminant by the moment m = p × v (Lagrange's identity), in which no term of the origin's
+/// distance cancels, and which is never negative where no real ray can miss, as with crossing
+/// planes: -k a - Σ s_j s_k m_i² + 2 l (s1 v_y m_x - s0 v_x m_y) + l² v_z².
+template <class Real>
+inline vreal<Real> quadric_discriminant(const abi::QuadricRecord<Real>& quadric,
+                                        const Vec3v<Real>& m, const Vec3v<Real>& v,
+                                        const vreal<Real>& a)
+{
+    const Vec3v<Real> s = broadcast(quadric.square);
+    const vreal<Real> l(quadric.linear);
+    const vreal<Real> squares =
+        madd(s.y * s.z, m.x * m.x, madd(s.z * s.x, m.y * m.y, (s.x * s.y) * (m.z * m.z)));
+    const vreal<Real> turn = msub(s.y * v.y, m.x, (s.x * v.x) * m.y);
+    const vreal<Real> lifted = l * v.z;
+    return madd(l + l, turn, msub(lifted, lifted, madd(vreal<Real>(quadric.constant), a, squares)));
+}
+
+/// The ray p + t v in canonical space against the unclipped side, from the ray's point nearest to
+/// the centre, `start` along it: there no term is larger than it must be.
+template <class Real>
+struct SideQuadratic {
+    Quadratic<Real> from_start;
+    vreal<Real> start;
+};
+
+template <class Real>
+inline SideQuadratic<Real> side_quadratic(const abi::QuadricRecord<Real>& quadric,
+                                          const Vec3v<Real>& p, const Vec3v<Real>& v)
+{
+    const Vec3v<Real> scaled = broadcast(quadric.square) * v;
+    const vreal<Real> zero(Real(0));
+    const vreal<Real> start = negated(dot(p, v)) / dot(v, v);
+    const Vec3v<Real> near = madd<Real>(start, v, p);
+    Quadratic<Real> q;
+    q.a = dot(scaled, v);
+    // What is no more than its own rounding is 0: the ray runs along a generator or an asymptote.
+    const vreal<Real> size =
+        madd(abs(scaled.x), abs(v.x), madd(abs(scaled.y), abs(v.y), abs(scaled.z) * abs(v.z)));
+    constexpr Real rounding = sizeof(Real) == sizeof(float) ? Real(0x1p-22) : Real(0x1p-51);
+    q.a = select(abs(q.a) <= vreal<Real>(rounding) * size, zero, q.a);
+    q.b = madd(vreal<Real>(quadric.linear), v.z, dot(scaled, near));
+    q.c = quadric_value<Real>(quadric, near);
+    q.discriminant = quadric_discriminant<Real>(quadric, cross(near, v), v, q.a);
+    return {q, start};
+}
+
+/// The part of a line between two of its points, which may be infinitely far.
+template <class Real>
+struct LineInterval {
+    vreal<Real> low, high;
+};
+
+template <class Real>
+inline LineInterval<Real> ordered(const vreal<Real>& a, const vreal<Real>& b)
+{
+    return {min(a, b), max(a, b)};
+}
+
+/// Where the rays are between the clipping planes, and where they cross them. A ray along them is
+/// between them all the way or nowhere.
+template <class Real>
+struct ClipCrossings {
+    vreal<Real> low_t, high_t;
+    LineInterval<Real> between;
+};
+
+template <class Real>
+inline ClipCrossings<Real> clip_crossings(const abi::QuadricRecord<Real>& quadric,
+                                          const vreal<Real>& height, const Vec3v<Real>& dir)
+{
+    const vreal<Real> climb = dot(broadcast(quadric.clip), dir);
+    const vreal<Real> below = vreal<Real>(quadric.clip_low) - height;
+    const vreal<Real> above = vreal<Real>(quadric.clip_high) - height;
+    const vreal<Real> zero(Real(0));
+    const vreal<Real> never(static_cast<Real>(__builtin_inf()));
+    const auto along = climb == zero;
+    const auto inside = (below <= zero) & (above >= zero);
+    ClipCrossings<Real> clip;
+    const vreal<Real> inverse = vreal<Real>(Real(1)) / climb;
+    clip.low_t = select(along, negated(never), below * inverse);
+    clip.high_t = select(along, never, above * inverse);
+    clip.between = ordered<Real>(clip.low_t, clip.high_t);
+    const auto nowhere = from_bits<Real>(bits(along) & ~bits(inside));
+    clip.between.low = select(nowhere, never, clip.between.low);
+    clip.between.high = select(nowhere, negated(never), clip.between.high);
+    return clip;
+}
+
+/// Calls `visit(valid, t, piece)` for the places where the rays cross the clipped and capped
+/// surface: piece 0 is the side, 1 and 2 the low and the high cap. A t may be infinite, and a piece
+/// may be visited twice for different lanes. Side and caps share one decision, the order of their
+/// t: at the rim a ray crosses exactly one, or, where it only touches the rim, both.
+template <class Real, class Visit>
+inline void visit_crossings(const abi::QuadricRecord<Real>& quadric,
+                            const QuadricOrigin<Real>& origin, const RayPacket<Real>& rays,
+                            const Visit& visit)
+{
+    const Vec3v<Real> v = apply_inverse(quadric, rays.dir);
+    const auto [quadratic, start] = side_quadratic<Real>(quadric, origin.p, v);
+    const vreal<Real> zero(Real(0));
+    const vreal<Real> root = sqrt(max(quadratic.discriminant, zero));
+    const vreal<Real> minus_q = quadratic.b + with_sign_of(root, quadratic.b);
+    // A ray through a cone's apex meets it at the start itself; one along a cylinder's axis
+    // nowhere.
+    const auto at_start = minus_q == zero;
+    const std::uint32_t crosses = bits(quadratic.discriminant >= zero) &
+                                  ~bits(at_start & (quadratic.a == zero)) & all_lanes<Real>;
+    if (crosses == 0 && !quadric.capped)
+        return;
+    const vreal<Real> first = start + select(at_start, zero, negated(quadratic.c) / minus_q);
+    const vreal<Real> second = start + negated(minus_q) / quadratic.a;
+    if (!quadric.clipped) {
+        visit(from_bits<Real>(crosses), first, 0);
+        visit(from_bits<Real>(crosses), second, 0);
+        return;
+    }
+    const ClipCrossings<Real> clip = clip_crossings<Real>(quadric, origin.height, rays.dir);
+    const auto between = [&](const vreal<Real>& t) {
+        return (t >= clip.between.low) & (t <= clip.between.high);
+    };
+    const auto visit_side = [&] {
+        visit(from_bits<Real>(crosses & bits(between(first))), first, 0);
+        visit(from_bits<Real>(crosses & bits(between(second))), second, 0);
+    };
+    if (!quadric.capped)
+        return visit_side();
+    const LineInterval<Real> side = ordered<Real>(first, second);
+    const std::uint32_t opens = bits(quadratic.a < zero);
+    const std::uint32_t climbs = bits(clip.low_t <= clip.high_t);
+    const std::uint32_t never_crosses =
+        ~crosses & bits((quadratic.a < zero) | ((quadratic.a == zero) & (quadratic.c < zero)));
+    // Rays come in by one cap and leave by the other. One that only touches the rim has two hits
+    // there: it comes in by one piece and leaves by the other, in this order.
+    const std::uint32_t comes_in[2] = {climbs, ~climbs};
+    const vreal<Real> cap_t[2] = {clip.low_t, clip.high_t};
+    const auto visit_cap = [&](int cap, std::uint32_t lanes_of) {
+        const vreal<Real>& t = cap_t[cap];
+        const std::uint32_t within = (comes_in[cap] & bits((t > side.low) & (t <= side.high))) |
+                                     (~comes_in[cap] & bits((t >= side.low) & (t < side.high)));
+        const std::uint32_t met = lanes_of & ((crosses & (opens ^ within)) | never_crosses);
+        if (met != 0)
+            visit(from_bits<Real>(met), t, cap + 1);
+    };
+    for (int cap = 0; cap < 2; ++cap)
+        visit_cap(cap, comes_in[cap]);
+    visit_side();
+    for (int cap = 0; cap < 2; ++cap)
+        visit_cap(cap, ~comes_in[cap]);
+}
+
+/// A quadric seen from an origin that all rays share.
+template <class Real>
+struct SharedOriginQuadric {
+    const abi::QuadricRecord<Real>* record;
+    Real p[3];
+    Real height;
+};
+
+template <class Real>
+inline SharedOriginQuadric<Real> share_origin(const abi::QuadricRecord<Real>& quadric,
+                                              const Vec3v<Real>& org)
+{
+    const QuadricOrigin<Real> at = quadric_origin<Real>(quadric, org);
+    return {&quadric,
+            {first_lane<Real>(at.p.x), first_lane<Real>(at.p.y), first_lane<Real>(at.p.z)},
+            first_lane<Real>(at.height)};
+}
+
+template <class Real, class Visit>
+inline void visit_crossings(const abi::QuadricRecord<Real>& quadric, const RayPacket<Real>& rays,
+                            const Visit& visit)
+{
+    visit_crossings(quadric, quadric_origin<Real>(quadric, rays.org), rays, visit);
+}
+
+template <class Real, class Visit>
+inline void visit_crossings(const SharedOriginQuadric<Real>& quadric, const RayPacket<Real>& rays,
+                            const Visit& visit)
+{
+    const QuadricOrigin<Real> origin{broadcast(quadric.p), vreal<Real>(quadric.height)};
+    visit_crossings(*quadric.record, origin, rays, visit);
+}
+
+template <class Real>
+inline const abi::QuadricRecord<Real>& record_of(const abi::QuadricRecord<Real>& quadric)
+{
+    return quadric;
+}
+template <class Real>
+inline const abi::QuadricRecord<Real>& record_of(const SharedOriginQuadric<Real>& quadric)
+{
+    return *quadric.record;
+}
+
+}  // namespace
+}  // namespace packtrace::PACKTRACE_ISA

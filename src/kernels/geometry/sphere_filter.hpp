@@ -1,0 +1,191 @@
+#pragma once
+
+#include "kernels/geometry/filter.hpp"
+#include "kernels/geometry/sphere.hpp"
+
+// Certain tests of spheres in single precision. For w = o - c, known to e_w, and the moment
+// m = w × d the error of |m| is at most |d| h + u |m| with h = e_w + u |w|. So a ray whose |m| is
+// above (r + h) |d| misses for sure, and one below (r - h) |d| crosses for sure;
+// docs/numerics_derivations.md has the proof.
+namespace packtrace::PACKTRACE_ISA {
+namespace {
+
+/// The bounds of a sphere for the origins of a group, of one sphere or of one a lane. What the
+/// distance from an origin to the centre adds, by the ray itself, is in crossing().
+template <class Value>
+struct SphereBounds {
+    Value outer2;  ///< (r + h)², rounded up
+    Value inner2;  ///< (r - h)², rounded down; negative for none
+    Value along;   ///< of t, times |d|, but for what a small discriminant adds
+    Value moment;  ///< of |m|, per |d|
+    Value size;    ///< twice the radius, rounded up
+    Value band2;   ///< the square of a quarter of the way in the sphere, times d·d, of a ray in
+                   ///< between, at most
+};
+
+/// How far rounding may move |m| / |d| for rays whose origins are up to `length` from a centre that
+/// is known to `center_error`.
+inline vreal<float> moment_error(const vreal<float>& center_error, const vreal<float>& length)
+{
+    return madd(vreal<float>(roundoffs(2.4f)), length, center_error);
+}
+
+/// `moment` is the moment_error() of all rays of the group.
+template <class Value>
+inline SphereBounds<Value> sphere_bounds(const Value& radius, const Value& center_error,
+                                         const Value& moment)
+{
+    const Value size = radius * Value(1.0f + roundoffs(2.0f));
+    const Value outer = size + moment;
+    const Value inner = radius * Value(1.0f - roundoffs(2.0f)) - moment;
+    SphereBounds<Value> bounds;
+    bounds.outer2 = signed_square(outer) * Value(1.0f + roundoffs(16.0f));
+    bounds.inner2 = signed_square(inner) * Value(1.0f - roundoffs(16.0f));
+    bounds.along = madd(Value(roundoffs(60.0f)), outer, center_error);
+    bounds.moment = madd(Value(roundoffs(12.0f)), outer, center_error);
+    bounds.size = Value(2.0f * inflation) * size;
+    const Value widest = size * Value(1.0f + roundoffs(6.0f));
+    bounds.band2 = max(size * (widest - min(inner, size)), Value(0.0f));
+    return bounds;
+}
+
+/// How far a t may be off, times |d|, of a ray that is near with |b| / |d| = `reach`: its |w| is up
+/// to that and outer.
+template <class Value>
+inline Value along_error(const SphereBounds<Value>& bounds, const Value& reach)
+{
+    return madd(Value(roundoffs(28.0f)), reach, bounds.along);
+}
+
+/// The same of |m|, per |d|, times twice the radius: over the root of the discriminant what that
+/// may be off by.
+template <class Value>
+inline Value root_error(const SphereBounds<Value>& bounds, const Value& reach)
+{
+    return bounds.size * madd(Value(roundoffs(2.6f)), reach, bounds.moment);
+}
+
+/// What certain tests of a packet of rays and a sphere, or of a ray and a packet of spheres, need.
+struct SphereTest {
+    Vec3v<float> w;  ///< origin relative to the centre
+    vreal<float> radius2;
+    SphereBounds<vreal<float>> bounds;
+};
+
+/// Lanes that don't surely miss, and |m|².
+struct SphereApproach {
+    vreal<float> moment2;
+    vmask<float> near;
+};
+
+inline SphereApproach approach(const Vec3v<float>& w, const vreal<float>& outer2,
+                               const RayPacket<float>& rays)
+{
+    const Vec3v<float> moment = cross(w, rays.dir);
+    const vreal<float> moment2 = dot(moment, moment);
+    const std::uint32_t misses = bits(moment2 > outer2 * rays.dir2);
+    return {moment2, from_bits<float>(~misses & all_lanes<float>)};
+}
+
+/// Both roots in the lanes that cross the sphere for sure.
+struct SphereCrossing {
+    RootIntervals roots;
+    vreal<float> middle;  ///< t of the nearest approach
+    vreal<float> along;   ///< its error
+    vmask<float> sure;
+};
+
+inline SphereCrossing crossing(const SphereTest& test, const SphereApproach& near,
+                               const RayPacket<float>& rays, const RayScale& scale)
+{
+    const vreal<float> b = dot(test.w, rays.dir);
+    const vreal<float> reach = abs(b) * scale.inverse;
+    const vreal<float> discriminant = msub(rays.dir2, test.radius2, near.moment2);
+    const vreal<float> inverse_root = rough_inverse_sqrt(max(discriminant, vreal<float>(1e-30f)));
+    const vreal<float> half = (discriminant * inverse_root) * scale.inverse2;
+    SphereCrossing result;
+    result.along = along_error(test.bounds, reach) * scale.inverse;
+    result.middle = negated(b) * scale.inverse2;
+    result.roots.near = result.middle - half;
+    result.roots.far = result.middle + half;
+    result.roots.error = madd(root_error(test.bounds, reach), inverse_root, result.along);
+    result.sure = near.near & (near.moment2 < test.bounds.inner2 * rays.dir2);
+    return result;
+}
+
+/// Half the interval that holds both roots in lanes that may or may not cross the sphere.
+inline vreal<float> band_error(const SphereTest& test, const SphereCrossing& at,
+                               const RayScale& scale)
+{
+    return madd(vreal<float>(2.0f * inflation) * sqrt(test.bounds.band2), scale.inverse, at.along);
+}
+
+/// The closest hit of a packet that is near the sphere, but for the lanes that start on it.
+inline void keep_near_sphere(HitPacket<float>& hit, const SphereTest& test,
+                             const SphereApproach& near, const RayPacket<float>& rays,
+                             const RayScale& scale, std::int32_t surface)
+{
+    const SphereCrossing at = crossing(test, near, rays, scale);
+    keep_first_of(hit, at.roots, at.sure, rays.t_min, surface);
+    const std::uint32_t band = bits(near.near) & ~bits(at.sure);
+    if (band == 0)
+        return;
+    const vreal<float> error = band_error(test, at, scale);
+    const std::uint32_t behind = bits(at.middle + error < rays.t_min);
+    keep_doubt(hit, from_bits<float>(band & ~behind), at.middle - error, 0);
+}
+
+/// What needs no root: rays from outside that go through between t_min and t_end, or that have the
+/// sphere behind them, or wholly beyond t_end. The other lanes of `near` are left.
+struct PlainOcclusion {
+    std::uint32_t blocked;
+    std::uint32_t left;
+};
+
+inline PlainOcclusion plainly_occludes(const SphereTest& test, const SphereApproach& near,
+                                       const RayPacket<float>& rays, const RayScale& scale,
+                                       const vreal<float>& t_end)
+{
+    const vreal<float> b = dot(test.w, rays.dir);
+    const vreal<float> slack =
+        along_error<vreal<float>>(test.bounds, abs(b) * scale.inverse) * scale.length;
+    const vreal<float> first_slope = madd(rays.dir2, rays.t_min, b);
+    const vreal<float> last_slope = madd(rays.dir2, t_end, b);
+    // |w + t_min d|² is no less than |w|² + 2 t_min b.
+    const vreal<float> distance2 = madd(rays.t_min + rays.t_min, b - slack,
+                                        dot(test.w, test.w) * vreal<float>(1.0f - roundoffs(8.0f)));
+    const vreal<float> outer2 = test.bounds.outer2 * vreal<float>(1.0f + roundoffs(8.0f));
+    const std::uint32_t outside = bits(distance2 > outer2) & bits(near.near);
+    const std::uint32_t through = bits((near.moment2 < test.bounds.inner2 * rays.dir2) &
+                                       (first_slope < negated(slack)) & (last_slope > slack));
+    const vreal<float> beyond = negated(last_slope) - slack;
+    const std::uint32_t clear = bits(b > slack) | bits((beyond > vreal<float>(0.0f)) &
+                                                       (beyond * beyond > outer2 * rays.dir2));
+    return {outside & through, bits(near.near) & ~(outside & (through | clear))};
+}
+
+/// Whether the sphere is between t_min and t_end of the lanes that are near it.
+inline Occlusion occludes(const SphereTest& test, const SphereApproach& near,
+                          const RayPacket<float>& rays, const RayScale& scale,
+                          const vreal<float>& t_end)
+{
+    const PlainOcclusion plain = plainly_occludes(test, near, rays, scale, t_end);
+    if (plain.left == 0)
+        return {plain.blocked, 0};
+    const SphereApproach left{near.moment2, from_bits<float>(plain.left)};
+    const SphereCrossing at = crossing(test, left, rays, scale);
+    Occlusion result = root_between(at.roots, at.sure, rays.t_min, t_end);
+    result.blocked |= plain.blocked;
+    const std::uint32_t band = plain.left & ~bits(at.sure);
+    if (band == 0)
+        return result;
+    const vreal<float> error = band_error(test, at, scale);
+    const std::uint32_t outside =
+        bits(at.middle + error < rays.t_min) | bits(at.middle - error > t_end);
+    note_in_the_way(band & ~outside, abi::Cause::tangent);
+    result.unsure |= band & ~outside;
+    return result;
+}
+
+}  // namespace
+}  // namespace packtrace::PACKTRACE_ISA

@@ -1,0 +1,225 @@
+#pragma once
+
+#include "kernels/geometry/filter.hpp"
+#include "kernels/geometry/gradient.hpp"
+#include "kernels/geometry/leave_body.hpp"
+#include "kernels/geometry/packet.hpp"
+#include "kernels/precision/own_surface.hpp"
+#include "kernels/simd/records.hpp"
+
+// How rays leave the surface they start on. One root of its equation along such a ray is known to
+// be 0, so that it is not looked for, and the constant is 0 whatever rounding makes of it: the
+// other root is -2 slope / bend, for every kind of surface (leave_body.hpp). Where the ray meets
+// its own body again is found once, when the ray is made, in double; the search passes over all
+// pieces of it. Of other surfaces rays keep off by what rounding does to the place they start at.
+namespace packtrace::PACKTRACE_ISA {
+namespace {
+
+/// Where rays meet the surface they start on again, or another piece of the same body.
+template <class Real>
+struct SecondHit {
+    vreal<Real> t;       ///< infinite for nowhere
+    vint<Real> surface;  ///< the piece that is met; of no meaning where t is infinite
+};
+
+/// What a packet of rays starts on.
+template <class Real>
+struct StartPacket {
+    Vec3v<Real> point;
+    vint<Real> surface;  ///< -1: none
+    SecondHit<Real> second;
+};
+
+template <class Real>
+inline SecondHit<Real> no_second_hit()
+{
+    return {vreal<Real>(static_cast<Real>(__builtin_inf())), no_surface<Real>()};
+}
+
+template <class Real>
+inline StartPacket<Real> no_start()
+{
+    const vreal<Real> zero(Real(0));
+    return {{zero, zero, zero}, no_surface<Real>(), no_second_hit<Real>()};
+}
+
+/// What a search that passes over the own surface has found before it begins.
+template <class Real>
+inline HitPacket<Real> start_of_search(const StartPacket<Real>& start, const vreal<Real>& t_max)
+{
+    const vreal<Real> never(static_cast<Real>(__builtin_inf()));
+    const vreal<Real>& second = start.second.t;
+    const auto again = second < t_max;
+    HitPacket<Real> hit;
+    hit.t = hit.t_low = t_max;
+    hit.other = never;
+    hit.surface = select(again, start.second.surface, no_surface<Real>());
+    if constexpr (sizeof(Real) == sizeof(float)) {
+        hit.t = select(again, rounded_high(second), t_max);
+        hit.t_low = select(again, rounded_low(second), t_max);
+    } else {
+        hit.t = select(again, second, t_max);
+    }
+    return hit;
+}
+
+/// Whether a surface may be met again from its inner side alone, from anywhere, or never.
+enum class HitAgain { never, from_inside, from_anywhere };
+
+inline HitAgain hit_again(const abi::ShapesView& shapes, const abi::SurfaceIndex& index)
+{
+    switch (index.kind) {
+        case abi::SurfaceKind::sphere:
+        case abi::SurfaceKind::anchored_sphere:
+            return HitAgain::from_inside;
+        case abi::SurfaceKind::quadric_side: {
+            const double(&s)[3] = shapes.quadrics[index.record].square;
+            return s[0] >= 0 && s[1] >= 0 && s[2] >= 0 ? HitAgain::from_inside
+                                                       : HitAgain::from_anywhere;
+        }
+        case abi::SurfaceKind::low_cap:
+        case abi::SurfaceKind::high_cap:
+            return HitAgain::from_inside;
+        default:
+            return HitAgain::never;
+    }
+}
+
+/// Where rays from points of one surface meet it again beyond t_min, in double. `outside` are the
+/// lanes that leave it on the outer side.
+inline OwnCrossing second_crossing(const abi::ShapesView& shapes, const abi::SurfaceIndex& index,
+                                   const Vec3v<double>& point, const Vec3v<double>& dir,
+                                   const vreal<double>& t_min, vmask<double> outside)
+{
+    switch (index.kind) {
+        case abi::SurfaceKind::sphere: {
+            const abi::SphereShape& sphere = shapes.spheres[index.record];
+            return only_crossing({dot(point - broadcast(sphere.center), dir), dot(dir, dir)}, t_min,
+                                 outside);
+        }
+        case abi::SurfaceKind::anchored_sphere: {
+            const abi::AnchoredSphere<double>& sphere = shapes.anchored_spheres[index.record];
+            return only_crossing({dot(normal_at<double>(sphere, point), dir),
+                                  vreal<double>(sphere.curvature) * dot(dir, dir)},
+                                 t_min, outside);
+        }
+        case abi::SurfaceKind::quadric_side:
+            return crossing_from_side(shapes.quadrics[index.record], point, dir, t_min, outside);
+        default:
+            return crossing_from_cap(shapes.quadrics[index.record],
+                                     index.kind == abi::SurfaceKind::low_cap, point, dir, t_min);
+    }
+}
+
+/// The surface numbers of a crossing; `first` is that of the body's side.
+template <class Real>
+inline vint<Real> pieces_met(std::int32_t first, std::uint32_t low_cap, std::uint32_t high_cap)
+{
+    const auto number = [&](int piece) {
+        return vint<Real>(static_cast<lane_int<Real>>(first + piece));
+    };
+    return select(from_bits<Real>(low_cap), number(1),
+                  select(from_bits<Real>(high_cap), number(2), number(0)));
+}
+
+/// What is met again of the body whose side has the number `first`.
+inline SecondHit<double> second_hit_of(const abi::ShapesView& shapes,
+                                       const abi::SurfaceIndex& index, std::int32_t first,
+                                       const Vec3v<double>& point, const Vec3v<double>& dir,
+                                       const vreal<double>& t_min, std::uint32_t outside)
+{
+    const OwnCrossing met = second_crossing(shapes, index, point, dir, t_min,
+                                            from_bits<double>(outside & all_lanes<double>));
+    return {met.t, pieces_met<double>(first, met.low_cap, met.high_cap)};
+}
+inline SecondHit<float> second_hit_of(const abi::ShapesView& shapes, const abi::SurfaceIndex& index,
+                                      std::int32_t first, const Vec3v<float>& point,
+                                      const Vec3v<float>& dir, const vreal<float>& t_min,
+                                      std::uint32_t outside)
+{
+    const OwnCrossing low =
+        second_crossing(shapes, index, widen_low(point), widen_low(dir), widen_low(t_min),
+                        from_bits<double>(outside & all_lanes<double>));
+    const OwnCrossing high =
+        second_crossing(shapes, index, widen_high(point), widen_high(dir), widen_high(t_min),
+                        from_bits<double>((outside & all_lanes<float>) >> lanes<double>));
+    // A body that a ray leaves at once is left beyond 0 all the same.
+    const vreal<float> t =
+        max(narrow(low.t, high.t), vreal<float>(std::numeric_limits<float>::min()));
+    return {t, pieces_met<float>(first, narrow_bits(low.low_cap, high.low_cap),
+                                 narrow_bits(low.high_cap, high.high_cap))};
+}
+
+/// The number of the body's side, of a surface of it.
+inline std::int32_t first_piece(const abi::SurfaceIndex& index, std::int32_t surface)
+{
+    if (index.kind == abi::SurfaceKind::low_cap)
+        return surface - 1;
+    return index.kind == abi::SurfaceKind::high_cap ? surface - 2 : surface;
+}
+
+/// For the lanes of `active`, each from a point of its own surface; `outside` are those that leave
+/// it on the outer side.
+template <class Real>
+[[gnu::noinline]] SecondHit<Real> look_for_second_hit(
+    const abi::ShapesView& shapes, const vint<Real>& surface, const Vec3v<Real>& point,
+    const Vec3v<Real>& dir, const vreal<Real>& t_min, std::uint32_t outside, std::uint32_t active)
+{
+    SecondHit<Real> hit = no_second_hit<Real>();
+    for_each_distinct<Real>(surface, active, [&](lane_int<Real> number, vmask<Real> same) {
+        const abi::SurfaceIndex& index = shapes.index[number];
+        const HitAgain again = hit_again(shapes, index);
+        if (again == HitAgain::never)
+            return;
+        const std::uint32_t leavers =
+            (again == HitAgain::from_inside ? bits(same) & ~outside : bits(same)) & active;
+        if (leavers == 0)
+            return;
+        const SecondHit<Real> met =
+            second_hit_of(shapes, index, first_piece(index, static_cast<std::int32_t>(number)),
+                          point, dir, t_min, outside);
+        hit.t = select(from_bits<Real>(leavers), met.t, hit.t);
+        hit.surface = select(from_bits<Real>(leavers), met.surface, hit.surface);
+    });
+    return hit;
+}
+
+/// The same, without looking where nothing is met again.
+template <class Real>
+inline SecondHit<Real> second_hit(const abi::ShapesView& shapes, const vint<Real>& surface,
+                                  const Vec3v<Real>& point, const Vec3v<Real>& dir,
+                                  const vreal<Real>& t_min, std::uint32_t outside,
+                                  std::uint32_t active)
+{
+    const std::uint32_t may_meet = shapes.hit_again_outside ? active : active & ~outside;
+    if (may_meet == 0)
+        return no_second_hit<Real>();
+    return look_for_second_hit<Real>(shapes, surface, point, dir, t_min, outside, may_meet);
+}
+
+/// The sum of |a_i| |b_i|.
+template <class Real>
+inline vreal<Real> magnitude_dot(const Vec3v<Real>& a, const Vec3v<Real>& b)
+{
+    return madd(abs(a.x), abs(b.x), madd(abs(a.y), abs(b.y), abs(a.z) * abs(b.z)));
+}
+
+/// How much of a point's size counts in its offset where its coordinate across the surface is near
+/// 0: points that are refined in double are off by double's roundoffs then.
+template <class Real>
+inline constexpr Real size_share = sizeof(Real) == sizeof(float) ? Real(0x1p-20) : Real(1);
+
+/// The offset of a ray's origin from its surface, along the outward normal by what rounding can do
+/// to a point there (after Pharr, Jakob and Humphreys, Physically Based Rendering, section 6.8).
+template <class Real>
+inline Vec3v<Real> origin_offset(Real start_error, const Vec3v<Real>& point,
+                                 const Vec3v<Real>& outward)
+{
+    const vreal<Real> size =
+        madd(vreal<Real>(size_share<Real>), abs(point.x) + abs(point.y) + abs(point.z),
+             magnitude_dot(outward, point));
+    return scale<Real>(vreal<Real>(start_error) * size, outward);
+}
+
+}  // namespace
+}  // namespace packtrace::PACKTRACE_ISA

@@ -1,0 +1,88 @@
+#pragma once
+
+#include "kernel_abi/kernel_table.hpp"
+#include "kernels/shade/surface.hpp"
+#include "kernels/traverse/bundle.hpp"
+#include "kernels/traverse/object_sets.hpp"
+
+// What shading a tile needs besides the hits themselves.
+namespace packtrace::PACKTRACE_ISA {
+namespace {
+
+/// The shares of a light that come through, where anything lets light through.
+template <bool Glass, class Real>
+struct LightShares {
+};
+template <class Real>
+struct LightShares<true, Real> {
+    Real share[3][bundle_rays];
+};
+
+/// What a chunk of hits sees of one light.
+template <abi::Features F, class Real>
+struct alignas(64) LightShadows : LightShares<F.glass, Real> {
+    std::uint16_t lit[bundle_cells];  ///< a bit a hit: not wholly in shadow
+
+    std::uint32_t lit_lanes(int first) const
+    {
+        return lit[first / cell_rays] >> first % cell_rays & all_lanes<Real>;
+    }
+
+    /// Takes an occluder's share off some lanes, and returns those left dark.
+    std::uint32_t dim(const abi::SceneView<Real>& scene, std::int32_t surface, int first,
+                      std::uint32_t blocked)
+    {
+        const auto& material = scene.materials[scene.material_index[surface].first];
+        std::uint32_t bright = 0;
+        for (int channel = 0; channel < 3; ++channel) {
+            Real* const at = this->share[channel] + first;
+            const vreal<Real> passed = load(at) * vreal<Real>(material.transmit[channel]);
+            const vreal<Real> left = select(from_bits<Real>(blocked), passed, load(at));
+            store(at, left);
+            bright |= bits(left > vreal<Real>(Real(0)));
+        }
+        return blocked & ~bright;
+    }
+
+    /// Gives some lanes the whole light back.
+    void brighten(int first, std::uint32_t lanes_of)
+    {
+        const vreal<Real> one(Real(1));
+        for (Real(&channel)[bundle_rays] : this->share)
+            store(channel + first, select(from_bits<Real>(lanes_of), one, load(channel + first)));
+    }
+
+    Vec3v<Real> shares(int first) const
+    {
+        return {load(this->share[0] + first), load(this->share[1] + first),
+                load(this->share[2] + first)};
+    }
+};
+
+/// Where the shadow rays of a scene find what is in their way.
+template <class Real>
+inline const abi::SceneView<Real>& casters_of(const abi::SceneView<Real>& scene)
+{
+    return scene.casters != nullptr ? *scene.casters : scene;
+}
+
+/// What shading a tile needs besides the hits themselves.
+template <abi::Features F, class Real>
+struct ShadeContext {
+    const abi::SceneView<Real>* scene;
+    const LightObjects<F, Real>* occluders;  ///< for each light
+    /// The surfaces at the hits, by packet; null where shading alone looks at them.
+    const SurfacePacket<Real>* surfaces;
+    /// For each light, what the hits see of it; null where packets find out by themselves.
+    const LightShadows<F, Real>* shadows;
+    int depth;  ///< reflections and refractions before these hits
+    abi::RayCounts* counts;
+
+    bool spawns() const
+    {
+        return depth < scene->max_depth;
+    }
+};
+
+}  // namespace
+}  // namespace packtrace::PACKTRACE_ISA

@@ -1,0 +1,259 @@
+#pragma once
+
+#include "kernels/shade/lighting.hpp"
+#include "kernels/shade/shade_context.hpp"
+#include "kernels/traverse/occluded.hpp"
+#include "kernels/traverse/retrace.hpp"
+
+// Shadow rays of a packet. Those of a point light are traced from it, where they share their
+// origin: t there is 1 - t of the notes' ray from the point.
+namespace packtrace::PACKTRACE_ISA {
+namespace {
+
+/// How far the segment from the light goes: up to epsilon before the point, which counts in
+/// lengths of the segment or, for unit directions, of space.
+template <class Real>
+inline vreal<Real> segment_end(const abi::SceneView<Real>& scene, const LightPacket<Real>& packet)
+{
+    const vreal<Real> one(Real(1));
+    const vreal<Real> epsilon(scene.secondary_t_min);
+    return scene.units == abi::RayUnits::unit ? nmadd(epsilon, packet.inverse_length, one)
+                                              : one - epsilon;
+}
+
+/// Where the way between a hit and a light ends at the hit: on the light's side of the surface,
+/// lifted off it also by what rounding a segment as long as that can do.
+template <class Real>
+inline Vec3v<Real> lit_point(const abi::SceneView<Real>& scene, const SurfacePacket<Real>& surface,
+                             const Vec3v<Real>& to_light, bool segment)
+{
+    if (!(scene.start_error > 0))
+        return surface.point;
+    const auto inside = dot(surface.lift, to_light) < vreal<Real>(Real(0));
+    Vec3v<Real> lift = surface.lift;
+    if (segment) {
+        const vreal<Real> more =
+            vreal<Real>(scene.start_error) * magnitude_dot(surface.normal, to_light);
+        const auto turned = dot(surface.lift, surface.normal) < vreal<Real>(Real(0));
+        lift = madd<Real>(select(turned, negated(more), more), surface.normal, lift);
+    }
+    return select(inside, surface.point - lift, surface.point + lift);
+}
+
+/// The surface that shadow rays from a place on it don't meet by looking: its own with
+/// SelfHits::exact, else none.
+template <class Real>
+inline vint<Real> own_of(const abi::SceneView<Real>& scene, const SurfacePacket<Real>& surface)
+{
+    return scene.start_error > 0 ? surface.number : no_surface<Real>();
+}
+
+/// Lanes of `wanted` that their own body keeps from a light, by SelfHits::exact.
+template <class Real>
+inline std::uint32_t own_shadow(const abi::SceneView<Real>& scene,
+                                const abi::LightRecord<Real>& light,
+                                const LightPacket<Real>& packet, const SurfacePacket<Real>& surface,
+                                std::uint32_t wanted)
+{
+    if (!(scene.start_error > 0))
+        return 0;
+    const std::uint32_t outside = ~bits(dot(surface.lift, packet.to_light) < vreal<Real>(Real(0)));
+    const vreal<Real> again =
+        second_hit<Real>(casters_of(scene).shapes, surface.number, surface.point, packet.to_light,
+                         vreal<Real>(Real(0)), outside, wanted)
+            .t;
+    const Real end =
+        light.kind == abi::LightKind::directional ? static_cast<Real>(__builtin_inf()) : Real(1);
+    return bits(again < vreal<Real>(end)) & wanted;
+}
+
+/// Calls `trace(t_end, rays)` for the shadow rays of one light; those along a directional one
+/// have no end.
+template <abi::Features F, class Real, class Trace>
+inline auto with_shadow_ray(const ShadeContext<F, Real>& context, int light,
+                            const LightPacket<Real>& packet, const SurfacePacket<Real>& surface,
+                            const Trace& trace)
+{
+    const abi::SceneView<Real>& scene = *context.scene;
+    const abi::LightRecord<Real>& record = scene.lights.data[light];
+    if (record.kind == abi::LightKind::directional)
+        return trace(vreal<Real>(static_cast<Real>(__builtin_inf())),
+                     make_rays<Real>(lit_point(scene, surface, packet.to_light, false),
+                                     packet.to_light, scene.secondary_t_min));
+    const Vec3v<Real> away =
+        lit_point(scene, surface, packet.to_light, true) - broadcast(record.vector);
+    return trace(segment_end(scene, packet),
+                 make_rays<Real>(broadcast(record.vector), away, Real(0)));
+}
+
+/// Whether the reach of shadow rays is closed (occluded.hpp).
+template <class Real>
+inline bool has_closed_reach(const abi::SceneView<Real>& scene, int light)
+{
+    return scene.lights.data[light].kind == abi::LightKind::directional || !(scene.start_error > 0);
+}
+
+/// Calls `visit(objects)` with what may be in the way of a light.
+template <abi::Features F, class Real, class Visit>
+inline auto with_light_objects(const ShadeContext<F, Real>& context, int light, const Visit& visit)
+{
+    const LightObjects<F, Real>& objects = context.occluders[light];
+    if (context.scene->lights.data[light].kind == abi::LightKind::point)
+        return visit(objects.from_point);
+    if constexpr (F.exact)
+        return visit(objects.along);
+    else
+        return visit(ParallelObjects<Real>{casters_of(*context.scene),
+                                           parallel_candidates(objects.from_point.spheres)});
+}
+
+/// The lanes of `open` that anything but their own surface keeps from a light.
+template <abi::Features F, class Real>
+inline std::uint32_t blocked_lanes(const ShadeContext<F, Real>& context, int light,
+                                   const SurfacePacket<Real>& surface, const RayPacket<Real>& rays,
+                                   const vreal<Real>& t_end, std::uint32_t open)
+{
+    const abi::SceneView<Real>& scene = *context.scene;
+    const vint<Real> own = own_of(scene, surface);
+    const bool closed = has_closed_reach(scene, light);
+    return with_light_objects(context, light, [&](const auto& objects) -> std::uint32_t {
+        if constexpr (F.exact) {
+            const Occlusion occlusion = occluded<F>(t_end, objects, rays, own, open);
+            if (occlusion.unsure == 0)
+                return occlusion.blocked;
+            count_unsure(*context.counts, occlusion.unsure);
+            count_unsure_shadows(occlusion.unsure);
+            return occlusion.blocked | retrace_occluded<F>(*casters_of(scene).wide, rays, own,
+                                                           t_end, closed, occlusion.unsure);
+        } else {
+            return occluded<F>(Reach<Real>{t_end, closed}, objects, rays, own, open);
+        }
+    });
+}
+
+/// Calls `pass_on(surface, lanes)` for each object in the way of a light with the lanes it blocks,
+/// until that returns false; `start_again(lanes)` for lanes that are looked at again from the
+/// start.
+template <abi::Features F, class Real, class PassOn, class StartAgain>
+inline void visit_light_occluders(const ShadeContext<F, Real>& context, int light,
+                                  const SurfacePacket<Real>& surface, const RayPacket<Real>& rays,
+                                  const vreal<Real>& t_end, std::uint32_t wanted,
+                                  const PassOn& pass_on, const StartAgain& start_again)
+{
+    const abi::SceneView<Real>& scene = *context.scene;
+    const vint<Real> own = own_of(scene, surface);
+    const bool closed = has_closed_reach(scene, light);
+    with_light_objects(context, light, [&](const auto& objects) {
+        if constexpr (F.exact) {
+            const std::uint32_t unsure =
+                visit_occluders<F>(t_end, objects, rays, own, pass_on) & wanted;
+            if (unsure == 0)
+                return;
+            count_unsure(*context.counts, unsure);
+            count_unsure_shadows(unsure);
+            start_again(unsure);
+            WideBundle bundle;
+            add_segments(bundle, 0, rays, own, t_end, unsure);
+            block_wide<F>(*casters_of(scene).wide, bundle, closed, Occluders::all,
+                          [&](int lane, std::int32_t occluder) {
+                              pass_on(occluder, 1u << lane);
+                              return false;
+                          });
+        } else {
+            visit_occluders<F>(Reach<Real>{t_end, closed}, objects, rays, own, pass_on);
+        }
+    });
+}
+
+inline void count_shadow_rays(abi::RayCounts& counts, int first, std::uint32_t traced)
+{
+    count_shadow_pixels(first, traced);
+    counts.shadow += static_cast<unsigned>(__builtin_popcount(traced));
+    counts.stages |= abi::stage_shadow_rays;
+}
+
+/// Lanes of `wanted` that no opaque or any other object keeps from the light.
+template <abi::Features F, class Real>
+inline std::uint32_t unshadowed(const ShadeContext<F, Real>& context, int light,
+                                const LightPacket<Real>& packet, const SurfacePacket<Real>& surface,
+                                std::uint32_t wanted, int first)
+{
+    if (!context.scene->lights.data[light].casts_shadow || wanted == 0)
+        return wanted;
+    count_shadow_rays(*context.counts, first, wanted);
+    if (context.shadows != nullptr)
+        return count_lit<Real>(wanted, wanted & context.shadows[light].lit_lanes(first));
+    const ShadowScope shadow(abi::Part::ray_generation);
+    tell_live(wanted);
+    tell_first(first);
+    const abi::SceneView<Real>& scene = *context.scene;
+    const std::uint32_t open =
+        wanted & ~own_shadow(scene, scene.lights.data[light], packet, surface, wanted);
+    return count_lit<Real>(
+        wanted, open & ~with_shadow_ray(context, light, packet, surface,
+                                        [&](const vreal<Real>& t_end, const RayPacket<Real>& rays) {
+                                            return blocked_lanes(context, light, surface, rays,
+                                                                 t_end, open);
+                                        }));
+}
+
+/// Lanes in which any channel is above 0.
+template <class Real>
+inline std::uint32_t any_channel(const Vec3v<Real>& v)
+{
+    const vreal<Real> zero(Real(0));
+    return bits((v.x > zero) | (v.y > zero) | (v.z > zero));
+}
+
+/// The share of the light that gets through: the product of what each blocking object
+/// transmits, once however often the segment crosses it.
+template <abi::Features F, class Real>
+inline Vec3v<Real> transmitted(const ShadeContext<F, Real>& context, int light,
+                               const LightPacket<Real>& packet, const SurfacePacket<Real>& surface,
+                               std::uint32_t wanted, int first)
+{
+    const abi::SceneView<Real>& scene = *context.scene;
+    const vreal<Real> one(Real(1));
+    Vec3v<Real> share{one, one, one};
+    count_shadow_rays(*context.counts, first, wanted);
+    context.counts->stages |= abi::stage_glass_shadows;
+    if (context.shadows != nullptr)
+        return context.shadows[light].shares(first);
+    const ShadowScope shadow(abi::Part::ray_generation);
+    tell_live(wanted);
+    tell_first(first);
+    const auto pass_on = [&](std::int32_t occluder, std::uint32_t blocked) {
+        if ((blocked & wanted) == 0)
+            return true;
+        const auto& material = scene.materials[scene.material_index[occluder].first];
+        share = select(from_bits<Real>(blocked), share * broadcast(material.transmit), share);
+        return (any_channel(share) & wanted) != 0;
+    };
+    const std::uint32_t by_own =
+        own_shadow(scene, scene.lights.data[light], packet, surface, wanted);
+    const auto pass_on_own = [&](std::uint32_t lanes_of) {
+        for_each_distinct<Real>(
+            surface.number, lanes_of, [&](lane_int<Real> number, vmask<Real> same) {
+                pass_on(static_cast<std::int32_t>(number), bits(same) & lanes_of);
+            });
+    };
+    pass_on_own(by_own);
+    // An object takes its share once, also where its other pieces are in the way.
+    const auto pass_on_once = [&](std::int32_t occluder, std::uint32_t blocked) {
+        const vint<Real> object(lane_int<Real>{scene.material_index[occluder].object});
+        return pass_on(occluder, blocked & ~(by_own & bits(int_equal(surface.object, object))));
+    };
+    const auto start_again = [&](std::uint32_t lanes_of) {
+        share = select(from_bits<Real>(lanes_of), {one, one, one}, share);
+        pass_on_own(by_own & lanes_of);
+    };
+    with_shadow_ray(context, light, packet, surface,
+                    [&](const vreal<Real>& t_end, const RayPacket<Real>& rays) {
+                        visit_light_occluders(context, light, surface, rays, t_end, wanted,
+                                              pass_on_once, start_again);
+                    });
+    return share;
+}
+
+}  // namespace
+}  // namespace packtrace::PACKTRACE_ISA

@@ -1,0 +1,137 @@
+#pragma once
+
+#include "kernel_abi/features.hpp"
+#include "kernel_abi/scene_view.hpp"
+#include "kernels/precision/leave_surface.hpp"
+#include "kernels/simd/records.hpp"
+
+// What is known of the hit points before any light is looked at.
+namespace packtrace::PACKTRACE_ISA {
+namespace {
+
+/// abi::MaterialRecord, one per lane.
+template <class Real>
+struct MaterialPacket {
+    Vec3v<Real> ambient, diffuse, highlight, reflect, local, transmit;
+    vreal<Real> shininess, highlight_floor;
+};
+
+template <class Real>
+inline MaterialPacket<Real> fetch_materials(const abi::SceneView<Real>& scene,
+                                            const vint<Real>& material, std::uint32_t active)
+{
+    const auto record = find_records<20, Real>(
+        material,
+        active, [&](lane_int<Real> number) -> const auto& { return scene.materials[number]; });
+    return {record.vector(0),  record.vector(3),  record.vector(6), record.vector(9),
+            record.vector(12), record.vector(15), record.field[18], record.field[19]};
+}
+
+template <class Real>
+struct SurfacePacket {
+    Vec3v<Real> point;
+    Vec3v<Real> normal;          ///< unit; turned against the ray where the model says so
+    Vec3v<Real> dir;             ///< of the ray that came here
+    vreal<Real> inverse_length;  ///< 1 / |dir|
+    vint<Real> number;
+    vint<Real> material;
+    vint<Real> object;
+    Vec3v<Real> lift;       ///< outwards, to where rounding has no part in which side a point is on
+    std::uint32_t leaving;  ///< lanes that come from the inside
+};
+
+/// What n·d has to be above for a ray to come from the inside. With SelfHits::exact the side that
+/// a ray comes from is the one its children start on; one that grazes the surface to within what
+/// single precision tells apart comes from outside, as inside no ray does so that does not start
+/// there.
+template <class Real>
+inline vreal<Real> grazing(const abi::SceneView<Real>& scene, const Vec3v<Real>& outward,
+                           const Vec3v<Real>& dir)
+{
+    if (sizeof(Real) != sizeof(float) || !(scene.start_error > 0))
+        return vreal<Real>(Real(0));
+    return vreal<Real>(Real(4) * scene.start_error) * magnitude_dot(outward, dir);
+}
+
+/// Fills `normal`, `lift` and `leaving` from the outward unit normal; the lanes of `faces_viewer`
+/// have it turned against the ray.
+template <class Real>
+inline void set_normal(SurfacePacket<Real>& surface, const abi::SceneView<Real>& scene,
+                       const Vec3v<Real>& outward, std::uint32_t faces_viewer)
+{
+    const vreal<Real> zero(Real(0));
+    surface.leaving = bits(dot(outward, surface.dir) > grazing(scene, outward, surface.dir));
+    surface.lift = {zero, zero, zero};
+    if (scene.start_error > 0)
+        surface.lift = origin_offset<Real>(scene.start_error, surface.point, outward);
+    const auto turn = from_bits<Real>(faces_viewer & surface.leaving);
+    surface.normal = select(turn, scale<Real>(vreal<Real>(Real(-1)), outward), outward);
+}
+
+/// 0 or 1 where the squares have their first or their other colour.
+template <class Real>
+inline vint<Real> checker_parity(const abi::CheckerRecord<Real>& checker, const Vec3v<Real>& point)
+{
+    const Vec3v<Real> p = point - broadcast(checker.point);
+    const vreal<Real> squares =
+        floor<Real>(dot(broadcast(checker.u), p)) + floor<Real>(dot(broadcast(checker.v), p));
+    const vreal<Real> half = squares * vreal<Real>(Real(0.5));
+    const auto odd = floor<Real>(half) < half;
+    return select(odd, vint<Real>(lane_int<Real>(1)), vint<Real>(lane_int<Real>(0)));
+}
+
+/// Fills `material` and `object`.
+template <class Real>
+inline void set_material(SurfacePacket<Real>& surface, const abi::SceneView<Real>& scene,
+                         const vint<Real>& number, std::uint32_t active)
+{
+    const auto material_of = [&](const abi::MaterialIndex& index) {
+        const vint<Real> first(static_cast<lane_int<Real>>(index.first));
+        return index.checker < 0
+                   ? first
+                   : first + checker_parity(scene.checkers[index.checker], surface.point);
+    };
+    const auto object_of = [](const abi::MaterialIndex& index) {
+        return vint<Real>(static_cast<lane_int<Real>>(index.object));
+    };
+    DistinctNumbers<Real> distinct(number, active);
+    surface.material = material_of(scene.material_index[distinct.value()]);
+    surface.object = object_of(scene.material_index[distinct.value()]);
+    while (distinct.next()) {
+        const abi::MaterialIndex& index = scene.material_index[distinct.value()];
+        surface.material = select(distinct.lanes_of(), material_of(index), surface.material);
+        surface.object = select(distinct.lanes_of(), object_of(index), surface.object);
+    }
+}
+
+/// The lanes of surfaces whose normal is turned against the ray.
+template <class Real>
+inline std::uint32_t facing_viewer(const abi::ShapesView& shapes, const vint<Real>& number,
+                                   std::uint32_t active)
+{
+    std::uint32_t lanes_of = 0;
+    for_each_distinct<Real>(number, active, [&](lane_int<Real> surface, vmask<Real> same) {
+        if (shapes.index[surface].faces_viewer != 0)
+            lanes_of |= bits(same);
+    });
+    return lanes_of;
+}
+
+/// The surfaces at hits with their outward unit normals.
+template <class Real>
+inline SurfacePacket<Real> surface_at(const abi::SceneView<Real>& scene, const Vec3v<Real>& point,
+                                      const Vec3v<Real>& normal, const Vec3v<Real>& dir,
+                                      const vint<Real>& number, std::uint32_t active)
+{
+    SurfacePacket<Real> surface;
+    surface.point = point;
+    surface.dir = dir;
+    surface.number = number;
+    set_normal(surface, scene, normal, facing_viewer<Real>(scene.shapes, number, active));
+    surface.inverse_length = vreal<Real>(Real(1)) / sqrt(dot(dir, dir));
+    set_material(surface, scene, number, active);
+    return surface;
+}
+
+}  // namespace
+}  // namespace packtrace::PACKTRACE_ISA

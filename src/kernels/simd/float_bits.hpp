@@ -1,0 +1,73 @@
+#pragma once
+
+#include "kernels/simd/simd.hpp"
+
+// The parts of a floating-point number. Integers go to and from reals by adding 1.5 * 2^52
+// (2^23 for floats), whose last bits then are the integer: one operation on every ISA.
+namespace packtrace::PACKTRACE_ISA {
+namespace {
+
+template <class Real>
+struct FloatFormat;
+template <>
+struct FloatFormat<float> {
+    static constexpr int mantissa_bits = 23;
+    static constexpr std::int32_t exponent_bias = 127;
+    static constexpr std::int32_t mantissa_mask = 0x007fffff;
+    static constexpr std::int32_t one = 0x3f800000;
+    static constexpr float integer_shift = 12582912.0f;
+    static constexpr int smallest_exponent = -126;
+    static constexpr float smallest_normal = 0x1p-126f;
+};
+template <>
+struct FloatFormat<double> {
+    static constexpr int mantissa_bits = 52;
+    static constexpr std::int64_t exponent_bias = 1023;
+    static constexpr std::int64_t mantissa_mask = 0x000fffffffffffff;
+    static constexpr std::int64_t one = 0x3ff0000000000000;
+    static constexpr double integer_shift = 6755399441055744.0;
+    static constexpr int smallest_exponent = -1022;
+    static constexpr double smallest_normal = 0x1p-1022;
+};
+
+/// The nearest integer to x, |x| < 2^21.
+template <class Real>
+inline vint<Real> to_int(batch<Real> x)
+{
+    const vreal<Real> shift(FloatFormat<Real>::integer_shift);
+    return as_int(x + shift) - as_int(shift);
+}
+
+/// |i| < 2^21.
+template <class Real>
+inline vreal<Real> to_real(vint<Real> i)
+{
+    const vreal<Real> shift(FloatFormat<Real>::integer_shift);
+    return as_real(i + as_int(shift)) - shift;
+}
+
+/// floor(log2 x) of a normal positive number.
+template <class Real>
+inline vint<Real> exponent_of(batch<Real> x)
+{
+    using Format = FloatFormat<Real>;
+    return (as_int(x) >> Format::mantissa_bits) - vint<Real>(Format::exponent_bias);
+}
+
+/// x / 2^exponent_of(x), in [1, 2).
+template <class Real>
+inline batch<Real> mantissa_of(batch<Real> x)
+{
+    using Format = FloatFormat<Real>;
+    return as_real((as_int(x) & vint<Real>(Format::mantissa_mask)) | vint<Real>(Format::one));
+}
+
+/// x * 2^i for a normal x and a normal result.
+template <class Real>
+inline batch<Real> scale_by_power(batch<Real> x, vint<Real> i)
+{
+    return as_real(as_int(x) + (i << FloatFormat<Real>::mantissa_bits));
+}
+
+}  // namespace
+}  // namespace packtrace::PACKTRACE_ISA

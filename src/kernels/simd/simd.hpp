@@ -1,0 +1,149 @@
+#pragma once
+
+// The operations the kernels are written in. xsimd gives arithmetic and comparison; the rest,
+// and whatever differs between its versions, is in native/.
+
+#include "kernels/simd/lanes.hpp"
+#if defined(__aarch64__)
+#include "kernels/simd/native/neon64.hpp"
+#elif PACKTRACE_LANES == 16
+#include "kernels/simd/native/avx512.hpp"
+#elif PACKTRACE_LANES == 8
+#include "kernels/simd/native/avx2.hpp"
+#else
+#include "kernels/simd/native/sse.hpp"
+#endif
+
+namespace packtrace::PACKTRACE_ISA {
+namespace {
+
+// Template functions cannot deduce a Real through vreal<Real>, so they take the batch itself.
+template <class Real>
+using batch = xsimd::batch<Real, Arch>;
+template <class Real>
+using batch_bool = xsimd::batch_bool<Real, Arch>;
+
+template <class Real>
+inline vreal<Real> load(const Real* from)
+{
+    return vreal<Real>::load_unaligned(from);
+}
+
+template <class Real>
+inline void store(Real* to, batch<Real> x)
+{
+    x.store_unaligned(to);
+}
+
+/// Writes the lanes of `x` chosen by `pattern` to `to` in order; may write a whole packet.
+template <class Real>
+inline void compress_store(Real* to, std::uint32_t pattern, batch<Real> x)
+{
+    store(to, compress(pattern, x));
+}
+inline void compress_store(lane_int<float>* to, std::uint32_t pattern, vint<float> x)
+{
+    store(to, as_int(compress(pattern, as_real(x))));
+}
+inline void compress_store(lane_int<double>* to, std::uint32_t pattern, vint<double> x)
+{
+    store(to, as_int(compress(pattern, as_real(x))));
+}
+
+template <class Real>
+inline batch<Real> select(batch_bool<Real> active, batch<Real> a, batch<Real> b)
+{
+    return xsimd::select(active, a, b);
+}
+
+inline vint<float> select(vmask<float> active, vint<float> a, vint<float> b)
+{
+    return as_int(xsimd::select(active, as_real(a), as_real(b)));
+}
+inline vint<double> select(vmask<double> active, vint<double> a, vint<double> b)
+{
+    return as_int(xsimd::select(active, as_real(a), as_real(b)));
+}
+
+/// b where b < a, else a: with a NaN in either the result is a.
+template <class Real>
+inline batch<Real> min(batch<Real> a, batch<Real> b)
+{
+    return xsimd::select(b < a, b, a);
+}
+
+/// b where b > a, else a: with a NaN in either the result is a.
+template <class Real>
+inline batch<Real> max(batch<Real> a, batch<Real> b)
+{
+    return xsimd::select(b > a, b, a);
+}
+
+template <class Real>
+inline batch<Real> sqrt(batch<Real> x)
+{
+    return xsimd::sqrt(x);
+}
+
+template <class Real>
+inline batch<Real> abs(batch<Real> x)
+{
+    return xsimd::abs(x);
+}
+
+/// -x by its sign bit: xsimd's own is 0 - x with AVX-512, which gives +0 for +0.
+template <class Real>
+inline batch<Real> negated(batch<Real> x)
+{
+    return as_real(as_int(x) ^ as_int(vreal<Real>(Real(-0.0))));
+}
+
+/// `magnitude`, whose sign bit is clear, with the sign bit of `sign`.
+template <class Real>
+inline batch<Real> with_sign_of(batch<Real> magnitude, batch<Real> sign)
+{
+    const auto sign_bit = as_int(vreal<Real>(Real(-0.0)));
+    return as_real(as_int(magnitude) | (as_int(sign) & sign_bit));
+}
+
+template <class Real>
+inline batch<Real> floor(batch<Real> x)
+{
+    return xsimd::floor(x);
+}
+
+template <class Real>
+inline bool any(batch_bool<Real> m)
+{
+    return bits(m) != 0;
+}
+
+template <class Real>
+inline bool none(batch_bool<Real> m)
+{
+    return bits(m) == 0;
+}
+
+template <class Real>
+inline bool all(batch_bool<Real> m)
+{
+    return bits(m) == all_lanes<Real>;
+}
+
+template <class Real>
+inline Real first_lane(batch<Real> x)
+{
+    alignas(64) Real by_lane[lanes<Real>];
+    store(by_lane, x);
+    return by_lane[0];
+}
+
+/// The pattern of the first `count` lanes; all of them when there are more.
+template <class Real>
+inline std::uint32_t first_lanes(int count)
+{
+    return count >= lanes<Real> ? all_lanes<Real> : (1u << count) - 1u;
+}
+
+}  // namespace
+}  // namespace packtrace::PACKTRACE_ISA

@@ -1,0 +1,9 @@
+#pragma once
+
+#if defined(__aarch64__)
+#include "kernels/simd/native/vfloat8_neon.hpp"
+#elif PACKTRACE_LANES == 4
+#include "kernels/simd/native/vfloat8_sse.hpp"
+#else
+#include "kernels/simd/native/vfloat8_avx.hpp"
+#endif

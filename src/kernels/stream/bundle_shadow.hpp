@@ -1,0 +1,146 @@
+#pragma once
+
+#include "kernels/shade/shadow.hpp"
+#include "kernels/stream/tile_memory.hpp"
+#include "kernels/traverse/bvh_occluded.hpp"
+
+// Shadow rays of a whole chunk of hits at once, where the scene has a hierarchy: one cone from
+// the light, or along it.
+namespace packtrace::PACKTRACE_ISA {
+namespace {
+
+/// Fills a bundle with the rays between the hits and one light that can add anything to them, and
+/// calls `keeps_own(first, lanes)` for those of each packet that their own surface is in the way
+/// of; it returns the lanes that nothing further matters to.
+template <abi::Features F, class Real, class KeepsOwn>
+inline void gather_shadow_rays(const ShadeContext<F, Real>& context, const HitStream<F, Real>& hits,
+                               int light, RayBundle<Real>& bundle, const KeepsOwn& keeps_own)
+{
+    const abi::SceneView<Real>& scene = *context.scene;
+    const abi::LightRecord<Real>& record = scene.lights.data[light];
+    for (int first = 0; first < hits.count; first += lanes<Real>) {
+        const std::uint32_t active = first_lanes<Real>(hits.count - first);
+        const SurfacePacket<Real>& surface = context.surfaces[first / lanes<Real>];
+        const MaterialPacket<Real> material = fetch_materials(scene, surface.material, active);
+        const LightPacket<Real> packet = light_at<F>(scene, record, surface, material, active);
+        with_shadow_ray(context, light, packet, surface,
+                        [&](const vreal<Real>& t_end, const RayPacket<Real>& rays) {
+                            store_rays(bundle, first, rays);
+                            HitPacket<Real> none = no_hit<Real>(Real(0));
+                            none.t = t_end;
+                            start_rays<F>(bundle, first, none, own_of(scene, surface),
+                                          packet.wanted);
+                        });
+        const std::uint32_t by_own = own_shadow(scene, record, packet, surface, packet.wanted);
+        if (by_own != 0)
+            finish_lanes(bundle, first, keeps_own(first, by_own));
+    }
+    end_bundle(bundle, hits.count);
+}
+
+template <abi::Features F, class Real, class Occluder>
+inline void visit_shadow_occluders(const ShadeContext<F, Real>& context, int light,
+                                   RayBundle<Real>& bundle, const Occluder& occluder)
+{
+    const abi::SceneView<Real>& scene = *context.scene;
+    const abi::SceneView<Real>& casters = casters_of(scene);
+    const bool closed = has_closed_reach(scene, light);
+    with_light_objects(context, light, [&](const auto& objects) {
+        visit_occluders_of_bundle<F>(casters, objects, bundle, closed, occluder);
+    });
+}
+
+/// Looks again, in double, at the active rays of a bundle that something may be in the way of.
+/// `start_again(first, lanes)` takes back what is known of those of a packet.
+template <abi::Features F, class Real, class Occluder, class StartAgain>
+inline void settle_shadow_bundle(const ShadeContext<F, Real>& context, int light,
+                                 RayBundle<Real>& bundle, const Occluder& occluder,
+                                 const StartAgain& start_again)
+{
+    if constexpr (F.exact) {
+        WideBundle wide;
+        for (int first = 0; first < bundle_rays; first += lanes<Real>) {
+            const std::uint32_t unsure = unsure_of(bundle, first) & active_lanes(bundle, first);
+            if (unsure == 0)
+                continue;
+            add_segments(wide, first, load_rays(bundle, first), load(bundle.own + first),
+                         load(bundle.t + first), unsure);
+            start_again(first, unsure);
+        }
+        if (wide.count == 0)
+            return;
+        context.counts->unsure += static_cast<unsigned>(wide.count);
+        for (int i = 0; i < wide.count; ++i)
+            count_unsure_shadow(wide.from[i]);
+        block_wide<F>(*casters_of(*context.scene).wide, wide,
+                      has_closed_reach(*context.scene, light),
+                      context.scene->transparent_shadows ? Occluders::all : Occluders::any,
+                      [&](int ray, std::int32_t surface) {
+                          const int first = ray / lanes<Real> * lanes<Real>;
+                          const std::uint32_t lane = 1u << (ray - first);
+                          const std::uint32_t done = occluder(surface, first, lane);
+                          finish_lanes(bundle, first, done);
+                          return done != 0;
+                      });
+    }
+}
+
+template <class Real>
+inline void copy_active(const RayBundle<Real>& bundle, std::uint16_t (&to)[bundle_cells])
+{
+    for (int cell = 0; cell < bundle_cells; ++cell)
+        to[cell] = bundle.active[cell];
+}
+
+/// Fills the shadows of one light where occluders pass on a share of it.
+template <abi::Features F, class Real>
+inline void find_shares(const ShadeContext<F, Real>& context, const HitStream<F, Real>& hits,
+                        int light, RayBundle<Real>& bundle, LightShadows<F, Real>& shadows)
+{
+    const abi::SceneView<Real>& scene = *context.scene;
+    for (Real(&channel)[bundle_rays] : shadows.share)
+        for (Real& share : channel)
+            share = Real(1);
+    std::uint32_t by_own[bundle_rays / lanes<Real>] = {};
+    const auto dim_by_own = [&](int first, std::uint32_t own) {
+        std::uint32_t dark = 0;
+        for_each_distinct<Real>(
+            load(bundle.own + first), own, [&](lane_int<Real> surface, vmask<Real> same) {
+                dark |=
+                    shadows.dim(scene, static_cast<std::int32_t>(surface), first, bits(same) & own);
+            });
+        return dark;
+    };
+    gather_shadow_rays(context, hits, light, bundle, [&](int first, std::uint32_t own) {
+        by_own[first / lanes<Real>] = own;
+        return dim_by_own(first, own);
+    });
+    const auto pass_on = [&](std::int32_t surface, int first, std::uint32_t blocked) {
+        return shadows.dim(scene, surface, first, blocked);
+    };
+    visit_shadow_occluders<F>(context, light, bundle, pass_on);
+    settle_shadow_bundle<F>(context, light, bundle, pass_on,
+                            [&](int first, std::uint32_t lanes_of) {
+                                shadows.brighten(first, lanes_of);
+                                dim_by_own(first, by_own[first / lanes<Real>] & lanes_of);
+                            });
+    copy_active(bundle, shadows.lit);
+}
+
+/// Fills the shadows of one light: which hits see it, and through how much.
+template <abi::Features F, class Real>
+inline void find_shadows(const ShadeContext<F, Real>& context, const HitStream<F, Real>& hits,
+                         int light, RayBundle<Real>& bundle, LightShadows<F, Real>& shadows)
+{
+    const ShadowScope shadow(abi::Part::ray_generation);
+    if constexpr (F.glass)
+        if (context.scene->transparent_shadows)
+            return find_shares(context, hits, light, bundle, shadows);
+    gather_shadow_rays(context, hits, light, bundle, [](int, std::uint32_t own) { return own; });
+    visit_shadow_occluders<F>(context, light, bundle, EndsRays{});
+    settle_shadow_bundle<F>(context, light, bundle, EndsRays{}, [](int, std::uint32_t) {});
+    copy_active(bundle, shadows.lit);
+}
+
+}  // namespace
+}  // namespace packtrace::PACKTRACE_ISA

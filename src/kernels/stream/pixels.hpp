@@ -1,0 +1,125 @@
+#pragma once
+
+#include "kernel_abi/kernel_table.hpp"
+#include "kernels/simd/records.hpp"
+
+// The pixels of a tile while it is rendered: r, g, b and one unused element each, along the
+// tile's Z-order curve, so that a pixel is one load and one store. They are one array, which
+// packets of pixels may be moved through.
+namespace packtrace::PACKTRACE_ISA {
+namespace {
+
+constexpr int pixel_elements = 4;
+
+template <class Real>
+using TilePixelColors = Real[pixel_elements * abi::tile_pixels];
+
+/// `Count` reals moved at once; a vector extension of both compilers. They are copied from and to
+/// arrays as bytes, which has no alignment.
+template <class Real, int Count>
+using Reals [[gnu::vector_size(Count * sizeof(Real))]] = Real;
+
+inline void store_pixels(double* to, vreal<double> r, vreal<double> g, vreal<double> b)
+{
+    alignas(64) double channel[3][lanes<double>];
+    store(channel[0], r);
+    store(channel[1], g);
+    store(channel[2], b);
+    for (int lane = 0; lane < lanes<double>; ++lane, to += 4) {
+        to[0] = channel[0][lane];
+        to[1] = channel[1][lane];
+        to[2] = channel[2][lane];
+        to[3] = 0.0;
+    }
+}
+
+/// A packet's first light in a pixel replaces the background there; later light is added.
+enum class PixelWrite { set, add };
+
+/// Puts a packet of colours into its pixels in lane order. `number` may name a pixel twice
+/// when adding.
+template <PixelWrite Write, class Real>
+inline void write_colors(TilePixelColors<Real>& pixels, const vint<Real>& number,
+                         const Vec3v<Real>& color, std::uint32_t active)
+{
+    if (active == 0)
+        return;
+    alignas(64) lane_int<Real> at[lanes<Real>];
+    store(at, number);
+    // Hits keep their pixels' order, so that the ends of a packet tell whether any is missing.
+    if (Write == PixelWrite::set && active == all_lanes<Real> &&
+        at[lanes<Real> - 1] - at[0] == lanes<Real> - 1)
+        return store_pixels(pixels + pixel_elements * at[0], color.x, color.y, color.z);
+    alignas(64) Real colors[pixel_elements * lanes<Real>];
+    store_pixels(colors, color.x, color.y, color.z);
+    for (; active != 0; active &= active - 1) {
+        const int lane = __builtin_ctz(active);
+        Real* const pixel = pixels + pixel_elements * at[lane];
+        Reals<Real, pixel_elements> light;
+        __builtin_memcpy(&light, colors + pixel_elements * lane, sizeof light);
+        if constexpr (Write == PixelWrite::add) {
+            Reals<Real, pixel_elements> before;
+            __builtin_memcpy(&before, pixel, sizeof before);
+            light += before;
+        }
+        __builtin_memcpy(pixel, &light, sizeof light);
+    }
+}
+
+template <class Real>
+inline void fill_pixels(TilePixelColors<Real>& pixels, const Real (&color)[3])
+{
+    alignas(64) Real pattern[pixel_elements * lanes<Real>];
+    for (int i = 0; i < pixel_elements * lanes<Real>; ++i)
+        pattern[i] = i % pixel_elements < 3 ? color[i % pixel_elements] : Real(0);
+    const vreal<Real> values = load(pattern);
+    constexpr int step = lanes<Real> >= 4 ? lanes<Real> : 2;
+    const vreal<Real> more = load(pattern + step % pixel_elements);
+    for (int i = 0; i < pixel_elements * abi::tile_pixels; i += 2 * step) {
+        store(pixels + i, values);
+        store(pixels + i + step, more);
+    }
+}
+
+/// Every second bit position of `number` filled from its low bits.
+constexpr int spread_bits(int number)
+{
+    return (number & 1) | ((number & 2) << 1) | ((number & 4) << 2) | ((number & 8) << 3);
+}
+
+struct ColumnOrder {
+    std::uint8_t number[abi::tile_size] = {};
+
+    constexpr ColumnOrder()
+    {
+        for (int column = 0; column < abi::tile_size; ++column)
+            number[column] = static_cast<std::uint8_t>(spread_bits(column));
+    }
+};
+
+constexpr ColumnOrder column_order;
+
+/// One row of a tile into `to`, interleaved. Pixels go by twos, which are neighbours in the tile,
+/// and are stored with two elements more that the next ones overwrite.
+template <class Real>
+inline void write_row(Real* to, const TilePixelColors<Real>& pixels, int row, int width)
+{
+    const int row_bits = spread_bits(row) << 1;
+    int column = 0;
+    for (; column + 2 < width; column += 2, to += 6) {
+        Reals<Real, 8> two;
+        __builtin_memcpy(&two, pixels + pixel_elements * (row_bits | column_order.number[column]),
+                         sizeof two);
+        two = __builtin_shufflevector(two, two, 0, 1, 2, 4, 5, 6, 3, 7);
+        __builtin_memcpy(to, &two, sizeof two);
+    }
+    for (; column < width; ++column, to += 3) {
+        const Real* const pixel =
+            pixels + pixel_elements * (row_bits | column_order.number[column]);
+        for (int channel = 0; channel < 3; ++channel)
+            to[channel] = pixel[channel];
+    }
+}
+
+}  // namespace
+}  // namespace packtrace::PACKTRACE_ISA

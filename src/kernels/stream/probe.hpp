@@ -1,0 +1,184 @@
+#pragma once
+
+#include "kernel_abi/probe.hpp"
+#include "kernels/geometry/packet.hpp"
+#include "kernels/stream/tile_memory.hpp"
+
+// Reports of single rays, for kernels with Features::probe; nothing of it is in the others.
+namespace packtrace::PACKTRACE_ISA {
+namespace {
+
+/// A hit's share of its pixel, and where that is.
+template <class Real>
+struct PathPacket {
+    Vec3v<Real> weight;
+    vint<Real> pixel;
+    vint<Real> id;  ///< abi::PathId; only kernels with a probe keep it
+};
+
+/// A packet of vectors, to be read lane by lane.
+template <class Real>
+struct LaneVectors {
+    alignas(64) Real axis[3][lanes<Real>];
+
+    explicit LaneVectors(const Vec3v<Real>& v)
+    {
+        store(axis[0], v.x);
+        store(axis[1], v.y);
+        store(axis[2], v.z);
+    }
+    void copy(int lane, Real (&to)[3]) const
+    {
+        for (int i = 0; i < 3; ++i)
+            to[i] = axis[i][lane];
+    }
+};
+
+template <class Real>
+struct LaneIntegers {
+    alignas(64) lane_int<Real> value[lanes<Real>];
+
+    explicit LaneIntegers(const vint<Real>& v)
+    {
+        store(value, v);
+    }
+};
+
+/// The rays of the probed pixel in a packet, or with `On` false no rays at all.
+template <bool On, class Real>
+struct PacketProbe {
+    void light(int, std::uint32_t, std::uint32_t, const Vec3v<Real>&) const
+    {
+    }
+    void light(int, std::uint32_t, const Vec3v<Real>&, const Vec3v<Real>&) const
+    {
+    }
+    void hit(const SurfacePacket<Real>&, const Vec3v<Real>&) const
+    {
+    }
+    void last_hit(const SurfacePacket<Real>&, const Vec3v<Real>&, const Vec3v<Real>&,
+                  const Vec3v<Real>&) const
+    {
+    }
+};
+
+template <class Real>
+struct PacketProbe<true, Real> {
+    const abi::Probe<Real>* probe;  ///< null: there is no such pixel
+    const PathPacket<Real>& path;
+    std::uint32_t probed = 0;  ///< lanes of the pixel
+
+    PacketProbe(const abi::Probe<Real>* probe_, const PathPacket<Real>& path_, std::uint32_t active)
+        : probe(probe_), path(path_)
+    {
+        if (probe != nullptr)
+            probed =
+                active &
+                bits(int_equal(path.pixel, vint<Real>(static_cast<lane_int<Real>>(probe->pixel))));
+    }
+
+    /// Calls `tell(lane, path)` for each of the rays.
+    template <class Tell>
+    void each(const Tell& tell) const
+    {
+        const LaneIntegers<Real> id(path.id);
+        for (std::uint32_t rest = probed; rest != 0; rest &= rest - 1) {
+            const int lane = __builtin_ctz(rest);
+            tell(lane, static_cast<abi::PathId>(id.value[lane]));
+        }
+    }
+
+    void ray(const abi::SceneView<Real>& scene, const RayPacket<Real>& rays,
+             const HitPacket<Real>& hit, const Vec3v<Real>& seen) const
+    {
+        if (probed == 0)
+            return;
+        const LaneVectors<Real> org(rays.org), dir(rays.dir), weight(path.weight), missed(seen);
+        const LaneVectors<Real> t({hit.t, hit.t, hit.t});
+        const LaneIntegers<Real> surface(hit.surface);
+        each([&](int lane, abi::PathId id) {
+            abi::ProbedRay<Real> told{};
+            told.path = id;
+            org.copy(lane, told.org);
+            dir.copy(lane, told.dir);
+            weight.copy(lane, told.weight);
+            told.t = t.axis[0][lane];
+            const auto number = surface.value[lane];
+            told.object = number < 0 ? -1 : scene.material_index[number].object;
+            if (number < 0)
+                missed.copy(lane, told.seen);
+            probe->ray(probe->context, told);
+        });
+    }
+
+    /// A light whose share is all or, outside the lanes of `lit`, nothing.
+    void light(int number, std::uint32_t can_add, std::uint32_t lit, const Vec3v<Real>& color) const
+    {
+        const vreal<Real> share =
+            select(from_bits<Real>(lit), vreal<Real>(Real(1)), vreal<Real>(Real(0)));
+        light(number, can_add, {share, share, share}, color);
+    }
+
+    void light(int number, std::uint32_t can_add, const Vec3v<Real>& share,
+               const Vec3v<Real>& color) const
+    {
+        if (probed == 0)
+            return;
+        const LaneVectors<Real> shares(share), colors(color);
+        each([&](int lane, abi::PathId id) {
+            abi::ProbedLight<Real> told{};
+            told.path = id;
+            told.light = number;
+            told.can_add = static_cast<std::int32_t>((can_add >> lane) & 1u);
+            if (told.can_add != 0)
+                shares.copy(lane, told.share);
+            colors.copy(lane, told.color);
+            probe->light(probe->context, told);
+        });
+    }
+
+    void hit(const SurfacePacket<Real>& surface, const Vec3v<Real>& local) const
+    {
+        const vreal<Real> zero(Real(0));
+        last_hit(surface, local, {zero, zero, zero}, {zero, zero, zero});
+    }
+
+    /// A hit at the depth limit, which gives `limit` times `share` in place of children.
+    void last_hit(const SurfacePacket<Real>& surface, const Vec3v<Real>& local,
+                  const Vec3v<Real>& share, const Vec3v<Real>& limit) const
+    {
+        if (probed == 0)
+            return;
+        const LaneVectors<Real> points(surface.point), normals(surface.normal), locals(local),
+            limits(share * limit);
+        each([&](int lane, abi::PathId id) {
+            abi::ProbedHit<Real> told{};
+            told.path = id;
+            points.copy(lane, told.point);
+            normals.copy(lane, told.normal);
+            locals.copy(lane, told.local);
+            limits.copy(lane, told.at_limit);
+            probe->hit(probe->context, told);
+        });
+    }
+};
+
+/// Whether a pixel is probed.
+template <abi::Features F, class Real>
+inline bool is_probed(const abi::TileJob<Real>& job)
+{
+    return F.probe && job.probe != nullptr;
+}
+
+template <abi::Features F, class Real>
+inline PacketProbe<F.probe, Real> packet_probe(const HitStream<F, Real>& hits,
+                                               const PathPacket<Real>& path, std::uint32_t active)
+{
+    if constexpr (F.probe)
+        return {hits.probe, path, active};
+    else
+        return {};
+}
+
+}  // namespace
+}  // namespace packtrace::PACKTRACE_ISA

@@ -1,0 +1,142 @@
+#pragma once
+
+#include "kernels/shade/shadow.hpp"
+#include "kernels/stream/spawn.hpp"
+
+// Shading of a tile's hit points: light by light into the pixels, children into the next
+// streams.
+namespace packtrace::PACKTRACE_ISA {
+namespace {
+
+template <abi::Features F, class Real>
+inline Vec3v<Real> light_color(const ShadeContext<F, Real>& context, int number,
+                               const SurfacePacket<Real>& surface,
+                               const MaterialPacket<Real>& material,
+                               const PacketProbe<F.probe, Real>& probe, std::uint32_t active,
+                               int first)
+{
+    const abi::LightRecord<Real>& light = context.scene->lights.data[number];
+    const PartScope part(abi::Part::diffuse);
+    const LightPacket<Real> packet = light_at<F>(*context.scene, light, surface, material, active);
+    if constexpr (F.glass) {
+        if (context.scene->transparent_shadows && light.casts_shadow && packet.wanted != 0) {
+            const Vec3v<Real> share =
+                transmitted<F>(context, number, packet, surface, packet.wanted, first);
+            const std::uint32_t lit =
+                count_lit<Real>(packet.wanted, packet.wanted & any_channel(share));
+            const Vec3v<Real> color =
+                share * lit_color<F>(light, packet, material, lit, *context.counts);
+            probe.light(number, packet.wanted, share, color);
+            return color;
+        }
+    }
+    const std::uint32_t lit = unshadowed<F>(context, number, packet, surface, packet.wanted, first);
+    const Vec3v<Real> color = lit_color<F>(light, packet, material, lit, *context.counts);
+    probe.light(number, packet.wanted, lit, color);
+    return color;
+}
+
+template <abi::Features F, class Real>
+inline Vec3v<Real> local_color(const ShadeContext<F, Real>& context,
+                               const SurfacePacket<Real>& surface,
+                               const MaterialPacket<Real>& material,
+                               const PacketProbe<F.probe, Real>& probe, std::uint32_t active,
+                               int first)
+{
+    Vec3v<Real> color = material.ambient;
+    for (int i = 0; i < context.scene->lights.count; ++i)
+        color = color + light_color<F>(context, i, surface, material, probe, active, first);
+    return color;
+}
+
+/// The next generation's rays, mirrored before refracted ones: their order does not depend on
+/// the packet width.
+template <abi::Features F, class Real>
+struct Children {
+    RayStream<F, Real>* mirrored;
+    RayStream<F, Real>* refracted;  ///< null where nothing refracts
+};
+
+template <abi::Features F, class Real>
+inline void spawn_children(const ShadeContext<F, Real>& context, const Children<F, Real>& children,
+                           const SurfacePacket<Real>& surface, const MaterialPacket<Real>& material,
+                           const PathPacket<Real>& path, const GlassPacket<Real>& inside,
+                           std::uint32_t active)
+{
+    const PartScope part(abi::Part::children);
+    Vec3v<Real> reflect = material.reflect;
+    if constexpr (F.glass) {
+        const std::uint32_t glass = active & any_channel(material.transmit);
+        if (glass != 0) {
+            const RefractedPacket<Real> refracted = refract(*context.scene, surface, inside, glass);
+            // Total internal reflection: the transmitted share is mirrored too.
+            reflect =
+                select(from_bits<Real>(refracted.total), reflect + material.transmit, reflect);
+            spawn_refracted(*children.refracted, *context.scene, surface, path, material.transmit,
+                            refracted, glass & ~refracted.total);
+        }
+    }
+    spawn_mirrored(*children.mirrored, *context.scene, surface, path, reflect, inside,
+                   active & any_channel(reflect));
+}
+
+template <PixelWrite Write, abi::Features F, class Real>
+inline void shade_packet(const ShadeContext<F, Real>& context, const HitStream<F, Real>& hits,
+                         int first, TilePixelColors<Real>& pixels,
+                         const Children<F, Real>& children)
+{
+    const std::uint32_t active = first_lanes<Real>(hits.count - first);
+    count_packet<Real>(abi::PacketWork::shade, active);
+    const PathPacket<Real> path{load_weight(hits, first), load(hits.pixel + first),
+                                load_path(hits, first)};
+    const PacketProbe<F.probe, Real> probe = packet_probe(hits, path, active);
+    const SurfacePacket<Real> surface = context.surfaces != nullptr
+                                            ? context.surfaces[first / lanes<Real>]
+                                            : surface_of<F>(*context.scene, hits, first, active);
+    const MaterialPacket<Real> material = fetch_materials(*context.scene, surface.material, active);
+
+    Vec3v<Real> color = local_color<F>(context, surface, material, probe, active, first);
+    if constexpr (F.bounces) {
+        if (context.spawns()) {
+            color = color * material.local;
+            probe.hit(surface, color);
+            spawn_children(context, children, surface, material, path, load_glass(hits, first),
+                           active);
+        } else {
+            const Vec3v<Real> share = material.reflect + material.transmit;
+            const Vec3v<Real> limit = broadcast(context.scene->limit_color);
+            probe.last_hit(surface, color, share, limit);
+            color = madd<Real>(share, limit, color);
+        }
+        color = path.weight * color;
+    }
+    const PartScope part(abi::Part::film);
+    write_colors<Write>(pixels, path.pixel, color, active);
+}
+
+/// The hits of a scene in which no light reaches anything: their colour is their material's alone.
+template <abi::Features F, class Real>
+inline void shade_flat(const abi::SceneView<Real>& scene, const HitStream<F, Real>& hits,
+                       TilePixelColors<Real>& pixels)
+{
+    for (int first = 0; first < hits.count; first += lanes<Real>) {
+        const std::uint32_t active = first_lanes<Real>(hits.count - first);
+        SurfacePacket<Real> surface;
+        surface.point = load3(hits.point, first);
+        set_material(surface, scene, load(hits.surface + first), active);
+        const MaterialPacket<Real> material = fetch_materials(scene, surface.material, active);
+        write_colors<PixelWrite::set>(pixels, load(hits.pixel + first), material.ambient, active);
+    }
+}
+
+/// Shades every hit of a stream.
+template <PixelWrite Write, abi::Features F, class Real>
+inline void shade_stream(const ShadeContext<F, Real>& context, const HitStream<F, Real>& hits,
+                         TilePixelColors<Real>& pixels, const Children<F, Real>& children)
+{
+    for (int first = 0; first < hits.count; first += lanes<Real>)
+        shade_packet<Write>(context, hits, first, pixels, children);
+}
+
+}  // namespace
+}  // namespace packtrace::PACKTRACE_ISA

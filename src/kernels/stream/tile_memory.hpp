@@ -1,0 +1,211 @@
+#pragma once
+
+#include "kernel_abi/kernel_table.hpp"
+#include "kernels/shade/glass.hpp"
+#include "kernels/stream/pixels.hpp"
+
+// The working memory of one tile: streams of rays in structure-of-arrays form.
+namespace packtrace::PACKTRACE_ISA {
+namespace {
+
+/// Hits are shaded, and rays traced, at most this many at a time, whatever the packet width.
+inline constexpr int chunk_rays = abi::tile_pixels;
+
+/// A chunk's children: one a ray, or two where glass refracts.
+template <abi::Features F>
+inline constexpr int stream_rays = F.glass ? 2 * chunk_rays : chunk_rays;
+
+/// Room for one packet is left behind the last ray.
+template <abi::Features F, class Element>
+using StreamArray = Element[stream_rays<F> + abi::padding];
+
+/// The glass each ray is in, only where there is any.
+template <bool Glass, abi::Features F, class Real>
+struct GlassArrays {
+};
+template <abi::Features F, class Real>
+struct GlassArrays<true, F, Real> {
+    StreamArray<F, lane_int<Real>> inside[abi::glass_depth];
+};
+
+/// Where each ray's path came along, and whom to tell, only with a probe.
+template <bool Probe, abi::Features F, class Real>
+struct PathArrays {
+};
+template <abi::Features F, class Real>
+struct PathArrays<true, F, Real> {
+    StreamArray<F, lane_int<Real>> path;
+    const abi::Probe<Real>* probe;  ///< set in hits; null where nobody is told
+    int mirrored;                   ///< set in rays: how many come before the refracted ones
+};
+
+/// The weight of each ray's path so far: a number a channel, one for all, or none where it is 1.
+template <int Channels, abi::Features F, class Real>
+struct WeightArrays {
+    StreamArray<F, Real> weight[static_cast<std::size_t>(Channels)];
+};
+template <abi::Features F, class Real>
+struct WeightArrays<0, F, Real> {
+};
+
+/// Where rays started that leave a surface, for SelfHits::exact.
+template <abi::Features F, class Real>
+struct StartArrays {
+    StreamArray<F, Real> point[3];
+    StreamArray<F, lane_int<Real>> surface;
+    StreamArray<F, Real> second;  ///< t at which they meet its body again, from `point`
+    StreamArray<F, lane_int<Real>> met_again;  ///< the surface they meet there
+};
+
+/// Rays of one generation, in an order that does not depend on the packet width.
+template <abi::Features F, class Real>
+struct alignas(64) RayStream : GlassArrays<F.glass, F, Real>,
+                               PathArrays<F.probe, F, Real>,
+                               WeightArrays<abi::weight_channels(F), F, Real> {
+    StreamArray<F, Real> org[3];
+    StreamArray<F, Real> dir[3];
+    StreamArray<F, lane_int<Real>> pixel;  ///< number in the tile, along its Z-order curve
+    StartArrays<F, Real>* starts;          ///< null where only the notes' rule is asked for
+    int count = 0;
+};
+
+/// The rays of a chunk that hit something, where they did.
+template <abi::Features F, class Real>
+struct alignas(64) HitStream : GlassArrays<F.glass, F, Real>,
+                               PathArrays<F.probe, F, Real>,
+                               WeightArrays<abi::weight_channels(F), F, Real> {
+    StreamArray<F, Real> point[3];
+    StreamArray<F, Real> normal[3];  ///< outwards and unit
+    StreamArray<F, Real> dir[3];
+    StreamArray<F, lane_int<Real>> pixel;
+    StreamArray<F, lane_int<Real>> surface;
+    int count = 0;
+};
+
+template <abi::Features F, class Real>
+struct alignas(64) TileMemory {
+    TilePixelColors<Real> color;
+    HitStream<F, Real> hits;
+};
+
+template <class Real, std::size_t Size>
+inline Vec3v<Real> load3(const Real (&from)[3][Size], int first)
+{
+    return {load(from[0] + first), load(from[1] + first), load(from[2] + first)};
+}
+
+template <class Real, std::size_t Size>
+inline void append3(Real (&to)[3][Size], int at, std::uint32_t pattern, const Vec3v<Real>& v)
+{
+    compress_store(to[0] + at, pattern, v.x);
+    compress_store(to[1] + at, pattern, v.y);
+    compress_store(to[2] + at, pattern, v.z);
+}
+
+/// The weights of a packet of a stream.
+template <template <abi::Features, class> class Stream, abi::Features F, class Real>
+inline Vec3v<Real> load_weight(const Stream<F, Real>& stream, int first)
+{
+    if constexpr (abi::weight_channels(F) == 3) {
+        return load3(stream.weight, first);
+    } else if constexpr (abi::weight_channels(F) == 1) {
+        const vreal<Real> weight = load(stream.weight[0] + first);
+        return {weight, weight, weight};
+    } else {
+        const vreal<Real> one(Real(1));
+        return {one, one, one};
+    }
+}
+
+/// Does not count the rays.
+template <template <abi::Features, class> class Stream, abi::Features F, class Real>
+inline void append_weight(Stream<F, Real>& stream, std::uint32_t active, const Vec3v<Real>& weight)
+{
+    if constexpr (abi::weight_channels(F) == 3)
+        append3(stream.weight, stream.count, active, weight);
+    else if constexpr (abi::weight_channels(F) == 1)
+        compress_store(stream.weight[0] + stream.count, active, weight.x);
+}
+
+/// The glass of a packet of a stream; nothing is read where the stream has none.
+template <template <abi::Features, class> class Stream, abi::Features F, class Real>
+inline GlassPacket<Real> load_glass(const Stream<F, Real>& stream, int first)
+{
+    GlassPacket<Real> glass;
+    for (int i = 0; i < abi::glass_depth; ++i) {
+        if constexpr (F.glass)
+            glass.body[i] = load(stream.inside[i] + first);
+        else
+            glass.body[i] = no_body<Real>();
+    }
+    return glass;
+}
+
+/// The paths of a packet of a stream; nothing is read where there is no probe.
+template <template <abi::Features, class> class Stream, abi::Features F, class Real>
+inline vint<Real> load_path(const Stream<F, Real>& stream, int first)
+{
+    if constexpr (F.probe)
+        return load(stream.path + first);
+    else
+        return vint<Real>(lane_int<Real>(0));
+}
+
+/// Where a packet of a stream starts.
+template <abi::Features F, class Real>
+inline StartPacket<Real> load_start(const RayStream<F, Real>& stream, int first)
+{
+    if (stream.starts == nullptr)
+        return no_start<Real>();
+    return {load3(stream.starts->point, first),
+            load(stream.starts->surface + first),
+            {load(stream.starts->second + first), load(stream.starts->met_again + first)}};
+}
+
+/// The surfaces of a packet of a stream of hits.
+template <abi::Features F, class Real>
+inline SurfacePacket<Real> surface_of(const abi::SceneView<Real>& scene,
+                                      const HitStream<F, Real>& hits, int first,
+                                      std::uint32_t active)
+{
+    const Vec3v<Real> point = load3(hits.point, first);
+    const Vec3v<Real> dir = load3(hits.dir, first);
+    return surface_at<Real>(scene, point, load3(hits.normal, first), dir,
+                            load(hits.surface + first), active);
+}
+
+template <class Element>
+inline void copy(Element* to, const Element* from, int count)
+{
+    for (int i = 0; i < count; ++i)
+        to[i] = from[i];
+}
+
+/// Appends the rays of `from` to `to`.
+template <abi::Features F, class Real>
+inline void append_stream(RayStream<F, Real>& to, const RayStream<F, Real>& from)
+{
+    for (int axis = 0; axis < 3; ++axis) {
+        copy(to.org[axis] + to.count, from.org[axis], from.count);
+        copy(to.dir[axis] + to.count, from.dir[axis], from.count);
+    }
+    for (int channel = 0; channel < abi::weight_channels(F); ++channel)
+        copy(to.weight[channel] + to.count, from.weight[channel], from.count);
+    copy(to.pixel + to.count, from.pixel, from.count);
+    if constexpr (F.glass)
+        for (int i = 0; i < abi::glass_depth; ++i)
+            copy(to.inside[i] + to.count, from.inside[i], from.count);
+    if constexpr (F.probe)
+        copy(to.path + to.count, from.path, from.count);
+    if (to.starts != nullptr) {
+        for (int axis = 0; axis < 3; ++axis)
+            copy(to.starts->point[axis] + to.count, from.starts->point[axis], from.count);
+        copy(to.starts->surface + to.count, from.starts->surface, from.count);
+        copy(to.starts->second + to.count, from.starts->second, from.count);
+        copy(to.starts->met_again + to.count, from.starts->met_again, from.count);
+    }
+    to.count += from.count;
+}
+
+}  // namespace
+}  // namespace packtrace::PACKTRACE_ISA

@@ -1,0 +1,288 @@
+#pragma once
+
+#include "kernels/precision/refine.hpp"
+#include "kernels/stream/camera.hpp"
+#include "kernels/stream/shade_stream.hpp"
+#include "kernels/traverse/object_sets.hpp"
+#include "kernels/traverse/retrace.hpp"
+
+// From rays to hit points, one generation at a time.
+namespace packtrace::PACKTRACE_ISA {
+namespace {
+
+/// A packet of rays with all that its hits take along.
+template <class Real>
+struct TracedRays {
+    RayPacket<Real> rays;
+    PathPacket<Real> path;
+    GlassPacket<Real> inside;
+    StartPacket<Real> start;
+};
+
+/// Where the rays hit, as far as the scene's shading asks.
+template <abi::Features F, class Real>
+inline void append_places(const abi::SceneView<Real>& scene, HitStream<F, Real>& hits,
+                          const TracedRays<Real>& from, const HitPacket<Real>& hit,
+                          std::uint32_t active)
+{
+    if (!F.probe && scene.flat && scene.checkers == nullptr)
+        return;
+    const RefinedHits<Real> places =
+        refined<F, Refine::place>(scene.shapes, from.rays, hit, from.start, active);
+    append3(hits.point, hits.count, active, places.point);
+    append3(hits.normal, hits.count, active, places.normal);
+    append3(hits.dir, hits.count, active, from.rays.dir);
+}
+
+template <abi::Features F, class Real>
+inline void append_hits(const abi::SceneView<Real>& scene, HitStream<F, Real>& hits,
+                        const TracedRays<Real>& from, const HitPacket<Real>& hit,
+                        std::uint32_t active)
+{
+    if (active == 0)
+        return;
+    const PartScope part(abi::Part::compaction);
+    append_places(scene, hits, from, hit, active);
+    append_weight(hits, active, from.path.weight);
+    compress_store(hits.pixel + hits.count, active, from.path.pixel);
+    compress_store(hits.surface + hits.count, active, hit.surface);
+    if constexpr (F.glass)
+        for (int i = 0; i < abi::glass_depth; ++i)
+            compress_store(hits.inside[i] + hits.count, active, from.inside.body[i]);
+    if constexpr (F.probe)
+        compress_store(hits.path + hits.count, active, from.path.id);
+    hits.count += __builtin_popcount(active);
+}
+
+template <class Real>
+inline std::uint32_t hit_lanes(const HitPacket<Real>& hit)
+{
+    return ~bits(int_equal(hit.surface, vint<Real>(lane_int<Real>(-1)))) & all_lanes<Real>;
+}
+
+template <class Real>
+inline vint<Real> lane_numbers(int first)
+{
+    alignas(64) static constexpr lane_int<Real> number[16] = {0, 1, 2,  3,  4,  5,  6,  7,
+                                                              8, 9, 10, 11, 12, 13, 14, 15};
+    return load(number) + vint<Real>(static_cast<lane_int<Real>>(first));
+}
+
+template <class Real>
+inline GlassPacket<Real> glass_around_eye(const abi::CameraView<Real>& camera)
+{
+    GlassPacket<Real> glass;
+    for (int i = 0; i < abi::glass_depth; ++i)
+        glass.body[i] = vint<Real>(static_cast<lane_int<Real>>(camera.inside[i]));
+    return glass;
+}
+
+/// What rays that hit nothing bring: the background, or the lights they run straight to.
+template <class Real>
+inline Vec3v<Real> escaped(const abi::SceneView<Real>& scene, const RayPacket<Real>& rays)
+{
+    const Vec3v<Real> background = broadcast(scene.background);
+    if (!scene.visible_lights)
+        return background;
+    const vreal<Real> zero(Real(0));
+    const vreal<Real> parallel(scene.epsilon * scene.epsilon);
+    Vec3v<Real> seen{zero, zero, zero};
+    std::uint32_t any_seen = 0;
+    for (int i = 0; i < scene.lights.count; ++i) {
+        const abi::LightRecord<Real>& light = scene.lights.data[i];
+        Vec3v<Real> way = broadcast(light.vector);
+        if (light.kind == abi::LightKind::point)
+            way = way - rays.org;
+        const Vec3v<Real> sine = cross(rays.dir, way);
+        const auto sees =
+            (dot(rays.dir, way) > zero) & (dot(sine, sine) <= parallel * rays.dir2 * dot(way, way));
+        seen = select(sees, seen + broadcast(light.intensity), seen);
+        any_seen |= bits(sees);
+    }
+    return select(from_bits<Real>(any_seen), seen, background);
+}
+
+template <abi::Features F, class Real>
+inline void report_rays(const HitStream<F, Real>& hits, const abi::SceneView<Real>& scene,
+                        const TracedRays<Real>& from, const HitPacket<Real>& hit,
+                        std::uint32_t active)
+{
+    if constexpr (F.probe) {
+        if (hits.probe == nullptr)
+            return;
+        HitPacket<Real> told = hit;
+        const std::uint32_t found = hit_lanes(hit) & active;
+        if (found != 0)
+            told.t = select(
+                from_bits<Real>(found),
+                refined<F, Refine::t>(scene.shapes, from.rays, hit, from.start, found).t, hit.t);
+        packet_probe(hits, from.path, active)
+            .ray(scene, from.rays, told, escaped(scene, from.rays));
+    }
+}
+
+/// A packet of camera rays and what it hit; the pixels hold the background already.
+template <abi::Features F, class Real>
+inline void take_camera_hits(const abi::SceneView<Real>& scene, TileMemory<F, Real>& memory,
+                             const TracedRays<Real>& from, const HitPacket<Real>& hit,
+                             std::uint32_t pixels)
+{
+    const std::uint32_t hits = hit_lanes(hit) & pixels;
+    count_traced<Real>(pixels, hit.surface, from.path.pixel);
+    append_hits(scene, memory.hits, from, hit, hits);
+    report_rays(memory.hits, scene, from, hit, pixels);
+    const PartScope part(abi::Part::film);
+    if (scene.visible_lights)
+        write_colors<PixelWrite::set>(memory.color, from.path.pixel, escaped(scene, from.rays),
+                                      pixels & ~hits);
+}
+
+template <class Real>
+inline PathPacket<Real> camera_path(int first)
+{
+    const vreal<Real> one(Real(1));
+    return {
+        {one, one, one}, lane_numbers<Real>(first), vint<Real>(lane_int<Real>{abi::camera_path})};
+}
+
+/// The camera rays of a tile.
+template <abi::Features F, class Real>
+inline void trace_camera(const abi::TileJob<Real>& job, const FromPoint<F, Real>& visible,
+                         TileMemory<F, Real>& memory, abi::RayCounts& counts)
+{
+    const vreal<Real> no_end_yet(static_cast<Real>(__builtin_inf()));
+    const TileCamera<Real> camera(job);
+    const GlassPacket<Real> inside = glass_around_eye(camera.view);
+    for (int first = 0; first < abi::tile_pixels; first += lanes<Real>) {
+        const std::uint32_t pixels = lanes_inside(job, first);
+        if (pixels == 0)
+            continue;
+        const RayPacket<Real> rays = camera_rays(camera, first, job.scene->units);
+        HitPacket<Real> hit = no_hit<Real>(static_cast<Real>(__builtin_inf()));
+        tell_live(pixels);
+        tell_first(first);
+        closest_hit<F>(hit, visible, rays, NoOwn{});
+        count_unsure(counts,
+                     settle_packet<F>(*job.scene, rays, hit, no_start<Real>(), no_end_yet, pixels));
+        take_camera_hits(*job.scene, memory,
+                         {rays, camera_path<Real>(first), inside, no_start<Real>()}, hit, pixels);
+    }
+}
+
+/// Fills a bundle with the camera rays of a tile.
+template <abi::Features F, class Real>
+inline void gather_camera(const abi::TileJob<Real>& job, RayBundle<Real>& bundle)
+{
+    const TileCamera<Real> camera(job);
+    const HitPacket<Real> none = no_hit<Real>(static_cast<Real>(__builtin_inf()));
+    for (int first = 0; first < bundle_rays; first += lanes<Real>) {
+        store_rays(bundle, first, camera_rays(camera, first, job.scene->units));
+        start_rays<F>(bundle, first, none, no_surface<Real>(), lanes_inside(job, first));
+    }
+}
+
+template <abi::Features F, class Real>
+inline int settle_camera_bundle(const abi::SceneView<Real>& scene, RayBundle<Real>& bundle)
+{
+    return settle_bundle<F>(
+        scene, bundle, [](int) { return no_start<Real>(); },
+        [](int) { return vreal<Real>(static_cast<Real>(__builtin_inf())); });
+}
+
+/// The same where the scene has a hierarchy.
+template <abi::Features F, class Real>
+inline void trace_camera_bundle(const abi::TileJob<Real>& job, const FromPoint<F, Real>& visible,
+                                RayBundle<Real>& bundle, TileMemory<F, Real>& memory,
+                                abi::RayCounts& counts)
+{
+    gather_camera<F>(job, bundle);
+    closest_of_bundle<F>(*job.scene, visible, bundle);
+    counts.unsure += static_cast<unsigned>(settle_camera_bundle<F>(*job.scene, bundle));
+    const GlassPacket<Real> inside = glass_around_eye(*job.camera);
+    for (int first = 0; first < bundle_rays; first += lanes<Real>) {
+        const std::uint32_t pixels = active_lanes(bundle, first);
+        if (pixels != 0)
+            take_camera_hits(
+                *job.scene, memory,
+                {load_rays(bundle, first), camera_path<Real>(first), inside, no_start<Real>()},
+                load_hits(bundle, first), pixels);
+    }
+}
+
+template <abi::Features F, class Real>
+inline TracedRays<Real> load_stream(const abi::SceneView<Real>& scene,
+                                    const RayStream<F, Real>& stream, int first)
+{
+    return {
+        make_rays<Real>(load3(stream.org, first), load3(stream.dir, first), scene.secondary_t_min),
+        {load_weight(stream, first), load(stream.pixel + first), load_path(stream, first)},
+        load_glass(stream, first),
+        load_start(stream, first)};
+}
+
+/// A packet of secondary rays and what it hit; what those that miss bring goes into the pixels.
+template <abi::Features F, class Real>
+inline void take_secondary_hits(const abi::SceneView<Real>& scene, TileMemory<F, Real>& memory,
+                                const TracedRays<Real>& from, const HitPacket<Real>& hit,
+                                std::uint32_t active)
+{
+    const std::uint32_t hits = hit_lanes(hit) & active;
+    count_traced<Real>(active, hit.surface, from.path.pixel);
+    append_hits(scene, memory.hits, from, hit, hits);
+    report_rays(memory.hits, scene, from, hit, active);
+    const PartScope part(abi::Part::film);
+    write_colors<PixelWrite::add>(memory.color, from.path.pixel,
+                                  from.path.weight * escaped(scene, from.rays), active & ~hits);
+}
+
+/// A chunk of a stream of secondary rays.
+template <abi::Features F, class Real>
+inline void trace_secondary(const abi::SceneView<Real>& scene, const RayStream<F, Real>& stream,
+                            int begin, int end, const FromAnywhere<F, Real>& nearby,
+                            TileMemory<F, Real>& memory, abi::RayCounts& counts)
+{
+    memory.hits.count = 0;
+    const vreal<Real> no_end_yet(static_cast<Real>(__builtin_inf()));
+    for (int first = begin; first < end; first += lanes<Real>) {
+        const TracedRays<Real> from = load_stream(scene, stream, first);
+        const std::uint32_t active = first_lanes<Real>(end - first);
+        HitPacket<Real> hit = start_of_search(from.start, no_end_yet);
+        tell_live(active);
+        tell_first(first - begin);
+        if (stream.starts != nullptr)
+            closest_hit<F>(hit, nearby, from.rays, OwnSurface{from.start.surface});
+        else
+            closest_hit<F>(hit, nearby, from.rays, NoOwn{});
+        count_unsure(counts,
+                     settle_packet<F>(scene, from.rays, hit, from.start, no_end_yet, active));
+        take_secondary_hits(scene, memory, from, hit, active);
+    }
+}
+
+/// The same where the scene has a hierarchy.
+template <abi::Features F, class Real>
+inline void trace_secondary_bundle(const abi::SceneView<Real>& scene,
+                                   const RayStream<F, Real>& stream, int begin, int end,
+                                   const FromAnywhere<F, Real>& nearby, RayBundle<Real>& bundle,
+                                   TileMemory<F, Real>& memory, abi::RayCounts& counts)
+{
+    memory.hits.count = 0;
+    const vreal<Real> no_end_yet(static_cast<Real>(__builtin_inf()));
+    for (int first = begin; first < end; first += lanes<Real>) {
+        const TracedRays<Real> from = load_stream(scene, stream, first);
+        store_rays(bundle, first - begin, from.rays);
+        start_rays<F>(bundle, first - begin, start_of_search(from.start, no_end_yet),
+                      from.start.surface, first_lanes<Real>(end - first));
+    }
+    end_bundle(bundle, end - begin);
+    closest_of_bundle<F>(scene, nearby, bundle);
+    counts.unsure += static_cast<unsigned>(settle_bundle<F>(
+        scene, bundle, [&](int first) { return load_start(stream, begin + first); },
+        [&](int) { return no_end_yet; }));
+    for (int first = begin; first < end; first += lanes<Real>)
+        take_secondary_hits(scene, memory, load_stream(scene, stream, first),
+                            load_hits(bundle, first - begin), first_lanes<Real>(end - first));
+}
+
+}  // namespace
+}  // namespace packtrace::PACKTRACE_ISA

@@ -1,0 +1,154 @@
+#pragma once
+
+#include <immintrin.h>
+
+// A block holds half as many spheres as a packet has lanes: the ray in registers of eight, which
+// Zen 4 works on twice as fast. The same operations as in BlockRay and quadratic.hpp.
+namespace packtrace::PACKTRACE_ISA {
+namespace {
+
+template <>
+class BlockRay<float> {
+    static_assert(abi::node_width == 8);
+
+public:
+    BlockRay(const RayBundle<float>& bundle, int ray) : t_min_(_mm256_set1_ps(bundle.t_min[ray]))
+    {
+        for (int axis = 0; axis < 3; ++axis) {
+            org_[axis] = _mm256_set1_ps(bundle.org[axis][ray]);
+            dir_[axis] = _mm256_set1_ps(bundle.dir[axis][ray]);
+        }
+        dir2_ = dot(dir_, dir_);
+    }
+
+    std::uint32_t first_roots(const abi::SphereBlock<float>& block, float t_max,
+                              float (&t)[abi::node_width]) const
+    {
+        const Eights q = quadratics(block);
+        const std::uint32_t active = may_hit(q);
+        if (active == 0)
+            return 0;
+        const __m256 minus_q = minus_q_of(q);
+        __m256 root = _mm256_div_ps(negated(q.c), minus_q);
+        std::uint32_t beyond = _mm256_cmp_ps_mask(root, t_min_, _CMP_GT_OQ);
+        const std::uint32_t leaving = _mm256_cmp_ps_mask(minus_q, _mm256_setzero_ps(), _CMP_LT_OQ);
+        const auto retry = static_cast<__mmask8>(active & ~beyond & leaving);
+        if (retry != 0) {
+            root = _mm256_mask_div_ps(root, retry, negated(minus_q), dir2_);
+            beyond = _mm256_cmp_ps_mask(root, t_min_, _CMP_GT_OQ);
+        }
+        const __m256 infinity = _mm256_set1_ps(__builtin_inff());
+        _mm256_storeu_ps(t, root);
+        return active & beyond & _mm256_cmp_ps_mask(root, infinity, _CMP_LT_OQ) &
+               _mm256_cmp_ps_mask(root, _mm256_set1_ps(t_max), _CMP_LE_OQ);
+    }
+
+    std::uint32_t blocked_by(const abi::SphereBlock<float>& block, float t_end, bool closed) const
+    {
+        const Eights q = quadratics(block);
+        const __m256 end = _mm256_set1_ps(t_end);
+        return closed ? root_between(q, end) : any_root(q, end);
+    }
+
+    std::uint32_t near(const abi::SphereBlock<float>& block, const RayBundle<float>& bundle) const
+    {
+        __m256 o[3];
+        for (int axis = 0; axis < 3; ++axis)
+            o[axis] = _mm256_sub_ps(org_[axis], _mm256_load_ps(block.center[axis]));
+        const __m256 moment[3] = {cross(o, 1, 2), cross(o, 2, 0), cross(o, 0, 1)};
+        // leaf_outer2() in eight lanes.
+        const __m256 shift = _mm256_set1_ps(bundle.moment_error * (1.0f + roundoffs(12.0f)));
+        const __m256 outer = _mm256_fmadd_ps(_mm256_load_ps(block.radius),
+                                             _mm256_set1_ps(1.0f + roundoffs(12.0f)), shift);
+        const __m256 limit = _mm256_mul_ps(signed_square(outer), dir2_);
+        return static_cast<__mmask8>(~_mm256_cmp_ps_mask(dot(moment, moment), limit, _CMP_GT_OQ));
+    }
+
+private:
+    static __m256 signed_square(__m256 x)
+    {
+        return _mm256_mul_ps(x, _mm256_andnot_ps(_mm256_set1_ps(-0.0f), x));
+    }
+    struct Eights {
+        __m256 b, c, discriminant;
+    };
+
+    static __m256 dot(const __m256 (&a)[3], const __m256 (&b)[3])
+    {
+        return _mm256_fmadd_ps(a[0], b[0], _mm256_fmadd_ps(a[1], b[1], _mm256_mul_ps(a[2], b[2])));
+    }
+    static __m256 negated(__m256 x)
+    {
+        return _mm256_xor_ps(x, _mm256_set1_ps(-0.0f));
+    }
+
+    Eights quadratics(const abi::SphereBlock<float>& block) const
+    {
+        __m256 o[3];
+        for (int axis = 0; axis < 3; ++axis)
+            o[axis] = _mm256_sub_ps(org_[axis], _mm256_load_ps(block.center[axis]));
+        const __m256 radius2 = signed_square(_mm256_load_ps(block.radius));
+        const __m256 moment[3] = {cross(o, 1, 2), cross(o, 2, 0), cross(o, 0, 1)};
+        return {dot(o, dir_), _mm256_sub_ps(dot(o, o), radius2),
+                _mm256_fmsub_ps(dir2_, radius2, dot(moment, moment))};
+    }
+    /// A component of o × d.
+    __m256 cross(const __m256 (&o)[3], int i, int j) const
+    {
+        return _mm256_fmsub_ps(o[i], dir_[j], _mm256_mul_ps(o[j], dir_[i]));
+    }
+
+    static std::uint32_t may_hit(const Eights& q)
+    {
+        const __m256 zero = _mm256_setzero_ps();
+        return _mm256_cmp_ps_mask(q.discriminant, zero, _CMP_GE_OQ) &
+               (_mm256_cmp_ps_mask(q.b, zero, _CMP_LT_OQ) |
+                _mm256_cmp_ps_mask(q.c, zero, _CMP_LT_OQ));
+    }
+    static __m256 minus_q_of(const Eights& q)
+    {
+        const __m256 sign = _mm256_and_ps(q.b, _mm256_set1_ps(-0.0f));
+        return _mm256_add_ps(q.b, _mm256_or_ps(_mm256_sqrt_ps(q.discriminant), sign));
+    }
+
+    std::uint32_t any_root(const Eights& q, __m256 t_end) const
+    {
+        const std::uint32_t active = may_hit(q);
+        if (active == 0)
+            return 0;
+        const __m256 minus_q = minus_q_of(q);
+        const auto between = [&](__m256 t) -> std::uint32_t {
+            return _mm256_cmp_ps_mask(t, t_min_, _CMP_GT_OQ) &
+                   _mm256_cmp_ps_mask(t, t_end, _CMP_LT_OQ);
+        };
+        return active & (between(_mm256_div_ps(negated(q.c), minus_q)) |
+                         between(_mm256_div_ps(negated(minus_q), dir2_)));
+    }
+
+    std::uint32_t root_between(const Eights& q, __m256 t_end) const
+    {
+        const __m256 zero = _mm256_setzero_ps();
+        const auto below = [&](__m256 x) -> std::uint32_t {
+            return _mm256_cmp_ps_mask(x, zero, _CMP_LT_OQ);
+        };
+        const auto not_below = [&](__m256 x) -> std::uint32_t {
+            return _mm256_cmp_ps_mask(x, zero, _CMP_GE_OQ);
+        };
+        const __m256 slope_near = _mm256_fmadd_ps(dir2_, t_min_, q.b);
+        const __m256 slope_far = _mm256_fmadd_ps(dir2_, t_end, q.b);
+        const __m256 near = _mm256_fmadd_ps(_mm256_add_ps(slope_near, q.b), t_min_, q.c);
+        const __m256 far = _mm256_fmadd_ps(_mm256_add_ps(slope_far, q.b), t_end, q.c);
+        const std::uint32_t dips = not_below(near) & not_below(far) & not_below(q.discriminant) &
+                                   below(slope_near) &
+                                   _mm256_cmp_ps_mask(slope_far, zero, _CMP_GT_OQ);
+        return (below(near) & not_below(far)) | (not_below(near) & below(far)) | dips;
+    }
+
+    __m256 org_[3];
+    __m256 dir_[3];
+    __m256 dir2_;
+    __m256 t_min_;
+};
+
+}  // namespace
+}  // namespace packtrace::PACKTRACE_ISA

@@ -1,0 +1,258 @@
+#pragma once
+
+#include "kernels/traverse/closest_ray.hpp"
+#include "kernels/traverse/walk_lists.hpp"
+
+// Closest hits of a bundle of rays among the objects of the hierarchy.
+namespace packtrace::PACKTRACE_ISA {
+namespace {
+
+/// The sphere in one place of a block.
+template <class Real>
+inline Quadratic<Real> quadratic_of(const abi::SphereBlock<Real>& block, int slot,
+                                    const RayPacket<Real>& rays)
+{
+    const Vec3v<Real> center{vreal<Real>(block.center[0][slot]), vreal<Real>(block.center[1][slot]),
+                             vreal<Real>(block.center[2][slot])};
+    const Vec3v<Real> o = rays.org - center;
+    const Real radius = block.radius[slot];
+    const vreal<Real> radius2(radius * (radius < 0 ? -radius : radius));
+    return sphere_quadratic<Real>(rays, o, radius2, sphere_constant<Real>(o, radius2));
+}
+
+/// Not below any of a cell's `t`, in single precision.
+template <class Real>
+inline float furthest(const RayBundle<Real>& bundle, int cell)
+{
+    const Real* t = bundle.t + cell * cell_rays;
+    const float most = largest_of8(max(load8(t), load8(t + 8)));
+    return sizeof(Real) == sizeof(float) ? most : most * 1.000001f;
+}
+
+/// The coherent cells' rays go as far as the bundle says; the others nowhere.
+template <class Real>
+inline void start_coherent(CellBounds& bounds, const RayBundle<Real>& bundle)
+{
+    for (int cell = 0; cell < bundle_cells; ++cell)
+        bounds.t_max[cell] = bounds.coherent >> cell & 1u ? furthest(bundle, cell) : -no_end;
+    join_t_max(bounds);
+}
+
+/// Calls `visit(slot, cell)` for the spheres of a block and the cells of `cells` that may meet
+/// them.
+template <class Real, class Visit>
+inline void visit_spheres(const CellBounds& bounds, const abi::SphereBlock<Real>& block,
+                          std::uint32_t cells, const Visit& visit)
+{
+    const EightBoxes boxes = boxes_of(block);
+    std::uint32_t met = meet_boxes(bounds, frustum_of(cells), boxes).hits;
+    if ((cells & (cells - 1)) == 0) {
+        for (; met != 0; met &= met - 1)
+            visit(__builtin_ctz(met), __builtin_ctz(cells));
+        return;
+    }
+    alignas(32) float low[3][8];
+    alignas(32) float high[3][8];
+    for (int axis = 0; axis < 3; ++axis) {
+        store8(low[axis], boxes.low[axis]);
+        store8(high[axis], boxes.high[axis]);
+    }
+    for (; met != 0; met &= met - 1) {
+        const int slot = __builtin_ctz(met);
+        std::uint32_t by = meet_cells(bounds, {low[0][slot], low[1][slot], low[2][slot]},
+                                      {high[0][slot], high[1][slot], high[2][slot]}, cells);
+        for (; by != 0; by &= by - 1)
+            visit(slot, __builtin_ctz(by));
+    }
+}
+
+/// Tests one leaf after another against the cells that may meet it.
+template <abi::Features F, class Real>
+class ClosestInTree {
+public:
+    ClosestInTree(const abi::BvhView<Real>& tree, RayBundle<Real>& bundle, CellBounds& bounds,
+                  SlabRays& slabs)
+        : tree_(tree), bundle_(bundle), bounds_(bounds), slabs_(slabs)
+    {
+    }
+
+    /// A leaf that several cells may meet.
+    void operator()(std::uint32_t child, std::uint32_t cells) const
+    {
+        if constexpr (F.quadrics)
+            if (abi::is_quadric_leaf(child))
+                return quadrics(child, cells);
+        abi::SphereBlock<Real> room;
+        spheres(sphere_leaf(tree_, child, room), cells);
+    }
+
+    /// Whatever is below a child that few rays of one cell may meet.
+    void few_rays(std::uint32_t child, int cell, std::uint32_t rays) const
+    {
+        for (; rays != 0; rays &= rays - 1)
+            closest_of_ray<F>(tree_, slabs_, bundle_, cell * cell_rays + __builtin_ctz(rays),
+                              child);
+        bounds_.t_max[cell] = furthest(bundle_, cell);
+        join_t_max(bounds_);
+    }
+
+    /// The rays of a cell that may meet a box.
+    std::uint32_t rays_of(int cell, const float (&low)[3], const float (&high)[3]) const
+    {
+        fill_cell(slabs_, bundle_, cell, tree_.extent, tree_.slack);
+        return meet_rays(slabs_, bundle_, cell, low, high);
+    }
+
+private:
+    void spheres(const SphereLeaf<Real>& leaf, std::uint32_t cells) const
+    {
+        const PartScope part(abi::Part::spheres);
+        bool closer = false;
+        visit_spheres(bounds_, leaf.block, cells,
+                      [&](int slot, int cell) { closer |= sphere(leaf, slot, cell); });
+        if (closer)
+            join_t_max(bounds_);
+    }
+
+    bool sphere(const SphereLeaf<Real>& leaf, int slot, int cell) const
+    {
+        bool any_closer = false;
+        for (int first = cell * cell_rays; first < (cell + 1) * cell_rays; first += lanes<Real>) {
+            tell_live(active_lanes(bundle_, first));
+            count_tests(abi::Primitive::sphere, 1);
+            any_closer |= keep_sphere_of(leaf, slot, first);
+        }
+        if (any_closer)
+            bounds_.t_max[cell] = furthest(bundle_, cell);
+        return any_closer;
+    }
+
+    /// Whether the packet at `first` may have a closer hit now.
+    bool keep_sphere_of(const SphereLeaf<Real>& leaf, int slot, int first) const
+    {
+        const RayPacket<Real> rays = load_rays(bundle_, first);
+        if constexpr (F.exact) {
+            const Vec3v<float> center{vreal<float>(leaf.block.center[0][slot]),
+                                      vreal<float>(leaf.block.center[1][slot]),
+                                      vreal<float>(leaf.block.center[2][slot])};
+            const vreal<float> radius(leaf.block.radius[slot]);
+            const Vec3v<float> w = rays.org - center;
+            const SphereApproach near = approach(w, leaf_outer2(bundle_, radius), rays);
+            if (none(near.near))
+                return false;
+            HitPacket<float> hit = load_hits(bundle_, first);
+            keep_sphere(hit, {w, radius * radius, leaf_bounds(bundle_, radius)}, near, rays,
+                        scale_of(bundle_, first, rays), leaf.surface_of(slot),
+                        own_of(bundle_, first));
+            store_hits<F>(bundle_, first, hit);
+        } else {
+            const Quadratic<Real> quadratic = quadratic_of(leaf.block, slot, rays);
+            if (none(may_hit(quadratic)))
+                return false;
+            HitPacket<Real> hit = load_hits(bundle_, first);
+            keep_quadratic(hit, quadratic, rays, leaf.surface_of(slot), own_of(bundle_, first));
+            store_hits<F>(bundle_, first, hit);
+        }
+        return true;
+    }
+
+    void quadrics(std::uint32_t child, std::uint32_t cells) const
+    {
+        const PartScope part(abi::Part::quadrics);
+        for (int i = 0; i < abi::quadric_count(child); ++i)
+            for (std::uint32_t left = cells; left != 0; left &= left - 1)
+                keep_quadric_of(abi::first_quadric(child) + i, __builtin_ctz(left));
+        join_t_max(bounds_);
+    }
+
+    void keep_quadric_of(int number, int cell) const
+    {
+        for (int first = cell * cell_rays; first < (cell + 1) * cell_rays; first += lanes<Real>) {
+            tell_live(active_lanes(bundle_, first));
+            count_tests(abi::Primitive::quadric, 1);
+            HitPacket<Real> hit = load_hits(bundle_, first);
+            keep_leaf_quadric<F>(hit, tree_, number, bundle_, load_rays(bundle_, first),
+                                 own_of(bundle_, first));
+            store_hits<F>(bundle_, first, hit);
+        }
+        bounds_.t_max[cell] = furthest(bundle_, cell);
+    }
+
+    const abi::BvhView<Real>& tree_;
+    RayBundle<Real>& bundle_;
+    CellBounds& bounds_;
+    SlabRays& slabs_;
+};
+
+/// The same for the coherent cells of a bundle.
+template <abi::Features F, class Real>
+inline void closest_of_cells(const abi::BvhView<Real>& tree, RayBundle<Real>& bundle,
+                             CellBounds& bounds)
+{
+    SlabRays slabs;
+    start_coherent(bounds, bundle);
+    walk_cells(tree, bounds, bounds.coherent, ClosestInTree<F, Real>(tree, bundle, bounds, slabs));
+}
+
+/// Tests listed rays for their closest hits.
+template <abi::Features F, class Real>
+struct ClosestOfListed {
+    const abi::BvhView<Real>& tree;
+    const SlabRays& slabs;
+    RayBundle<Real>& bundle;
+
+    void leaf(std::uint32_t child, int ray) const
+    {
+        closest_of_leaf<F>(tree, bundle, ray, BlockRay<Real>(bundle, ray), child);
+    }
+    void lone(std::uint32_t child, int ray) const
+    {
+        closest_of_ray<F>(tree, slabs, bundle, ray, child);
+    }
+};
+
+/// The active rays of cells that share no way.
+template <abi::Features F, class Real>
+[[gnu::noinline]] void closest_of_others(const abi::BvhView<Real>& tree, RayBundle<Real>& bundle,
+                                         std::uint32_t cells)
+{
+    SlabRays slabs;
+    walk_in_lists(tree, slabs, bundle, cells, ClosestOfListed<F, Real>{tree, slabs, bundle});
+}
+
+/// Brings the t and surface of a bundle's active rays down to their first hit in the hierarchy,
+/// where that comes before.
+template <abi::Features F, class Real>
+[[gnu::noinline]] void closest_in_tree(const abi::BvhView<Real>& tree, RayBundle<Real>& bundle)
+{
+    const PartScope part(abi::Part::boxes);
+    if constexpr (F.exact)
+        bound_origins(bundle, tree);
+    CellBounds bounds;
+    bound_cells(bounds, bundle, tree, tree.spread);
+    if (bounds.coherent != 0)
+        closest_of_cells<F>(tree, bundle, bounds);
+    const std::uint32_t others = active_cells(bundle) & ~bounds.coherent;
+    if (others != 0)
+        closest_of_others<F>(tree, bundle, others);
+}
+
+/// The same among all objects of a scene, lists first: what stands in them is large.
+template <abi::Features F, class Objects, class Real>
+inline void closest_of_bundle(const abi::GeometryView<Real>& scene, const Objects& lists,
+                              RayBundle<Real>& bundle)
+{
+    for (int first = 0; first < bundle_rays; first += lanes<Real>) {
+        if (active_lanes(bundle, first) == 0)
+            continue;
+        tell_live(active_lanes(bundle, first));
+        HitPacket<Real> hit = load_hits(bundle, first);
+        closest_hit<F>(hit, lists, load_rays(bundle, first), own_of(bundle, first));
+        store_hits<F>(bundle, first, hit);
+    }
+    if (!scene.tree.empty())
+        closest_in_tree<abi::tree_features(F)>(scene.tree, bundle);
+}
+
+}  // namespace
+}  // namespace packtrace::PACKTRACE_ISA

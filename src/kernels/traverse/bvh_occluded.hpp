@@ -1,0 +1,253 @@
+#pragma once
+
+#include "kernels/traverse/bvh_closest.hpp"
+#include "kernels/traverse/occluded_ray.hpp"
+#include "kernels/traverse/walk_lists.hpp"
+
+// What stands in the way of a bundle of rays among the objects of the hierarchy.
+//
+// A `Occluder` is called as occluder(surface, first, lanes) for an object and the lanes it blocks
+// of the packet at `first`, and returns those lanes that nothing further matters to; they are taken
+// out of the bundle's active rays. The rays' reach ends at the bundle's `t`, and is `closed` or not
+// (occluded.hpp). A ray's own surface does not block it. With Features::exact only what blocks for
+// sure is called for, and rays that something else may block are marked as unsure in the bundle.
+namespace packtrace::PACKTRACE_ISA {
+namespace {
+
+/// The cells of a bundle.
+template <abi::Features F, class Real, class Occluder>
+class OccludersInTree {
+public:
+    OccludersInTree(const abi::BvhView<Real>& tree, RayBundle<Real>& bundle, CellBounds& bounds,
+                    SlabRays& slabs, bool closed, const Occluder& occluder)
+        : tree_(tree),
+          bundle_(bundle),
+          bounds_(bounds),
+          slabs_(slabs),
+          closed_(closed),
+          occluder_(occluder)
+    {
+    }
+
+    void operator()(std::uint32_t child, std::uint32_t cells) const
+    {
+        if constexpr (F.quadrics)
+            if (abi::is_quadric_leaf(child))
+                return quadrics(child, cells);
+        abi::SphereBlock<Real> room;
+        spheres(sphere_leaf(tree_, child, room), cells);
+    }
+
+    void few_rays(std::uint32_t child, int cell, std::uint32_t rays) const
+    {
+        for (; rays != 0; rays &= rays - 1)
+            occluders_of_ray<F>(tree_, slabs_, bundle_, cell * cell_rays + __builtin_ctz(rays),
+                                child, closed_, occluder_);
+        if (bundle_.active[cell] == 0) {
+            bounds_.t_max[cell] = -no_end;
+            join_t_max(bounds_);
+        }
+    }
+
+    std::uint32_t rays_of(int cell, const float (&low)[3], const float (&high)[3]) const
+    {
+        fill_cell(slabs_, bundle_, cell, tree_.extent, tree_.slack);
+        return meet_rays(slabs_, bundle_, cell, low, high);
+    }
+
+private:
+    void spheres(const SphereLeaf<Real>& leaf, std::uint32_t cells) const
+    {
+        const PartScope part(abi::Part::spheres);
+        visit_spheres(bounds_, leaf.block, cells, [&](int slot, int cell) {
+            object(abi::Primitive::sphere, cell, leaf.surface_of(slot),
+                   [&](int first) { return sphere_occludes(leaf, slot, first); });
+        });
+        join_t_max(bounds_);
+    }
+
+    Occlusion sphere_occludes(const SphereLeaf<Real>& leaf, int slot, int first) const
+    {
+        const RayPacket<Real> rays = load_rays(bundle_, first);
+        const vint<Real> own = load(bundle_.own + first);
+        const std::int32_t surface = leaf.surface_of(slot);
+        if constexpr (F.exact) {
+            const Vec3v<float> center{vreal<float>(leaf.block.center[0][slot]),
+                                      vreal<float>(leaf.block.center[1][slot]),
+                                      vreal<float>(leaf.block.center[2][slot])};
+            const vreal<float> radius(leaf.block.radius[slot]);
+            const Vec3v<float> w = rays.org - center;
+            const SphereApproach near = approach(w, leaf_outer2(bundle_, radius), rays);
+            if (none(near.near))
+                return {};
+            const Occlusion occlusion =
+                occludes({w, radius * radius, leaf_bounds(bundle_, radius)}, near, rays,
+                         scale_of(bundle_, first, rays), load(bundle_.t + first));
+            return {but_own<Real>(occlusion.blocked, own, surface),
+                    but_own<Real>(occlusion.unsure, own, surface)};
+        } else {
+            const Reach<Real> reach{load(bundle_.t + first), closed_};
+            return {
+                but_own<Real>(bits(reach.blocked_by(quadratic_of(leaf.block, slot, rays), rays)),
+                              own, surface),
+                0};
+        }
+    }
+
+    void quadrics(std::uint32_t child, std::uint32_t cells) const
+    {
+        const PartScope part(abi::Part::quadrics);
+        for (int i = 0; i < abi::quadric_count(child); ++i) {
+            const int number = abi::first_quadric(child) + i;
+            const std::int32_t surface = leaf_quadric(tree_, number).surface;
+            for (std::uint32_t left = cells; left != 0; left &= left - 1)
+                object(abi::Primitive::quadric, __builtin_ctz(left), surface, [&](int first) {
+                    return leaf_quadric_occludes<F>(
+                        tree_, number, bundle_, load_rays(bundle_, first), load(bundle_.t + first),
+                        load(bundle_.own + first), closed_);
+                });
+        }
+        join_t_max(bounds_);
+    }
+
+    /// `occludes(first)` tells what one object does to the packet at `first`.
+    template <class Occludes>
+    void object(abi::Primitive kind, int cell, std::int32_t surface, const Occludes& occludes) const
+    {
+        for (int first = cell * cell_rays; first < (cell + 1) * cell_rays; first += lanes<Real>) {
+            const std::uint32_t active = active_lanes(bundle_, first);
+            if (active == 0)
+                continue;
+            tell_live(active);
+            count_tests(kind, 1);
+            const Occlusion occlusion = occludes(first);
+            if ((occlusion.unsure & active) != 0)
+                doubt_lanes(bundle_, first, occlusion.unsure & active);
+            const std::uint32_t blocked = occlusion.blocked & active;
+            if (blocked != 0)
+                finish_lanes(bundle_, first, occluder_(surface, first, blocked));
+        }
+        if (bundle_.active[cell] == 0)
+            bounds_.t_max[cell] = -no_end;
+    }
+
+    const abi::BvhView<Real>& tree_;
+    RayBundle<Real>& bundle_;
+    CellBounds& bounds_;
+    SlabRays& slabs_;
+    bool closed_;
+    const Occluder& occluder_;
+};
+
+/// Takes the coherent cells of a bundle as frustums.
+template <abi::Features F, class Real, class Occluder>
+inline void occluders_of_cells(const abi::BvhView<Real>& tree, RayBundle<Real>& bundle,
+                               CellBounds& bounds, bool closed, const Occluder& occluder)
+{
+    SlabRays slabs;
+    start_coherent(bounds, bundle);
+    walk_cells(tree, bounds, bounds.coherent,
+               OccludersInTree<F, Real, Occluder>(tree, bundle, bounds, slabs, closed, occluder));
+}
+
+/// Takes listed rays each for itself.
+template <abi::Features F, class Real, class Occluder>
+struct OccludersOfListed {
+    const abi::BvhView<Real>& tree;
+    const SlabRays& slabs;
+    RayBundle<Real>& bundle;
+    bool closed;
+    const Occluder& occluder;
+
+    void leaf(std::uint32_t child, int ray) const
+    {
+        if (is_active(bundle, ray) &&
+            !goes_behind_leaf<F>(tree, bundle, ray, BlockRay<Real>(bundle, ray), closed, child,
+                                 occluder))
+            end(ray);
+    }
+    void lone(std::uint32_t child, int ray) const
+    {
+        if (!is_active(bundle, ray))
+            return;
+        occluders_of_ray<F>(tree, slabs, bundle, ray, child, closed, occluder);
+        if (!is_active(bundle, ray))
+            end(ray);
+    }
+
+private:
+    /// No box is met before a ray that has ended.
+    void end(int ray) const
+    {
+        bundle.t[ray] = static_cast<Real>(-__builtin_inf());
+    }
+};
+
+/// The active rays of cells that share no way.
+template <abi::Features F, class Real, class Occluder>
+inline void occluders_of_others(const abi::BvhView<Real>& tree, RayBundle<Real>& bundle,
+                                std::uint32_t cells, bool closed, const Occluder& occluder)
+{
+    SlabRays slabs;
+    walk_in_lists(tree, slabs, bundle, cells,
+                  OccludersOfListed<F, Real, Occluder>{tree, slabs, bundle, closed, occluder});
+}
+
+/// Lists are let go of rays that are blocked, frustums are not: cells go in lists earlier than
+/// where closest hits are looked for; results/tree_designs.json.
+inline constexpr float blocked_spread = 0.7f;
+
+/// Meets the active rays of a bundle with what blocks them in the hierarchy.
+template <abi::Features F, class Real, class Occluder>
+[[gnu::noinline]] void visit_occluders_in_tree(const abi::BvhView<Real>& tree,
+                                               RayBundle<Real>& bundle, bool closed,
+                                               const Occluder& occluder)
+{
+    const PartScope part(abi::Part::boxes);
+    CellBounds bounds;
+    bound_cells(bounds, bundle, tree, blocked_spread * tree.spread);
+    const std::uint32_t others = active_cells(bundle) & ~bounds.coherent;
+    if (bounds.coherent != 0)
+        occluders_of_cells<F>(tree, bundle, bounds, closed, occluder);
+    if (others != 0)
+        occluders_of_others<F>(tree, bundle, others, closed, occluder);
+}
+
+/// The same among all objects of a scene, lists first.
+template <abi::Features F, class Objects, class Real, class Occluder>
+inline void visit_occluders_of_bundle(const abi::GeometryView<Real>& scene, const Objects& lists,
+                                      RayBundle<Real>& bundle, bool closed,
+                                      const Occluder& occluder)
+{
+    std::uint32_t left = 0;
+    for (int first = 0; first < bundle_rays; first += lanes<Real>) {
+        const std::uint32_t wanted = active_lanes(bundle, first);
+        if (wanted == 0)
+            continue;
+        tell_live(wanted);
+        const auto take = [&](std::int32_t surface, std::uint32_t lanes_of) {
+            const std::uint32_t blocked = lanes_of & active_lanes(bundle, first);
+            if (blocked != 0)
+                finish_lanes(bundle, first, occluder(surface, first, blocked));
+            return active_lanes(bundle, first) != 0;
+        };
+        const RayPacket<Real> rays = load_rays(bundle, first);
+        const vint<Real> own = load(bundle.own + first);
+        if constexpr (F.exact) {
+            const std::uint32_t unsure =
+                visit_occluders<F>(load(bundle.t + first), lists, rays, own, take);
+            doubt_lanes(bundle, first, unsure & wanted);
+        } else {
+            visit_occluders<F>(Reach<Real>{load(bundle.t + first), closed}, lists, rays, own, take);
+        }
+        left |= active_lanes(bundle, first);
+    }
+    if (left == 0 || scene.tree.empty())
+        return;
+    if constexpr (F.exact)
+        bound_origins(bundle, scene.tree);
+    visit_occluders_in_tree<abi::tree_features(F)>(scene.tree, bundle, closed, occluder);
+}
+
+}  // namespace
+}  // namespace packtrace::PACKTRACE_ISA

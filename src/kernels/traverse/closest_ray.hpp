@@ -1,0 +1,91 @@
+#pragma once
+
+#include "kernels/traverse/cell_rays.hpp"
+#include "kernels/traverse/closest.hpp"
+#include "kernels/traverse/near_spheres.hpp"
+
+// The closest hit of a single ray in the hierarchy.
+namespace packtrace::PACKTRACE_ISA {
+namespace {
+
+/// Takes the closest hit on a leaf's spheres, if it comes before that of the ray.
+template <abi::Features F, class Real>
+inline void closest_of_spheres(RayBundle<Real>& bundle, int ray, const BlockRay<Real>& alone,
+                               const SphereLeaf<Real>& leaf)
+{
+    const PartScope part(abi::Part::spheres);
+    count_block_tests(leaf.block);
+    if constexpr (F.exact) {
+        const std::uint32_t near = alone.near(leaf.block, bundle);
+        if (near != 0)
+            keep_near_spheres(bundle, ray, leaf, near);
+    } else {
+        Real t[abi::node_width];
+        std::uint32_t met = alone.first_roots(leaf.block, bundle.t[ray], t);
+        for (; met != 0; met &= met - 1) {
+            const int slot = __builtin_ctz(met);
+            const std::int32_t surface = leaf.surface_of(slot);
+            if (surface == bundle.own[ray])
+                continue;
+            if (t[slot] < bundle.t[ray] ||
+                (t[slot] == bundle.t[ray] && surface < bundle.surface[ray])) {
+                bundle.t[ray] = t[slot];
+                bundle.surface[ray] = surface;
+            }
+        }
+    }
+}
+
+template <abi::Features F, class Real>
+inline void closest_of_quadrics(const abi::BvhView<Real>& tree, RayBundle<Real>& bundle, int ray,
+                                int begin, int count)
+{
+    const PartScope part(abi::Part::quadrics);
+    tell_live(1);
+    count_tests(abi::Primitive::quadric, count);
+    const RayPacket<Real> rays = broadcast_ray(bundle, ray);
+    load_rival_of_ray<Real>(ray);
+    HitPacket<Real> hit{vreal<Real>(bundle.t[ray]), vint<Real>(bundle.surface[ray]),
+                        vreal<Real>(bundle.t_low[ray]), vreal<Real>(bundle.other[ray])};
+    const OwnSurface own{vint<Real>(bundle.own[ray])};
+    for (int i = 0; i < count; ++i)
+        keep_leaf_quadric<F>(hit, tree, begin + i, bundle, rays, own);
+    alignas(64) lane_int<Real> surface[lanes<Real>];
+    store(surface, hit.surface);
+    bundle.t[ray] = first_lane<Real>(hit.t);
+    bundle.surface[ray] = surface[0];
+    if constexpr (F.exact) {
+        bundle.t_low[ray] = first_lane<Real>(hit.t_low);
+        bundle.other[ray] = first_lane<Real>(hit.other);
+        store_rival_of_ray<Real>(ray);
+    }
+}
+
+/// The ray, which is `alone`, against one leaf.
+template <abi::Features F, class Real>
+inline void closest_of_leaf(const abi::BvhView<Real>& tree, RayBundle<Real>& bundle, int ray,
+                            const BlockRay<Real>& alone, std::uint32_t child)
+{
+    if (F.quadrics && abi::is_quadric_leaf(child))
+        return closest_of_quadrics<F>(tree, bundle, ray, abi::first_quadric(child),
+                                      abi::quadric_count(child));
+    abi::SphereBlock<Real> room;
+    closest_of_spheres<F>(bundle, ray, alone, sphere_leaf(tree, child, room));
+}
+
+/// The ray against all below `child`.
+template <abi::Features F, class Real>
+inline void closest_of_ray(const abi::BvhView<Real>& tree, const SlabRays& slabs,
+                           RayBundle<Real>& bundle, int ray, std::uint32_t child)
+{
+    const BlockRay<Real> alone(bundle, ray);
+    SlabRay slab = slab_ray(slabs, bundle, ray);
+    walk_ray(tree, child, slab, [&](std::uint32_t leaf) {
+        closest_of_leaf<F>(tree, bundle, ray, alone, leaf);
+        slab.t_max = float_above(bundle.t[ray]);
+        return true;
+    });
+}
+
+}  // namespace
+}  // namespace packtrace::PACKTRACE_ISA

@@ -1,0 +1,67 @@
+#pragma once
+
+#if defined(__x86_64__)
+#include <immintrin.h>
+
+#include "kernels/simd/native/permutations.hpp"
+#else
+#include "kernels/simd/lanes.hpp"
+#endif
+
+// Ray numbers are bytes: where there is an instruction, eight at once are moved to where they
+// belong by a table.
+namespace packtrace::PACKTRACE_ISA {
+namespace {
+
+#if defined(__x86_64__)
+
+/// As many places behind the last ray may be overwritten.
+inline constexpr int copy_step = 8;
+
+constexpr CompressTable<copy_step, 1> chosen_bytes;
+
+inline __m128i load_bytes(const std::uint8_t* from)
+{
+    return _mm_loadl_epi64(reinterpret_cast<const __m128i*>(from));
+}
+
+/// Copies the `rays` that have a bit for `slot` in `met`, and returns how many they are.
+inline int copy_rays(std::uint8_t* to, const std::uint8_t* rays, const std::uint8_t* met, int count,
+                     int slot)
+{
+    const __m128i to_sign = _mm_cvtsi32_si128(7 - slot);
+    int copied = 0;
+    for (int first = 0; first < count; first += copy_step) {
+        const int absent = count - first < copy_step ? copy_step - (count - first) : 0;
+        const auto signs = static_cast<std::uint32_t>(
+            _mm_movemask_epi8(_mm_sll_epi16(load_bytes(met + first), to_sign)));
+        const std::uint32_t chosen = signs & (0xffu >> absent);
+        const __m128i moved =
+            _mm_shuffle_epi8(load_bytes(rays + first), load_bytes(chosen_bytes.part[chosen]));
+        _mm_storel_epi64(reinterpret_cast<__m128i*>(to + copied), moved);
+        copied += __builtin_popcount(chosen);
+    }
+    return copied;
+}
+
+#else
+
+/// As many places behind the last ray may be overwritten.
+inline constexpr int copy_step = 1;
+
+/// Copies the `rays` that have a bit for `slot` in `met`, and returns how many they are.
+inline int copy_rays(std::uint8_t* to, const std::uint8_t* rays, const std::uint8_t* met, int count,
+                     int slot)
+{
+    int copied = 0;
+    for (int i = 0; i < count; ++i) {
+        to[copied] = rays[i];
+        copied += met[i] >> slot & 1;
+    }
+    return copied;
+}
+
+#endif
+
+}  // namespace
+}  // namespace packtrace::PACKTRACE_ISA

@@ -1,0 +1,246 @@
+#pragma once
+
+#include "kernel_abi/bvh.hpp"
+#include "kernels/simd/vfloat8.hpp"
+#include "kernels/traverse/bundle.hpp"
+
+// Intervals that hold the rays of a cell, of a quarter of the bundle (four cells) and of the
+// whole: of their origins, and of the reciprocals of their directions. All bounds are in single
+// precision with room for rounding, whatever the rays are in.
+namespace packtrace::PACKTRACE_ISA {
+namespace {
+
+inline constexpr int first_quarter = bundle_cells;
+inline constexpr int whole_bundle = first_quarter + 4;
+inline constexpr int frustum_count = 24;  ///< 21, and room for whole registers
+
+struct alignas(32) CellBounds {
+    float org_low[3][frustum_count];
+    float org_high[3][frustum_count];
+    float inv_low[3][frustum_count];  ///< of the same sign as inv_high
+    float inv_high[3][frustum_count];
+    float t_max[frustum_count];  ///< nothing further matters to any ray
+    /// A bit for each cell with rays that run close to each other's way; the bounds of the others
+    /// are not set.
+    std::uint32_t coherent;
+};
+
+/// Intervals of one quantity over cells, quarters and all.
+struct CellRange {
+    alignas(32) float low[frustum_count];
+    alignas(32) float high[frustum_count];
+};
+
+inline constexpr float no_end = __builtin_inff();
+/// An axis along which nothing is known has its origins in [-open_axis, open_axis].
+inline constexpr float open_axis = 1e30f;
+/// Components of directions smaller than this are as good as 0 for rays at least that long.
+inline constexpr float smallest_component = 1e-18f;
+inline constexpr float smallest_length = 1e-12f;
+
+/// The least and largest value of each cell's rays; NaN is left out, a cell without any rays is
+/// inside out.
+template <class Real>
+inline void find_cells(CellRange& range, const Real (&values)[bundle_rays],
+                       const RayBundle<Real>& bundle)
+{
+    const auto least = [](vfloat8 a, vfloat8 b) { return min(a, b); };
+    const auto most = [](vfloat8 a, vfloat8 b) { return max(a, b); };
+    for (int half = 0; half < 2; ++half) {
+        vfloat8 low[8];
+        vfloat8 high[8];
+        for (int i = 0; i < 8; ++i) {
+            const int cell = half * 8 + i;
+            low[i] = vfloat8(no_end);
+            high[i] = vfloat8(-no_end);
+            if (bundle.active[cell] == 0)
+                continue;
+            for (int part = 0; part < 2; ++part) {
+                const vfloat8 value = load8(values + cell * cell_rays + part * 8);
+                low[i] = min(value, low[i]);
+                high[i] = max(value, high[i]);
+            }
+        }
+        store8(range.low + half * 8, reduce8(low, least));
+        store8(range.high + half * 8, reduce8(high, most));
+    }
+}
+
+/// Quarters and the whole from the cells.
+inline void join_cells(CellRange& range)
+{
+    const auto low_of = [](float a, float b) { return a < b ? a : b; };
+    const auto high_of = [](float a, float b) { return a > b ? a : b; };
+    const auto join = [&](int to, int from) {
+        range.low[to] = low_of(low_of(range.low[from], range.low[from + 1]),
+                               low_of(range.low[from + 2], range.low[from + 3]));
+        range.high[to] = high_of(high_of(range.high[from], range.high[from + 1]),
+                                 high_of(range.high[from + 2], range.high[from + 3]));
+    };
+    for (int quarter = 0; quarter < 4; ++quarter)
+        join(first_quarter + quarter, 4 * quarter);
+    join(whole_bundle, first_quarter);
+    for (int rest = whole_bundle + 1; rest < frustum_count; ++rest) {
+        range.low[rest] = 0.0f;
+        range.high[rest] = 0.0f;
+    }
+}
+
+inline vfloat8 size8(vfloat8 low, vfloat8 high)
+{
+    return max(vfloat8(0.0f) - low, high);
+}
+
+/// What is the same along all axes: how far rays and boxes are apart at most, and whether the
+/// rays are of a size that single precision reckons with. Sign bits say so.
+struct FrustumScale {
+    vfloat8 reach;
+    vfloat8 reckoned;
+};
+
+inline FrustumScale frustum_scale(const CellRange (&org)[3], const CellRange (&dir)[3],
+                                  float extent, int first)
+{
+    vfloat8 reach(0.0f);
+    vfloat8 length(0.0f);
+    for (int axis = 0; axis < 3; ++axis) {
+        reach = max(reach, size8(load8(org[axis].low + first), load8(org[axis].high + first)));
+        length = max(length, size8(load8(dir[axis].low + first), load8(dir[axis].high + first)));
+    }
+    reach = reach + vfloat8(extent);
+    const vfloat8 zero(0.0f);
+    const vfloat8 large(abi::largest_coordinate);
+    vfloat8 reckoned = at_most8(max(reach, length), large);
+    reckoned = blend(at_most8(vfloat8(smallest_length), length), zero, reckoned);
+    return {reach, reckoned};
+}
+
+/// Fills one axis of eight frustums. Rays on both sides of an axis leave it open; those along it
+/// are treated as all but along it.
+inline void set_axis(CellBounds& bounds, int axis, const CellRange& org, const CellRange& dir,
+                     const FrustumScale& scale, float slack, int first)
+{
+    const vfloat8 one(1.0f);
+    const vfloat8 tiny(smallest_component);
+    const vfloat8 minus_tiny(-smallest_component);
+    const vfloat8 low = load8(dir.low + first);
+    const vfloat8 high = load8(dir.high + first);
+    const vfloat8 along = at_most8(size8(low, high), tiny);
+    const vfloat8 against = at_most8(high, minus_tiny);
+    // Sign bits: the interval of directions is on one side of zero.
+    vfloat8 one_sided = blend(at_most8(tiny, low), against, at_most8(tiny, low));
+    one_sided = blend(along, one_sided, along);
+    const vfloat8 known = blend(scale.reckoned, vfloat8(0.0f), one_sided);
+
+    const vfloat8 steepest(1.0f / smallest_component);
+    const vfloat8 pad = vfloat8(slack) * scale.reach;
+    const vfloat8 inv_low = blend(along, one / high, steepest);
+    const vfloat8 inv_high = blend(along, one / low, steepest);
+    const vfloat8 org_low = load8(org.low + first) - pad;
+    const vfloat8 org_high = load8(org.high + first) + pad;
+    store8(bounds.inv_low[axis] + first, blend(known, one, inv_low));
+    store8(bounds.inv_high[axis] + first, blend(known, one, inv_high));
+    store8(bounds.org_low[axis] + first, blend(known, vfloat8(-open_axis), org_low));
+    store8(bounds.org_high[axis] + first, blend(known, vfloat8(open_axis), org_high));
+}
+
+/// Which cells bounds are wanted of.
+enum class Cells { coherent, all };
+
+/// The cells with any active ray.
+template <class Real>
+inline std::uint32_t active_cells(const RayBundle<Real>& bundle)
+{
+    std::uint32_t cells = 0;
+    for (int cell = 0; cell < bundle_cells; ++cell)
+        cells |= (bundle.active[cell] != 0 ? 1u : 0u) << cell;
+    return cells;
+}
+
+/// Those whose directions differ little; and those without rays, whose bounds are inside out.
+inline std::uint32_t coherent_cells(const CellRange (&dir)[3], float largest_spread)
+{
+    std::uint32_t coherent = 0;
+    for (int first = 0; first < bundle_cells; first += 8) {
+        vfloat8 length(0.0f);
+        vfloat8 spread(0.0f);
+        for (int axis = 0; axis < 3; ++axis) {
+            const vfloat8 low = load8(dir[axis].low + first);
+            const vfloat8 high = load8(dir[axis].high + first);
+            length = max(length, size8(low, high));
+            spread = max(spread, high - low);
+        }
+        const std::uint32_t reckoned = less_equal8(length, vfloat8(abi::largest_coordinate));
+        coherent |= (reckoned & less_equal8(spread, vfloat8(largest_spread) * length)) << first;
+    }
+    return coherent;
+}
+
+/// Leaves cells out of the quarters and the whole.
+inline void leave_out(CellRange& range, std::uint32_t cells)
+{
+    for (; cells != 0; cells &= cells - 1) {
+        const int cell = __builtin_ctz(cells);
+        range.low[cell] = no_end;
+        range.high[cell] = -no_end;
+    }
+}
+
+/// The bounds of a bundle's active rays, to meet the boxes of a hierarchy. Cells are coherent up to
+/// `spread` (abi::BvhView).
+template <class Real>
+inline void bound_cells(CellBounds& bounds, const RayBundle<Real>& bundle,
+                        const abi::BvhView<Real>& tree, float spread,
+                        Cells wanted = Cells::coherent)
+{
+    CellRange org[3];
+    CellRange dir[3];
+    for (int axis = 0; axis < 3; ++axis)
+        find_cells(dir[axis], bundle.dir[axis], bundle);
+    bounds.coherent = active_cells(bundle);
+    if (wanted == Cells::coherent)
+        bounds.coherent &= coherent_cells(dir, spread);
+    if (bounds.coherent == 0)
+        return;
+    const std::uint32_t others = ~bounds.coherent & ((1u << bundle_cells) - 1u);
+    for (int axis = 0; axis < 3; ++axis) {
+        find_cells(org[axis], bundle.org[axis], bundle);
+        leave_out(org[axis], others);
+        leave_out(dir[axis], others);
+        join_cells(org[axis]);
+        join_cells(dir[axis]);
+    }
+    for (int first = 0; first < frustum_count; first += 8) {
+        const FrustumScale scale = frustum_scale(org, dir, tree.extent, first);
+        for (int axis = 0; axis < 3; ++axis)
+            set_axis(bounds, axis, org[axis], dir[axis], scale, tree.slack, first);
+    }
+}
+
+/// Quarters' and the whole bundle's t_max from the cells'.
+inline void join_t_max(CellBounds& bounds)
+{
+    const auto further = [&](int a, int b) {
+        return bounds.t_max[a] > bounds.t_max[b] ? bounds.t_max[a] : bounds.t_max[b];
+    };
+    for (int quarter = 0; quarter < 4; ++quarter) {
+        const float left = further(4 * quarter, 4 * quarter + 1);
+        const float right = further(4 * quarter + 2, 4 * quarter + 3);
+        bounds.t_max[first_quarter + quarter] = left > right ? left : right;
+    }
+    const float left = further(first_quarter, first_quarter + 1);
+    const float right = further(first_quarter + 2, first_quarter + 3);
+    bounds.t_max[whole_bundle] = left > right ? left : right;
+}
+
+/// The smallest of the frustums above that holds all cells of `cells`, which is not 0.
+inline int frustum_of(std::uint32_t cells)
+{
+    if ((cells & (cells - 1)) == 0)
+        return __builtin_ctz(cells);
+    const int quarter = __builtin_ctz(cells) / 4;
+    return (cells & ~(0xfu << 4 * quarter)) == 0 ? first_quarter + quarter : whole_bundle;
+}
+
+}  // namespace
+}  // namespace packtrace::PACKTRACE_ISA

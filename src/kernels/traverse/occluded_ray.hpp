@@ -1,0 +1,126 @@
+#pragma once
+
+#include "kernels/traverse/cell_rays.hpp"
+#include "kernels/traverse/near_spheres.hpp"
+
+namespace packtrace::PACKTRACE_ISA {
+namespace {
+
+/// The occluder of opaque shadows and of occlusion: each ends the rays it blocks.
+struct EndsRays {
+    std::uint32_t operator()(std::int32_t, int, std::uint32_t blocked) const
+    {
+        return blocked;
+    }
+};
+
+/// Takes lanes of a packet out of the active ones.
+template <class Real>
+inline void finish_lanes(RayBundle<Real>& bundle, int first, std::uint32_t done)
+{
+    bundle.active[first / cell_rays] &= static_cast<std::uint16_t>(~(done << first % cell_rays));
+}
+
+/// A single ray of a bundle meets what blocks it; whether it goes on behind that.
+template <class Real, class Occluder>
+inline bool goes_behind(RayBundle<Real>& bundle, int ray, std::int32_t surface,
+                        const Occluder& occluder)
+{
+    const int first = ray / lanes<Real> * lanes<Real>;
+    finish_lanes(bundle, first, occluder(surface, first, 1u << (ray - first)));
+    return is_active(bundle, ray);
+}
+
+/// What a quadric of a leaf does to a packet until t_end.
+template <abi::Features F, class Real>
+inline Occlusion leaf_quadric_occludes(const abi::BvhView<Real>& tree, int number,
+                                       const RayBundle<Real>& bundle, const RayPacket<Real>& rays,
+                                       const vreal<Real>& t_end, const vint<Real>& own, bool closed)
+{
+    if constexpr (F.exact) {
+        const abi::QuadricRecord<float>& record = tree.quadrics[number];
+        const abi::QuadricRecord<double>& wide =
+            tree.shapes->quadrics[tree.shapes->index[record.surface].record];
+        const std::uint32_t active =
+            may_hit<false>(leaf_filter(record, wide, bundle), rays, RayScale(rays), t_end);
+        return active == 0 ? Occlusion{} : occludes(wide, rays, t_end, own, active);
+    } else {
+        return {quadric_blocks(Reach<Real>{t_end, closed}, leaf_quadric(tree, number), rays, own),
+                0};
+    }
+}
+
+template <abi::Features F, class Real, class Occluder>
+inline bool goes_behind_quadrics(const abi::BvhView<Real>& tree, RayBundle<Real>& bundle, int ray,
+                                 bool closed, std::uint32_t child, const Occluder& occluder)
+{
+    const PartScope part(abi::Part::quadrics);
+    tell_live(1);
+    const RayPacket<Real> rays = broadcast_ray(bundle, ray);
+    const vint<Real> own(bundle.own[ray]);
+    for (int i = 0; i < abi::quadric_count(child); ++i) {
+        const int number = abi::first_quadric(child) + i;
+        count_tests(abi::Primitive::quadric, 1);
+        const Occlusion occlusion = leaf_quadric_occludes<F>(
+            tree, number, bundle, rays, vreal<Real>(bundle.t[ray]), own, closed);
+        if (occlusion.unsure != 0) {
+            keep_noted_of_ray(ray, occlusion.unsure);
+            bundle.unsure[ray / cell_rays] |= static_cast<std::uint16_t>(1u << ray % cell_rays);
+        }
+        if (occlusion.blocked != 0 &&
+            !goes_behind(bundle, ray, leaf_quadric(tree, number).surface, occluder))
+            return false;
+    }
+    return true;
+}
+
+/// A bit for each sphere of a leaf that is in the way of a ray, which is `alone`.
+template <abi::Features F, class Real>
+inline std::uint32_t blocking_spheres_of(RayBundle<Real>& bundle, int ray,
+                                         const BlockRay<Real>& alone, const SphereLeaf<Real>& leaf,
+                                         bool closed)
+{
+    if constexpr (F.exact) {
+        const std::uint32_t near = alone.near(leaf.block, bundle);
+        return near == 0 ? 0 : blocking_spheres(bundle, ray, leaf, near);
+    } else {
+        return alone.blocked_by(leaf.block, bundle.t[ray], closed);
+    }
+}
+
+/// The ray, which is `alone`, against one leaf.
+template <abi::Features F, class Real, class Occluder>
+inline bool goes_behind_leaf(const abi::BvhView<Real>& tree, RayBundle<Real>& bundle, int ray,
+                             const BlockRay<Real>& alone, bool closed, std::uint32_t child,
+                             const Occluder& occluder)
+{
+    if (F.quadrics && abi::is_quadric_leaf(child))
+        return goes_behind_quadrics<F>(tree, bundle, ray, closed, child, occluder);
+    const PartScope part(abi::Part::spheres);
+    abi::SphereBlock<Real> room;
+    const SphereLeaf<Real> leaf = sphere_leaf(tree, child, room);
+    count_block_tests(leaf.block);
+    std::uint32_t blocking = blocking_spheres_of<F>(bundle, ray, alone, leaf, closed);
+    for (; blocking != 0; blocking &= blocking - 1) {
+        const std::int32_t surface = leaf.surface_of(__builtin_ctz(blocking));
+        if (surface != bundle.own[ray] && !goes_behind(bundle, ray, surface, occluder))
+            return false;
+    }
+    return true;
+}
+
+/// The ray against all below `child`.
+template <abi::Features F, class Real, class Occluder>
+inline void occluders_of_ray(const abi::BvhView<Real>& tree, const SlabRays& slabs,
+                             RayBundle<Real>& bundle, int ray, std::uint32_t child, bool closed,
+                             const Occluder& occluder)
+{
+    const BlockRay<Real> alone(bundle, ray);
+    SlabRay slab = slab_ray(slabs, bundle, ray);
+    walk_ray(tree, child, slab, [&](std::uint32_t leaf) {
+        return goes_behind_leaf<F>(tree, bundle, ray, alone, closed, leaf, occluder);
+    });
+}
+
+}  // namespace
+}  // namespace packtrace::PACKTRACE_ISA
