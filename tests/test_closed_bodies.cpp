@@ -3,11 +3,13 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstdlib>
 #include <limits>
 #include <random>
 
 #include <glm/gtc/matrix_transform.hpp>
 #include <packtrace/intersect.hpp>
+#include <packtrace/isa.hpp>
 
 #include "catch.hpp"
 #include "reference_scenes.hpp"
@@ -223,6 +225,83 @@ int count_open_paths(const RayScene<Real>& scene, Columns<Real> rays)
         scene.closest_hits(view_of(rays), from.starts(), hits.view());
     }
     return open;
+}
+
+/// Rays from within a body, every second one aimed at a rim.
+template <class Real>
+Columns<Real> rays_from_within(const Object& body, int count, std::mt19937_64& random)
+{
+    const auto& quadric = std::get<Quadric>(body.surface);
+    std::uniform_real_distribution<double> unit(0, 1);
+    std::uniform_real_distribution<double> number(-1, 1);
+    const auto to_world = [&](const glm::dvec3& p) {
+        return glm::dvec3(body.transform * glm::dvec4(p, 1));
+    };
+    Columns<Real> rays;
+    while (rays[0].size() < static_cast<std::size_t>(count)) {
+        const double share = 0.1 + 0.8 * unit(random);
+        const double z = glm::mix(quadric.z_range->low, quadric.z_range->high, share);
+        const double turn = 6.2831853 * unit(random);
+        const double r = 0.9 * rim_radius(quadric, z) * unit(random);
+        // Between the two halves of a hyperboloid of two sheets nothing is inside.
+        if (r == 0)
+            continue;
+        const glm::dvec3 from = to_world({r * std::cos(turn), r * std::sin(turn), z});
+        const bool at_rim = rays[0].size() % 2 == 0;
+        const glm::dvec3 dir = at_rim ? to_world(near_rim(quadric, random)) - from
+                                      : glm::dvec3(number(random), number(random), number(random));
+        add_ray<Real>(rays, from, dir);
+    }
+    return rays;
+}
+
+/// How many of the rays leave the body as often as they enter it: none does.
+template <class Real>
+int count_not_left(const RayScene<Real>& scene, const Columns<Real>& rays)
+{
+    int wrong = 0;
+    scene.all_hits(view_of(rays), [&](std::size_t, std::span<const SurfaceHit<Real>> hits) {
+        wrong += hits.size() % 2 == 0;
+    });
+    return wrong;
+}
+
+/// The same by one instruction set for every capped kind.
+void check_left_from_within(const std::string& isa, int rays_of_each, std::uint64_t seed)
+{
+    constexpr int at_once = 100'000;
+    std::mt19937_64 random(seed);
+    for (const Object& body : capped_bodies(random)) {
+        Scene scene;
+        scene.objects = {body};
+        RenderOptions options;
+        options.isa = isa;
+        const RayScene<float> singles(scene, options);
+        const RayScene<double> doubles(scene, options);
+        int wrong[2] = {};
+        for (int done = 0; done < rays_of_each; done += at_once) {
+            const int count = std::min(at_once, rays_of_each - done);
+            wrong[0] += count_not_left(singles, rays_from_within<float>(body, count, random));
+            wrong[1] += count_not_left(doubles, rays_from_within<double>(body, count, random));
+        }
+        CAPTURE(isa, std::get<Quadric>(body.surface).coefficients);
+        CHECK(wrong[0] == 0);
+        CHECK(wrong[1] == 0);
+    }
+}
+
+TEST_CASE("rays from within a capped body leave it once more than they enter it", "[closed_bodies]")
+{
+    for (const std::string& isa : supported_isas())
+        check_left_from_within(isa, 4000, 31);
+}
+
+// PACKTRACE_CLOSED_RAYS asks for more than the suite has time for, such as ten million.
+TEST_CASE("many rays from within a capped body leave it once more than they enter it",
+          "[closed_bodies][slow]")
+{
+    const char* const wanted = std::getenv("PACKTRACE_CLOSED_RAYS");
+    check_left_from_within(choose_isa().name, wanted != nullptr ? std::atoi(wanted) : 200'000, 32);
 }
 
 TEST_CASE("paths that go on from hits at rims leave every capped body they enter",
