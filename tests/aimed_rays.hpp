@@ -9,15 +9,15 @@
 #include <glm/geometric.hpp>
 #include <glm/gtc/matrix_transform.hpp>
 
-#include "study/own_surface.hpp"
-#include "study/stress_family.hpp"
+#include "lab/stress/quadric_points.hpp"
+#include "lab/stress/stress_family.hpp"
 
 // Rays that are aimed at where hits are decided: past silhouettes, along planes, at creases and
 // rims, by 3e-8 to 1e-3 of the size of what they pass.
 namespace packtrace::test {
 
-using study::StressRandom;
-using study::StressRay;
+using lab::StressRandom;
+using lab::StressRay;
 
 struct AimedRays {
     Scene scene;
@@ -43,7 +43,7 @@ struct AimedFamily {
     const Vec3 towards = glm::normalize(center - org);
     const double sine = std::min(distance / glm::length(center - org), 1.0);
     const double cosine = std::sqrt((1.0 - sine) * (1.0 + sine));
-    return study::ray_towards(org, org + cosine * towards + sine * study::across(random, towards));
+    return lab::ray_towards(org, org + cosine * towards + sine * lab::across(random, towards));
 }
 
 /// Rays of one origin, or each of its own.
@@ -69,7 +69,7 @@ struct AimedFamily {
     const double distance = random.power(2.0, far);
     for (int i = 0; i < spheres; ++i)
         result.scene.objects.push_back(
-            study::sphere_object(random.box(0.3 * spheres), random.between(0.2, 2.0)));
+            lab::sphere_object(random.box(0.3 * spheres), random.between(0.2, 2.0)));
     const Vec3 away = distance * random.unit();
     result.rays = aim_from(
         random, count, [&] { return away + random.box(1.0); },
@@ -88,11 +88,11 @@ struct AimedFamily {
     AimedRays result;
     const double radius = random.power(100.0, 1e6);
     const Vec3 center(0.0, random.between(-2.0, 0.0) - radius, 0.0);
-    result.scene.objects.push_back(study::sphere_object(center, radius));
+    result.scene.objects.push_back(lab::sphere_object(center, radius));
     for (int i = 0; i < 3; ++i) {
         const Vec3 up = glm::normalize(random.box(10.0) - center);
         const double size = random.between(0.2, 2.0);
-        result.scene.objects.push_back(study::sphere_object(center + (radius + size) * up, size));
+        result.scene.objects.push_back(lab::sphere_object(center + (radius + size) * up, size));
     }
     const auto above = [&] {
         const Vec3 up = glm::normalize(random.box(10.0) - center);
@@ -115,8 +115,8 @@ struct AimedFamily {
     const double second_radius = random.between(0.3, 1.0);
     const Vec3 way = glm::normalize(Vec3(0.0, 1.0, 0.0) + 0.1 * random.box(1.0));
     const Vec3 second = first + (first_radius + 0.5 * second_radius) * way;
-    result.scene.objects = {study::sphere_object(first, first_radius),
-                            study::sphere_object(second, second_radius)};
+    result.scene.objects = {lab::sphere_object(first, first_radius),
+                            lab::sphere_object(second, second_radius)};
     // Where the plane of the circle is along the way between the centres.
     const double apart = glm::length(second - first);
     const double height =
@@ -126,8 +126,8 @@ struct AimedFamily {
     result.rays = aim_from(
         random, count, [&] { return second + random.between(2.0, 9.0) * random.unit(); },
         [&](const Vec3& org) {
-            const Vec3 target = first + height * way + size * study::across(random, way);
-            return study::ray_towards(org, target + aim_error(random) * random.unit());
+            const Vec3 target = first + height * way + size * lab::across(random, way);
+            return lab::ray_towards(org, target + aim_error(random) * random.unit());
         });
     return result;
 }
@@ -140,14 +140,14 @@ struct AimedFamily {
     Vec3 normals[2] = {random.unit(), random.unit()};
     for (Vec3& normal : normals) {
         normal = glm::normalize(normal);
-        result.scene.objects.push_back(study::plane_object(point, normal));
+        result.scene.objects.push_back(lab::plane_object(point, normal));
     }
     result.rays = aim_from(
         random, count, [&] { return point + random.box(10.0); },
         [&](const Vec3& org) {
             const Vec3& normal = normals[random.below(2)];
-            const Vec3 way = study::across(random, normal) + aim_error(random) * normal;
-            return study::ray_towards(org, org + way);
+            const Vec3 way = lab::across(random, normal) + aim_error(random) * normal;
+            return lab::ray_towards(org, org + way);
         });
     return result;
 }
@@ -156,7 +156,7 @@ struct AimedFamily {
 [[nodiscard]] inline Object placed_quadric(StressRandom& random, QuadricKind kind)
 {
     Object object;
-    object.surface = study::quadric_of(kind);
+    object.surface = lab::quadric_of(kind);
     const double thin = random.below(2) == 0 ? 1.0 : random.power(1e-3, 1.0);
     Mat4 transform = glm::translate(Mat4(1.0), random.power(0.1, 100.0) * random.unit());
     transform = glm::rotate(transform, random.between(0.0, 6.28), random.unit());
@@ -178,7 +178,7 @@ struct AimedFamily {
     const Object object = placed_quadric(random, kind);
     result.scene.objects = {object};
     for (int i = 0; i < count; ++i) {
-        const Vec3 own = study::own_surface_point(random, kind);
+        const Vec3 own = lab::own_surface_point(random, kind);
         // Tangents by points of the surface near by: no gradient is needed.
         const Vec3 at = placed(object, own);
         const auto& c = std::get<Quadric>(object.surface).coefficients;
@@ -186,10 +186,10 @@ struct AimedFamily {
                             2.0 * c[2] * own.z + c[8]);
         const Vec3 normal =
             glm::normalize(glm::transpose(glm::inverse(Mat3(object.transform))) * gradient);
-        const Vec3 way = study::across(random, normal);
+        const Vec3 way = lab::across(random, normal);
         const Vec3 moved = at + aim_error(random) * normal;
         const Vec3 org(glm::vec3(moved - random.power(0.5, 20.0) * way));
-        result.rays.push_back(study::ray_towards(org, moved));
+        result.rays.push_back(lab::ray_towards(org, moved));
     }
     return result;
 }
@@ -212,7 +212,7 @@ struct AimedFamily {
             const double z = random.below(2) == 0 ? 0.25 : 1.0;
             const double radius = kind == QuadricKind::cone ? z : 1.0;
             const Vec3 rim(radius * std::cos(turn), radius * std::sin(turn), z);
-            return study::ray_towards(org, placed(object, rim + aim_error(random) * random.unit()));
+            return lab::ray_towards(org, placed(object, rim + aim_error(random) * random.unit()));
         });
     return result;
 }

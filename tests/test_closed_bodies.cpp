@@ -12,9 +12,9 @@
 #include <packtrace/isa.hpp>
 
 #include "catch.hpp"
+#include "lab/stress/stress.hpp"
 #include "reference_scenes.hpp"
 #include "render_scene.hpp"
-#include "study/stress.hpp"
 
 namespace packtrace::test {
 namespace {
@@ -65,14 +65,14 @@ Object capped_cylinder()
 /// Every capped kind, from inside and from outside, half of the rays at rims.
 void check_closed(int rays, std::uint64_t seed)
 {
-    study::StressOptions options;
+    lab::StressOptions options;
     options.rays = rays;
     options.seed = seed;
     options.kernels = {"packet", "scalar"};
     options.modes = {"exact"};
     options.families = {"closed-bodies", "rims-outside"};
-    study::run_stress(options, [](const std::vector<study::StressRow>& rows) {
-        for (const study::StressRow& row : rows) {
+    lab::run_stress(options, [](const std::vector<lab::StressRow>& rows) {
+        for (const lab::StressRow& row : rows) {
             CAPTURE(row.family, row.precision, row.kernel, row.isa, row.example);
             if (row.kernel == "packet" || row.precision == "double") {
                 CHECK(row.not_closed == 0);

@@ -10,9 +10,9 @@
 #include <packtrace/isa.hpp>
 
 #include "catch.hpp"
+#include "lab/stress/quadric_points.hpp"
+#include "lab/stress/stress_random.hpp"
 #include "reference_scenes.hpp"
-#include "study/own_surface.hpp"
-#include "study/stress_random.hpp"
 
 namespace packtrace::test {
 namespace {
@@ -21,14 +21,14 @@ template <class Real>
 using Bits = std::conditional_t<sizeof(Real) == 4, std::uint32_t, std::uint64_t>;
 
 template <class Real>
-Real any_bits(study::StressRandom& random)
+Real any_bits(lab::StressRandom& random)
 {
     return std::bit_cast<Real>(static_cast<Bits<Real>>(random.bits()));
 }
 
 /// Any bits at all, or one of the values that break things.
 template <class Real>
-Real any_value(study::StressRandom& random)
+Real any_value(lab::StressRandom& random)
 {
     using Limits = std::numeric_limits<Real>;
     const Real special[] = {0,
@@ -55,7 +55,7 @@ using Columns = std::array<std::vector<Real>, 8>;
 template <class Real>
 Columns<Real> any_rays(int count)
 {
-    study::StressRandom random(99);
+    lab::StressRandom random(99);
     Columns<Real> rays;
     for (int i = 0; i < count; ++i)
         for (auto& column : rays)
@@ -71,7 +71,7 @@ Scene every_kind(bool many)
                      sphere({0, -5002, 0}, 5000), sphere({1e5, 0, 0}, 1)};
     for (int kind = 0; kind < 7; ++kind)
         for (const bool capped : {false, true}) {
-            Quadric surface = study::quadric_of(static_cast<QuadricKind>(kind));
+            Quadric surface = lab::quadric_of(static_cast<QuadricKind>(kind));
             if (capped)
                 surface.z_range = ZRange{-0.5, 0.5};
             surface.capped = capped;

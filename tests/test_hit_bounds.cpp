@@ -12,9 +12,9 @@
 
 #include "catch.hpp"
 #include "intersect_program.hpp"
-#include "study/bound_checks.hpp"
-#include "study/stress_family.hpp"
-#include "study/stress_group.hpp"
+#include "lab/stress/bound_checks.hpp"
+#include "lab/stress/stress_family.hpp"
+#include "lab/stress/stress_group.hpp"
 
 namespace packtrace::test {
 namespace {
@@ -112,19 +112,19 @@ int discriminant_of(const Sphere& sphere, const Vec3& org, const Vec3& dir)
     return Rational(b * b - a * c).sign();
 }
 
-study::StressGroup group_of(const study::StressFamily& family, int rays, std::uint64_t seed)
+lab::StressGroup group_of(const lab::StressFamily& family, int rays, std::uint64_t seed)
 {
-    std::vector<study::StressGroup> groups = study::make_groups<double>(family, seed, rays);
+    std::vector<lab::StressGroup> groups = lab::make_groups<double>(family, seed, rays);
     return groups.front();
 }
 
 template <class Real>
-study::BoundChecks check_family(const study::StressFamily& family, int rays, std::uint64_t seed)
+lab::BoundChecks check_family(const lab::StressFamily& family, int rays, std::uint64_t seed)
 {
-    study::BoundChecks sum;
-    const study::StressSubject subject{"packet", "exact", "auto", true, {}};
-    for (const study::StressGroup& group : study::make_groups<Real>(family, seed, rays))
-        sum.add(study::check_bounds<Real>(subject, group));
+    lab::BoundChecks sum;
+    const lab::StressSubject subject{"packet", "exact", "auto", true, {}};
+    for (const lab::StressGroup& group : lab::make_groups<Real>(family, seed, rays))
+        sum.add(lab::check_bounds<Real>(subject, group));
     return sum;
 }
 
@@ -132,11 +132,11 @@ study::BoundChecks check_family(const study::StressFamily& family, int rays, std
 std::uint64_t check_families(int rays, std::uint64_t seed)
 {
     std::uint64_t bounds = 0;
-    for (const study::StressFamily& family : study::stress_families()) {
+    for (const lab::StressFamily& family : lab::stress_families()) {
         CAPTURE(family.name, seed);
-        study::BoundChecks single = check_family<float>(family, rays, seed);
+        lab::BoundChecks single = check_family<float>(family, rays, seed);
         CHECK(single.missed == 0);
-        study::BoundChecks wide = check_family<double>(family, rays, seed);
+        lab::BoundChecks wide = check_family<double>(family, rays, seed);
         CHECK(wide.missed == 0);
         bounds += single.bounds + wide.bounds;
     }
@@ -178,7 +178,7 @@ TEST_CASE("bounds are empty where there is no hit", "[hit_bounds]")
 TEST_CASE("bounds hold the near of two hits that single precision cannot tell apart",
           "[hit_bounds]")
 {
-    const Scene scene = scene_of(study::sphere_object({0, 0, 10000}, 0.0003));
+    const Scene scene = scene_of(lab::sphere_object({0, 0, 10000}, 0.0003));
     const RayScene<float> tiny(scene);
     const OneRay<float> ray({0, 0, 0}, {1e-8, 1e-8, 1});
     const HitBounds first = ray.first(tiny);
@@ -249,7 +249,7 @@ TEST_CASE("bounds know nothing of kernels, precisions and modes", "[hit_bounds]"
 
 TEST_CASE("a sphere's surface lies between its bounds by exact arithmetic", "[hit_bounds]")
 {
-    study::StressRandom random(7);
+    lab::StressRandom random(7);
     int crossings = 0;
     for (int i = 0; i < 300; ++i) {
         Sphere sphere;
@@ -258,7 +258,7 @@ TEST_CASE("a sphere's surface lies between its bounds by exact arithmetic", "[hi
         const Vec3 org = random.box(random.power(1.0, 1e6));
         // Near the silhouette as often as not.
         const Vec3 target = sphere.center + (i % 2 == 0 ? 0.9 : 1.0 - 1e-9) * sphere.radius *
-                                                study::across(random, sphere.center - org);
+                                                lab::across(random, sphere.center - org);
         Object object;
         object.surface = sphere;
         const RayScene<double> scene(scene_of(object));
@@ -282,15 +282,15 @@ TEST_CASE("a sphere's surface lies between its bounds by exact arithmetic", "[hi
 TEST_CASE("a changed bound would be found to miss the truth", "[hit_bounds]")
 {
     // The check itself: hits of another scene, slightly larger.
-    const auto& families = study::stress_families();
+    const auto& families = lab::stress_families();
     const auto sphere = std::find_if(families.begin(), families.end(),
                                      [](const auto& f) { return f.name == "sphere"; });
     REQUIRE(sphere != families.end());
-    study::StressGroup group = group_of(*sphere, 160, 1);
-    const study::StressSubject subject{"packet", "exact", "auto", true, {}};
-    CHECK(study::check_bounds<double>(subject, group).missed == 0);
+    lab::StressGroup group = group_of(*sphere, 160, 1);
+    const lab::StressSubject subject{"packet", "exact", "auto", true, {}};
+    CHECK(lab::check_bounds<double>(subject, group).missed == 0);
     std::get<Sphere>(group.scene.objects[0].surface).radius *= 1.0 + 1e-9;
-    CHECK(study::check_bounds<double>(subject, group).missed > 0);
+    CHECK(lab::check_bounds<double>(subject, group).missed > 0);
 }
 
 TEST_CASE("no bound of extreme rays misses the truth", "[hit_bounds]")

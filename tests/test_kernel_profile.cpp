@@ -10,14 +10,14 @@
 
 #include "catch.hpp"
 #include "dispatch/kernels.hpp"
+#include "lab/profile/kernel_profile.hpp"
+#include "lab/profile/observed_frame.hpp"
+#include "lab/profile/piece_times.hpp"
+#include "lab/profile/stage_seconds.hpp"
+#include "lab/profile/work_rows.hpp"
 #include "render_scene.hpp"
 #include "run_program.hpp"
 #include "scenes.hpp"
-#include "study/kernel_profile.hpp"
-#include "study/observed_frame.hpp"
-#include "study/piece_times.hpp"
-#include "study/stage_seconds.hpp"
-#include "study/work_rows.hpp"
 
 namespace packtrace::test {
 namespace {

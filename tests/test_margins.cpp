@@ -101,7 +101,7 @@ void check_aimed(const AimedFamily& family, int scenes, int rays, std::uint64_t 
         for (StressRay& ray : aimed.rays) {
             ray.t_min = 0.0;
             ray.t_max = std::numeric_limits<double>::infinity();
-            study::round_to_precision<float>(ray);
+            lab::round_to_precision<float>(ray);
         }
         const Truth truth(aimed.scene);
         std::vector<AimedTruth> truths;
@@ -142,8 +142,8 @@ Scene balls_at_tile_edges(unsigned seed)
         const double radius = random.power(1e-4, 0.05);
         const double miss = radius * (1.0 + random.sign() * random.power(1e-9, 1e-3));
         const Vec3 center = basis.origin + random.between(1.5, 20.0) * dir +
-                            miss * study::across(random, glm::normalize(dir));
-        scene.objects.push_back(study::sphere_object(center, radius));
+                            miss * lab::across(random, glm::normalize(dir));
+        scene.objects.push_back(lab::sphere_object(center, radius));
     }
     return scene;
 }

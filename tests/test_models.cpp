@@ -9,8 +9,8 @@
 #include <glm/gtc/matrix_transform.hpp>
 
 #include "catch.hpp"
+#include "lab/stress/quadric_points.hpp"
 #include "reference_scenes.hpp"
-#include "study/own_surface.hpp"
 
 // Every illumination model and every surface: packets of doubles against the scalar reference.
 namespace packtrace::test {
@@ -19,7 +19,7 @@ namespace {
 Quadric named(QuadricKind kind)
 {
     if (kind != QuadricKind::general)
-        return study::quadric_of(kind);
+        return lab::quadric_of(kind);
     Quadric quadric;
     quadric.kind = kind;
     quadric.coefficients = {1.0, 1.4, 0.7, 0.3, -0.4, 0.2, 0.1, -0.2, 0.15, -0.9};

@@ -6,10 +6,10 @@
 #include <packtrace/intersect.hpp>
 
 #include "catch.hpp"
+#include "lab/stress/placed_quadric.hpp"
+#include "lab/stress/quadric_points.hpp"
+#include "lab/stress/stress_subject.hpp"
 #include "render_scene.hpp"
-#include "study/own_surface.hpp"
-#include "study/placed_quadric.hpp"
-#include "study/stress_subject.hpp"
 
 namespace packtrace::test {
 namespace {
@@ -19,18 +19,18 @@ constexpr std::size_t ray_count = 2000;
 /// Spheres on a ground sphere, a plane, and quadrics of every shape.
 Scene mixed_scene()
 {
-    study::StressRandom random(5);
+    lab::StressRandom random(5);
     Scene scene;
     scene.objects = {
-        study::sphere_object({0, -1, 3}, 1),     study::sphere_object({-2, 1, 3}, 1),
-        study::sphere_object({2, 1, 3}, 1),      study::sphere_object({0, -5001, 0}, 5000),
-        study::sphere_object({3, 2, 60}, 0.002), study::plane_object({0, 0, 90}, {0, 0.6, -0.8})};
+        lab::sphere_object({0, -1, 3}, 1),     lab::sphere_object({-2, 1, 3}, 1),
+        lab::sphere_object({2, 1, 3}, 1),      lab::sphere_object({0, -5001, 0}, 5000),
+        lab::sphere_object({3, 2, 60}, 0.002), lab::plane_object({0, 0, 90}, {0, 0.6, -0.8})};
     for (const QuadricKind kind : {QuadricKind::ellipsoid, QuadricKind::cylinder, QuadricKind::cone,
                                    QuadricKind::paraboloid}) {
         Object object;
-        object.surface = study::quadric_of(kind);
-        object.transform = study::any_placement(random, study::any_stretch(random, 0.05),
-                                                random.box(3.0) + Vec3(0, 2, 8));
+        object.surface = lab::quadric_of(kind);
+        object.transform = lab::any_placement(random, lab::any_stretch(random, 0.05),
+                                              random.box(3.0) + Vec3(0, 2, 8));
         scene.objects.push_back(object);
     }
     return scene;
@@ -43,7 +43,7 @@ using Columns = std::array<std::vector<Real>, 8>;
 template <class Real>
 Columns<Real> forward_rays()
 {
-    study::StressRandom random(11);
+    lab::StressRandom random(11);
     Columns<Real> rays;
     for (std::size_t i = 0; i < ray_count; ++i) {
         const Vec3 org = random.box(0.5);
@@ -112,10 +112,10 @@ struct Change {
 /// Behind all rays and above them.
 void add_objects_elsewhere(Scene& scene, int count)
 {
-    study::StressRandom random(3);
+    lab::StressRandom random(3);
     for (int i = 0; i < count; ++i)
         scene.objects.push_back(
-            study::sphere_object(random.box(100.0) + Vec3(0, 250, -250), random.power(0.01, 1.0)));
+            lab::sphere_object(random.box(100.0) + Vec3(0, 250, -250), random.power(0.01, 1.0)));
 }
 
 /// The scene after changes that are no business of its rays.
@@ -153,7 +153,7 @@ void check_no_cliff(const RenderOptions& options)
 TEST_CASE("camera, lights and objects elsewhere change no digit of a hit", "[no_cliff]")
 {
     for (const std::string& isa : supported_isas())
-        for (const study::StressMode& mode : study::stress_modes) {
+        for (const lab::StressMode& mode : lab::stress_modes) {
             CAPTURE(isa, mode.name);
             RenderOptions options;
             options.isa = isa;

@@ -10,12 +10,12 @@
 #include <nlohmann/json.hpp>
 
 #include "catch.hpp"
+#include "lab/harness/statistics.hpp"
+#include "lab/profile/busy_machine.hpp"
+#include "lab/profile/profile_subjects.hpp"
+#include "lab/profile/tick_rate.hpp"
 #include "run_program.hpp"
 #include "scenes.hpp"
-#include "study/busy_machine.hpp"
-#include "study/profile_subjects.hpp"
-#include "study/statistics.hpp"
-#include "study/tick_rate.hpp"
 
 namespace packtrace::test {
 namespace {

@@ -11,16 +11,16 @@
 #include <nlohmann/json.hpp>
 
 #include "catch.hpp"
+#include "lab/harness/statistics.hpp"
+#include "lab/report/label_places.hpp"
+#include "lab/report/plot_axis.hpp"
+#include "lab/report/report_choice.hpp"
+#include "lab/report/report_pictures.hpp"
+#include "lab/report/report_study.hpp"
+#include "lab/report/report_text.hpp"
+#include "lab/truth/truth_file.hpp"
 #include "render_scene.hpp"
 #include "scenes.hpp"
-#include "study/label_places.hpp"
-#include "study/plot_axis.hpp"
-#include "study/report_choice.hpp"
-#include "study/report_pictures.hpp"
-#include "study/report_study.hpp"
-#include "study/report_text.hpp"
-#include "study/statistics.hpp"
-#include "study/truth_file.hpp"
 #include "temp_folder.hpp"
 
 namespace packtrace::test {

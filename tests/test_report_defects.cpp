@@ -5,10 +5,10 @@
 
 #include "catch.hpp"
 #include "dispatch/kernels.hpp"
+#include "lab/report/report_study.hpp"
+#include "lab/report/report_text.hpp"
 #include "render_scene.hpp"
 #include "scenes.hpp"
-#include "study/report_study.hpp"
-#include "study/report_text.hpp"
 
 namespace packtrace::planted {
 [[nodiscard]] const abi::KernelTable& kernel_table();

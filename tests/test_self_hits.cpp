@@ -7,13 +7,13 @@
 #include <packtrace/read_scene.hpp>
 
 #include "catch.hpp"
+#include "lab/harness/ray_trees.hpp"
+#include "lab/report/error_class.hpp"
+#include "lab/stress/stress_family.hpp"
 #include "packet_scenes.hpp"
 #include "reference/render_reference.hpp"
 #include "reference_scenes.hpp"
 #include "render_scene.hpp"
-#include "study/error_class.hpp"
-#include "study/ray_trees.hpp"
-#include "study/stress_family.hpp"
 
 namespace packtrace::test {
 namespace {
@@ -48,8 +48,8 @@ Scene glass_balls(ShadowKind shadows)
     stone.diffuse = Rgb(0.7);
     stone.specular = Rgb(0.1);
     for (const double radius : {1.0, 0.6})
-        scene.objects.push_back(study::sphere_object({0.1, 0.0, 4.0}, radius));
-    scene.objects.push_back(study::sphere_object({0.0, -501.0, 4.0}, 500.0));
+        scene.objects.push_back(lab::sphere_object({0.1, 0.0, 4.0}, radius));
+    scene.objects.push_back(lab::sphere_object({0.0, -501.0, 4.0}, 500.0));
     for (Object& object : scene.objects)
         object.material.model = glass;
     scene.objects[2].material.model = stone;
@@ -178,7 +178,7 @@ TEST_CASE("a ray that leaves a ball meets it again only from inside, however sha
           "[self_hits]")
 {
     Scene scene;
-    scene.objects = {study::sphere_object({0, 0, 0}, 1.0)};
+    scene.objects = {lab::sphere_object({0, 0, 0}, 1.0)};
     const RayScene<float> balls(scene, exact_options());
     const glm::vec3 top{0, 1, 0};
     for (const float fall : {0.5f, 1e-2f, 1e-4f, 1e-6f}) {

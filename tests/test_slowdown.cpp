@@ -1,5 +1,5 @@
 // Verdicts on samples that nobody measured.
-#include "study/slowdown.hpp"
+#include "lab/bench/slowdown.hpp"
 
 #include <algorithm>
 #include <cstddef>

@@ -1,5 +1,5 @@
 // The truth that stress holds kernels against, and what it finds.
-#include "study/stress.hpp"
+#include "lab/stress/stress.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -9,31 +9,31 @@
 #include <packtrace/isa.hpp>
 
 #include "catch.hpp"
+#include "lab/stress/evaluate.hpp"
+#include "lab/stress/quadric_points.hpp"
+#include "lab/stress/stress_family.hpp"
+#include "lab/stress/stress_group.hpp"
+#include "lab/stress/stress_subject.hpp"
+#include "lab/stress/stress_verdict.hpp"
 #include "run_program.hpp"
-#include "study/evaluate.hpp"
-#include "study/own_surface.hpp"
-#include "study/stress_family.hpp"
-#include "study/stress_group.hpp"
-#include "study/stress_subject.hpp"
-#include "study/stress_verdict.hpp"
 #include "temp_folder.hpp"
 
 namespace packtrace::test {
 namespace {
 
-using study::Expected;
-using study::StressRay;
-using study::StressRow;
-using study::TrueHit;
-using study::Verdict;
-using study::WideSurface;
+using lab::Expected;
+using lab::StressRay;
+using lab::StressRow;
+using lab::TrueHit;
+using lab::Verdict;
+using lab::WideSurface;
 
 constexpr double single_roundoff = 0x1p-24;
 
 std::vector<TrueHit> true_hits(const Object& object, const StressRay& ray)
 {
     std::vector<TrueHit> found;
-    study::find_true_hits(WideSurface(object, 0), ray, found);
+    lab::find_true_hits(WideSurface(object, 0), ray, found);
     std::sort(found.begin(), found.end(),
               [](const TrueHit& a, const TrueHit& b) { return a.t < b.t; });
     return found;
@@ -43,31 +43,31 @@ Expected expected_of(const std::vector<Object>& objects, const StressRay& ray)
 {
     std::vector<TrueHit> hits;
     for (std::size_t i = 0; i < objects.size(); ++i)
-        study::find_true_hits(WideSurface(objects[i], static_cast<std::int32_t>(i)), ray, hits);
-    return study::expect(ray, std::move(hits), single_roundoff);
+        lab::find_true_hits(WideSurface(objects[i], static_cast<std::int32_t>(i)), ray, hits);
+    return lab::expect(ray, std::move(hits), single_roundoff);
 }
 
-Verdict verdict_of(const Expected& expected, const study::Answer& answer)
+Verdict verdict_of(const Expected& expected, const lab::Answer& answer)
 {
-    return study::verdict_of(expected, answer, study::double_band, single_roundoff);
+    return lab::verdict_of(expected, answer, lab::double_band, single_roundoff);
 }
 
-study::Errors errors_of(const Expected& expected, const StressRay& ray, const study::Answer& answer)
+lab::Errors errors_of(const Expected& expected, const StressRay& ray, const lab::Answer& answer)
 {
-    study::Evaluation evaluation(single_roundoff);
+    lab::Evaluation evaluation(single_roundoff);
     evaluation.add(ray, expected, answer);
     return evaluation.errors();
 }
 
 StressRay endless(const Vec3& org, const Vec3& dir)
 {
-    return {org, dir, 0.0, study::no_end};
+    return {org, dir, 0.0, lab::no_end};
 }
 
-std::vector<StressRow> rows_of(const study::StressOptions& options)
+std::vector<StressRow> rows_of(const lab::StressOptions& options)
 {
     std::vector<StressRow> rows;
-    study::run_stress(options, [&](const std::vector<StressRow>& some) {
+    lab::run_stress(options, [&](const std::vector<StressRow>& some) {
         rows.insert(rows.end(), some.begin(), some.end());
     });
     return rows;
@@ -77,7 +77,7 @@ std::vector<StressRow> rows_of(const study::StressOptions& options)
 Object turned_cylinder()
 {
     Object cylinder;
-    cylinder.surface = study::quadric_of(QuadricKind::cylinder);
+    cylinder.surface = lab::quadric_of(QuadricKind::cylinder);
     cylinder.transform[0] = {-0x1.c5519ep-8, 0x1.0dcd44p-1, 0x1.b9b048p-2, 0.0};
     cylinder.transform[1] = {0x1.f23074p-3, 0x1.2d71f2p-1, -0x1.753a46p-1, 0.0};
     cylinder.transform[2] = {-0x1.c9e65ep-1, 0x1.f19edep-3, -0x1.06e96ep-3, 0.0};
@@ -110,7 +110,7 @@ bool meets_after(const Object& object, const StressRay& ray, double change)
 
 /// In exact mode and packets of doubles, all families. Of the instruction sets the widest: those
 /// with fused multiply-add answer alike.
-void check_faultless(study::StressOptions options)
+void check_faultless(lab::StressOptions options)
 {
     options.isa = choose_isa("auto").name;
     options.kernels = {"packet"};
@@ -136,7 +136,7 @@ const StressRow& row_of(const std::vector<StressRow>& rows, const std::string& k
 
 TEST_CASE("the truth about a ray through a sphere is known", "[stress]")
 {
-    const Object ball = study::sphere_object({0, 0, 10}, 2);
+    const Object ball = lab::sphere_object({0, 0, 10}, 2);
     const StressRay through{{0, 0, 0}, {0, 0, 1}, 0.0, 1e9};
     const auto both = true_hits(ball, through);
     REQUIRE(both.size() == 2);
@@ -152,7 +152,7 @@ TEST_CASE("the truth about a ray through a sphere is known", "[stress]")
 
 TEST_CASE("the truth tells how near a ray is to missing", "[stress]")
 {
-    const Object ball = study::sphere_object({0, 0, 10}, 2);
+    const Object ball = lab::sphere_object({0, 0, 10}, 2);
     for (const double off : {1e-3, 1e-6, 1e-9}) {
         CAPTURE(off);
         const auto inside = true_hits(ball, {{2.0 - off, 0, 0}, {0, 0, 1}, 0.0, 1e9});
@@ -170,8 +170,8 @@ TEST_CASE("the truth tells how near a ray is to missing", "[stress]")
 
 TEST_CASE("an answer is held against the hit that was expected before", "[stress]")
 {
-    const Object ball = study::sphere_object({0, 0, 10}, 2);
-    const Object behind = study::sphere_object({0, 0, 20}, 2);
+    const Object ball = lab::sphere_object({0, 0, 10}, 2);
+    const Object behind = lab::sphere_object({0, 0, 20}, 2);
     const StressRay through = endless({0, 0, 0}, {0, 0, 1});
     const Expected expected = expected_of({ball, behind}, through);
     CHECK(expected.object == 0);
@@ -193,10 +193,10 @@ TEST_CASE("an answer is held against the hit that was expected before", "[stress
 
 TEST_CASE("t, normals and numbers that are wrong are counted", "[stress]")
 {
-    const Object ball = study::sphere_object({0, 0, 10}, 2);
+    const Object ball = lab::sphere_object({0, 0, 10}, 2);
     const StressRay through = endless({0, 0, 0}, {0, 0, 1});
     const Expected expected = expected_of({ball}, through);
-    const auto errors = [&](const study::Answer& answer) {
+    const auto errors = [&](const lab::Answer& answer) {
         return errors_of(expected, through, answer);
     };
     CHECK(errors({0, 8.0, {0, 0, -1}}).rho == 0.0);
@@ -216,10 +216,10 @@ TEST_CASE("t, normals and numbers that are wrong are counted", "[stress]")
 
 TEST_CASE("where both roots are one float the normal tells the far side", "[stress]")
 {
-    const Object ball = study::sphere_object({0, 0, 10000}, static_cast<double>(0.0003f));
+    const Object ball = lab::sphere_object({0, 0, 10000}, static_cast<double>(0.0003f));
     const auto small = static_cast<double>(1e-8f);
     const Expected expected = expected_of({ball}, endless({0, 0, 0}, {small, small, 1}));
-    CHECK(expected.root_decided(study::double_band));
+    CHECK(expected.root_decided(lab::double_band));
     CHECK(static_cast<float>(expected.t) == 10000.0f);
     CHECK(expected.normal.z == Approx(-0.881917));
     const double third = 1.0 / 3.0;
@@ -242,12 +242,12 @@ TEST_CASE("which of two objects is first is decided as far as double can", "[str
             hit.condition = hit.spread / 8.0;
             hit.margin = 1.0;
         }
-        hits[1].t += study::Wide(gap);
-        const Expected expected = study::expect(endless({0, 0, 0}, {0, 0, 1}), hits, 0x1p-24);
+        hits[1].t += lab::Wide(gap);
+        const Expected expected = lab::expect(endless({0, 0, 0}, {0, 0, 1}), hits, 0x1p-24);
         CHECK(expected.object == 0);
         CHECK(expected.margin == Approx(gap / 36.0));
         const bool told = gap > 1e-13;
-        CHECK(expected.decided(study::double_band) == told);
+        CHECK(expected.decided(lab::double_band) == told);
         CHECK(verdict_of(expected, {1, 8.0, {0, 0, -1}}) ==
               (told ? Verdict::wrong_object : Verdict::right));
     }
@@ -262,8 +262,8 @@ TEST_CASE("every ray hits crossing planes, on their edge as well", "[stress]")
     const Expected edge = expected_of({planes}, endless({0, 0, -5}, {0, 0.04, 0.2}));
     CHECK(edge.object == 0);
     CHECK(static_cast<double>(edge.t) == Approx(25.0));
-    CHECK(edge.decided(study::double_band));
-    CHECK_FALSE(edge.root_decided(study::double_band));
+    CHECK(edge.decided(lab::double_band));
+    CHECK_FALSE(edge.root_decided(lab::double_band));
     CHECK(verdict_of(edge, {-1, 0.0, {}}) == Verdict::lost);
     CHECK(verdict_of(edge, {0, 25.0, {1, 0, 0}}) == Verdict::right);
     // x = -z first, at z = -2: before it x² < z², inside.
@@ -271,12 +271,12 @@ TEST_CASE("every ray hits crossing planes, on their edge as well", "[stress]")
     CHECK(off.t == 3);
     CHECK(off.normal.x == Approx(std::sqrt(0.5)));
     CHECK(off.normal.z == Approx(std::sqrt(0.5)));
-    CHECK(off.root_decided(study::double_band));
+    CHECK(off.root_decided(lab::double_band));
 }
 
 TEST_CASE("a ray inside a capped body has to leave it, at its rim as well", "[stress]")
 {
-    Quadric quadric = study::quadric_of(QuadricKind::cylinder);
+    Quadric quadric = lab::quadric_of(QuadricKind::cylinder);
     quadric.z_range = ZRange{-1.0, 1.0};
     quadric.capped = true;
     Object cylinder;
@@ -288,15 +288,15 @@ TEST_CASE("a ray inside a capped body has to leave it, at its rim as well", "[st
     };
     CHECK(at_rim(1.0).object == 0);
     CHECK(at_rim(1.0).t == 1);
-    CHECK_FALSE(at_rim(1.0).decided(study::double_band));
+    CHECK_FALSE(at_rim(1.0).decided(lab::double_band));
     CHECK(verdict_of(at_rim(1.0), {-1, 0.0, {}}) == Verdict::lost);
     CHECK(verdict_of(at_rim(1.0), {0, 1.0, {0, 0, 1}}) == Verdict::right);
     CHECK(verdict_of(at_rim(1.0), {0, 1.0, {1, 0, 0}}) == Verdict::right);
     CHECK(verdict_of(at_rim(1.0 + 1e-6), {0, 1.0, {1, 0, 0}}) == Verdict::wrong_root);
-    CHECK(at_rim(0.5).decided(study::double_band));
+    CHECK(at_rim(0.5).decided(lab::double_band));
 
     const auto not_closed = [&](double z, std::size_t crossings) {
-        study::Evaluation evaluation(single_roundoff);
+        lab::Evaluation evaluation(single_roundoff);
         evaluation.add_crossings(at_rim(z), crossings);
         return evaluation.errors().not_closed;
     };
@@ -309,7 +309,7 @@ TEST_CASE("a ray inside a capped body has to leave it, at its rim as well", "[st
     const auto not_even = [&](const Vec3& org, const Vec3& dir, std::size_t crossings) {
         Expected expected = expected_of({cylinder}, endless(org, dir));
         expected.even = true;
-        study::Evaluation evaluation(single_roundoff);
+        lab::Evaluation evaluation(single_roundoff);
         evaluation.add_crossings(expected, crossings);
         return evaluation.errors().not_closed;
     };
@@ -323,10 +323,10 @@ TEST_CASE("a ray inside a capped body has to leave it, at its rim as well", "[st
 
 TEST_CASE("any-hit answers and the first of all hits are held to the truth", "[stress]")
 {
-    const Object ball = study::sphere_object({0, 0, 10}, 2);
+    const Object ball = lab::sphere_object({0, 0, 10}, 2);
     const Expected hit = expected_of({ball}, endless({0, 0, 0}, {0, 0, 1}));
     const Expected miss = expected_of({ball}, endless({3, 0, 0}, {0, 0, 1}));
-    study::Evaluation evaluation(single_roundoff);
+    lab::Evaluation evaluation(single_roundoff);
     evaluation.add_occluded(hit, true);
     evaluation.add_occluded(miss, false);
     evaluation.add_first_of_all(hit, 0, 0);
@@ -342,7 +342,7 @@ TEST_CASE("any-hit answers and the first of all hits are held to the truth", "[s
 TEST_CASE("a ray along a cone's side has one hit, and none at infinity", "[stress]")
 {
     Object cone;
-    cone.surface = study::quadric_of(QuadricKind::cone);
+    cone.surface = lab::quadric_of(QuadricKind::cone);
     StressRay ray = endless({0, 2, 0}, {0, 1, 1});
     ray.exact = true;
     // y² - z² = (2 + t)² - t² = 4 + 4 t.
@@ -355,10 +355,10 @@ TEST_CASE("a ray along a cone's side has one hit, and none at infinity", "[stres
 
 TEST_CASE("among many spheres the truth leaves out none that matters", "[stress]")
 {
-    for (const study::StressFamily& family : study::touching_families()) {
+    for (const lab::StressFamily& family : lab::touching_families()) {
         if (family.name != "creases-100" && family.name != "creases-1000")
             continue;
-        for (const study::StressGroup& group : study::make_groups<float>(family, 7, 64))
+        for (const lab::StressGroup& group : lab::make_groups<float>(family, 7, 64))
             for (std::size_t i = 0; i < group.rays.size(); ++i) {
                 CAPTURE(family.name, i);
                 const Expected all = expected_of(group.scene.objects, group.rays[i]);
@@ -374,11 +374,11 @@ TEST_CASE("among many spheres the truth leaves out none that matters", "[stress]
 TEST_CASE("known findings come first in their families", "[stress]")
 {
     int known = 0;
-    for (const study::StressFamily& family : study::stress_families())
+    for (const lab::StressFamily& family : lab::stress_families())
         for (const auto& make : family.known) {
             CAPTURE(family.name);
-            study::StressRandom random(1);
-            const study::StressCase one = make();
+            lab::StressRandom random(1);
+            const lab::StressCase one = make();
             CHECK_FALSE(one.scene.objects.empty());
             CHECK(expected_of(one.scene.objects, one.ray(random)).object >= -1);
             ++known;
@@ -389,12 +389,12 @@ TEST_CASE("known findings come first in their families", "[stress]")
 TEST_CASE("the square root of 113 bits is right to the last", "[stress]")
 {
     for (const double x : {4.0, 2.0, 1e-300, 3e300, 0.1}) {
-        const study::Wide root = study::square_root(study::Wide(x));
-        const study::Wide off = abs(root * root - x) / x;
+        const lab::Wide root = lab::square_root(lab::Wide(x));
+        const lab::Wide off = abs(root * root - x) / x;
         CHECK(static_cast<double>(off) < 0x1p-110);
     }
-    CHECK(study::square_root(study::Wide(9)) == 3);
-    CHECK(study::square_root(study::Wide(-1)) == 0);
+    CHECK(lab::square_root(lab::Wide(9)) == 3);
+    CHECK(lab::square_root(lab::Wide(-1)) == 0);
 }
 
 TEST_CASE("a verdict names the families that are wrong", "[stress]")
@@ -405,23 +405,23 @@ TEST_CASE("a verdict names the families that are wrong", "[stress]")
     good.mode = "exact";
     good.held = true;
     good.rays = 100;
-    CHECK(study::faults_of(good).empty());
-    CHECK(study::without_faults({good}));
-    CHECK(study::stress_verdict({good}) ==
+    CHECK(lab::faults_of(good).empty());
+    CHECK(lab::without_faults({good}));
+    CHECK(lab::stress_verdict({good}) ==
           "verdict: exact is right in all 1 families (0 wrong decisions, 0 self-hits, 0 second "
           "hits lost, 100 rays)");
     StressRow bad = good;
     bad.family = "rims";
     bad.wrong = bad.lost = 3;
-    bad.faults = study::faults_of(bad);
+    bad.faults = lab::faults_of(bad);
     CHECK(bad.faults == std::vector<std::string>{"3 lost"});
-    CHECK_FALSE(study::without_faults({good, bad}));
-    CHECK(study::stress_verdict({good, bad}) ==
+    CHECK_FALSE(lab::without_faults({good, bad}));
+    CHECK(lab::stress_verdict({good, bad}) ==
           "verdict: exact is WRONG in rims (3 wrong decisions, 0 self-hits, 0 second hits lost, "
           "200 rays)");
     StressRow bounded = good;
     bounded.bounds = 300;
-    CHECK(study::stress_verdict({bounded}) ==
+    CHECK(lab::stress_verdict({bounded}) ==
           "verdict: exact is right in all 1 families (0 wrong decisions, 0 self-hits, 0 second "
           "hits lost, 0 of 300 bounds missed, 100 rays)");
     // What is beyond the bounds because double has no more digits is named, and no fault.
@@ -430,8 +430,8 @@ TEST_CASE("a verdict names the families that are wrong", "[stress]")
     limit.hits = 90;
     limit.t_at_limit = 2;
     limit.normal_beyond = 1;
-    CHECK(study::faults_of(limit).empty());
-    CHECK(study::stress_verdict({good, limit}) ==
+    CHECK(lab::faults_of(limit).empty());
+    CHECK(lab::stress_verdict({good, limit}) ==
           "verdict: exact is right in all 2 families (0 wrong decisions, 0 self-hits, 0 second "
           "hits lost, 200 rays), double itself at its limit in far (2 t, 1 normals of 90)");
     // Packets of doubles do not refine: an ulp of double is not held to, what inputs make is.
@@ -440,13 +440,13 @@ TEST_CASE("a verdict names the families that are wrong", "[stress]")
     doubles.hits = 100;
     doubles.t_beyond = doubles.t_beyond_half = 50;
     doubles.rho = 3.9;
-    CHECK(study::faults_of(doubles).empty());
+    CHECK(lab::faults_of(doubles).empty());
     doubles.rho = 4.1;
-    CHECK(study::faults_of(doubles).size() == 1);
+    CHECK(lab::faults_of(doubles).size() == 1);
     StressRow fast = bad;
     fast.held = false;
     fast.faults.clear();
-    CHECK(study::stress_verdict({fast}) == "verdict: no rays were traced in an exact mode");
+    CHECK(lab::stress_verdict({fast}) == "verdict: no rays were traced in an exact mode");
     for (std::uint64_t StressRow::*count :
          {&StressRow::false_hits, &StressRow::wrong_object, &StressRow::wrong_root,
           &StressRow::occluded, &StressRow::order, &StressRow::not_closed,
@@ -456,13 +456,13 @@ TEST_CASE("a verdict names the families that are wrong", "[stress]")
           &StressRow::bounds_missed}) {
         StressRow row = good;
         row.*count = 1;
-        CHECK(study::faults_of(row).size() == 1);
+        CHECK(lab::faults_of(row).size() == 1);
     }
 }
 
 TEST_CASE("a ray that its own rounding turns towards a cylinder is inside the band", "[stress]")
 {
-    const double band = study::undecided_band * 0x1p-24;
+    const double band = lab::undecided_band * 0x1p-24;
     const auto along = true_hits(turned_cylinder(), ray_along_cylinder());
     REQUIRE(along.size() == 1);
     CHECK(!along[0].exists);
@@ -480,7 +480,7 @@ TEST_CASE("a ray that its own rounding turns towards a cylinder is inside the ba
 
 TEST_CASE("packets are right about rays along a cylinder outside the band", "[stress]")
 {
-    study::StressOptions options;
+    lab::StressOptions options;
     options.rays = 24000;
     options.kernels = {"packet"};
     options.precisions = {"single"};
@@ -494,7 +494,7 @@ TEST_CASE("packets are right about rays along a cylinder outside the band", "[st
 
 TEST_CASE("second hits are those of rays from where they start", "[stress]")
 {
-    study::StressOptions options;
+    lab::StressOptions options;
     options.rays = 8000;
     options.kernels = {"packet"};
     options.families = {"cone-apex", "far-quadric"};
@@ -511,7 +511,7 @@ TEST_CASE("second hits are those of rays from where they start", "[stress]")
 TEST_CASE("no family finds a fault in exact mode and in packets of doubles", "[stress]")
 {
     for (const Traversal traversal : {Traversal::list, Traversal::tree}) {
-        study::StressOptions options;
+        lab::StressOptions options;
         options.rays = 128;
         options.traversal = traversal;
         check_faultless(options);
@@ -520,7 +520,7 @@ TEST_CASE("no family finds a fault in exact mode and in packets of doubles", "[s
 
 TEST_CASE("no family finds a fault in a quarter of a million rays", "[stress][slow]")
 {
-    study::StressOptions options;
+    lab::StressOptions options;
     options.rays = 4096;
     options.seed = 5;
     check_faultless(options);
@@ -528,12 +528,12 @@ TEST_CASE("no family finds a fault in a quarter of a million rays", "[stress][sl
 
 TEST_CASE("packets are right outside the band of their own precision", "[stress]")
 {
-    study::StressOptions options;
+    lab::StressOptions options;
     options.rays = 400;
     options.kernels = {"packet"};
-    for (const auto& some : {study::sphere_families(), study::plane_families(),
-                             study::quadric_families(), study::scene_families()})
-        for (const study::StressFamily& family : some)
+    for (const auto& some : {lab::sphere_families(), lab::plane_families(), lab::quadric_families(),
+                             lab::scene_families()})
+        for (const lab::StressFamily& family : some)
             options.families.push_back(family.name);
     for (const StressRow& row : rows_of(options)) {
         CAPTURE(row.family, row.precision, row.mode, row.isa, row.example);
@@ -547,7 +547,7 @@ TEST_CASE("packets are right outside the band of their own precision", "[stress]
 
 TEST_CASE("powers, glass and mirrors keep their bounds", "[stress]")
 {
-    study::StressOptions options;
+    lab::StressOptions options;
     options.rays = 400;
     options.families = {"exponents",      "exponent-1",  "exponent-10000",
                         "critical-angle", "mirror-room", "mirror-ball"};
@@ -561,7 +561,7 @@ TEST_CASE("powers, glass and mirrors keep their bounds", "[stress]")
 
 TEST_CASE("the textbook breaks on what packets hold", "[stress]")
 {
-    study::StressOptions options;
+    lab::StressOptions options;
     options.rays = 1000;
     options.precisions = {"single"};
     options.families = {"tiny-far"};
@@ -577,7 +577,7 @@ TEST_CASE("the textbook breaks on what packets hold", "[stress]")
 
 TEST_CASE("all instruction sets with fused multiply-add answer alike in every mode", "[stress]")
 {
-    study::StressOptions options;
+    lab::StressOptions options;
     options.rays = 300;
     options.kernels = {"packet"};
     const std::vector<std::string> fused = {"sse_fma", "avx2", "avx512"};
@@ -604,7 +604,7 @@ TEST_CASE("the stress command prints rows, a verdict, JSON and its families", "[
         more.insert(more.begin(), few.begin(), few.end());
         return run_packtrace(more);
     };
-    const std::string exact = study::stress_modes[std::size(study::stress_modes) - 1].name;
+    const std::string exact = lab::stress_modes[std::size(lab::stress_modes) - 1].name;
     const ProgramResult table = with({"--kernel", "packet", "--mode", exact});
     CHECK(table.exit_code == 0);
     CHECK(table.out.find("plane") != std::string::npos);
@@ -623,7 +623,7 @@ TEST_CASE("the stress command prints rows, a verdict, JSON and its families", "[
 
     const ProgramResult list = run_packtrace({"stress", "--list"});
     CHECK(list.exit_code == 0);
-    for (const auto& family : study::list_stress_families())
+    for (const auto& family : lab::list_stress_families())
         CHECK(list.out.find(family.name) != std::string::npos);
     CHECK(run_packtrace({"stress", "--family", "nonsense"}).exit_code == 2);
     CHECK(run_packtrace({"stress", "--rays", "0"}).exit_code == 2);

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "aimed_rays.hpp"
-#include "study/wide_truth.hpp"
+#include "lab/truth/wide_truth.hpp"
 
 // What rays hit, in 113 bits, and whether doubles can tell.
 namespace packtrace::test {
@@ -36,9 +36,9 @@ public:
 
     [[nodiscard]] AimedTruth of(const StressRay& ray, StressRandom& random) const
     {
-        std::vector<study::TrueHit> hits;
-        for (const study::WideSurface& surface : surfaces_)
-            study::find_true_hits(surface, ray, hits);
+        std::vector<lab::TrueHit> hits;
+        for (const lab::WideSurface& surface : surfaces_)
+            lab::find_true_hits(surface, ray, hits);
         AimedTruth hit = closest(hits);
         if (hit.object >= 0)
             hit.t_max = static_cast<float>(hit.t * (1.0 + aim_error(random)));
@@ -47,11 +47,11 @@ public:
     }
 
 private:
-    static AimedTruth closest(const std::vector<study::TrueHit>& hits)
+    static AimedTruth closest(const std::vector<lab::TrueHit>& hits)
     {
-        const study::TrueHit* first = nullptr;
+        const lab::TrueHit* first = nullptr;
         AimedTruth hit;
-        for (const study::TrueHit& other : hits) {
+        for (const lab::TrueHit& other : hits) {
             hit.decidable = hit.decidable && other.margin >= double_band;
             if (other.exists && (first == nullptr || other.t < first->t))
                 first = &other;
@@ -61,7 +61,7 @@ private:
         hit.object = first->object;
         hit.t = static_cast<double>(first->t);
         hit.condition = first->condition;
-        for (const study::TrueHit& other : hits) {
+        for (const lab::TrueHit& other : hits) {
             const double apart = double_band * (other.condition + first->condition) * hit.t;
             if (other.exists && other.object != first->object)
                 hit.decidable = hit.decidable && static_cast<double>(other.t - first->t) > apart;
@@ -69,12 +69,12 @@ private:
         return hit;
     }
 
-    static void set_occlusion(AimedTruth& hit, const std::vector<study::TrueHit>& hits)
+    static void set_occlusion(AimedTruth& hit, const std::vector<lab::TrueHit>& hits)
     {
-        for (const study::TrueHit& other : hits) {
-            hit.occluded = hit.occluded || (other.exists && other.t < study::Wide(hit.t_max));
+        for (const lab::TrueHit& other : hits) {
+            hit.occluded = hit.occluded || (other.exists && other.t < lab::Wide(hit.t_max));
             const double t = static_cast<double>(other.t);
-            const double from_end = std::abs(static_cast<double>(other.t - study::Wide(hit.t_max)));
+            const double from_end = std::abs(static_cast<double>(other.t - lab::Wide(hit.t_max)));
             if (other.exists && std::isfinite(hit.t_max))
                 hit.occlusion_decidable =
                     hit.occlusion_decidable && from_end > double_band * other.condition * t;
@@ -82,7 +82,7 @@ private:
         }
     }
 
-    std::vector<study::WideSurface> surfaces_;
+    std::vector<lab::WideSurface> surfaces_;
 };
 
 }  // namespace packtrace::test

@@ -17,9 +17,9 @@
 #include <nlohmann/json.hpp>
 
 #include "dispatch/kernels.hpp"
+#include "lab/harness/machine.hpp"
+#include "lab/harness/statistics.hpp"
 #include "lower/leave_out.hpp"
-#include "study/machine.hpp"
-#include "study/statistics.hpp"
 
 namespace {
 

@@ -19,9 +19,9 @@
 #include <tbb/global_control.h>
 
 #include "context.hpp"
+#include "lab/harness/statistics.hpp"
+#include "lab/harness/stopwatch.hpp"
 #include "peers/ray_set.hpp"
-#include "study/statistics.hpp"
-#include "study/stopwatch.hpp"
 
 namespace packtrace {
 namespace {

@@ -67,7 +67,7 @@ struct ReportOptions {
     std::function<void(const std::string& what, double share)> progress;
 };
 
-/// How many of the pixels looked at are off for one reason (study/error_class.hpp).
+/// How many of the pixels looked at are off for one reason (lab/report/error_class.hpp).
 struct ErrorShare {
     std::string kind;
     std::string meaning;

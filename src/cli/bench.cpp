@@ -13,8 +13,8 @@
 #include "cli/text_table.hpp"
 #include "cli/thread_limit.hpp"
 #include "cli/validators.hpp"
-#include "study/paired_bench.hpp"
-#include "study/slowdown.hpp"
+#include "lab/bench/paired_bench.hpp"
+#include "lab/bench/slowdown.hpp"
 
 namespace packtrace::cli {
 namespace {

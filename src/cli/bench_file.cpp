@@ -7,7 +7,7 @@
 
 #include "core/json_text.hpp"
 #include "core/read_file.hpp"
-#include "study/machine.hpp"
+#include "lab/harness/machine.hpp"
 
 namespace packtrace::cli {
 namespace {

@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "study/paired_bench.hpp"
+#include "lab/bench/paired_bench.hpp"
 
 namespace packtrace::cli {
 

@@ -18,8 +18,8 @@
 #include "cli/text_table.hpp"
 #include "cli/thread_limit.hpp"
 #include "cli/validators.hpp"
-#include "study/statistics.hpp"
-#include "study/stopwatch.hpp"
+#include "lab/harness/statistics.hpp"
+#include "lab/harness/stopwatch.hpp"
 
 namespace packtrace::cli {
 namespace {

@@ -4,7 +4,7 @@
 #include <packtrace/render.hpp>
 #include <packtrace/renderer.hpp>
 
-#include "study/stopwatch.hpp"
+#include "lab/harness/stopwatch.hpp"
 
 namespace packtrace::cli {
 namespace {

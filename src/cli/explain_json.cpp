@@ -1,7 +1,7 @@
 #include <cmath>
 
 #include "cli/explain_print.hpp"
-#include "study/ray_kind_name.hpp"
+#include "lab/harness/ray_kind_name.hpp"
 
 namespace packtrace::cli {
 namespace {

@@ -19,9 +19,9 @@
 #include "cli/thread_limit.hpp"
 #include "cli/validators.hpp"
 #include "core/atomic_file.hpp"
-#include "study/machine.hpp"
-#include "study/plot.hpp"
-#include "study/report_text.hpp"
+#include "lab/harness/machine.hpp"
+#include "lab/report/plot.hpp"
+#include "lab/report/report_text.hpp"
 
 namespace packtrace::cli {
 namespace {

@@ -16,19 +16,19 @@
 #include "cli/validators.hpp"
 #include "core/atomic_file.hpp"
 #include "core/json_text.hpp"
-#include "study/stress.hpp"
-#include "study/stress_subject.hpp"
-#include "study/stress_verdict.hpp"
+#include "lab/stress/stress.hpp"
+#include "lab/stress/stress_subject.hpp"
+#include "lab/stress/stress_verdict.hpp"
 
 namespace packtrace::cli {
 namespace {
 
-using study::StressRow;
+using lab::StressRow;
 
 constexpr int most_rays = 10000000;
 
 struct StressArguments {
-    study::StressOptions options;
+    lab::StressOptions options;
     std::optional<std::string> isa;
     std::optional<std::string> traversal;
     std::optional<std::string> cases;  ///< a folder for scenes and rays of wrong answers
@@ -40,7 +40,7 @@ struct StressArguments {
 std::vector<std::string> family_names()
 {
     std::vector<std::string> names;
-    for (const auto& family : study::list_stress_families())
+    for (const auto& family : lab::list_stress_families())
         names.push_back(family.name);
     return names;
 }
@@ -48,7 +48,7 @@ std::vector<std::string> family_names()
 std::vector<std::string> mode_names()
 {
     std::vector<std::string> names;
-    for (const study::StressMode& mode : study::stress_modes)
+    for (const lab::StressMode& mode : lab::stress_modes)
         names.emplace_back(mode.name);
     return names;
 }
@@ -95,7 +95,7 @@ void add_row(TextTable& table, const StressRow& row)
                row.pareto ? "*" : ""});
 }
 
-nlohmann::ordered_json spread_json(const study::ErrorSpread& spread)
+nlohmann::ordered_json spread_json(const lab::ErrorSpread& spread)
 {
     return {{"median", spread.median}, {"p99", spread.p99}, {"max", spread.max}};
 }
@@ -148,7 +148,7 @@ nlohmann::ordered_json row_json(const StressRow& row)
 void print_families()
 {
     TextTable table(2, {"family", "rays"});
-    for (const auto& family : study::list_stress_families())
+    for (const auto& family : lab::list_stress_families())
         table.add({family.name, family.what});
     table.print(std::cout);
 }
@@ -177,12 +177,12 @@ void print_faults(const std::vector<StressRow>& rows)
     }
 }
 
-void print_json(const study::StressOptions& options, const std::vector<StressRow>& rows)
+void print_json(const lab::StressOptions& options, const std::vector<StressRow>& rows)
 {
     nlohmann::ordered_json json;
     json["seed"] = options.seed;
     json["rays_per_family"] = options.rays;
-    json["verdict"] = study::stress_verdict(rows);
+    json["verdict"] = lab::stress_verdict(rows);
     json["rows"] = nlohmann::ordered_json::array();
     for (const StressRow& row : rows)
         json["rows"].push_back(row_json(row));
@@ -211,13 +211,13 @@ void run(const StressArguments& arguments)
 {
     if (arguments.list)
         return print_families();
-    study::StressOptions options = arguments.options;
+    lab::StressOptions options = arguments.options;
     if (arguments.isa)
         options.isa = chosen_isa({arguments.isa, {}}).name;
     options.traversal = traversal_named(arguments.traversal.value_or("auto"));
     const ThreadLimit limit(arguments.threads);
     std::vector<StressRow> rows;
-    study::run_stress(options, [&](const std::vector<StressRow>& some) {
+    lab::run_stress(options, [&](const std::vector<StressRow>& some) {
         rows.insert(rows.end(), some.begin(), some.end());
     });
     if (arguments.cases)
@@ -227,9 +227,9 @@ void run(const StressArguments& arguments)
     } else {
         print_rows(rows);
         print_faults(rows);
-        std::cout << study::stress_verdict(rows) << '\n';
+        std::cout << lab::stress_verdict(rows) << '\n';
     }
-    if (!study::without_faults(rows))
+    if (!lab::without_faults(rows))
         throw Failed{};
 }
 
@@ -240,7 +240,7 @@ void add_stress(CLI::App& app)
     CLI::App* command = app.add_subcommand(
         "stress", "Hold the kernels against extreme rays whose hits are known to 113 bits");
     const auto arguments = std::make_shared<StressArguments>();
-    study::StressOptions& options = arguments->options;
+    lab::StressOptions& options = arguments->options;
     command->add_option("--family", options.families, "Only this family of rays (repeatable)")
         ->check(one_of(family_names()))
         ->type_name("NAME");

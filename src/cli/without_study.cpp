@@ -4,7 +4,7 @@
 #include "cli/certainty.hpp"
 #include "cli/command.hpp"
 
-// Stands in for the commands of src/study in programs built without it (PACKTRACE_BUILD_STUDY).
+// Stands in for the commands of src/lab in programs built without it (PACKTRACE_BUILD_STUDY).
 namespace packtrace::cli {
 namespace {
 

@@ -112,7 +112,7 @@ struct PrecisionTable {
     void (*self_test)(const SelfTestJob<Real>& job) = nullptr;
 };
 
-/// The kernels of Features::probe, which only src/study asks for.
+/// The kernels of Features::probe, which only src/lab asks for.
 struct ProbeKernels {
     FeatureKernels<float> exact;
     FeatureKernels<float> single_precision;

@@ -1,0 +1,60 @@
+#pragma once
+
+#include <functional>
+#include <string>
+#include <vector>
+
+#include <packtrace/report.hpp>
+
+#include "lab/harness/report_subject.hpp"
+#include "lab/harness/statistics.hpp"
+
+namespace packtrace {
+
+/// A variant's time over that of the scalar reference in single precision, both on one thread
+/// and taken right after each other, so that a slow machine or moment falls on both. Times are
+/// the processor's for this program: what others take from it is not in them.
+struct BenchLine {
+    std::string name;             ///< "four_spheres, packets avx2 single"
+    std::vector<double> ratios;   ///< by repetition
+    std::vector<double> seconds;  ///< of a frame, by repetition
+
+    [[nodiscard]] double ratio() const
+    {
+        return median_of(ratios);
+    }
+};
+
+struct BenchOptions {
+    std::vector<std::string> isas;  ///< none: all this machine runs
+};
+
+/// The lines of a scene, to be measured as often as wanted: every instruction set in both
+/// precisions, and the reference in double.
+class SceneBench {
+public:
+    SceneBench(const ReportScene& scene, const BenchOptions& options);
+
+    /// Measures the wanted lines in turns, so that a busy spell falls on all of them. What there
+    /// is of earlier calls stays.
+    void measure(int repetitions, const std::function<bool(const BenchLine&)>& wanted);
+
+    [[nodiscard]] const std::vector<BenchLine>& lines() const
+    {
+        return lines_;
+    }
+    /// What all lines are compared to.
+    [[nodiscard]] const BenchLine& reference() const
+    {
+        return reference_;
+    }
+
+private:
+    void measure_once(std::size_t line);
+
+    std::vector<Subject> subjects_;  // the reference, then the lines
+    BenchLine reference_;
+    std::vector<BenchLine> lines_;
+};
+
+}  // namespace packtrace

@@ -1,0 +1,128 @@
+#include <algorithm>
+
+#include <packtrace/isa.hpp>
+#include <packtrace/report.hpp>
+
+#include "lab/harness/accuracy_name.hpp"
+#include "lab/report/report_text.hpp"
+
+namespace packtrace {
+namespace {
+
+std::vector<IsaInfo> wanted_isas(const ReportOptions& options)
+{
+    std::vector<IsaInfo> isas;
+    for (const IsaInfo& isa : list_isas())
+        if (isa.supported && (options.isas.empty() ||
+                              std::count(options.isas.begin(), options.isas.end(), isa.name) > 0))
+            isas.push_back(isa);
+    return isas;
+}
+
+std::string threads_text(int threads)
+{
+    return std::to_string(threads) + (threads == 1 ? " thread" : " threads");
+}
+
+Variant packets(const IsaInfo& isa, const std::string& precision, int depth)
+{
+    Variant variant;
+    variant.precision = precision;
+    variant.isa = isa.name;
+    variant.lanes = precision == "single" ? isa.lanes_single : isa.lanes_double;
+    variant.depth = depth;
+    return variant;
+}
+
+// Packets of singles beside the usual ones; `how` names what is other with them.
+Variant beside(Variant variant, const std::string& how, const ReportOptions& options)
+{
+    variant.study = Study::arithmetic;
+    variant.threads = options.threads.front();
+    variant.name =
+        "packets " + variant.isa + " single " + how + ", " + threads_text(variant.threads);
+    return variant;
+}
+
+// In another accuracy mode than the usual one.
+Variant in_mode(const Variant& usual, Accuracy accuracy, const ReportOptions& options)
+{
+    Variant variant = beside(usual, name_of(accuracy), options);
+    variant.accuracy = accuracy;
+    return variant;
+}
+
+// With rays that start a fixed 0.001 along their way, as the notes have it.
+Variant by_note(const Variant& usual, const ReportOptions& options)
+{
+    Variant variant = beside(usual, "from 0.001", options);
+    variant.self_hits = SelfHits::note;
+    return variant;
+}
+
+// By the kernel that knows everything.
+Variant by_general(const Variant& usual, const ReportOptions& options)
+{
+    Variant variant = beside(usual, "general kernel", options);
+    variant.general = true;
+    return variant;
+}
+
+Variant scalar(const std::string& precision, int depth)
+{
+    Variant variant;
+    variant.kernel = Kernel::scalar;
+    variant.precision = precision;
+    variant.depth = depth;
+    return variant;
+}
+
+void add_arithmetic(std::vector<Variant>& variants, Variant variant, const ReportOptions& options)
+{
+    variant.study = Study::arithmetic;
+    const std::string kernel =
+        variant.kernel == Kernel::scalar ? "scalar" : "packets " + variant.isa;
+    for (const int threads : options.threads) {
+        variant.threads = threads;
+        variant.name = kernel + " " + variant.precision + ", " + threads_text(threads);
+        variants.push_back(variant);
+    }
+}
+
+}  // namespace
+
+std::vector<Variant> report_variants(const Scene& scene, const ReportOptions& options)
+{
+    std::vector<Variant> variants;
+    const std::vector<IsaInfo> isas = wanted_isas(options);
+    for (const char* precision : {"single", "double"}) {
+        add_arithmetic(variants, scalar(precision, scene.max_depth), options);
+        for (const IsaInfo& isa : isas)
+            add_arithmetic(variants, packets(isa, precision, scene.max_depth), options);
+    }
+    Variant widest = packets(isas.back(), "single", scene.max_depth);
+    variants.push_back(in_mode(widest, Accuracy::fast, options));
+    variants.push_back(by_note(widest, options));
+    variants.push_back(by_general(widest, options));
+    widest.study = Study::depth;
+    for (int depth = 0; depth <= scene.max_depth; ++depth) {
+        widest.depth = depth;
+        widest.name = "depth " + std::to_string(depth);
+        variants.push_back(widest);
+    }
+    widest.study = Study::sampling;
+    for (const int samples : options.samples) {
+        widest.samples = samples;
+        widest.name = "spp " + std::to_string(samples);
+        variants.push_back(widest);
+    }
+    for (const auto& [samples, contrast] : options.adaptive) {
+        widest.samples = samples;
+        widest.adaptive = contrast;
+        widest.name = "adaptive " + std::to_string(samples) + " at " + brief(contrast, 6);
+        variants.push_back(widest);
+    }
+    return variants;
+}
+
+}  // namespace packtrace

@@ -1,0 +1,77 @@
+#include "lab/profile/busy_machine.hpp"
+
+#include <cmath>
+#include <cstdio>
+
+namespace packtrace {
+namespace {
+
+// Of a frame that times may vary by, and of a whole that the sum of its parts may be off by. Idle
+// machines keep to a third of it.
+constexpr double busy_tolerance = 0.1;
+
+std::string percent_text(double share)
+{
+    char text[32];
+    std::snprintf(text, sizeof text, "%.0f %%", 100.0 * share);
+    return text;
+}
+
+bool differs_from_whole(double part, double whole)
+{
+    return !(std::abs(part / whole - 1.0) <= busy_tolerance);
+}
+
+template <class Stage>
+double sum_of_stages(const std::vector<Stage>& stages)
+{
+    double sum = 0.0;
+    for (const Stage& stage : stages)
+        sum += stage.seconds;
+    return sum;
+}
+
+void append_name(std::string& names, const std::string& name)
+{
+    names += (names.empty() ? "" : ", ") + name;
+}
+
+// Generations and what-if rows whose differences vary too much.
+std::string doubtful_rows(const Profile& profile)
+{
+    std::string names;
+    for (const ProfileGeneration& generation : profile.generations)
+        if (generation.spread > busy_tolerance * profile.frame)
+            append_name(names, "depth " + std::to_string(generation.depth));
+    for (const ProfileWhatIf& row : profile.what_if)
+        if (row.spread > busy_tolerance * profile.frame)
+            append_name(names, row.name);
+    return names;
+}
+
+}  // namespace
+
+std::vector<std::string> busy_lines(const Profile& profile)
+{
+    std::vector<std::string> lines;
+    if (!(profile.frame_spread <= busy_tolerance))
+        lines.push_back("the frame: its times vary by " + percent_text(profile.frame_spread) +
+                        " of their median");
+    if (const std::string rows = doubtful_rows(profile); !rows.empty())
+        lines.push_back("what these rows differ by: " + rows +
+                        "; from turn to turn that varies by more than " +
+                        percent_text(busy_tolerance) + " of a frame");
+    if (const double sum = sum_of_stages(profile.stages); differs_from_whole(sum, profile.whole))
+        lines.push_back("the stages: they sum to " + percent_text(sum / profile.whole) +
+                        " of the whole way");
+    const KernelProfile& kernels = profile.kernels;
+    if (differs_from_whole(kernels.clocked, kernels.observed))
+        lines.push_back("what the clock adds: frames with it take " +
+                        percent_text(kernels.clocked / kernels.observed) + " of those without");
+    if (const double sum = sum_of_stages(kernels.stages); differs_from_whole(sum, kernels.clocked))
+        lines.push_back("the stages in the kernels: they sum to " +
+                        percent_text(sum / kernels.clocked) + " of the clocked frame");
+    return lines;
+}
+
+}  // namespace packtrace

@@ -1,0 +1,106 @@
+#include "lab/profile/kernel_profile.hpp"
+
+#include <algorithm>
+
+#include "dispatch/kernels.hpp"
+#include "lab/profile/observed_frame.hpp"
+#include "lab/profile/piece_times.hpp"
+#include "lab/profile/profile_subjects.hpp"
+#include "lab/profile/span_times.hpp"
+#include "lab/profile/stage_seconds.hpp"
+#include "lab/profile/unsure_rows.hpp"
+#include "lab/profile/work_rows.hpp"
+
+namespace packtrace {
+namespace {
+
+// Nothing is recorded.
+constexpr auto unobserved = [](int) { return nullptr; };
+
+template <class Real>
+void time_pieces(ObservedFrame<Real>& frame, PieceTimes& times)
+{
+    frame.render(unobserved, [&](int piece, double seconds) { times.add(piece, seconds); });
+}
+
+// Plain frames, observable ones, and those with the clock, in turns.
+template <class Real>
+void clock_spans(ObservedFrame<Real>& plain, ObservedFrame<Real>& observed,
+                 const ProfileOptions& options, SpanTimes& spans, KernelProfile& profile)
+{
+    const int pieces = observed.pieces();
+    PieceTimes plain_times(pieces), observed_times(pieces), clocked_times(pieces);
+    // The clock's rate is told by a piece that is clocked twice.
+    for (int turn = 0; turn < std::max(2, options.repetitions); ++turn) {
+        time_pieces(plain, plain_times);
+        time_pieces(observed, observed_times);
+        observed.render([&](int) { return spans.begin(); },
+                        [&](int piece, double seconds) {
+                            spans.end(piece);
+                            clocked_times.add(piece, seconds);
+                        });
+    }
+    profile.plain = plain_times.frame();
+    profile.observed = observed_times.frame();
+    profile.clocked = clocked_times.frame();
+}
+
+// One frame that clocks the parts of all pieces, for their shares alone.
+template <class Real>
+std::vector<KernelStage> divide_spans(ObservedFrame<Real>& observed, const SpanTimes& spans,
+                                      int generations)
+{
+    std::vector<abi::PartLaps> parts(static_cast<std::size_t>(generations));
+    abi::Observation observation;
+    observation.generations = generations;
+    observation.parts = parts.data();
+    StageSeconds seconds(generations);
+    observed.render(
+        [&](int) {
+            std::fill(parts.begin(), parts.end(), abi::PartLaps{});
+            return &observation;
+        },
+        [&](int piece, double) { seconds.add(spans.seconds(piece), parts, observation.reading); });
+    return seconds.stages();
+}
+
+}  // namespace
+
+LoweredScene observable(LoweredScene lowered)
+{
+    lowered.features = {
+        .quadrics = true, .glass = true, .probe = true, .exact = lowered.features.exact};
+    return lowered;
+}
+
+template <class Real>
+ObservedKernels observe_kernels(const Scene& scene, const ProfileOptions& options)
+{
+    const RenderOptions sampling = render_options(options);
+    const LoweredScene lowered = lower(scene, accuracy_in<Real>(sampling), sampling.self_hits);
+    const auto& table = kernels_of(choose_isa(options.isa).name);
+    ObservedFrame<Real> plain(scene, lowered, table, sampling);
+    ObservedFrame<Real> observed(scene, observable(lowered), table, sampling);
+    const int generations = scene.max_depth + 1;
+
+    ObservedKernels result;
+    SpanTimes spans(observed.pieces(), generations);
+    clock_spans(plain, observed, options, spans, result.profile);
+    result.profile.stages = divide_spans(observed, spans, generations);
+
+    result.counts.resize(static_cast<std::size_t>(generations));
+    abi::Observation counting;
+    counting.generations = generations;
+    counting.counts = result.counts.data();
+    result.rays = observed.render([&](int) { return &counting; }, [](int, double) {});
+    result.profile.rays = ray_rows(result.counts, result.profile.stages);
+    result.profile.lanes = lane_rows(result.counts);
+    result.profile.tests = test_rows(result.counts);
+    result.profile.unsure = unsure_rows(result.counts);
+    return result;
+}
+
+template ObservedKernels observe_kernels<float>(const Scene&, const ProfileOptions&);
+template ObservedKernels observe_kernels<double>(const Scene&, const ProfileOptions&);
+
+}  // namespace packtrace

@@ -1,0 +1,134 @@
+#include <algorithm>
+#include <atomic>
+#include <chrono>
+#include <mutex>
+
+#include <packtrace/profile.hpp>
+
+#include <tbb/task_arena.h>
+
+#include "dispatch/kernels.hpp"
+#include "lab/profile/profile_subjects.hpp"
+#include "render/camera_view.hpp"
+#include "render/tile_loop.hpp"
+#include "render/tile_renderer.hpp"
+
+namespace packtrace {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+// Copies of a pixel that are traced together.
+constexpr int copies = 64;
+
+double seconds_between(Clock::time_point from, Clock::time_point to)
+{
+    return std::chrono::duration<double>(to - from).count();
+}
+
+// Numbers threads as they come.
+class ThreadNumbers {
+public:
+    int mine()
+    {
+        int& number = numbers_.local();
+        if (number < 0)
+            number = count_++;
+        return number;
+    }
+
+private:
+    std::atomic<int> count_{0};
+    tbb::enumerable_thread_specific<int> numbers_{-1};
+};
+
+}  // namespace
+
+template <class Real>
+std::vector<TileSpan> trace_tiles(const Scene& scene, const ProfileOptions& options)
+{
+    RenderOptions sampling = render_options(options);
+    sampling.adaptive.reset();
+    const LoweredScene lowered = lower(scene, accuracy_in<Real>(sampling), sampling.self_hits);
+    const TileRenderer<Real> tiles(scene, lowered, kernels_of(choose_isa(options.isa).name),
+                                   sampling);
+    const TileGrid grid(scene.width, scene.height);
+    Image<Real> image(scene.width, scene.height);
+    const auto render_tile = [&](int x, int y) {
+        return options.samples > 1 ? tiles.render_mean(image, x, y)
+                                   : tiles.render_once(image, x, y);
+    };
+    std::vector<TileSpan> spans;
+    tbb::task_arena arena(options.threads);
+    arena.execute([&] {
+        const std::function<void(double)> silent;
+        // The first frame pays for memory.
+        Progress first(grid.count, silent);
+        (void)for_each_tile(grid, first, render_tile);
+        Progress done(grid.count, silent);
+        ThreadNumbers threads;
+        std::mutex mutex;
+        const auto start = Clock::now();
+        (void)for_each_tile(grid, done, [&](int x, int y) {
+            const auto from = Clock::now();
+            const abi::RayCounts rays = render_tile(x, y);
+            const auto to = Clock::now();
+            const std::lock_guard lock(mutex);
+            spans.push_back({x, y, threads.mine(), seconds_between(start, from),
+                             seconds_between(from, to),
+                             rays.camera + rays.shadow + rays.reflected + rays.refracted});
+            return rays;
+        });
+    });
+    std::sort(spans.begin(), spans.end(),
+              [](const TileSpan& a, const TileSpan& b) { return a.start < b.start; });
+    return spans;
+}
+
+template <class Real>
+std::vector<double> pixel_costs(const Scene& scene, const ProfileOptions& options)
+{
+    const LoweredScene lowered =
+        lower(scene, accuracy_in<Real>(render_options(options)), options.self_hits);
+    const auto& table = precision<Real>(kernels_of(choose_isa(options.isa).name));
+    const PackedScene<Real> packed(lowered,
+                                   frame_traversal(lowered, Traversal::automatic, table.lanes));
+    const auto camera = camera_view<Real>(scene, lowered, Vec2(0.0));
+    const auto& kernels = kernels_for(table, lowered.features);
+    AlignedArray<std::byte> scratch(kernels.scratch_bytes(packed.view()));
+    abi::TileSamples<Real> samples;
+    samples.count = copies;
+    Real rgb[3 * abi::tile_pixels];
+    abi::TileJob<Real> job;
+    job.scene = &packed.view();
+    job.camera = &camera;
+    job.scratch = scratch.data();
+    job.samples = &samples;
+    job.rgb = rgb;
+    const Vec2 place = scene.camera.pixel_sample;
+    std::vector<double> costs;
+    for (int y = 0; y < scene.height; ++y)
+        for (int x = 0; x < scene.width; ++x) {
+            job.x = x - x % abi::tile_size;
+            job.y = y - y % abi::tile_size;
+            std::fill_n(samples.column, copies, static_cast<Real>(x - job.x + place.x));
+            std::fill_n(samples.row, copies, static_cast<Real>(y - job.y + place.y));
+            double least = 0.0;
+            // The quicker of two: the other may have been interrupted.
+            for (int turn = 0; turn < 2; ++turn) {
+                const auto from = Clock::now();
+                (void)kernels.render_tile(job);
+                const double seconds = seconds_between(from, Clock::now()) / copies;
+                least = turn == 0 ? seconds : std::min(least, seconds);
+            }
+            costs.push_back(least);
+        }
+    return costs;
+}
+
+template std::vector<TileSpan> trace_tiles<float>(const Scene&, const ProfileOptions&);
+template std::vector<TileSpan> trace_tiles<double>(const Scene&, const ProfileOptions&);
+template std::vector<double> pixel_costs<float>(const Scene&, const ProfileOptions&);
+template std::vector<double> pixel_costs<double>(const Scene&, const ProfileOptions&);
+
+}  // namespace packtrace

@@ -1,0 +1,43 @@
+#pragma once
+
+#include <array>
+#include <chrono>
+#include <vector>
+
+#include "kernel_abi/observation.hpp"
+#include "lab/profile/tick_rate.hpp"
+
+namespace packtrace {
+
+/// Ticks of a generation's spans.
+struct SpanTicks {
+    std::array<double, abi::span_count> span{};
+    double refracted = 0.0;  ///< share of Span::trace that is for refracted rays, in [0, 1]
+
+    [[nodiscard]] double total() const;
+};
+
+/// The spans of a frame's pieces (ObservedFrame), each clocked several times.
+class SpanTimes {
+public:
+    SpanTimes(int pieces, int generations);
+
+    /// What the next piece is recorded into.
+    [[nodiscard]] abi::Observation* begin();
+    /// That piece is done.
+    void end(int piece);
+
+    /// Seconds of a piece's generations: of the time the piece took in the middle.
+    [[nodiscard]] std::vector<SpanTicks> seconds(int piece) const;
+
+private:
+    using Clock = std::chrono::steady_clock;
+
+    std::vector<abi::SpanLaps> laps_;
+    abi::Observation observation_;
+    std::vector<std::vector<std::vector<SpanTicks>>> of_piece_;  // by piece, time and generation
+    std::vector<ClockReading> readings_;                         // as each piece ended
+    Clock::time_point start_ = Clock::now();
+};
+
+}  // namespace packtrace

@@ -1,0 +1,254 @@
+#include "lab/report/error_class.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+
+#include <glm/geometric.hpp>
+
+#include "lab/report/neighbour_rays.hpp"
+#include "lower/lowered_scene.hpp"
+
+namespace packtrace {
+namespace {
+
+struct ClassText {
+    const char* name;
+    const char* meaning;
+};
+
+constexpr std::array<ClassText, error_class_count> texts{{
+    {"silhouette", "the camera ray passes an object's edge on its other side"},
+    {"shadow edge", "the point seen lies on the other side of a shadow's edge"},
+    {"deep", "a mirrored or refracted ray took another way, or was not traced"},
+    {"highlight", "the same rays, but another highlight"},
+    {"position", "the same rays, but a hit point or normal is off"},
+    {"shading", "the same rays, but another colour that is no highlight"},
+    {"near start", "a ray met or missed what lies by its start: epsilon"},
+    {"lost hit", "a ray missed what lies squarely in its way, or met what does not"},
+}};
+
+// How far from its start, in epsilons, a hit still has to do with epsilon.
+constexpr double near_epsilons = 100.0;
+// Points and normals that are further apart than this, against their size, are off.
+constexpr double position_tolerance = 1e-4;
+
+double largest(const Rgb& v)
+{
+    return std::max({std::abs(v.x), std::abs(v.y), std::abs(v.z)});
+}
+
+const RayNode* child_of(const RayNode& parent, RayKind kind)
+{
+    for (const RayNode& child : parent.children)
+        if (child.kind == kind)
+            return &child;
+    return nullptr;
+}
+
+const LightShare* light_of(const RayNode& ray, int light)
+{
+    for (const LightShare& share : ray.lights)
+        if (share.light == light)
+            return &share;
+    return nullptr;
+}
+
+// Too far from each other for rounding.
+bool is_other_crossing(double t, double other)
+{
+    return std::abs(t - other) > 1e-2 * std::max(t, other);
+}
+
+bool apart(const Vec3& a, const Vec3& b)
+{
+    return glm::distance(a, b) > position_tolerance * std::max(1.0, glm::length(a));
+}
+
+}  // namespace
+
+std::string name_of(ErrorClass kind)
+{
+    return texts[static_cast<std::size_t>(kind)].name;
+}
+
+std::string meaning_of(ErrorClass kind)
+{
+    return texts[static_cast<std::size_t>(kind)].meaning;
+}
+
+struct ErrorClassifier::State {
+    Scene scene;
+    NeighbourRays rays;
+    double epsilon;
+    double camera_t_min;
+
+    State(const Scene& scene_, const LoweredScene& lowered)
+        : scene(scene_), rays(scene_), epsilon(lowered.epsilon), camera_t_min(lowered.camera_t_min)
+    {
+    }
+
+    // The difference that moves the colour most, so far.
+    struct Finding {
+        std::optional<ClassifiedError> worst;
+
+        template <class Judge>
+        void offer(double effect, const Judge& judge)
+        {
+            if (effect > (worst ? worst->effect : 0.0))
+                worst = {judge(), effect};
+        }
+    };
+
+    void compare(const RayNode& truth, const RayNode& tested, int depth, Finding& worst) const
+    {
+        if (truth.object != tested.object) {
+            worst.offer(largest(sum_of(truth) - sum_of(tested)),
+                        [&] { return of_ray(tested, depth); });
+            return;
+        }
+        if (const auto crossing = of_crossing(truth, tested, depth)) {
+            worst.offer(largest(sum_of(truth) - sum_of(tested)), [&] { return *crossing; });
+            return;
+        }
+        compare_lights(truth, tested, depth, worst);
+        compare_rest(truth, tested, worst);
+        for (const RayKind kind : {RayKind::mirrored, RayKind::refracted}) {
+            const RayNode* a = child_of(truth, kind);
+            const RayNode* b = child_of(tested, kind);
+            if (a != nullptr && b != nullptr)
+                compare(*a, *b, depth + 1, worst);
+            else if (a != nullptr || b != nullptr)
+                // A child can change its parent's own light, too.
+                worst.offer(largest(sum_of(truth) - sum_of(tested)),
+                            [] { return ErrorClass::deep; });
+        }
+    }
+
+    void compare_lights(const RayNode& truth, const RayNode& tested, int depth,
+                        Finding& worst) const
+    {
+        for (const LightShare& light : tested.lights) {
+            const LightShare* other = light_of(truth, light.light);
+            if (other == nullptr)
+                continue;
+            const double effect = largest(truth.weight * (other->color - light.color));
+            worst.offer(effect, [&] {
+                const bool known = light.share && other->share;
+                if (known && largest(*light.share - *other->share) > position_tolerance)
+                    return of_shadow(tested, light, *other, depth);
+                return of_color(truth, tested, light.light);
+            });
+        }
+    }
+
+    // What is no light's: ambient light, the background, the depth limit.
+    void compare_rest(const RayNode& truth, const RayNode& tested, Finding& worst) const
+    {
+        if (truth.object < 0) {
+            worst.offer(largest(truth.weight * (truth.brought - tested.brought)),
+                        [] { return ErrorClass::shading; });
+            return;
+        }
+        if (truth.children.empty() != tested.children.empty())
+            return;
+        Rgb rest = truth.local + truth.brought - tested.local - tested.brought;
+        Rgb lights(0.0);
+        for (const LightShare& light : tested.lights)
+            if (const LightShare* other = light_of(truth, light.light))
+                lights += other->color - light.color;
+        if (largest(rest) > largest(lights))
+            worst.offer(largest(truth.weight * (rest - lights)),
+                        [&] { return of_geometry(truth, tested); });
+    }
+
+    // A ray of the tested tree that met another object than the truth's.
+    [[nodiscard]] ErrorClass of_ray(const RayNode& tested, int depth) const
+    {
+        const auto hit = rays.trace(tested.org, tested.dir, depth == 0 ? camera_t_min : epsilon,
+                                    std::numeric_limits<double>::infinity());
+        if (!hit.stable || hit.object == tested.object)
+            return depth == 0 ? ErrorClass::silhouette : ErrorClass::deep;
+        return near_or_lost(hit.t, tested.t, depth);
+    }
+
+    // The same object, but where the ray meets it another time; none where it does not.
+    [[nodiscard]] std::optional<ErrorClass> of_crossing(const RayNode& truth, const RayNode& tested,
+                                                        int depth) const
+    {
+        if (truth.object < 0 || !is_other_crossing(truth.t, tested.t))
+            return std::nullopt;
+        const auto hit = rays.trace(tested.org, tested.dir, depth == 0 ? camera_t_min : epsilon,
+                                    std::numeric_limits<double>::infinity());
+        if (!hit.stable || !is_other_crossing(hit.t, tested.t))
+            return std::nullopt;
+        return near_or_lost(hit.t, tested.t, depth);
+    }
+
+    [[nodiscard]] ErrorClass near_or_lost(double t, double tested_t, int depth) const
+    {
+        const bool near = std::min(t, tested_t) <= near_epsilons * epsilon;
+        return depth > 0 && near ? ErrorClass::near_start : ErrorClass::lost_hit;
+    }
+
+    // A point that the tested tree has lit or shadowed otherwise.
+    [[nodiscard]] ErrorClass of_shadow(const RayNode& tested, const LightShare& light,
+                                       const LightShare& truth, int depth) const
+    {
+        const ErrorClass edge = depth == 0 ? ErrorClass::shadow_edge : ErrorClass::deep;
+        const Light& source = scene.lights[static_cast<std::size_t>(light.light)];
+        const bool point = source.type == LightType::point;
+        const Vec3 way = point ? source.vector - tested.point : source.vector;
+        const auto blocker =
+            rays.trace(tested.point, way, epsilon,
+                       point ? 1.0 - epsilon : std::numeric_limits<double>::infinity());
+        const bool blocked = blocker.object >= 0;
+        const bool tested_darker = largest(*light.share) < largest(*truth.share);
+        if (!blocker.stable || blocked == tested_darker)
+            return edge;
+        // With nothing else in the way, the light is kept off by the surface it falls on.
+        if (!blocked)
+            return ErrorClass::near_start;
+        return blocker.t <= near_epsilons * epsilon ? ErrorClass::near_start : ErrorClass::lost_hit;
+    }
+
+    // The same object in the same light, of another colour.
+    [[nodiscard]] ErrorClass of_color(const RayNode& truth, const RayNode& tested, int light) const
+    {
+        const Light& source = scene.lights[static_cast<std::size_t>(light)];
+        const Vec3 way = glm::normalize(
+            source.type == LightType::point ? source.vector - truth.point : source.vector);
+        const Vec3 mirrored = 2.0 * dot(truth.normal, way) * truth.normal - way;
+        // A diffuse light could differ this much only if the normal did.
+        if (dot(mirrored, -truth.dir) > 0.0 && glm::distance(truth.normal, tested.normal) < 1e-2)
+            return ErrorClass::highlight;
+        return of_geometry(truth, tested);
+    }
+
+    [[nodiscard]] static ErrorClass of_geometry(const RayNode& truth, const RayNode& tested)
+    {
+        return apart(truth.point, tested.point) || apart(truth.normal, tested.normal)
+                   ? ErrorClass::position
+                   : ErrorClass::shading;
+    }
+};
+
+ErrorClassifier::ErrorClassifier(const Scene& scene)
+    : state_(std::make_unique<State>(scene, lower(scene)))
+{
+}
+
+ErrorClassifier::~ErrorClassifier() = default;
+ErrorClassifier::ErrorClassifier(ErrorClassifier&&) noexcept = default;
+ErrorClassifier& ErrorClassifier::operator=(ErrorClassifier&&) noexcept = default;
+
+std::optional<ClassifiedError> ErrorClassifier::classify(const RayNode& truth,
+                                                         const RayNode& tested) const
+{
+    State::Finding worst;
+    state_->compare(truth, tested, 0, worst);
+    return worst.worst;
+}
+
+}  // namespace packtrace

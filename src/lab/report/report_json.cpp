@@ -1,0 +1,106 @@
+#include <nlohmann/json.hpp>
+
+#include "core/json_text.hpp"
+#include "lab/harness/accuracy_name.hpp"
+#include "lab/report/report_text.hpp"
+
+namespace packtrace {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+Json error_json(const ReportRun& run)
+{
+    Json classes = Json::array();
+    for (const ErrorShare& share : run.shares)
+        classes.push_back({{"class", share.kind},
+                           {"meaning", share.meaning},
+                           {"pixels", share.pixels},
+                           {"squared_error_share", share.squared_error}});
+    return {
+        {"rmse", finite_or_null(run.error.rmse)}, {"max_abs", finite_or_null(run.error.max_abs)},
+        {"psnr", finite_or_null(run.error.psnr)}, {"pixels", run.error.pixels},
+        {"pixels_off", run.error.pixels_off},     {"looked_at", run.looked_at},
+        {"looked_at_off", run.looked_at_off},     {"classes", classes}};
+}
+
+Json run_json(const SceneReport& scene, const StudyReport& study, const ReportRun& run)
+{
+    const Variant& variant = run.variant;
+    const bool packet = variant.kernel == Kernel::packet;
+    return {{"name", variant.name},
+            {"kernel", packet ? "packet" : "scalar"},
+            {"precision", variant.precision},
+            {"isa", packet ? Json(variant.isa) : Json()},
+            {"accuracy", has_accuracy(variant) ? Json(name_of(variant.accuracy)) : Json()},
+            {"lanes", variant.lanes},
+            {"threads", variant.threads},
+            {"depth", variant.depth},
+            {"samples", variant.samples},
+            {"adaptive", variant.adaptive ? Json(*variant.adaptive) : Json()},
+            {"median_s", run.median},
+            {"spread", run.spread},
+            {"seconds", run.seconds},
+            {"rays", packet ? Json(run.rays) : Json()},
+            {"pareto", name_of(run.pareto)},
+            {"error", error_json(run)},
+            {"picture", picture_file(scene, study, run.picture)}};
+}
+
+Json choice_json(const RunChoice& choice)
+{
+    Json undecided = Json::array();
+    for (const ReportRun* run : choice.undecided)
+        undecided.push_back(run->variant.name);
+    return {{"run", choice.run != nullptr ? Json(choice.run->variant.name) : Json()},
+            {"undecided", undecided}};
+}
+
+Json study_json(const SceneReport& scene, const StudyReport& study, const ReportOptions& options)
+{
+    Json runs = Json::array();
+    for (const ReportRun& run : study.runs)
+        runs.push_back(run_json(scene, study, run));
+    return {{"study", name_of(study.study)},
+            {"truth",
+             {{"what", study.truth},
+              {"seconds", study.truth_seconds},
+              {"cached", study.truth_cached},
+              {"picture", picture_file(scene, study, 0)}}},
+            {"plot", plot_file(scene, study)},
+            {"cheapest_within_max_error", choice_json(cheapest_within(study, options.max_error))},
+            {"most_exact_within_max_time", choice_json(most_exact_within(study, options.max_time))},
+            {"judgement", judgement(study, options)},
+            {"runs", runs}};
+}
+
+}  // namespace
+
+std::string report_json(const std::vector<SceneReport>& scenes, const ReportOptions& options,
+                        const ReportConditions& conditions)
+{
+    Json json{{"packtrace_report", 1},
+              {"conditions",
+               {{"processor", conditions.processor},
+                {"processors", conditions.processors},
+                {"compiler", conditions.compiler},
+                {"commit", conditions.commit},
+                {"command", conditions.command}}},
+              {"repetitions", options.repetitions},
+              {"threshold", options.threshold},
+              {"max_error", options.max_error},
+              {"max_time_s", options.max_time},
+              {"scenes", Json::array()}};
+    for (const SceneReport& scene : scenes) {
+        Json studies = Json::array();
+        for (const StudyReport& study : scene.studies)
+            studies.push_back(study_json(scene, study, options));
+        json["scenes"].push_back({{"name", scene.name},
+                                  {"width", scene.width},
+                                  {"height", scene.height},
+                                  {"studies", studies}});
+    }
+    return json_text(json);
+}
+
+}  // namespace packtrace

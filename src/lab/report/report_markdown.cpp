@@ -1,0 +1,94 @@
+#include <sstream>
+
+#include "lab/report/report_text.hpp"
+
+namespace packtrace {
+namespace {
+
+void write_conditions(std::ostream& to, const ReportOptions& options,
+                      const ReportConditions& conditions)
+{
+    to << "# Error against run time\n\n"
+       << "| | |\n|---|---|\n"
+       << "| command | `" << conditions.command << "` |\n"
+       << "| commit | " << conditions.commit << " |\n"
+       << "| processor | " << conditions.processor << ", " << conditions.processors << " in use |\n"
+       << "| compiler | " << conditions.compiler << " |\n\n"
+       << "Times are medians of " << options.repetitions
+       << " frames, taken in turns with those of the other runs; the spread is the width of their "
+          "middle half over the median. The scene is made ready before. Errors are of linear "
+          "values, 1 for full; a pixel is off when a channel differs by more than "
+       << brief(options.threshold)
+       << ". **Bold** runs lie on the Pareto front: every run that is as exact is slower. "
+          "*Slanted* "
+          "ones perhaps do: another run is as exact, and the spreads of their times overlap. "
+          "*Where* tells, by comparing ray trees with the reference's, why pixels are off, or in "
+          "brackets, where none is, why the worst ones differ.\n";
+}
+
+const char* mark_of(Pareto standing)
+{
+    switch (standing) {
+        case Pareto::on_front:
+            return "**";
+        case Pareto::undecided:
+            return "*";
+        case Pareto::beaten:
+            break;
+    }
+    return "";
+}
+
+void write_run(std::ostream& to, const ReportRun& run)
+{
+    const std::string mark = mark_of(run.pareto);
+    to << "| " << mark << run.variant.name << mark << " | " << brief(1e3 * run.median) << " | "
+       << spread_text(run) << " | " << mrays_text(run) << " | " << brief(run.error.rmse) << " | "
+       << brief(run.error.max_abs) << " | " << brief(run.error.psnr) << " | "
+       << run.error.pixels_off << " | " << where_text(run) << " |\n";
+}
+
+void write_study(std::ostream& to, const SceneReport& scene, const StudyReport& study,
+                 const ReportOptions& options)
+{
+    to << "\n### " << scene.name << ": " << name_of(study.study) << "\n\n"
+       << "Truth: " << study.truth << "; " << brief(study.truth_seconds) << " s"
+       << (study.truth_cached ? " when it was made" : "") << ".\n\n"
+       << "| run | ms | spread | Mrays/s | RMSE | max | PSNR, dB | pixels off | where |\n"
+       << "|---|---|---|---|---|---|---|---|---|\n";
+    for (const ReportRun& run : study.runs)
+        write_run(to, run);
+    to << '\n';
+    for (const std::string& line : judgement(study, options))
+        to << "- " << line << '\n';
+    to << "\n![error against time](" << plot_file(scene, study) << ")\n";
+}
+
+void write_classes(std::ostream& to, const std::vector<SceneReport>& scenes)
+{
+    const std::vector<ErrorShare> seen = classes_of(scenes);
+    if (seen.empty())
+        return;
+    to << "\n## Classes of error\n\n";
+    for (const ErrorShare& share : seen)
+        to << "- *" << share.kind << "*: " << share.meaning << ".\n";
+}
+
+}  // namespace
+
+std::string report_markdown(const std::vector<SceneReport>& scenes, const ReportOptions& options,
+                            const ReportConditions& conditions)
+{
+    std::ostringstream text;
+    write_conditions(text, options, conditions);
+    for (const SceneReport& scene : scenes) {
+        text << "\n## " << scene.name << ", " << scene.width << " x " << scene.height << "\n\n"
+             << "![the truth](" << picture_file(scene, scene.studies.front(), 0) << ")\n";
+        for (const StudyReport& study : scene.studies)
+            write_study(text, scene, study, options);
+    }
+    write_classes(text, scenes);
+    return text.str();
+}
+
+}  // namespace packtrace

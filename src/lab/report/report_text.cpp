@@ -1,0 +1,205 @@
+#include "lab/report/report_text.hpp"
+
+#include <algorithm>
+#include <cstdio>
+
+#include "lab/report/report_choice.hpp"
+
+namespace packtrace {
+namespace {
+
+std::string stem(const SceneReport& scene, const StudyReport& study, std::size_t picture)
+{
+    return scene.name + "/" + name_of(study.study) + "_" + study.pictures[picture].name;
+}
+
+std::string milliseconds(double seconds)
+{
+    return brief(1e3 * seconds) + " ms";
+}
+
+std::string run_text(const ReportRun& run)
+{
+    return run.variant.name + " (" + milliseconds(run.median) + ", RMSE " + brief(run.error.rmse) +
+           ")";
+}
+
+// A few of them by name.
+std::string names_text(const std::vector<const ReportRun*>& runs)
+{
+    constexpr std::size_t most_named = 3;
+    std::string text;
+    for (std::size_t i = 0; i < std::min(runs.size(), most_named); ++i)
+        text += (i > 0 ? "; " : "") + run_text(*runs[i]);
+    if (runs.size() > most_named)
+        text += "; and " + std::to_string(runs.size() - most_named) + " more";
+    return text;
+}
+
+std::string cheapest_line(const StudyReport& study, double error)
+{
+    const RunChoice choice = cheapest_within(study, error);
+    const std::string head = "Cheapest with an RMSE of at most " + brief(error) + ": ";
+    if (choice.run == nullptr)
+        return head + "none reaches it.";
+    if (choice.undecided.empty())
+        return head + run_text(*choice.run) + ".";
+    return head + "undecided, as the spreads of their times overlap, between " +
+           run_text(*choice.run) + "; " + names_text(choice.undecided) + ".";
+}
+
+std::string most_exact_line(const StudyReport& study, double seconds)
+{
+    const RunChoice choice = most_exact_within(study, seconds);
+    const std::string head = "Most exact within " + milliseconds(seconds) + ": ";
+    const std::string sure =
+        choice.run != nullptr ? run_text(*choice.run) : "none is surely that fast";
+    if (choice.undecided.empty())
+        return head + (choice.run != nullptr ? sure : "none is that fast") + ".";
+    return head + sure + "; perhaps, as their times spread over that limit, " +
+           names_text(choice.undecided) + ".";
+}
+
+// The uniform run of that many samples; null when there is none.
+const ReportRun* uniform_run(const StudyReport& study, int samples)
+{
+    for (const ReportRun& run : study.runs)
+        if (!run.variant.adaptive && run.variant.samples == samples)
+            return &run;
+    return nullptr;
+}
+
+// The fastest adaptive run that is at least as exact as `uniform`, else the most exact.
+const ReportRun* best_adaptive(const StudyReport& study, const ReportRun& uniform)
+{
+    const ReportRun* best = nullptr;
+    for (const ReportRun& run : study.runs) {
+        if (!run.variant.adaptive)
+            continue;
+        const bool exact = run.error.rmse <= uniform.error.rmse;
+        const bool best_exact = best != nullptr && best->error.rmse <= uniform.error.rmse;
+        if (best == nullptr || (exact && !best_exact) ||
+            (exact == best_exact &&
+             (exact ? run.median < best->median : run.error.rmse < best->error.rmse)))
+            best = &run;
+    }
+    return best;
+}
+
+std::string adaptive_line(const StudyReport& study)
+{
+    const ReportRun* uniform = uniform_run(study, 16);
+    const ReportRun* adaptive = uniform == nullptr ? nullptr : best_adaptive(study, *uniform);
+    if (adaptive == nullptr)
+        return {};
+    const bool decided = surely_faster(*adaptive, *uniform) || surely_faster(*uniform, *adaptive);
+    return "Adaptive sampling against 16 samples everywhere: " + adaptive->variant.name +
+           " reaches " + brief(adaptive->error.rmse / uniform->error.rmse) + " of its RMSE in " +
+           brief(adaptive->median / uniform->median) + " of its time" +
+           (decided ? "." : ", though the spreads of their times overlap.");
+}
+
+}  // namespace
+
+const char* name_of(Study study)
+{
+    switch (study) {
+        case Study::arithmetic:
+            return "arithmetic";
+        case Study::depth:
+            return "depth";
+        case Study::sampling:
+            break;
+    }
+    return "sampling";
+}
+
+const char* name_of(Pareto standing)
+{
+    switch (standing) {
+        case Pareto::beaten:
+            return "no";
+        case Pareto::undecided:
+            return "undecided";
+        case Pareto::on_front:
+            break;
+    }
+    return "yes";
+}
+
+std::string picture_file(const SceneReport& scene, const StudyReport& study, std::size_t picture)
+{
+    return stem(scene, study, picture) + ".png";
+}
+
+std::string error_file(const SceneReport& scene, const StudyReport& study, std::size_t picture)
+{
+    return stem(scene, study, picture) + "_error.png";
+}
+
+std::string plot_file(const SceneReport& scene, const StudyReport& study)
+{
+    return scene.name + "/" + name_of(study.study) + ".svg";
+}
+
+std::string brief(double value, int digits)
+{
+    char text[64];
+    std::snprintf(text, sizeof text, "%.*g", digits, value);
+    return text;
+}
+
+std::string shares_text(const ReportRun& run)
+{
+    std::string text;
+    for (const ErrorShare& share : run.shares)
+        text += (text.empty() ? "" : ", ") + share.kind + " " + std::to_string(share.pixels);
+    return text;
+}
+
+std::string where_text(const ReportRun& run)
+{
+    const std::string text = shares_text(run);
+    return run.looked_at_off || text.empty() ? text : "(" + text + ")";
+}
+
+std::string mrays_text(const ReportRun& run)
+{
+    return run.rays > 0 ? brief(1e-6 * static_cast<double>(run.rays) / run.median) : "";
+}
+
+std::string spread_text(const ReportRun& run)
+{
+    char text[32];
+    const double percent = 100.0 * run.spread;
+    std::snprintf(text, sizeof text, percent < 9.95 ? "%.1f %%" : "%.0f %%", percent);
+    return text;
+}
+
+std::vector<ErrorShare> classes_of(const std::vector<SceneReport>& scenes)
+{
+    std::vector<ErrorShare> seen;
+    const auto is_known = [&](const ErrorShare& share) {
+        return std::any_of(seen.begin(), seen.end(),
+                           [&](const ErrorShare& other) { return other.kind == share.kind; });
+    };
+    for (const SceneReport& scene : scenes)
+        for (const StudyReport& study : scene.studies)
+            for (const ReportRun& run : study.runs)
+                for (const ErrorShare& share : run.shares)
+                    if (!is_known(share))
+                        seen.push_back(share);
+    return seen;
+}
+
+std::vector<std::string> judgement(const StudyReport& study, const ReportOptions& options)
+{
+    std::vector<std::string> lines{cheapest_line(study, options.max_error),
+                                   most_exact_line(study, options.max_time)};
+    if (study.study == Study::sampling)
+        if (const std::string line = adaptive_line(study); !line.empty())
+            lines.push_back(line);
+    return lines;
+}
+
+}  // namespace packtrace

@@ -1,0 +1,202 @@
+#include "lab/stress/evaluate.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include <glm/geometric.hpp>
+
+namespace packtrace::lab {
+namespace {
+
+/// t may be wrong by its inputs' rounding times this.
+constexpr double condition_slack = 4.0;
+
+/// What a component of a normal is within.
+constexpr double normal_bound = 1e-6;
+
+bool finite(const Answer& answer)
+{
+    return std::isfinite(answer.t + answer.normal.x + answer.normal.y + answer.normal.z);
+}
+
+double largest_of(const Vec3& v)
+{
+    return std::max({std::abs(v.x), std::abs(v.y), std::abs(v.z)});
+}
+
+double distance_of(const Wide& t, const Answer& answer)
+{
+    return std::abs(static_cast<double>(Wide(answer.t) - t));
+}
+
+/// The answer has the right object: is it the other hit rather than the expected one? By t, where
+/// t tells the two apart in the answer's precision, else by the normal.
+bool is_other(const Expected& expected, const TrueHit& other, const Answer& answer, double roundoff)
+{
+    const double gap = std::abs(static_cast<double>(other.t - expected.t));
+    if (gap > 4.0 * roundoff * std::abs(static_cast<double>(expected.t)))
+        return distance_of(other.t, answer) < distance_of(expected.t, answer);
+    const Vec3 normal = narrow(other.normal);
+    return largest_of(normal - expected.normal) > 16.0 * roundoff &&
+           largest_of(answer.normal - normal) < largest_of(answer.normal - expected.normal);
+}
+
+bool has_wrong_root(const Expected& expected, const Answer& answer, double roundoff)
+{
+    if (!finite(answer))
+        return false;
+    return std::any_of(expected.hits.begin(), expected.hits.end(), [&](const TrueHit& hit) {
+        return hit.object == expected.object && hit.t != expected.t &&
+               is_other(expected, hit, answer, roundoff);
+    });
+}
+
+/// Of a ray inside the band: whether inputs that are off by no more than it make the answer right.
+Verdict verdict_in_band(const Expected& expected, const Answer& answer, double band,
+                        double roundoff)
+{
+    const auto& hits = expected.hits;
+    const auto unsure = [&](const TrueHit& hit) {
+        return std::min(hit.margin, margin_of_end(hit, roundoff)) < band;
+    };
+    const auto sure_before = [&](double t) {
+        return std::any_of(hits.begin(), hits.end(), [&](const TrueHit& hit) {
+            const double off = condition_slack * hit.condition * std::max(band, roundoff) / 2.0;
+            return hit.exists && !unsure(hit) &&
+                   static_cast<double>(hit.t) * (1.0 + off + 8.0 * roundoff) < t;
+        });
+    };
+    if (answer.object < 0) {
+        const bool sure = expected.certain || std::any_of(hits.begin(), hits.end(), [&](auto& hit) {
+                              return hit.exists && !unsure(hit);
+                          });
+        return sure ? Verdict::lost : Verdict::right;
+    }
+    const bool possible = std::any_of(hits.begin(), hits.end(), [&](const TrueHit& hit) {
+        return hit.object == answer.object && (hit.exists || unsure(hit));
+    });
+    if (!possible)
+        return expected.object < 0 ? Verdict::false_hit : Verdict::wrong_object;
+    return sure_before(answer.t) ? Verdict::wrong_object : Verdict::right;
+}
+
+}  // namespace
+
+Verdict verdict_of(const Expected& expected, const Answer& answer, double band, double roundoff)
+{
+    if (!expected.decided(band))
+        return verdict_in_band(expected, answer, band, roundoff);
+    if (answer.object != expected.object) {
+        if (answer.object < 0)
+            return Verdict::lost;
+        return expected.object < 0 ? Verdict::false_hit : Verdict::wrong_object;
+    }
+    const bool other = answer.object >= 0 && expected.root_decided(band) &&
+                       has_wrong_root(expected, answer, roundoff);
+    return other ? Verdict::wrong_root : Verdict::right;
+}
+
+void Errors::add(const Errors& other)
+{
+    rays += other.rays;
+    hits += other.hits;
+    undecided += other.undecided;
+    lost += other.lost;
+    false_hits += other.false_hits;
+    wrong_object += other.wrong_object;
+    wrong_root += other.wrong_root;
+    occluded += other.occluded;
+    order += other.order;
+    not_closed += other.not_closed;
+    beyond_own_band += other.beyond_own_band;
+    not_finite += other.not_finite;
+    no_normal += other.no_normal;
+    wrong_side += other.wrong_side;
+    t_beyond += other.t_beyond;
+    t_beyond_half += other.t_beyond_half;
+    t_at_limit += other.t_at_limit;
+    normal_beyond += other.normal_beyond;
+    rho = std::max(rho, other.rho);
+    distance = std::max(distance, other.distance);
+    ulp.insert(ulp.end(), other.ulp.begin(), other.ulp.end());
+    normal.insert(normal.end(), other.normal.begin(), other.normal.end());
+}
+
+void Evaluation::count(Verdict verdict)
+{
+    errors_.lost += verdict == Verdict::lost;
+    errors_.false_hits += verdict == Verdict::false_hit;
+    errors_.wrong_object += verdict == Verdict::wrong_object;
+    errors_.wrong_root += verdict == Verdict::wrong_root;
+}
+
+void Evaluation::add(const StressRay& ray, const Expected& expected, const Answer& answer)
+{
+    ++errors_.rays;
+    errors_.undecided += !expected.root_decided(double_band);
+    const Verdict verdict = verdict_of(expected, answer, double_band, roundoff_);
+    count(verdict);
+    errors_.beyond_own_band +=
+        verdict_of(expected, answer, undecided_band * roundoff_, roundoff_) != Verdict::right;
+    if (answer.object < 0)
+        return;
+    ++errors_.hits;
+    if (!finite(answer))
+        ++errors_.not_finite;
+    else if (verdict == Verdict::right && expected.root_decided(double_band))
+        measure(ray, expected, answer);
+}
+
+void Evaluation::measure(const StressRay& ray, const Expected& expected, const Answer& answer)
+{
+    const double t = static_cast<double>(expected.t);
+    const double error = distance_of(expected.t, answer);
+    const double least = roundoff_ > 0x1p-40 ? 0x1p-149 : 0x1p-1074;
+    const double ulp = std::max(least, std::ldexp(2.0 * roundoff_, std::ilogb(t)));
+    errors_.ulp.push_back(static_cast<float>(error / ulp));
+    if (expected.root_decided(undecided_band * roundoff_))
+        errors_.rho = std::max(errors_.rho, error / (t * expected.condition * roundoff_));
+    const double allowed = condition_slack * expected.condition * t * 0x1p-53;
+    errors_.t_beyond += error > ulp + allowed;
+    errors_.t_beyond_half += error > 0.51 * ulp + allowed;
+    errors_.t_at_limit += error > ulp && error <= ulp + allowed;
+
+    if (!(std::abs(glm::length(answer.normal) - 1.0) < 8.0 * roundoff_)) {
+        ++errors_.no_normal;
+        return;
+    }
+    if (expected.normal == Vec3(0.0))
+        return;
+    const double off = largest_of(answer.normal - expected.normal);
+    errors_.normal.push_back(static_cast<float>(off));
+    errors_.normal_beyond += off > normal_bound;
+    const double cosine = glm::dot(answer.normal, ray.dir) / glm::length(ray.dir);
+    const double told = 4.0 * roundoff_ + double_band * expected.normal_spread;
+    errors_.wrong_side += cosine * expected.cosine < 0.0 && std::abs(expected.cosine) > told;
+}
+
+void Evaluation::add_occluded(const Expected& expected, bool occluded)
+{
+    const bool sure = expected.decided(double_band) || (expected.certain && !occluded);
+    errors_.occluded += sure && occluded != (expected.object >= 0);
+}
+
+void Evaluation::add_first_of_all(const Expected& expected, std::int32_t first,
+                                  std::int32_t closest)
+{
+    errors_.order += expected.decided(double_band) && first != closest;
+}
+
+void Evaluation::add_crossings(const Expected& expected, std::size_t count)
+{
+    if (!expected.certain && !expected.even)
+        return;
+    const bool sure = std::none_of(expected.hits.begin(), expected.hits.end(),
+                                   [](const TrueHit& hit) { return hit.margin < double_band; });
+    const auto exist = static_cast<std::size_t>(std::count_if(
+        expected.hits.begin(), expected.hits.end(), [](const TrueHit& hit) { return hit.exists; }));
+    const std::size_t odd = expected.certain ? 1 : 0;
+    errors_.not_closed += count % 2 != odd || (sure && count != exist);
+}
+
+}  // namespace packtrace::lab

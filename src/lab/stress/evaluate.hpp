@@ -1,0 +1,94 @@
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "lab/truth/expected_hit.hpp"
+
+namespace packtrace::lab {
+
+/// What a kernel said of a ray.
+struct Answer {
+    std::int32_t object = -1;  ///< -1 for a miss
+    double t = 0.0;
+    Vec3 normal{0.0};
+};
+
+/// What an answer is, held against the one expected hit.
+enum class Verdict {
+    right,
+    lost,          ///< a miss where there is a hit
+    false_hit,     ///< a hit where there is none
+    wrong_object,  ///< another object than the first
+    wrong_root     ///< another hit of the right object, such as its far side
+};
+
+/// Decided alone by what differs by more than `band`. Where the expected hit itself is inside the
+/// band, the answer may be any of those that might be right.
+[[nodiscard]] Verdict verdict_of(const Expected& expected, const Answer& answer, double band,
+                                 double roundoff);
+
+/// How often, and how far, a kernel's answers are from the truth.
+struct Errors {
+    std::uint64_t rays = 0;
+    std::uint64_t hits = 0;
+    std::uint64_t undecided = 0;  ///< rays inside double's band
+    // Outside double's band.
+    std::uint64_t lost = 0;
+    std::uint64_t false_hits = 0;
+    std::uint64_t wrong_object = 0;
+    std::uint64_t wrong_root = 0;
+    std::uint64_t occluded = 0;    ///< what any-hit says, other than the truth
+    std::uint64_t order = 0;       ///< the first of all hits is another object than the closest hit
+    std::uint64_t not_closed = 0;  ///< closed bodies not left as often as they are entered
+
+    std::uint64_t beyond_own_band = 0;  ///< wrong outside the band of the precision itself
+    std::uint64_t not_finite = 0;       ///< hits with a t or a normal that is no number
+    std::uint64_t no_normal = 0;        ///< normals that are not of length 1
+    std::uint64_t wrong_side = 0;       ///< normals turned to the other side of the ray
+    std::uint64_t t_beyond = 0;  ///< t off by more than 1 ulp, and than inputs make it in double
+    std::uint64_t t_beyond_half = 0;  ///< the same for 0.51 ulp
+    std::uint64_t t_at_limit = 0;     ///< t off by more than 1 ulp, as inputs make it in double
+    std::uint64_t normal_beyond = 0;  ///< normals off by more than 1e-6
+    double rho = 0.0;                 ///< worst error of t over what the inputs' rounding makes
+    double distance = 0.0;      ///< of mirrored rays, worst distance of hit points, in roundoffs
+    std::vector<float> ulp;     ///< errors of t in units of its last place
+    std::vector<float> normal;  ///< largest errors of a component of a unit normal
+
+    /// Wrong decisions of the closest hit.
+    [[nodiscard]] std::uint64_t wrong() const
+    {
+        return lost + false_hits + wrong_object + wrong_root;
+    }
+    void add(const Errors& other);
+};
+
+/// Holds the answers of a kernel with unit roundoff `roundoff` against what is expected.
+class Evaluation {
+public:
+    explicit Evaluation(double roundoff) : roundoff_(roundoff)
+    {
+    }
+
+    void add(const StressRay& ray, const Expected& expected, const Answer& answer);
+    /// What any-hit said of a ray.
+    void add_occluded(const Expected& expected, bool occluded);
+    /// The first of all hits of a ray, as the object's number, beside its closest hit.
+    void add_first_of_all(const Expected& expected, std::int32_t first, std::int32_t closest);
+    /// How many hits a ray has that starts inside a closed body.
+    void add_crossings(const Expected& expected, std::size_t count);
+
+    [[nodiscard]] const Errors& errors() const
+    {
+        return errors_;
+    }
+
+private:
+    void count(Verdict verdict);
+    void measure(const StressRay& ray, const Expected& expected, const Answer& answer);
+
+    double roundoff_;
+    Errors errors_;
+};
+
+}  // namespace packtrace::lab

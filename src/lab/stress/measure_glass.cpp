@@ -1,0 +1,139 @@
+#include <cmath>
+#include <limits>
+
+#include <glm/geometric.hpp>
+
+#include "lab/stress/stress_family.hpp"
+#include "lab/stress/stress_pixels.hpp"
+#include "lab/truth/wide.hpp"
+
+// Total internal reflection: from inside a ball of glass, at its critical angle.
+namespace packtrace::lab {
+namespace {
+
+using boost::multiprecision::abs;
+using reference::dot;
+
+constexpr int glass_scene_count = 16;
+
+/// The camera looks to where rays meet the surface at the critical angle.
+template <class Real>
+Scene glass_scene(StressRandom& random)
+{
+    const double ior = static_cast<double>(static_cast<Real>(random.between(1.1, 2.5)));
+    Object ball = sphere_object(random.box(3.0), random.between(0.5, 2.0));
+    GeneralMaterial glass;
+    glass.transmit = Rgb(1.0);
+    glass.ior = ior;
+    ball.material.model = glass;
+
+    Scene scene;
+    scene.illumination = Illumination::general;
+    scene.objects = {ball};
+    round_to_precision<Real>(scene);
+    const Sphere& sphere = std::get<Sphere>(scene.objects[0].surface);
+    const double off = random.between(1.0 / ior, 0.98);
+    const Vec3 outwards = random.unit();
+    const double sine = 1.0 / (ior * off);
+    const Vec3 towards =
+        random.sign() * std::sqrt(1.0 - sine * sine) * outwards + sine * across(random, outwards);
+    scene.camera = measure_camera(sphere.center + off * sphere.radius * outwards, towards,
+                                  random.power(1e-7, 1e-1));
+    scene.width = scene.height = measure_edge;
+    scene.max_depth = 1;
+    return scene;
+}
+
+/// What becomes of a ray at the surface: truth, and how far it is from being otherwise.
+struct Bend {
+    bool total;
+    double margin;  ///< relative change of the inputs
+    WideVec dir;    ///< refracted, where not total
+    double condition;
+};
+
+Bend bend_at(const Sphere& sphere, double ior, const RayNode& ray)
+{
+    const WideVec o = wide(ray.org) - wide(sphere.center);
+    const Wide length = square_root(dot(wide(ray.dir), wide(ray.dir)));
+    const WideVec d = wide(ray.dir) / length;
+    const Wide radius = sphere.radius;
+    const Wide b = dot(o, d);
+    const Wide t = square_root(b * b - dot(o, o) + radius * radius) - b;
+    const WideVec normal = (o + t * d) / radius;
+    const Wide cosine = dot(normal, d);
+    const Wide eta = ior;
+    const Wide out2 = 1 - eta * eta * (1 - cosine * cosine);
+    // cos² changes by the direction's and the index' rounding, and as the hit point moves.
+    const Wide place = square_root(dot(wide(sphere.center), wide(sphere.center)));
+    const Wide moved = (2 * place + square_root(dot(o, o)) + t) / radius;
+    const Wide change = 2 * eta * eta * (1 - cosine * cosine + cosine + moved);
+    Bend bend;
+    bend.total = out2 < 0;
+    bend.margin = static_cast<double>(abs(out2) / change);
+    if (!bend.total) {
+        const Wide out = square_root(out2);
+        bend.dir = eta * d + (out - eta * cosine) * normal;
+        bend.condition = static_cast<double>(eta * (2 + moved) + change / (2 * out));
+    }
+    return bend;
+}
+
+template <class Real>
+void evaluate_glass_tree(const Scene& scene, const RayNode& tree, MeasureRun& run)
+{
+    const double roundoff = std::numeric_limits<Real>::epsilon() / 2.0;
+    const Sphere& sphere = std::get<Sphere>(scene.objects[0].surface);
+    const double ior = std::get<GeneralMaterial>(scene.objects[0].material.model).ior;
+    const Bend bend = bend_at(sphere, ior, tree);
+    Errors& errors = run.errors;
+    ++errors.rays;
+    const bool band = bend.margin < undecided_band * roundoff;
+    errors.undecided += band;
+    const bool one = tree.children.size() == 1;
+    const bool total = one && tree.children[0].kind == RayKind::mirrored;
+    run.answers.push_back(total ? 1.0 : 0.0);
+    if (!one || (total != bend.total && !band)) {
+        ++errors.beyond_own_band;
+        return;
+    }
+    if (total || bend.total)
+        return;
+    ++errors.hits;
+    const Vec3 dir = tree.children[0].dir;
+    run.answers.insert(run.answers.end(), {dir.x, dir.y, dir.z});
+    errors.not_finite += !std::isfinite(dir.x + dir.y + dir.z);
+    if (band)
+        return;
+    const double error = largest(wide(dir) - bend.dir);
+    errors.normal.push_back(static_cast<float>(error));
+    errors.rho = std::max(errors.rho, error / (roundoff * bend.condition));
+}
+
+template <class Real>
+StressMeasure::Ask prepared(const StressOptions& options)
+{
+    std::vector<Scene> scenes;
+    for (int i = 0; i < glass_scene_count; ++i) {
+        StressRandom random(options.seed * glass_scene_count + static_cast<std::uint64_t>(i));
+        scenes.push_back(glass_scene<Real>(random));
+    }
+    return [=](const StressSubject& subject) {
+        MeasureRun run;
+        for (const Scene& scene : scenes)
+            for_each_tree<Real>(
+                scene, subject, options.rays / glass_scene_count + 1,
+                [&](const RayNode& tree) { evaluate_glass_tree<Real>(scene, tree, run); });
+        return run;
+    };
+}
+
+}  // namespace
+
+StressMeasure glass_measure()
+{
+    return {"critical-angle", "out of a ball of glass at total internal reflection",
+            prepared<float>, prepared<double>};
+}
+
+}  // namespace packtrace::lab

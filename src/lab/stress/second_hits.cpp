@@ -1,0 +1,313 @@
+#include "lab/stress/second_hits.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+
+#include <glm/geometric.hpp>
+#include <packtrace/intersect.hpp>
+
+#include "lab/stress/stress_random.hpp"
+
+namespace packtrace::lab {
+namespace {
+
+using reference::dot;
+
+/// Rays in arrays, and where their hits go.
+template <class Real>
+struct Stream {
+    std::array<std::vector<Real>, 8> rays;
+    std::array<std::vector<Real>, 4> hits;    ///< t, normal
+    std::array<std::vector<Real>, 9> starts;  ///< outer, inner, the hit point itself
+    std::vector<std::int32_t> object;
+    std::vector<std::int32_t> surface;
+    // Where these rays themselves start, of rays that leave hits.
+    std::array<std::vector<Real>, 3> own_point;
+    std::vector<std::int32_t> own_surface;
+
+    void add(const Vec3& org, const Vec3& dir, double t_min, double t_max)
+    {
+        const double values[8] = {org.x, org.y, org.z, dir.x, dir.y, dir.z, t_min, t_max};
+        for (std::size_t i = 0; i < 8; ++i)
+            rays[i].push_back(static_cast<Real>(values[i]));
+    }
+
+    void add_start(const Vec3& point, std::int32_t own)
+    {
+        for (int axis = 0; axis < 3; ++axis)
+            own_point[static_cast<std::size_t>(axis)].push_back(static_cast<Real>(point[axis]));
+        own_surface.push_back(own);
+    }
+
+    void trace(const RayScene<Real>& scene)
+    {
+        const std::size_t n = rays[0].size();
+        for (auto& column : hits)
+            column.resize(n);
+        for (auto& column : starts)
+            column.resize(n);
+        object.resize(n);
+        surface.resize(n);
+        const auto& r = rays;
+        auto& s = starts;
+        const RaysView<Real> in{r[0].data(), r[1].data(), r[2].data(),
+                                r[3].data(), r[4].data(), r[5].data(),
+                                r[6].data(), r[7].data(), n};
+        const HitsView<Real> out{hits[0].data(),
+                                 object.data(),
+                                 hits[1].data(),
+                                 hits[2].data(),
+                                 hits[3].data(),
+                                 {s[0].data(), s[1].data(), s[2].data()},
+                                 {s[3].data(), s[4].data(), s[5].data()},
+                                 {s[6].data(), s[7].data(), s[8].data()},
+                                 surface.data()};
+        if (own_surface.empty())
+            return scene.closest_hits(in, out);
+        const auto& p = own_point;
+        scene.closest_hits(in, {{p[0].data(), p[1].data(), p[2].data()}, own_surface.data()}, out);
+    }
+
+    /// Of hit i: 0 the outer start, 1 the inner one, 2 the hit point.
+    [[nodiscard]] Vec3 start(std::size_t i, std::size_t which) const
+    {
+        const std::size_t first = 3 * which;
+        return {starts[first][i], starts[first + 1][i], starts[first + 2][i]};
+    }
+};
+
+/// Decisions nearer to being otherwise than this are not gone on from.
+constexpr double told_apart = 0x1p-20;
+
+/// Among several objects, where the truth takes long, one hit of so many is gone on from.
+constexpr std::size_t sparse = 4;
+
+/// What a second hit's t may be off by, relative to it.
+constexpr double second_bound = 1e-6;
+
+/// To either side of the surface, half of them grazing it.
+Vec3 any_direction(StressRandom& random, const Vec3& normal)
+{
+    const Vec3 along = across(random, normal);
+    const double cosine = random.below(2) == 0 ? random.power(1e-4, 0.1) : random.between(0.1, 1.0);
+    return along * std::sqrt(1.0 - cosine * cosine) + random.sign() * cosine * normal;
+}
+
+Vec3 times(const WideVec (&rows)[3], const Vec3& v)
+{
+    Vec3 sum;
+    for (int row = 0; row < 3; ++row)
+        sum[row] = glm::dot(glm::abs(narrow(rows[row])), v);
+    return sum;
+}
+
+/// By how much -2 b / a changes, relative to it, for relative changes 1 of all that a and b are
+/// made of: their terms over their sums.
+double condition_of_second(const WideSurface& surface, const WideVec& P, const WideVec& d,
+                           const Wide& a, const Wide& b)
+{
+    const Vec3 way = glm::abs(narrow(d));
+    const Vec3 place = glm::abs(narrow(P)) + glm::abs(narrow(surface.offset));
+    const Vec3 v = surface.placed ? times(surface.own, way) : way;
+    const Vec3 p = surface.placed ? times(surface.own, place) : place;
+    const Vec3 gradient = times(surface.square, p) + glm::abs(narrow(surface.linear));
+    return glm::dot(v, times(surface.square, v)) / std::abs(static_cast<double>(a)) +
+           glm::dot(v, gradient) / std::abs(static_cast<double>(b));
+}
+
+/// How near a height is to where a surface is clipped, by their sizes.
+double clip_margin(const ZRange& range, double z)
+{
+    double margin = std::numeric_limits<double>::infinity();
+    for (const double bound : {range.low, range.high})
+        if (std::isfinite(bound))
+            margin = std::min(margin, std::abs(z - bound) / (std::abs(z) + std::abs(bound)));
+    return margin;
+}
+
+/// Where a ray from P, which counts as of the surface, hits it again; t = 0 for nowhere. The side
+/// that it leaves on says which way it crosses, as for kernels: rounding P may turn a grazing ray.
+TrueHit own_hit(const WideSurface& surface, const WideVec& P, const WideVec& d, bool outside)
+{
+    const WideVec v = surface.direction_to_own(d);
+    const Wide a = dot(surface.second_order(v), v);
+    const Wide size = abs(dot(surface.gradient(surface.point_to_own(P)), v));
+    const Wide b = outside ? size : Wide(-size);
+    TrueHit hit;
+    hit.object = surface.object;
+    hit.margin = std::numeric_limits<double>::infinity();
+    if (a == 0 || b / a >= 0)
+        return hit;
+    hit.exists = true;
+    hit.t = -2 * b / a;
+    if (surface.z_range) {
+        const WideVec own = surface.point_to_own(P + hit.t * d);
+        hit.exists = own.z >= surface.z_range->low && own.z <= surface.z_range->high;
+        hit.margin = clip_margin(*surface.z_range, static_cast<double>(own.z));
+    }
+    hit.condition = condition_of_second(surface, P, d, a, b);
+    hit.spread = hit.condition * static_cast<double>(hit.t);
+    return hit;
+}
+
+/// A ray that leaves a hit: what its own surface and the rest of the scene have for it.
+struct Leaving {
+    TrueHit own;
+    /// Where any piece of the own object is hit first; infinite for nowhere.
+    double own_object = std::numeric_limits<double>::infinity();
+    Expected expected;
+    /// The way below the surface is less than four times what the hit point is off by.
+    bool shallow = false;
+};
+
+}  // namespace
+
+void SecondHits::add(const SecondHits& other)
+{
+    rays += other.rays;
+    taken += other.taken;
+    lost += other.lost;
+    inexact += other.inexact;
+    errors.insert(errors.end(), other.errors.begin(), other.errors.end());
+}
+
+namespace {
+
+template <class Real>
+Stream<Real> primary_stream(const StressGroup& group)
+{
+    Stream<Real> primary;
+    for (const StressRay& ray : group.rays)
+        primary.add(ray.org, ray.dir, ray.t_min, ray.t_max);
+    return primary;
+}
+
+/// Whether the answer of primary ray i is the expected hit beyond doubt.
+template <class Real>
+bool leaves(const StressGroup& group, const Stream<Real>& primary, std::size_t i)
+{
+    const Expected& expected = group.expected[i];
+    if (expected.object < 0 || !expected.root_decided(told_apart) || expected.normal == Vec3(0.0))
+        return false;
+    const Answer answer{primary.object[i], static_cast<double>(primary.hits[0][i]),
+                        Vec3(primary.hits[1][i], primary.hits[2][i], primary.hits[3][i])};
+    return verdict_of(expected, answer, double_band, 0x1p-24) == Verdict::right;
+}
+
+/// Adds a ray from where primary ray i hit, if that is beyond doubt, and what it should hit. It
+/// starts at the hit point as rounded, which is all that is known of it: so does the truth.
+template <class Real>
+void add_secondary(const StressGroup& group, const Stream<Real>& primary, std::size_t i,
+                   StressRandom& random, double t_min, Stream<Real>& secondary,
+                   std::vector<Leaving>& leaving)
+{
+    if (!leaves(group, primary, i))
+        return;
+    const Expected& hit = group.expected[i];
+    Vec3 dir = any_direction(random, hit.normal);
+    for (int axis = 0; axis < 3; ++axis)
+        dir[axis] = static_cast<double>(static_cast<Real>(dir[axis]));
+    const bool outside = glm::dot(dir, hit.normal) > 0.0;
+    const Vec3 start = primary.start(i, 2);
+    const Vec3 lifted = primary.start(i, outside ? 0 : 1);
+    const StressRay ray{lifted, dir, t_min, std::numeric_limits<double>::infinity()};
+    const auto own = static_cast<std::size_t>(hit.object);
+
+    const WideSurface& surface = group.surfaces[own];
+    const bool others = group.surfaces.size() > 1 || surface.z_range;
+
+    Leaving one;
+    one.own.object = hit.object;
+    one.own.margin = std::numeric_limits<double>::infinity();
+    if (hit.piece == 0)
+        one.own = own_hit(surface, wide(start), wide(dir), outside);
+    std::vector<TrueHit> hits = others ? group.hits_of(ray) : std::vector<TrueHit>{};
+    std::erase_if(hits, [&](const TrueHit& other) {
+        return other.object == hit.object && other.piece == hit.piece;
+    });
+    hits.push_back(one.own);
+    for (const TrueHit& other : hits)
+        if (other.exists && other.object == hit.object)
+            one.own_object = std::min(one.own_object, static_cast<double>(other.t));
+    one.expected = expect(ray, std::move(hits), std::numeric_limits<Real>::epsilon() / 2.0);
+    if (others && !one.expected.decided(told_apart))
+        return;
+    const WideVec P = wide(group.rays[i].org) + hit.t * wide(group.rays[i].dir);
+    const double moved = glm::length(narrow(wide(start) - P));
+    const double depth = static_cast<double>(one.own.t) * std::abs(glm::dot(dir, hit.normal)) / 4.0;
+    one.shallow = depth < 4.0 * moved;
+    secondary.add(lifted, dir, t_min, std::numeric_limits<double>::infinity());
+    secondary.add_start(start, outside ? primary.surface[i] : ~primary.surface[i]);
+    leaving.push_back(std::move(one));
+}
+
+/// Holds the hit of one secondary ray against what is expected of it; of shallow chords by the
+/// exact rule alone.
+void count(SecondHits& counts, const Leaving& leaving, SelfHits rule, std::int32_t object, double t)
+{
+    ++counts.rays;
+    const bool excused = rule == SelfHits::note && leaving.shallow && leaving.own.exists;
+    if (excused)
+        return;
+    const std::int32_t own = leaving.own.object;
+    const double second = static_cast<double>(leaving.own.t);
+    const double expected = static_cast<double>(leaving.expected.t);
+    if (object == own && t < 0.5 * leaving.own_object) {
+        ++counts.taken;
+        return;
+    }
+    if (object != leaving.expected.object ||
+        (object == own && std::abs(t - expected) > 0.1 * expected)) {
+        ++counts.lost;
+        return;
+    }
+    if (object != own || !leaving.own.exists || expected != second)
+        return;
+    const double error = std::abs(static_cast<double>((Wide(t) - leaving.own.t) / leaving.own.t));
+    counts.errors.push_back(static_cast<float>(error));
+    // Next to 0 single precision has no more than its smallest number.
+    const double allowed = second_bound + 4.0 * 0x1p-53 * leaving.own.condition + 0x1p-149 / second;
+    counts.inexact += error > allowed;
+}
+
+bool has_crossing_planes(const StressGroup& group)
+{
+    return std::any_of(group.surfaces.begin(), group.surfaces.end(),
+                       [](const WideSurface& surface) { return surface.sheets.has_value(); });
+}
+
+}  // namespace
+
+template <class Real>
+SecondHits trace_second_hits(const StressSubject& subject, const StressGroup& group, SelfHits rule)
+{
+    if (subject.kernel != "packet" || has_crossing_planes(group))
+        return {};
+    RenderOptions options = subject.options;
+    options.self_hits = rule;
+    const RayScene<Real> scene(group.scene, options);
+    Stream<Real> primary = primary_stream<Real>(group);
+    primary.trace(scene);
+
+    StressRandom random(group.rays.size());
+    Stream<Real> secondary;
+    std::vector<Leaving> leaving;
+    const double t_min = rule == SelfHits::note ? 0.001 : 0.0;
+    const std::size_t step = group.surfaces.size() > 1 ? sparse : 1;
+    for (std::size_t i = 0; i < group.rays.size(); i += step)
+        add_secondary(group, primary, i, random, t_min, secondary, leaving);
+    secondary.trace(scene);
+
+    SecondHits counts;
+    for (std::size_t i = 0; i < leaving.size(); ++i)
+        count(counts, leaving[i], rule, secondary.object[i],
+              static_cast<double>(secondary.hits[0][i]));
+    return counts;
+}
+
+template SecondHits trace_second_hits<float>(const StressSubject&, const StressGroup&, SelfHits);
+template SecondHits trace_second_hits<double>(const StressSubject&, const StressGroup&, SelfHits);
+
+}  // namespace packtrace::lab

@@ -1,0 +1,387 @@
+#include "lab/stress/stress.hpp"
+
+#include <algorithm>
+#include <cstdio>
+#include <iterator>
+#include <limits>
+#include <stdexcept>
+
+#include <tbb/parallel_for.h>
+#include <packtrace/write_scene.hpp>
+
+#include "lab/stress/bound_checks.hpp"
+#include "lab/stress/second_hits.hpp"
+#include "lab/stress/stress_measure.hpp"
+#include "lab/stress/stress_subject.hpp"
+#include "lab/stress/stress_verdict.hpp"
+
+namespace packtrace::lab {
+namespace {
+
+bool same_answers(const StressRun& a, const StressRun& b)
+{
+    return std::equal(a.answers.begin(), a.answers.end(), b.answers.begin(), b.answers.end(),
+                      [](const Answer& x, const Answer& y) {
+                          return x.object == y.object && x.t == y.t &&
+                                 (x.object < 0 || x.normal == y.normal);
+                      });
+}
+
+/// Percentile of unsorted values, 0 of none.
+double percentile(std::vector<float>& values, double share)
+{
+    if (values.empty())
+        return 0.0;
+    const auto at = values.begin() +
+                    static_cast<std::ptrdiff_t>(share * static_cast<double>(values.size() - 1));
+    std::nth_element(values.begin(), at, values.end());
+    return static_cast<double>(*at);
+}
+
+ErrorSpread spread_of(std::vector<float>& errors)
+{
+    return {percentile(errors, 0.5), percentile(errors, 0.99), percentile(errors, 1.0)};
+}
+
+std::string text_of(const Vec3& v)
+{
+    char text[96];
+    std::snprintf(text, sizeof text, "(%.17g,%.17g,%.17g)", v.x, v.y, v.z);
+    return text;
+}
+
+std::string hit_text(std::int32_t object, double t, const Vec3& normal)
+{
+    char text[64];
+    std::snprintf(text, sizeof text, "object %d at t = %.17g, normal ", object, t);
+    return object < 0 ? "a miss" : text + text_of(normal);
+}
+
+/// What is wrong with the answers to one ray, in a word or two; empty where nothing is.
+const char* fault_of(const Errors& one)
+{
+    if (one.wrong() > 0)
+        return one.lost > 0           ? "lost"
+               : one.false_hits > 0   ? "false hit"
+               : one.wrong_object > 0 ? "wrong object"
+                                      : "wrong root";
+    if (one.occluded > 0)
+        return "any-hit answer wrong";
+    if (one.order > 0)
+        return "another object first in the list of all hits";
+    if (one.not_closed > 0)
+        return "does not leave once";
+    if (one.not_finite + one.no_normal > 0)
+        return "no number, or no normal";
+    if (one.wrong_side > 0)
+        return "normal on the wrong side";
+    if (one.t_beyond > 0)
+        return "t off";
+    return one.normal_beyond > 0 ? "normal off" : "";
+}
+
+/// Which ray it is, what it should hit, and what was said.
+std::string example_text(const StressGroup& group, std::size_t scene, std::size_t ray,
+                         const Answer& answer, const char* fault)
+{
+    const StressRay& r = group.rays[ray];
+    const Expected& e = group.expected[ray];
+    return std::string(fault) + ": scene " + std::to_string(scene) + ", ray " +
+           std::to_string(ray) + " " + text_of(r.org) + " -> " + text_of(r.dir) + ": expected " +
+           hit_text(e.object, static_cast<double>(e.t), e.normal) + "; got " +
+           hit_text(answer.object, answer.t, answer.normal);
+}
+
+template <class Real>
+constexpr double roundoff_of = std::numeric_limits<Real>::epsilon() / 2.0;
+
+/// The answers to one ray of a scene, held against what is expected.
+void evaluate_ray(Evaluation& evaluation, const StressGroup& group, const StressRun& run,
+                  std::size_t i)
+{
+    const Expected& expected = group.expected[i];
+    evaluation.add(group.rays[i], expected, run.answers[i]);
+    if (run.occluded.empty())
+        return;
+    evaluation.add_occluded(expected, run.occluded[i] != 0);
+    evaluation.add_first_of_all(expected, run.first[i], run.answers[i].object);
+    evaluation.add_crossings(expected, run.crossings[i]);
+}
+
+template <class Real>
+Errors evaluate_run(const StressGroup& group, const StressRun& run)
+{
+    Evaluation evaluation(roundoff_of<Real>);
+    for (std::size_t i = 0; i < group.rays.size(); ++i)
+        evaluate_ray(evaluation, group, run, i);
+    return evaluation.errors();
+}
+
+template <class Real>
+Errors evaluate_runs(const std::vector<StressGroup>& groups, const std::vector<StressRun>& runs)
+{
+    std::vector<Errors> by_group(groups.size());
+    tbb::parallel_for(std::size_t{0}, groups.size(),
+                      [&](std::size_t g) { by_group[g] = evaluate_run<Real>(groups[g], runs[g]); });
+    Errors sum;
+    for (const Errors& errors : by_group)
+        sum.add(errors);
+    return sum;
+}
+
+/// A ray as a line of the CSV that `packtrace intersect` reads.
+std::string csv_of(const StressRay& ray)
+{
+    char text[256];
+    std::snprintf(text, sizeof text, "%.17g,%.17g,%.17g,%.17g,%.17g,%.17g,%.17g,%.17g", ray.org.x,
+                  ray.org.y, ray.org.z, ray.dir.x, ray.dir.y, ray.dir.z, ray.t_min, ray.t_max);
+    return text;
+}
+
+/// The first wrong answer: a wrong decision if there is one, else t, a normal or what else is off.
+template <class Real>
+void add_example(StressRow& row, const std::vector<StressGroup>& groups,
+                 const std::vector<StressRun>& runs)
+{
+    for (std::size_t g = 0; g < groups.size(); ++g)
+        for (std::size_t i = 0; i < groups[g].rays.size(); ++i) {
+            Evaluation one(roundoff_of<Real>);
+            evaluate_ray(one, groups[g], runs[g], i);
+            const char* fault = fault_of(one.errors());
+            if (*fault == '\0' || (one.errors().wrong() == 0 && row.wrong > 0))
+                continue;
+            row.example = example_text(groups[g], g, i, runs[g].answers[i], fault);
+            row.example_scene = scene_text(groups[g].scene);
+            row.example_ray = csv_of(groups[g].rays[i]);
+            return;
+        }
+}
+
+StressRow row_of(const StressSubject& subject, const char* precision, Errors errors, double seconds)
+{
+    StressRow row;
+    row.precision = precision;
+    row.kernel = subject.kernel;
+    row.isa = subject.isa;
+    const bool doubles = row.precision == "double" && subject.kernel == "packet";
+    row.mode = doubles ? "any" : subject.mode;
+    row.held = doubles || subject.exact;
+    row.rays = errors.rays;
+    row.hits = errors.hits;
+    row.undecided = errors.undecided;
+    row.wrong = errors.wrong();
+    row.lost = errors.lost;
+    row.false_hits = errors.false_hits;
+    row.wrong_object = errors.wrong_object;
+    row.wrong_root = errors.wrong_root;
+    row.occluded = errors.occluded;
+    row.order = errors.order;
+    row.not_closed = errors.not_closed;
+    row.beyond_own_band = errors.beyond_own_band;
+    row.not_finite = errors.not_finite;
+    row.no_normal = errors.no_normal;
+    row.wrong_side = errors.wrong_side;
+    row.t_beyond = errors.t_beyond;
+    row.t_beyond_half = errors.t_beyond_half;
+    row.t_at_limit = errors.t_at_limit;
+    row.normal_beyond = errors.normal_beyond;
+    row.ulp = spread_of(errors.ulp);
+    row.normal = spread_of(errors.normal);
+    row.rho = errors.rho;
+    row.distance = errors.distance;
+    row.ns = seconds * 1e9 / static_cast<double>(std::max<std::uint64_t>(errors.rays, 1));
+    return row;
+}
+
+template <class Real>
+void add_second_hits(StressRow& row, const StressSubject& subject,
+                     const std::vector<StressGroup>& groups, SelfHits rule)
+{
+    std::vector<SecondHits> by_group(groups.size());
+    tbb::parallel_for(std::size_t{0}, groups.size(), [&](std::size_t g) {
+        by_group[g] = trace_second_hits<Real>(subject, groups[g], rule);
+    });
+    SecondHits sum;
+    for (const SecondHits& some : by_group)
+        sum.add(some);
+    row.second_rays = sum.rays;
+    row.self_hits = sum.taken;
+    row.second_lost = sum.lost;
+    row.second_inexact = sum.inexact;
+    row.second = spread_of(sum.errors);
+}
+
+template <class Real>
+void add_bounds(StressRow& row, const StressSubject& subject,
+                const std::vector<StressGroup>& groups)
+{
+    std::vector<BoundChecks> by_group(groups.size());
+    tbb::parallel_for(std::size_t{0}, groups.size(),
+                      [&](std::size_t g) { by_group[g] = check_bounds<Real>(subject, groups[g]); });
+    BoundChecks sum;
+    for (const BoundChecks& some : by_group)
+        sum.add(some);
+    row.bounds = sum.bounds;
+    row.bounds_missed = sum.missed;
+    row.bounds_ulp = spread_of(sum.ulp);
+}
+
+template <class Real>
+StressRow row_of(const StressSubject& subject, const std::vector<StressGroup>& groups,
+                 const std::vector<StressRun>& runs)
+{
+    double seconds = 0.0;
+    for (const StressRun& run : runs)
+        seconds += run.seconds;
+    return row_of(subject, sizeof(Real) == sizeof(float) ? "single" : "double",
+                  evaluate_runs<Real>(groups, runs), seconds);
+}
+
+/// Answers that a row was made of; later ones with the same bits share the row.
+struct Evaluated {
+    std::size_t row;
+    std::vector<StressRun> runs;
+};
+
+template <class Real>
+void add_rows(const StressFamily& family, const StressOptions& options,
+              const std::vector<StressSubject>& subjects, std::vector<StressRow>& rows)
+{
+    const std::vector<StressGroup> groups = make_groups<Real>(family, options.seed, options.rays);
+    std::vector<Evaluated> evaluated;
+    for (const StressSubject& subject : subjects) {
+        if (family.packets_only && subject.kernel != "packet")
+            continue;
+        // Packets of doubles are the same in every mode.
+        const bool packet_of_doubles = sizeof(Real) == sizeof(double) && subject.kernel == "packet";
+        if (packet_of_doubles && subject.mode != subjects.back().mode)
+            continue;
+        std::vector<StressRun> runs;
+        for (const StressGroup& group : groups)
+            runs.push_back(run_subject<Real>(subject, group));
+        const auto twin =
+            std::find_if(evaluated.begin(), evaluated.end(), [&](const Evaluated& other) {
+                const StressRow& row = rows[other.row];
+                return row.kernel == subject.kernel &&
+                       (row.mode == subject.mode || packet_of_doubles) &&
+                       std::equal(runs.begin(), runs.end(), other.runs.begin(), same_answers);
+            });
+        if (twin != evaluated.end()) {
+            rows[twin->row].isa += " " + subject.isa;
+            continue;
+        }
+        rows.push_back(row_of<Real>(subject, groups, runs));
+        add_second_hits<Real>(rows.back(), subject, groups, options.self_hits);
+        rows.back().family = family.name;
+        add_example<Real>(rows.back(), groups, runs);
+        if (rows.back().held) {
+            add_bounds<Real>(rows.back(), subject, groups);
+            rows.back().faults = faults_of(rows.back());
+        }
+        evaluated.push_back({rows.size() - 1, std::move(runs)});
+    }
+}
+
+/// Whether a is nowhere worse than b, and somewhere better, in wrong answers, error and time.
+bool dominates(const StressRow& a, const StressRow& b)
+{
+    const bool not_worse = a.wrong <= b.wrong && a.ulp.p99 <= b.ulp.p99 && a.ns <= b.ns;
+    return not_worse && (a.wrong < b.wrong || a.ulp.p99 < b.ulp.p99 || a.ns < b.ns);
+}
+
+/// Of each precision, as their errors count in units of their own.
+void mark_pareto(std::vector<StressRow>& rows)
+{
+    for (StressRow& row : rows)
+        row.pareto = std::none_of(rows.begin(), rows.end(), [&](const StressRow& other) {
+            return other.precision == row.precision && dominates(other, row);
+        });
+}
+
+/// The rows of one measure in one precision; instruction sets with the same answers share one.
+void add_measured(const StressMeasure& measure, const char* precision,
+                  const StressMeasure::Ask& ask, const std::vector<StressSubject>& subjects,
+                  std::vector<StressRow>& rows)
+{
+    const bool doubles = precision[0] == 'd';
+    std::vector<std::pair<std::size_t, std::vector<double>>> answered;
+    for (const StressSubject& subject : subjects) {
+        if (subject.kernel != "packet" || (doubles && subject.mode != subjects.back().mode))
+            continue;
+        MeasureRun run = ask(subject);
+        const auto twin = std::find_if(answered.begin(), answered.end(), [&](const auto& other) {
+            return (rows[other.first].mode == subject.mode || doubles) &&
+                   other.second == run.answers;
+        });
+        if (twin != answered.end()) {
+            rows[twin->first].isa += " " + subject.isa;
+            continue;
+        }
+        rows.push_back(row_of(subject, precision, std::move(run.errors), run.seconds));
+        rows.back().family = measure.name;
+        if (rows.back().held)
+            rows.back().faults = faults_of_measure(rows.back());
+        answered.emplace_back(rows.size() - 1, std::move(run.answers));
+    }
+}
+
+void check_families(const StressOptions& options)
+{
+    const auto families = list_stress_families();
+    for (const std::string& name : options.families)
+        if (std::none_of(families.begin(), families.end(),
+                         [&](const StressFamilyInfo& family) { return family.name == name; }))
+            throw std::invalid_argument("no family is called '" + name + "'");
+}
+
+}  // namespace
+
+void run_stress(const StressOptions& options,
+                const std::function<void(const std::vector<StressRow>&)>& take)
+{
+    check_families(options);
+    const std::vector<StressSubject> subjects = stress_subjects(options);
+    for (const StressFamily& family : stress_families()) {
+        if (!wanted(options.families, family.name))
+            continue;
+        std::vector<StressRow> rows;
+        if (wanted(options.precisions, "single"))
+            add_rows<float>(family, options, subjects, rows);
+        if (wanted(options.precisions, "double"))
+            add_rows<double>(family, options, subjects, rows);
+        mark_pareto(rows);
+        take(rows);
+    }
+    for (const StressMeasure& measure : stress_measures()) {
+        if (!wanted(options.families, measure.name))
+            continue;
+        std::vector<StressRow> rows;
+        if (wanted(options.precisions, "single"))
+            add_measured(measure, "single", measure.in_single(options), subjects, rows);
+        if (wanted(options.precisions, "double"))
+            add_measured(measure, "double", measure.in_double(options), subjects, rows);
+        mark_pareto(rows);
+        take(rows);
+    }
+}
+
+std::vector<StressMeasure> stress_measures()
+{
+    std::vector<StressMeasure> all = power_measures();
+    all.push_back(glass_measure());
+    for (StressMeasure& measure : tree_measures())
+        all.push_back(std::move(measure));
+    return all;
+}
+
+std::vector<StressFamilyInfo> list_stress_families()
+{
+    std::vector<StressFamilyInfo> list;
+    for (const StressFamily& family : stress_families())
+        list.push_back({family.name, family.what});
+    for (const StressMeasure& measure : stress_measures())
+        list.push_back({measure.name, measure.what});
+    return list;
+}
+
+}  // namespace packtrace::lab

@@ -1,0 +1,94 @@
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <string>
+#include <vector>
+
+#include <packtrace/render.hpp>
+
+namespace packtrace::lab {
+
+struct StressOptions {
+    std::vector<std::string> families;     ///< by name; empty: all
+    std::vector<std::string> kernels;      ///< packet, scalar, textbook; empty: all
+    std::vector<std::string> modes;        ///< of stress_modes; empty: all; packets only
+    std::vector<std::string> precisions;   ///< single, double; empty: both
+    std::string isa;                       ///< empty: all that run here
+    SelfHits self_hits = SelfHits::exact;  ///< how second rays keep from their own start
+    Traversal traversal = Traversal::automatic;
+    int rays = 4096;  ///< of each family and precision
+    std::uint64_t seed = 1;
+};
+
+/// How many, and quantiles of their errors.
+struct ErrorSpread {
+    double median = 0.0;
+    double p99 = 0.0;
+    double max = 0.0;
+};
+
+/// One kernel in one mode on one family. All wrong answers are such as double itself can tell from
+/// right ones, unless another band is named.
+struct StressRow {
+    std::string family;
+    std::string precision;  ///< single, double
+    std::string kernel;     ///< packet, scalar, textbook
+    std::string mode;       ///< of stress_modes; "any" for packets of doubles, empty for others
+    std::string isa;        ///< those that gave the same bits, parted by spaces
+    bool held = false;      ///< its answers count for the verdict
+    std::uint64_t rays = 0;
+    std::uint64_t hits = 0;
+    std::uint64_t undecided = 0;  ///< rays that double cannot decide either
+    std::uint64_t wrong = 0;      ///< closest hits: the sum of the next four
+    std::uint64_t lost = 0;
+    std::uint64_t false_hits = 0;
+    std::uint64_t wrong_object = 0;
+    std::uint64_t wrong_root = 0;  ///< of the right object
+    std::uint64_t occluded = 0;    ///< any-hit answers that are wrong
+    std::uint64_t order = 0;       ///< the first of all hits is another object than the closest
+    std::uint64_t not_closed = 0;  ///< closed bodies not left as often as they are entered
+    std::uint64_t beyond_own_band = 0;  ///< wrong even outside the band of the precision itself
+    std::uint64_t not_finite = 0;
+    std::uint64_t no_normal = 0;
+    std::uint64_t wrong_side = 0;
+    std::uint64_t t_beyond = 0;       ///< t off by more than 1 ulp, and than double's limit
+    std::uint64_t t_beyond_half = 0;  ///< the same for 0.51 ulp
+    std::uint64_t t_at_limit = 0;     ///< t off by more than 1 ulp, as inputs make it in double
+    std::uint64_t normal_beyond = 0;  ///< normals off by more than 1e-6
+    ErrorSpread ulp;                  ///< of t, in units in the last place of the precision
+    ErrorSpread normal;
+    double rho = 0.0;
+    double distance = 0.0;
+    // Rays that leave the hits.
+    std::uint64_t second_rays = 0;
+    std::uint64_t self_hits = 0;
+    std::uint64_t second_lost = 0;
+    std::uint64_t second_inexact = 0;  ///< t off by more than 1e-6, and than double's limit
+    ErrorSpread second;                ///< relative errors of t
+    // Proven bounds of t, of rows that count for the verdict.
+    std::uint64_t bounds = 0;
+    std::uint64_t bounds_missed = 0;  ///< that do not hold the true t
+    ErrorSpread bounds_ulp;           ///< how far apart they are, in last places of double
+    double ns = 0.0;                  ///< a ray, of the first of the instruction sets
+    bool pareto = false;              ///< no other of the family is both quicker and more exact
+    std::string example_scene;        ///< the scene of the first wrong answer
+    std::string example_ray;          ///< and its ray, as `packtrace intersect` reads it
+    std::string example;              ///< the first wrong answer
+    std::vector<std::string> faults;  ///< what the verdict holds against it
+};
+
+/// Runs families of extreme rays through the kernels and holds the answers against 113 bits.
+/// `take` gets the rows of one family after the other. Throws std::invalid_argument for a name
+/// that is none.
+void run_stress(const StressOptions& options,
+                const std::function<void(const std::vector<StressRow>&)>& take);
+
+/// Names and descriptions of all families.
+struct StressFamilyInfo {
+    std::string name;
+    std::string what;
+};
+[[nodiscard]] std::vector<StressFamilyInfo> list_stress_families();
+
+}  // namespace packtrace::lab

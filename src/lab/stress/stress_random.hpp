@@ -1,0 +1,63 @@
+#pragma once
+
+#include <cmath>
+#include <cstdint>
+
+#include <packtrace/vec.hpp>
+
+namespace packtrace::lab {
+
+/// Numbers for families of rays: the same with every compiler and library (SplitMix64, Steele,
+/// Lea, Flood 2014).
+class StressRandom {
+public:
+    explicit StressRandom(std::uint64_t seed) : state_(seed)
+    {
+    }
+
+    [[nodiscard]] std::uint64_t bits()
+    {
+        std::uint64_t z = state_ += 0x9e3779b97f4a7c15u;
+        z = (z ^ (z >> 30)) * 0xbf58476d1ce4e5b9u;
+        z = (z ^ (z >> 27)) * 0x94d049bb133111ebu;
+        return z ^ (z >> 31);
+    }
+    [[nodiscard]] double between(double low, double high)
+    {
+        return low + (high - low) * (static_cast<double>(bits() >> 11) * 0x1p-53);
+    }
+    /// Of any size from `low` to `high` > 0, each power of ten as likely as another.
+    [[nodiscard]] double power(double low, double high)
+    {
+        return low * std::pow(high / low, between(0.0, 1.0));
+    }
+    [[nodiscard]] double sign()
+    {
+        return (bits() >> 63) != 0 ? 1.0 : -1.0;
+    }
+    [[nodiscard]] int below(int count)
+    {
+        return static_cast<int>((bits() >> 33) % static_cast<std::uint64_t>(count));
+    }
+    [[nodiscard]] Vec3 box(double half)
+    {
+        const double x = between(-half, half);
+        const double y = between(-half, half);
+        const double z = between(-half, half);
+        return {x, y, z};
+    }
+    [[nodiscard]] Vec3 unit()
+    {
+        for (;;) {
+            const Vec3 v = box(1.0);
+            const double length2 = v.x * v.x + v.y * v.y + v.z * v.z;
+            if (length2 > 1e-2 && length2 <= 1.0)
+                return v / std::sqrt(length2);
+        }
+    }
+
+private:
+    std::uint64_t state_;
+};
+
+}  // namespace packtrace::lab

@@ -1,0 +1,122 @@
+#include "lab/stress/stress_subject.hpp"
+
+#include <algorithm>
+#include <chrono>
+#include <limits>
+#include <stdexcept>
+
+#include <packtrace/intersect.hpp>
+#include <packtrace/isa.hpp>
+
+#include "lab/stress/ray_columns.hpp"
+#include "lab/truth/textbook.hpp"
+
+namespace packtrace::lab {
+namespace {
+
+/// Of so many runs the quickest counts; of long ones there are fewer.
+constexpr int timed_runs = 3;
+constexpr double timed_seconds = 0.02;
+
+template <class Work>
+double quickest(const Work& work)
+{
+    using Clock = std::chrono::steady_clock;
+    double best = std::numeric_limits<double>::infinity();
+    double sum = 0.0;
+    for (int run = 0; run < timed_runs && sum < timed_seconds; ++run) {
+        const auto start = Clock::now();
+        work();
+        const double seconds = std::chrono::duration<double>(Clock::now() - start).count();
+        best = std::min(best, seconds);
+        sum += seconds;
+    }
+    return best;
+}
+
+template <class Real>
+StressRun run_ray_scene(const RenderOptions& options, const StressGroup& group)
+{
+    const RayScene<Real> scene(group.scene, options);
+    const RayColumns<Real> columns(group.rays);
+    const RaysView<Real> rays = columns.view();
+    const std::size_t n = rays.count;
+    std::vector<Real> t(n), x(n), y(n), z(n);
+    std::vector<std::int32_t> object(n);
+    const HitsView<Real> hits{t.data(), object.data(), x.data(), y.data(), z.data()};
+    StressRun run;
+    run.seconds = quickest([&] { scene.closest_hits(rays, hits); });
+    for (std::size_t i = 0; i < n; ++i)
+        run.answers.push_back({object[i], t[i], Vec3(x[i], y[i], z[i])});
+    run.occluded.resize(n);
+    scene.occluded(rays, run.occluded.data());
+    scene.all_hits(rays, [&](std::size_t, std::span<const SurfaceHit<Real>> all) {
+        run.first.push_back(all.empty() ? -1 : all.front().object);
+        run.crossings.push_back(all.size());
+    });
+    return run;
+}
+
+template <class Real>
+StressRun run_textbook(const StressGroup& group)
+{
+    const TextbookScene<Real> scene(group.scene);
+    StressRun run;
+    run.answers.resize(group.rays.size());
+    run.seconds = quickest([&] {
+        for (std::size_t i = 0; i < group.rays.size(); ++i)
+            run.answers[i] = scene.closest_hit(group.rays[i]);
+    });
+    return run;
+}
+
+void add_packets(const StressOptions& options, std::vector<StressSubject>& subjects)
+{
+    for (const StressMode& mode : stress_modes) {
+        if (!wanted(options.modes, mode.name))
+            continue;
+        for (const IsaInfo& isa : list_isas()) {
+            if (!isa.supported || !(options.isa.empty() || options.isa == isa.name))
+                continue;
+            RenderOptions render;
+            render.isa = isa.name;
+            render.accuracy = mode.accuracy;
+            render.traversal = options.traversal;
+            subjects.push_back({"packet", mode.name, isa.name, mode.exact, render});
+        }
+    }
+}
+
+}  // namespace
+
+bool wanted(const std::vector<std::string>& names, const std::string& name)
+{
+    return names.empty() || std::find(names.begin(), names.end(), name) != names.end();
+}
+
+std::vector<StressSubject> stress_subjects(const StressOptions& options)
+{
+    std::vector<StressSubject> subjects;
+    if (wanted(options.kernels, "textbook"))
+        subjects.push_back({"textbook", "", "", false, {}});
+    if (wanted(options.kernels, "scalar")) {
+        RenderOptions render;
+        render.kernel = Kernel::scalar;
+        subjects.push_back({"scalar", "", "", false, render});
+    }
+    if (wanted(options.kernels, "packet"))
+        add_packets(options, subjects);
+    return subjects;
+}
+
+template <class Real>
+StressRun run_subject(const StressSubject& subject, const StressGroup& group)
+{
+    return subject.kernel == "textbook" ? run_textbook<Real>(group)
+                                        : run_ray_scene<Real>(subject.options, group);
+}
+
+template StressRun run_subject<float>(const StressSubject&, const StressGroup&);
+template StressRun run_subject<double>(const StressSubject&, const StressGroup&);
+
+}  // namespace packtrace::lab

@@ -1,0 +1,79 @@
+#include "lab/truth/expected_hit.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include <glm/geometric.hpp>
+
+namespace packtrace::lab {
+namespace {
+
+constexpr double never = std::numeric_limits<double>::infinity();
+
+/// A hit that nearly exists moves when it does; by less than this of its t, or it is far away.
+constexpr double may_move = 0x1p-10;
+
+/// Relative change of the inputs that brings two hits to one place.
+double margin_of_order(const TrueHit& first, const TrueHit& other)
+{
+    const double gap = static_cast<double>(other.t - first.t);
+    const double spread = first.spread + other.spread;
+    return spread > 0.0 ? gap / spread : never;
+}
+
+/// Whether a hit would come before the expected one if it existed.
+bool in_front(const TrueHit& hit, const TrueHit* first)
+{
+    return first == nullptr || hit.t <= first->t * (1.0 + may_move);
+}
+
+}  // namespace
+
+double margin_of_end(const TrueHit& hit, double roundoff)
+{
+    const double gap = hit.end_gap - 2.0 * roundoff;
+    return gap <= 0.0 ? 0.0 : gap / hit.condition;
+}
+
+Expected expect(const StressRay& ray, std::vector<TrueHit> hits, double roundoff)
+{
+    std::sort(hits.begin(), hits.end(), [](const TrueHit& a, const TrueHit& b) {
+        return a.t < b.t || (a.t == b.t && a.object < b.object);
+    });
+    const auto found =
+        std::find_if(hits.begin(), hits.end(), [](const TrueHit& hit) { return hit.exists; });
+    const TrueHit* first = found == hits.end() ? nullptr : &*found;
+    Expected expected;
+    expected.margin = expected.root_margin = expected.end_margin = never;
+    if (first != nullptr) {
+        expected.object = first->object;
+        expected.piece = first->piece;
+        expected.t = first->t;
+        expected.normal = narrow(first->normal);
+        expected.cosine = static_cast<double>(reference::dot(first->normal, wide(ray.dir))) /
+                          glm::length(ray.dir);
+        expected.condition = first->condition;
+        expected.normal_spread = first->normal_spread;
+        expected.margin = first->margin;
+        expected.root_margin = first->side_margin;
+    }
+    for (const TrueHit& hit : hits) {
+        if (&hit == first)
+            continue;
+        if (hit.exists) {
+            double& margin = hit.object == first->object ? expected.root_margin : expected.margin;
+            margin = std::min(margin, margin_of_order(*first, hit));
+        } else if (in_front(hit, first)) {
+            expected.margin = std::min(expected.margin, hit.margin);
+        }
+    }
+    for (const TrueHit& hit : hits)
+        if (in_front(hit, first))
+            expected.end_margin = std::min(expected.end_margin, margin_of_end(hit, roundoff));
+    if (ray.exact)
+        expected.margin = expected.root_margin = never;
+    expected.hits = std::move(hits);
+    return expected;
+}
+
+}  // namespace packtrace::lab

@@ -1,0 +1,32 @@
+#pragma once
+
+#include <limits>
+#include <vector>
+
+#include "lab/stress/evaluate.hpp"
+
+namespace packtrace::lab {
+
+template <class Real>
+struct TextbookBody {
+    Real own[3][4] = {};  ///< world to own space
+    Real coefficient[10] = {};
+    Real low = -std::numeric_limits<Real>::infinity();
+    Real high = std::numeric_limits<Real>::infinity();
+    bool capped = false;
+};
+
+/// What a first book on the subject gives: centre and radius, b² - 4 a c, (-b ± √D) / 2a, a
+/// matrix's inverse applied to points. For comparison only.
+template <class Real>
+class TextbookScene {
+public:
+    explicit TextbookScene(const Scene& scene);
+
+    [[nodiscard]] Answer closest_hit(const StressRay& ray) const;
+
+private:
+    std::vector<TextbookBody<Real>> bodies_;
+};
+
+}  // namespace packtrace::lab

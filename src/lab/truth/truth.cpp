@@ -1,0 +1,102 @@
+#include "lab/truth/truth.hpp"
+
+#include <system_error>
+
+#include <packtrace/write_scene.hpp>
+
+#include "core/text_hash.hpp"
+#include "lab/harness/machine.hpp"
+#include "lab/harness/stopwatch.hpp"
+#include "lab/truth/truth_file.hpp"
+#include "reference/reference.hpp"
+#include "reference/render_reference.hpp"
+#include "scene/sample_pattern.hpp"
+
+namespace packtrace {
+namespace {
+
+// Pixels of a cached truth that are traced again.
+constexpr int checked_pixels = 32;
+
+// Named for all that the truth depends on: the scene with its camera, size and depth, the samples,
+// the program and its compiler.
+std::filesystem::path file_of(const Scene& scene, const TruthRequest& request)
+{
+    const std::string key = PACKTRACE_VERSION " " + commit_name() + ", " + compiler_name() + ", " +
+                            std::to_string(request.samples) + " samples\n" + scene_text(scene);
+    char name[32];
+    std::snprintf(name, sizeof name, "%016llx.truth",
+                  static_cast<unsigned long long>(text_hash(key)));
+    return request.cache / name;
+}
+
+reference::Color<double> color_now(const Scene& scene, int samples, int x, int y)
+{
+    if (samples > 1)
+        return reference::Reference<double>(scene).trace_samples(x, y, sample_pattern(samples));
+    const auto color = reference::Reference<long double>(scene).trace_pixel(x, y);
+    return {static_cast<double>(color.x), static_cast<double>(color.y),
+            static_cast<double>(color.z)};
+}
+
+// A reference that was changed since would be found out.
+bool still_true(const Truth& truth, const Scene& scene, int samples)
+{
+    if (truth.image.width != scene.width || truth.image.height != scene.height)
+        return false;
+    for (int i = 0; i < checked_pixels; ++i) {
+        // Along the diagonals of a grid that visits all columns and rows.
+        const int x = static_cast<int>(
+            (i * 0.6180339887498949 - static_cast<int>(i * 0.6180339887498949)) * scene.width);
+        const int y = (2 * i + 1) * scene.height / (2 * checked_pixels);
+        const auto color = color_now(scene, samples, x, y);
+        const double* pixel = truth.image.pixel(x, y);
+        if (pixel[0] != color.x || pixel[1] != color.y || pixel[2] != color.z)
+            return false;
+    }
+    return true;
+}
+
+Truth make_truth(const Scene& scene, const TruthRequest& request)
+{
+    RenderOptions options;
+    options.samples = request.samples;
+    options.progress = request.progress;
+    Truth truth;
+    truth.seconds = seconds_of(options.threads, [&] {
+        if (request.samples > 1)
+            truth.image = render_reference<double>(scene, options);
+        else
+            truth.image = convert<double>(render_reference<long double>(scene, options));
+    });
+    return truth;
+}
+
+}  // namespace
+
+Truth find_truth(const Scene& scene, const TruthRequest& request)
+{
+    const std::string what =
+        request.samples > 1
+            ? "scalar reference, double, " + std::to_string(request.samples) + " samples a pixel"
+            : "scalar reference, long double, the scene's one sample a pixel";
+    std::filesystem::path file;
+    std::optional<Truth> truth;
+    if (!request.cache.empty()) {
+        file = file_of(scene, request);
+        truth = read_truth(file);
+    }
+    if (!truth || !still_true(*truth, scene, request.samples)) {
+        truth = make_truth(scene, request);
+        if (!request.cache.empty()) {
+            // A folder that can't be made shows when the file is written into it.
+            std::error_code ignored;
+            std::filesystem::create_directories(request.cache, ignored);
+            write_truth(file, *truth);
+        }
+    }
+    truth->what = what;
+    return *truth;
+}
+
+}  // namespace packtrace

@@ -1,0 +1,369 @@
+#include "lab/truth/wide_truth.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include <glm/geometric.hpp>
+
+namespace packtrace::lab {
+namespace {
+
+using boost::multiprecision::abs;
+using reference::dot;
+
+constexpr double never = std::numeric_limits<double>::infinity();
+
+/// A coordinate in own space is a sum of three products, each rounded up to three times.
+constexpr double own_roundings = 3.0;
+
+double narrow(const Wide& x)
+{
+    return static_cast<double>(x);
+}
+
+Vec3 sizes(const WideVec& v)
+{
+    return glm::abs(lab::narrow(v));
+}
+
+/// How sensitive a ray is to its inputs: sums of magnitudes, for which double is enough. Inputs
+/// are the ray, the surface's place, its transform, and the ray's start and way in own space.
+class Sensitivity {
+public:
+    Sensitivity(const WideSurface& surface, const StressRay& ray)
+        : by_points_(surface.by_points),
+          org_(glm::abs(ray.org)),
+          dir_(glm::abs(ray.dir)),
+          from_offset_(sizes(wide(ray.org) - surface.offset)),
+          place_(sizes(surface.place))
+    {
+        for (int row = 0; row < 3; ++row) {
+            world_[row] = sizes(surface.world[row]);
+            own_[row] = sizes(surface.own[row]);
+        }
+    }
+
+    /// What changes by 1 move at t along the own covector g, whose world form is n.
+    [[nodiscard]] double at(const Vec3& g, const Vec3& n, double t, const Vec3& own) const
+    {
+        const Vec3 way = std::abs(t) * dir_;
+        double sum = dot3(n, org_ + way + place_);
+        if (by_points_)
+            sum += dot3(n, to_world(own)) + own_roundings * dot3(g, to_own(from_offset_ + way));
+        return sum;
+    }
+
+    /// What they turn the direction by, along g.
+    [[nodiscard]] double of_direction(const Vec3& g, const Vec3& n, const Vec3& v) const
+    {
+        double sum = dot3(n, dir_);
+        if (by_points_)
+            sum += dot3(n, to_world(v)) + own_roundings * dot3(g, to_own(dir_));
+        return sum;
+    }
+
+    /// What they change of the own direction's components, one by one.
+    [[nodiscard]] Vec3 of_components(const Vec3& v) const
+    {
+        return to_own(dir_ + to_world(v)) + own_roundings * to_own(dir_);
+    }
+
+    /// The sums of magnitudes that the transposed inverse makes of a covector.
+    [[nodiscard]] Vec3 covector(const Vec3& g) const
+    {
+        return by_points_ ? g.x * own_[0] + g.y * own_[1] + g.z * own_[2] : g;
+    }
+
+private:
+    static double dot3(const Vec3& a, const Vec3& b)
+    {
+        return std::abs(a.x) * b.x + std::abs(a.y) * b.y + std::abs(a.z) * b.z;
+    }
+    [[nodiscard]] Vec3 to_world(const Vec3& v) const
+    {
+        return {dot3(v, world_[0]), dot3(v, world_[1]), dot3(v, world_[2])};
+    }
+    [[nodiscard]] Vec3 to_own(const Vec3& v) const
+    {
+        return {dot3(v, own_[0]), dot3(v, own_[1]), dot3(v, own_[2])};
+    }
+
+    bool by_points_;
+    Vec3 org_;
+    Vec3 dir_;
+    Vec3 from_offset_;
+    Vec3 place_;
+    Vec3 world_[3];
+    Vec3 own_[3];
+};
+
+/// One ray against one surface.
+class Line {
+public:
+    Line(const WideSurface& surface, const StressRay& ray)
+        : surface_(surface),
+          sensitivity_(surface, ray),
+          p_(surface.point_to_own(wide(ray.org))),
+          v_(surface.direction_to_own(wide(ray.dir))),
+          own_dir_(narrow3(v_)),
+          t_min_(ray.t_min),
+          t_max_(ray.t_max)
+    {
+        const WideVec second = surface.second_order(v_);
+        a_ = dot(second, v_);
+        b_ = dot(surface.gradient(p_), v_);
+        c_ = surface.value(p_);
+        infinity_margin_ = margin_of_infinity(second);
+    }
+
+    void find(std::vector<TrueHit>& found) const
+    {
+        if (surface_.sheets) {
+            for (const std::size_t sheet : {std::size_t{0}, std::size_t{1}})
+                find_sheet((*surface_.sheets)[sheet], (*surface_.sheets)[1 - sheet], found);
+            return;
+        }
+        find_sides(found);
+        if (surface_.capped) {
+            find_cap(surface_.z_range->low, -1, found);
+            find_cap(surface_.z_range->high, 1, found);
+        }
+    }
+
+private:
+    static Vec3 narrow3(const WideVec& v)
+    {
+        return lab::narrow(v);
+    }
+
+    [[nodiscard]] WideVec own_at(const Wide& t) const
+    {
+        return p_ + t * v_;
+    }
+
+    [[nodiscard]] Vec3 to_world(const WideVec& g) const
+    {
+        return narrow3(surface_.covector_to_world(g));
+    }
+
+    [[nodiscard]] double reach(const WideVec& g, const Wide& t, const WideVec& own) const
+    {
+        return sensitivity_.at(narrow3(g), to_world(g), narrow(t), narrow3(own));
+    }
+
+    /// What a general quadric's canonical form adds to `reach`, and to the change of its half
+    /// value: its centre, axes and coefficients, and the ray's start and way in its space.
+    [[nodiscard]] double canonical_terms(const Vec3& g, const Wide& t, const WideVec& own) const
+    {
+        const CanonicalForm& form = *surface_.canonical;
+        const Vec3 way = sizes(p_) + glm::abs(form.center) + std::abs(narrow(t)) * sizes(v_);
+        const Vec3 off = narrow3(own - wide(form.center));
+        double sum = std::abs(form.constant) / 2.0;
+        for (int axis = 0; axis < 3; ++axis) {
+            const Vec3& row = form.axes[axis];
+            const double x = glm::dot(row, off);
+            sum += std::abs(glm::dot(row, g)) * glm::dot(glm::abs(row), way) +
+                   std::abs(form.square[axis]) * x * x / 2.0 +
+                   (axis == 2 ? std::abs(form.linear * x) : 0.0);
+        }
+        // The form itself comes from an eigenvalue problem and completed squares.
+        return 2.0 * own_roundings * sum;
+    }
+
+    /// How much the half value can change at t.
+    [[nodiscard]] double change_at(const WideVec& g, const Wide& t, const WideVec& own) const
+    {
+        return reach(g, t, own) + (surface_.canonical ? canonical_terms(narrow3(g), t, own) : 0.0);
+    }
+
+    /// How near the quadratic is to losing a root to infinity.
+    [[nodiscard]] double margin_of_infinity(const WideVec& second) const
+    {
+        const double size =
+            2.0 * sensitivity_.of_direction(narrow3(second), to_world(second), own_dir_);
+        return size == 0.0 ? never : std::abs(narrow(a_)) / size;
+    }
+
+    /// How near a is to vanishing where none of its terms cancel: all of them must.
+    [[nodiscard]] double margin_of_vanishing(const WideVec& second) const
+    {
+        const Vec3 size = sensitivity_.of_components(own_dir_);
+        double margin = 0.0;
+        const Vec3 terms = narrow3(second);
+        for (int axis = 0; axis < 3; ++axis)
+            if (terms[axis] != 0.0)
+                margin = std::max(margin, std::abs(own_dir_[axis]) / size[axis]);
+        return margin;
+    }
+
+    /// How near a ray without a root is to one far away. There a and c have one sign; a change
+    /// that turns a's leaves a root ahead, at any distance. Where no terms of a cancel, as along a
+    /// cylinder, it cannot turn, but can vanish; from there any turn towards the surface hits it.
+    [[nodiscard]] double margin_of_no_root() const
+    {
+        if (t_max_ < never || !surface_.by_points)
+            return never;
+        const WideVec second = surface_.second_order(v_);
+        const WideVec terms = second * v_;
+        const bool cancels = a_ > 0 ? std::min({terms.x, terms.y, terms.z}) < 0
+                                    : std::max({terms.x, terms.y, terms.z}) > 0;
+        return cancels ? infinity_margin_ : margin_of_vanishing(second);
+    }
+
+    [[nodiscard]] double touching_margin() const
+    {
+        if (a_ == 0)
+            return never;
+        const Wide t = -b_ / a_;
+        const WideVec own = own_at(t);
+        const double half_value = narrow((c_ + t * b_) / 2);
+        // Through an apex both this and its change are 0, but for what 113 bits round off.
+        if (std::abs(half_value) <= 0x1p-104 * std::abs(narrow(c_)))
+            return 0.0;
+        return std::abs(half_value) / change_at(surface_.gradient(own), t, own);
+    }
+
+    /// Adds the hit at t, whose own uncertainty is `spread`; `margin` holds so far.
+    TrueHit& add(const Wide& t, double spread, const WideVec& normal, bool exists, double margin,
+                 std::vector<TrueHit>& found) const
+    {
+        TrueHit hit;
+        hit.t = t;
+        hit.object = surface_.object;
+        hit.exists = exists && t > t_min_ && t < t_max_;
+        const WideVec n = surface_.covector_to_world(normal);
+        const Wide size = square_root(dot(n, n));
+        if (size > 0)
+            hit.normal = n / size;
+        const double size_of_t = std::abs(narrow(t));
+        if (t_min_ > 0)
+            hit.end_gap = std::abs(narrow(t - t_min_)) / size_of_t;
+        else if (spread > 0)
+            margin = std::min(margin, size_of_t / spread);
+        if (t_max_ < never)
+            hit.end_gap = std::min(hit.end_gap, std::abs(narrow(t - t_max_)) / size_of_t);
+        hit.spread = spread;
+        hit.condition = spread / size_of_t;
+        hit.margin = margin;
+        found.push_back(hit);
+        return found.back();
+    }
+
+    void add_side(const Wide& t, double margin, bool crosses, std::vector<TrueHit>& found) const
+    {
+        const WideVec own = own_at(t);
+        const WideVec g = surface_.gradient(own);
+        const double slope = std::abs(narrow(dot(g, v_)));
+        // Where the ray only touches, or nearly, t has no first-order uncertainty.
+        const double spread = crosses && slope > 0.0 ? change_at(g, t, own) / slope : 0.0;
+        bool exists = crosses;
+        if (surface_.z_range) {
+            const double blur = reach({0, 0, 1}, t, own) + std::abs(own_dir_.z) * spread;
+            for (const double bound : {surface_.z_range->low, surface_.z_range->high})
+                margin = std::min(margin, std::abs(narrow(own.z - bound)) / blur);
+            exists = exists && own.z >= surface_.z_range->low && own.z <= surface_.z_range->high;
+        }
+        TrueHit& hit = add(t, spread, g, exists, margin, found);
+        hit.normal_spread = turn_of_normal(g, t, own, spread);
+    }
+
+    /// What changes by 1 turn the normal by: as its point moves along the ray, and as it is made
+    /// of the point's terms.
+    [[nodiscard]] double turn_of_normal(const WideVec& g, const Wide& t, const WideVec& own,
+                                        double spread) const
+    {
+        const double size = glm::length(to_world(g));
+        if (size == 0.0)
+            return never;
+        const Vec3 way = sizes(p_) + std::abs(narrow(t)) * sizes(v_) + sizes(own);
+        Vec3 terms = sizes(surface_.linear);
+        for (int row = 0; row < 3; ++row)
+            terms[row] += glm::dot(sizes(surface_.square[row]), own_roundings * way);
+        const double along = glm::length(to_world(surface_.second_order(v_))) * spread;
+        return (along + glm::length(sensitivity_.covector(terms))) / size;
+    }
+
+    void find_sides(std::vector<TrueHit>& found) const
+    {
+        const Wide discriminant = b_ * b_ - a_ * c_;
+        const double touching = touching_margin();
+        if (discriminant < 0) {
+            add_side(-b_ / a_, std::min(touching, margin_of_no_root()), false, found);
+            return;
+        }
+        const Wide root = square_root(discriminant);
+        const Wide q = b_ < 0 ? Wide(root - b_) : Wide(-root - b_);
+        if (q != 0)
+            add_side(c_ / q, touching, true, found);
+        if (a_ != 0)
+            add_side(q / a_, std::min(touching, infinity_margin_), true, found);
+    }
+
+    /// One of two crossing planes. Every line that is along neither hits both, so that no change
+    /// of the inputs makes a ray miss their edge; but it may make the normal another.
+    void find_sheet(const WideVec& g, const WideVec& other, std::vector<TrueHit>& found) const
+    {
+        const Wide slope = dot(g, v_);
+        if (slope == 0)
+            return;
+        const Wide t = -dot(g, p_) / slope;
+        const WideVec own = own_at(t);
+        const double steep = std::abs(narrow(slope));
+        const double spread = reach(g, t, own) / steep;
+        const double turn = sensitivity_.of_direction(narrow3(g), to_world(g), own_dir_);
+        const Wide side = dot(other, own);
+        TrueHit& hit = add(t, spread, side > 0 ? g : -g, true, steep / turn, found);
+        const double blur = reach(other, t, own) + std::abs(narrow(dot(other, v_))) * spread;
+        hit.side_margin = std::abs(narrow(side)) / blur;
+        limit_to_quadratic(hit);
+    }
+
+    /// Who solves the product of two planes as a quadratic rounds the terms of a: along one of the
+    /// planes it nearly vanishes, which moves the other's t as well.
+    void limit_to_quadratic(TrueHit& hit) const
+    {
+        const Vec3 terms = narrow3(surface_.second_order(v_) * v_);
+        const double size = std::abs(terms.x) + std::abs(terms.y) + std::abs(terms.z);
+        if (a_ == 0)
+            return;
+        hit.condition = std::max(hit.condition, own_roundings * size / std::abs(narrow(a_)));
+        hit.spread = hit.condition * std::abs(narrow(hit.t));
+    }
+
+    void find_cap(double height, int side, std::vector<TrueHit>& found) const
+    {
+        if (v_.z == 0)
+            return;
+        const Wide t = (Wide(height) - p_.z) / v_.z;
+        const WideVec own = own_at(t);
+        const WideVec up(0, 0, side);
+        const double spread = reach(up, t, own) / std::abs(own_dir_.z);
+        const Wide value = surface_.value(own) / 2;
+        const WideVec g = surface_.gradient(own);
+        const double change = std::abs(narrow(dot(g, v_))) * spread;
+        TrueHit& hit = add(t, spread, up, value <= 0,
+                           std::abs(narrow(value)) / (change_at(g, t, own) + change), found);
+        hit.piece = side < 0 ? 1 : 2;
+    }
+
+    const WideSurface& surface_;
+    Sensitivity sensitivity_;
+    WideVec p_;
+    WideVec v_;
+    Vec3 own_dir_;
+    double t_min_;
+    double t_max_;
+    Wide a_ = 0;
+    Wide b_ = 0;
+    Wide c_ = 0;
+    double infinity_margin_ = 0.0;
+};
+
+}  // namespace
+
+void find_true_hits(const WideSurface& surface, const StressRay& ray, std::vector<TrueHit>& found)
+{
+    Line(surface, ray).find(found);
+}
+
+}  // namespace packtrace::lab
