@@ -4,7 +4,7 @@
 #include <glm/geometric.hpp>
 
 #include "catch.hpp"
-#include "lower/lower_quadric.hpp"
+#include "geometry/quadric.hpp"
 #include "scene_text.hpp"
 
 namespace packtrace::test {

@@ -11,33 +11,6 @@
 namespace packtrace {
 namespace {
 
-auto key_of(const Vec3& v)
-{
-    return std::tuple(v.x, v.y, v.z);
-}
-
-/// All that decides where rays meet a surface.
-auto key_of(const LoweredSphere& sphere)
-{
-    return std::tuple_cat(key_of(sphere.center), std::tuple(sphere.radius));
-}
-auto key_of(const LoweredAnchoredSphere& sphere)
-{
-    return std::tuple_cat(key_of(sphere.center), std::tuple(sphere.radius));
-}
-auto key_of(const LoweredPlane& plane)
-{
-    return std::tuple_cat(key_of(plane.point), key_of(plane.normal));
-}
-auto key_of(const LoweredQuadric& quadric)
-{
-    return std::tuple_cat(key_of(quadric.center), key_of(quadric.inverse[0]),
-                          key_of(quadric.inverse[1]), key_of(quadric.inverse[2]),
-                          key_of(quadric.square),
-                          std::tuple(quadric.linear, quadric.constant, quadric.clip_low,
-                                     quadric.clip_high, quadric.capped));
-}
-
 template <class... Part>
 std::uint64_t hash_of(const std::tuple<Part...>& key)
 {
@@ -101,10 +74,10 @@ std::size_t remove_duplicates(LoweredScene& lowered)
 {
     if (lowered.features.glass)
         return 0;
-    return remove_duplicates_of(lowered.spheres, lowered.casts_shadow) +
-           remove_duplicates_of(lowered.anchored_spheres, lowered.casts_shadow) +
-           remove_duplicates_of(lowered.planes, lowered.casts_shadow) +
-           remove_duplicates_of(lowered.quadrics, lowered.casts_shadow);
+    std::size_t count = 0;
+    for_each_list(lowered,
+                  [&](auto& list) { count += remove_duplicates_of(list, lowered.casts_shadow); });
+    return count;
 }
 
 }  // namespace packtrace

@@ -6,8 +6,8 @@
 
 namespace packtrace {
 
-/// Removes spheres, planes and quadrics that are an earlier one of their kind once more: at equal t
-/// the lower number is hit, so they are never seen. Where light passes through objects each
+/// Removes surfaces that are an earlier one of their kind once more: at equal t the lower number is
+/// hit, so they are never seen. Where light passes through objects each
 /// counts, and nothing is removed. Returns how many surfaces went.
 std::size_t remove_duplicates(LoweredScene& lowered);
 

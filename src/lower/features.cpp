@@ -22,21 +22,13 @@ void add_features(const LoweredMaterial& material, abi::Features& features)
 std::vector<bool> used_materials(const LoweredScene& lowered)
 {
     std::vector<bool> used(lowered.materials.size(), false);
-    const auto mark = [&](const auto& surface) {
+    for_each_surface(lowered, [&](const auto& surface) {
         const auto& index = lowered.material_index[static_cast<std::size_t>(surface.surface)];
         const auto first = static_cast<std::size_t>(index.first);
         used[first] = true;
         if (index.checker >= 0)
             used[first + 1] = true;
-    };
-    for (const LoweredSphere& sphere : lowered.spheres)
-        mark(sphere);
-    for (const LoweredAnchoredSphere& sphere : lowered.anchored_spheres)
-        mark(sphere);
-    for (const LoweredPlane& plane : lowered.planes)
-        mark(plane);
-    for (const LoweredQuadric& quadric : lowered.quadrics)
-        mark(quadric);
+    });
     return used;
 }
 

@@ -1,6 +1,7 @@
 #include "lower/join_parts.hpp"
 
 #include <algorithm>
+#include <array>
 
 #include <tbb/parallel_for.h>
 
@@ -9,17 +10,16 @@ namespace {
 
 /// Where a part's lists begin in the whole scene's.
 struct Place {
-    std::size_t spheres = 0;
-    std::size_t planes = 0;
-    std::size_t quadrics = 0;
+    std::array<std::size_t, kind_count> lists{};
     std::size_t checkers = 0;
     std::size_t surfaces = 0;
 
     [[nodiscard]] Place behind(const LoweredScene& part) const
     {
-        return {spheres + part.spheres.size(), planes + part.planes.size(),
-                quadrics + part.quadrics.size(), checkers + part.checkers.size(),
-                surfaces + part.material_index.size()};
+        Place place{lists, checkers + part.checkers.size(), surfaces + part.material_index.size()};
+        std::size_t kind = 0;
+        for_each_list(part, [&](const auto& list) { place.lists[kind++] += list.size(); });
+        return place;
     }
 };
 
@@ -56,9 +56,9 @@ void join_surfaces(const std::vector<Surface>& part, std::size_t at, std::size_t
 void join_part(const LoweredScene& part, const Place& at, const MaterialNumbers& materials,
                LoweredScene& whole)
 {
-    join_surfaces(part.spheres, at.spheres, at.surfaces, whole.spheres);
-    join_surfaces(part.planes, at.planes, at.surfaces, whole.planes);
-    join_surfaces(part.quadrics, at.quadrics, at.surfaces, whole.quadrics);
+    std::size_t kind = 0;
+    for_each_kind(
+        [&](auto list) { join_surfaces(part.*list, at.lists[kind++], at.surfaces, whole.*list); });
     std::copy(part.checkers.begin(), part.checkers.end(), whole.checkers.data() + at.checkers);
     std::copy(part.faces_viewer.begin(), part.faces_viewer.end(),
               whole.faces_viewer.data() + at.surfaces);
@@ -73,9 +73,8 @@ void join_part(const LoweredScene& part, const Place& at, const MaterialNumbers&
 
 void resize(const Place& size, LoweredScene& whole)
 {
-    whole.spheres.resize(size.spheres);
-    whole.planes.resize(size.planes);
-    whole.quadrics.resize(size.quadrics);
+    std::size_t kind = 0;
+    for_each_list(whole, [&](auto& list) { list.resize(size.lists[kind++]); });
     whole.checkers.resize(size.checkers);
     whole.material_index.resize(size.surfaces);
     whole.faces_viewer.resize(size.surfaces);
@@ -83,9 +82,7 @@ void resize(const Place& size, LoweredScene& whole)
 
 void clear(LoweredScene& part)
 {
-    part.spheres.clear();
-    part.planes.clear();
-    part.quadrics.clear();
+    for_each_list(part, [](auto& list) { list.clear(); });
     part.checkers.clear();
     part.materials.clear();
     part.material_index.clear();

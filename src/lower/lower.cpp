@@ -2,6 +2,7 @@
 #include <array>
 #include <exception>
 #include <span>
+#include <variant>
 
 #include <tbb/parallel_for.h>
 
@@ -10,7 +11,6 @@
 #include "lower/join_parts.hpp"
 #include "lower/lower_material.hpp"
 #include "lower/lower_model.hpp"
-#include "lower/lower_surface.hpp"
 #include "lower/lowered_scene.hpp"
 
 namespace packtrace {
@@ -44,7 +44,9 @@ void lower_part(const Scene& scene, std::size_t begin, std::size_t end, LoweredS
         const auto number = static_cast<std::int32_t>(i);
         const auto index = lower_material(object, number, lights, recent, part);
         const auto first = static_cast<std::int32_t>(part.material_index.size());
-        const auto pieces = static_cast<std::size_t>(lower_surface(object, first, part));
+        const auto pieces = static_cast<std::size_t>(std::visit(
+            [&](const auto& surface) { return lower_kind(object, surface, first, part); },
+            object.surface));
         part.material_index.insert(part.material_index.end(), pieces, index);
         part.faces_viewer.insert(part.faces_viewer.end(), pieces,
                                  normal_faces_viewer(scene, object) ? 1 : 0);

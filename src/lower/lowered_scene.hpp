@@ -1,64 +1,16 @@
 #pragma once
 
 #include <cstdint>
-#include <limits>
 #include <vector>
 
 #include <packtrace/render.hpp>
 #include <packtrace/scene.hpp>
 
+#include "geometry/kinds.hpp"
 #include "kernel_abi/features.hpp"
 #include "kernel_abi/scene_view.hpp"
 
 namespace packtrace {
-
-struct LoweredSphere {
-    Vec3 center{0.0};
-    double radius = 1.0;
-    std::int32_t surface = 0;
-};
-
-/// A sphere whose surface passes so near the world's origin for its size that kernels use its
-/// curvature at `anchor`, the point of its surface nearest there, in place of its centre.
-struct LoweredAnchoredSphere {
-    Vec3 center{0.0};
-    double radius = 1.0;
-    Vec3 anchor{0.0};
-    std::int32_t surface = 0;
-};
-
-struct LoweredPlane {
-    Vec3 point{0.0};
-    Vec3 normal{0.0, 1.0, 0.0};  ///< unit
-    std::int32_t surface = 0;
-};
-
-/// s0 x² + s1 y² + s2 z² + 2 linear z + constant = 0 at p = inverse (P - center), negative inside.
-struct LoweredQuadric {
-    Vec3 center{0.0};
-    Mat3 inverse{1.0};
-    Vec3 square{0.0};
-    double linear = 0.0;
-    double constant = 0.0;
-    /// Height in the quadric's own space: clip·(P - center) + clip_offset.
-    Vec3 clip{0.0};
-    double clip_offset = 0.0;
-    double clip_low = -std::numeric_limits<double>::infinity();
-    double clip_high = std::numeric_limits<double>::infinity();
-    bool capped = false;
-    Vec3 bound{0.0};  ///< centre of a ball around what is left after clipping
-    double bound_radius = std::numeric_limits<double>::infinity();
-    Vec3 box_half{0.0};  ///< half the sizes of a box around the same centre
-    /// How much canonical space is stretched: its longest against its shortest length.
-    double condition = 1.0;
-    std::int32_t surface = 0;  ///< with caps, the next two numbers are theirs, low and high
-
-    [[nodiscard]] bool clipped() const
-    {
-        return clip_low > -std::numeric_limits<double>::infinity() ||
-               clip_high < std::numeric_limits<double>::infinity();
-    }
-};
 
 /// Coefficients of the one shading equation (abi::MaterialRecord).
 struct LoweredMaterial {
@@ -80,11 +32,7 @@ struct LoweredChecker {
 
 /// A scene brought down to what the kernels know: surfaces by kind, one equation of shading,
 /// world space, double precision.
-struct LoweredScene {
-    std::vector<LoweredSphere> spheres;  ///< rising surface numbers, as in every list
-    std::vector<LoweredAnchoredSphere> anchored_spheres;
-    std::vector<LoweredPlane> planes;
-    std::vector<LoweredQuadric> quadrics;
+struct LoweredScene : SurfaceLists {
     std::vector<abi::MaterialIndex> material_index;  ///< by surface
     std::vector<std::uint8_t> faces_viewer;          ///< by surface: normals turn to the ray
     std::vector<bool> casts_shadow;                  ///< by surface; none: all do

@@ -2,30 +2,28 @@
 
 #include <algorithm>
 
-#include "lower/pack_record.hpp"
-#include "lower/packed_tree.hpp"
-
 namespace packtrace {
 namespace {
 
-template <class Object, class Want>
-std::vector<const Object*> chosen(const std::vector<Object>& objects, const Want& want)
+/// The objects that no hierarchy holds.
+template <class Object>
+std::vector<const Object*> listed(const std::vector<Object>& objects, bool is_tree)
 {
     std::vector<const Object*> list;
     for (const Object& object : objects)
-        if (want(object))
+        if (!is_tree || !fits_tree(object))
             list.push_back(&object);
     return list;
 }
 
 template <class Object, class Record>
-AlignedArray<Record> pack_all(const std::vector<const Object*>& objects,
-                              Record (*pack)(const Object&))
+void pack_all(const std::vector<Object>& objects, bool is_tree, AlignedArray<Record>& records,
+              Record (*pack)(const Object&))
 {
-    AlignedArray<Record> records(objects.size());
-    for (std::size_t i = 0; i < objects.size(); ++i)
-        records[i] = pack(*objects[i]);
-    return records;
+    const auto chosen = listed(objects, is_tree);
+    records = AlignedArray<Record>(chosen.size());
+    for (std::size_t i = 0; i < chosen.size(); ++i)
+        records[i] = pack(*chosen[i]);
 }
 
 template <class Record>
@@ -39,16 +37,10 @@ abi::RecordList<Record> list_of(const AlignedArray<Record>& records)
 template <class Real>
 PackedLists<Real>::PackedLists(const LoweredScene& lowered, bool is_tree)
 {
-    const auto listed = [&](const auto& object) { return !is_tree || !fits_tree(object); };
-    const auto every = [](const auto&) { return true; };
-    const auto spheres = chosen(lowered.spheres, listed);
-    const auto anchored_spheres = chosen(lowered.anchored_spheres, every);
-    const auto planes = chosen(lowered.planes, every);
-    const auto quadrics = chosen(lowered.quadrics, listed);
-    pack_spheres(spheres);
-    anchored_spheres_ = pack_all(anchored_spheres, pack_anchored<Real>);
-    planes_ = pack_all(planes, pack_plane<Real>);
-    quadrics_ = pack_all(quadrics, pack_quadric<Real>);
+    pack_spheres(listed(lowered.spheres, is_tree));
+    pack_all(lowered.anchored_spheres, is_tree, anchored_spheres_, pack<Real>);
+    pack_all(lowered.planes, is_tree, planes_, pack<Real>);
+    pack_all(lowered.quadrics, is_tree, quadrics_, pack<Real>);
 }
 
 template <class Real>

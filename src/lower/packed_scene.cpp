@@ -1,15 +1,11 @@
 #include "lower/packed_scene.hpp"
 
 #include <algorithm>
-#include <cmath>
 #include <limits>
 
-#include <glm/common.hpp>
-#include <glm/geometric.hpp>
-#include <glm/gtc/matrix_access.hpp>
-
+#include "geometry/round_to.hpp"
 #include "lower/in_parallel.hpp"
-#include "lower/pack_record.hpp"
+#include "lower/pack_material.hpp"
 
 namespace packtrace {
 namespace {
@@ -30,48 +26,11 @@ constexpr std::size_t frame_tree_objects(int lanes)
 template <class Real>
 constexpr Real start_roundoffs = sizeof(Real) == sizeof(float) ? Real(4) : Real(32);
 
-/// The magnitudes that error bounds in single precision hold for; kernels/geometry/error_bounds.hpp.
-constexpr double largest_certain = 1e9;
-constexpr double smallest_certain = 1e-9;
-
-bool certifiable(const Vec3& center, double radius)
-{
-    const Vec3 size = glm::abs(center);
-    return std::max({size.x, size.y, size.z}) + radius <= largest_certain &&
-           radius >= smallest_certain;
-}
-bool certifiable(const LoweredSphere& sphere)
-{
-    return certifiable(sphere.center, sphere.radius);
-}
-bool certifiable(const LoweredAnchoredSphere& sphere)
-{
-    return certifiable(sphere.center, sphere.radius);
-}
-bool certifiable(const LoweredPlane& plane)
-{
-    return certifiable(plane.point, 1.0);
-}
-bool certifiable(const LoweredQuadric& quadric)
-{
-    for (int row = 0; row < 3; ++row)
-        if (!certifiable(Vec3(0.0), glm::length(glm::row(quadric.inverse, row))))
-            return false;
-    return certifiable(quadric.center, 1.0) && (!std::isfinite(quadric.bound_radius) ||
-                                                certifiable(quadric.bound, quadric.bound_radius));
-}
-
-template <class Objects>
-bool all_certifiable(const Objects& objects)
-{
-    return std::all_of(objects.begin(), objects.end(),
-                       [](const auto& object) { return certifiable(object); });
-}
-
 bool certifiable(const LoweredScene& lowered)
 {
-    return all_certifiable(lowered.spheres) && all_certifiable(lowered.anchored_spheres) &&
-           all_certifiable(lowered.planes) && all_certifiable(lowered.quadrics);
+    bool all = true;
+    for_each_surface(lowered, [&](const auto& surface) { all = all && is_certifiable(surface); });
+    return all;
 }
 
 Traversal chosen(Traversal traversal, const LoweredScene& lowered, std::size_t tree_objects)
@@ -212,10 +171,7 @@ void PackedScene<Real>::pack_casters(const LoweredScene& lowered)
     const auto casts_none = [&](const auto& surface) {
         return !casts[static_cast<std::size_t>(surface.surface)];
     };
-    std::erase_if(casters.spheres, casts_none);
-    std::erase_if(casters.anchored_spheres, casts_none);
-    std::erase_if(casters.planes, casts_none);
-    std::erase_if(casters.quadrics, casts_none);
+    for_each_list(casters, [&](auto& list) { std::erase_if(list, casts_none); });
     // Without a hierarchy for the camera's rays there are no groups of shadow rays either.
     casters_ = std::make_unique<PackedScene>(
         casters, tree_.view().empty() ? Traversal::list : Traversal::automatic);

@@ -6,6 +6,10 @@
 
 namespace packtrace {
 
+/// An array a kind.
+template <class... List>
+std::tuple<AlignedArray<ShapeOf<KindOf<List>>>...> shape_arrays_of(const std::tuple<List...>&);
+
 /// The shapes that hits are refined and shaded by, in double whatever the precision of the rays, as
 /// the kernels find them by surface number. A sphere costs 36 bytes.
 class PackedShapes {
@@ -20,16 +24,13 @@ public:
 
     [[nodiscard]] std::size_t bytes() const
     {
-        return index_.bytes() + spheres_.bytes() + anchored_spheres_.bytes() + planes_.bytes() +
-               quadrics_.bytes();
+        const auto sum = [](const auto&... shapes) { return (shapes.bytes() + ...); };
+        return index_.bytes() + std::apply(sum, shapes_);
     }
 
 private:
     AlignedArray<abi::SurfaceIndex> index_;
-    AlignedArray<abi::SphereShape> spheres_;
-    AlignedArray<abi::AnchoredSphere<double>> anchored_spheres_;
-    AlignedArray<abi::PlaneRecord<double>> planes_;
-    AlignedArray<abi::QuadricRecord<double>> quadrics_;
+    decltype(shape_arrays_of(surface_lists)) shapes_;
     abi::ShapesView view_;
 };
 

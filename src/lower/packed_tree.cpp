@@ -6,16 +6,11 @@
 #include <glm/geometric.hpp>
 
 #include "lower/in_parallel.hpp"
-#include "lower/pack_record.hpp"
 
 namespace packtrace {
 namespace {
 
 enum ItemKind : std::uint32_t { sphere_item, quadric_item };
-
-/// Quadrics that stretch space more than this lose so many digits in single precision that no
-/// box with a little room holds their hits.
-constexpr double worst_condition = 1e3;
 
 /// How far single precision shifts the hits of a sphere, as a share of the distances there are:
 /// docs/numerics_derivations.md derives 16 units in the last place.
@@ -33,37 +28,23 @@ float round_up(double x)
     return std::nextafter(rounded, std::numeric_limits<float>::infinity());
 }
 
-/// The box around `center`, with room for what rounding does to a centre and a radius.
-BvhItem make_item(const Vec3& center, const Vec3& half, std::size_t number, ItemKind kind)
+/// The box with room for what rounding does to a centre and a radius.
+BvhItem make_item(const CenteredBox& box, std::size_t number, ItemKind kind)
 {
     BvhItem item{};
     for (int axis = 0; axis < 3; ++axis) {
-        const double size = half[axis] * (1.0 + 1e-6) + std::abs(center[axis]) * 3e-7;
-        item.low[axis] = round_down(center[axis] - size);
-        item.high[axis] = round_up(center[axis] + size);
+        const double size = box.half[axis] * (1.0 + 1e-6) + std::abs(box.center[axis]) * 3e-7;
+        item.low[axis] = round_down(box.center[axis] - size);
+        item.high[axis] = round_up(box.center[axis] + size);
     }
     item.number = static_cast<std::uint32_t>(number);
     item.kind = kind;
     return item;
 }
 
-BvhItem make_item(const LoweredSphere& sphere, std::size_t number)
-{
-    return make_item(sphere.center, Vec3(sphere.radius), number, sphere_item);
-}
-BvhItem make_item(const LoweredQuadric& quadric, std::size_t number)
-{
-    return make_item(quadric.bound, quadric.box_half, number, quadric_item);
-}
-
-/// Whether single precision reckons with all of a box; not with one at NaN.
-bool within_tree(const Vec3& center, const Vec3& half)
-{
-    bool within = true;
-    for (int axis = 0; axis < 3; ++axis)
-        within = within && std::abs(center[axis]) + half[axis] <= abi::largest_coordinate;
-    return within;
-}
+template <class Object>
+constexpr ItemKind item_kind =
+    Object::kind == abi::SurfaceKind::sphere ? sphere_item : quadric_item;
 
 /// Writes items of the objects that fit, in order; returns the end of them.
 template <class Object>
@@ -71,7 +52,7 @@ BvhItem* fill_items(const std::vector<Object>& objects, BvhItem* items)
 {
     for_each_in_parallel(objects, [&](const Object& object) {
         const auto number = static_cast<std::size_t>(&object - objects.data());
-        items[number] = make_item(object, number);
+        items[number] = make_item(box_of(object), number, item_kind<Object>);
     });
     return std::remove_if(items, items + objects.size(),
                           [&](const BvhItem& item) { return !fits_tree(objects[item.number]); });
@@ -126,23 +107,11 @@ double worst_slack(const LoweredScene& lowered)
 
 }  // namespace
 
-bool fits_tree(const LoweredSphere& sphere)
-{
-    return within_tree(sphere.center, Vec3(sphere.radius));
-}
-
-bool fits_tree(const LoweredQuadric& quadric)
-{
-    return std::isfinite(quadric.bound_radius) && quadric.condition < worst_condition &&
-           within_tree(quadric.bound, quadric.box_half);
-}
-
 std::size_t count_tree_objects(const LoweredScene& lowered)
 {
-    const auto fits = [](const auto& object) { return fits_tree(object); };
-    return static_cast<std::size_t>(
-        std::count_if(lowered.spheres.begin(), lowered.spheres.end(), fits) +
-        std::count_if(lowered.quadrics.begin(), lowered.quadrics.end(), fits));
+    std::size_t count = 0;
+    for_each_surface(lowered, [&](const auto& object) { count += fits_tree(object) ? 1u : 0u; });
+    return count;
 }
 
 template <class Real>
@@ -245,7 +214,7 @@ void PackedTree<Real>::pack_run(const LoweredScene& lowered, const Bvh& bvh, con
 {
     for (std::uint32_t i = 0; i < leaf.count; ++i) {
         const LoweredQuadric& quadric = lowered.quadrics[bvh.order[leaf.first + i]];
-        quadrics_[first + i] = pack_quadric<Real>(quadric);
+        quadrics_[first + i] = pack<Real>(quadric);
         quadric_surfaces_[first + i] = quadric.surface;
     }
 }

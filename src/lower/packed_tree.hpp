@@ -7,12 +7,7 @@
 
 namespace packtrace {
 
-/// Whether an object can be in a hierarchy: it has bounds, and single precision can tell with
-/// little room where it is hit.
-[[nodiscard]] bool fits_tree(const LoweredSphere& sphere);
-[[nodiscard]] bool fits_tree(const LoweredQuadric& quadric);
-
-/// How many objects of a scene do.
+/// How many objects of a scene can be in a hierarchy.
 [[nodiscard]] std::size_t count_tree_objects(const LoweredScene& lowered);
 
 /// A hierarchy over those objects, in the arrays and the precision the kernels read.

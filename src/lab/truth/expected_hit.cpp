@@ -8,7 +8,7 @@
 namespace packtrace::lab {
 namespace {
 
-constexpr double never = std::numeric_limits<double>::infinity();
+constexpr double boundless = std::numeric_limits<double>::infinity();
 
 /// A hit that nearly exists moves when it does; by less than this of its t, or it is far away.
 constexpr double may_move = 0x1p-10;
@@ -18,7 +18,7 @@ double margin_of_order(const TrueHit& first, const TrueHit& other)
 {
     const double gap = static_cast<double>(other.t - first.t);
     const double spread = first.spread + other.spread;
-    return spread > 0.0 ? gap / spread : never;
+    return spread > 0.0 ? gap / spread : boundless;
 }
 
 /// Whether a hit would come before the expected one if it existed.
@@ -44,7 +44,7 @@ Expected expect(const StressRay& ray, std::vector<TrueHit> hits, double roundoff
         std::find_if(hits.begin(), hits.end(), [](const TrueHit& hit) { return hit.exists; });
     const TrueHit* first = found == hits.end() ? nullptr : &*found;
     Expected expected;
-    expected.margin = expected.root_margin = expected.end_margin = never;
+    expected.margin = expected.root_margin = expected.end_margin = boundless;
     if (first != nullptr) {
         expected.object = first->object;
         expected.piece = first->piece;
@@ -71,7 +71,7 @@ Expected expect(const StressRay& ray, std::vector<TrueHit> hits, double roundoff
         if (in_front(hit, first))
             expected.end_margin = std::min(expected.end_margin, margin_of_end(hit, roundoff));
     if (ray.exact)
-        expected.margin = expected.root_margin = never;
+        expected.margin = expected.root_margin = boundless;
     expected.hits = std::move(hits);
     return expected;
 }

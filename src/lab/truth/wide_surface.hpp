@@ -7,7 +7,7 @@
 #include <packtrace/scene.hpp>
 
 #include "lab/truth/wide.hpp"
-#include "lower/canonical_form.hpp"
+#include "geometry/canonical_form.hpp"
 
 namespace packtrace::lab {
 

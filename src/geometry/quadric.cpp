@@ -1,16 +1,24 @@
-#include "lower/lower_quadric.hpp"
+#include "geometry/quadric.hpp"
 
 #include <algorithm>
 #include <cmath>
 
 #include <glm/geometric.hpp>
+#include <glm/gtc/matrix_access.hpp>
 #include <glm/matrix.hpp>
 
-#include "lower/canonical_form.hpp"
-#include "lower/exact_inverse.hpp"
+#include "geometry/canonical_form.hpp"
+#include "geometry/exact_inverse.hpp"
+#include "geometry/kinds.hpp"
+#include "geometry/round_to.hpp"
+#include "scene/quadric_kinds.hpp"
 
 namespace packtrace {
 namespace {
+
+/// Quadrics that stretch space more than this lose so many digits in single precision that no
+/// box with a little room holds their hits.
+constexpr double worst_condition = 1e3;
 
 struct Bound {
     Vec3 center{0.0};
@@ -119,6 +127,43 @@ Bound bound_of(const Quadric& quadric, const CanonicalForm& form, const Mat4& tr
 
 }  // namespace
 
+Fault fault_of(const Quadric& quadric)
+{
+    const QuadricKindInfo* const kind = find_quadric_kind(quadric.kind);
+    if (kind != nullptr && quadric.coefficients != kind->coefficients)
+        return "the coefficients are not those of its kind, " + std::string(kind->name) +
+               "; fill them in, or make the kind general";
+    for (const double coefficient : quadric.coefficients)
+        if (!std::isfinite(coefficient))
+            return "a coefficient of the quadric is not finite; use finite ones";
+    const auto& range = quadric.z_range;
+    if (range &&
+        !(std::isfinite(range->low) && std::isfinite(range->high) && range->low < range->high))
+        return "the z_range is empty or not finite; give it a low end and a higher one";
+    if (quadric.capped && !range)
+        return "capped closes the ends of a z_range, and there is none; add one";
+    return std::nullopt;
+}
+
+Fault why_no_surface(const Quadric& quadric)
+{
+    if (quadric.kind != QuadricKind::general)
+        return std::nullopt;
+    const Fault reason = why_no_surface(canonical_form(quadric.coefficients));
+    return reason ? Fault("the quadric has no surface: " + *reason + "; change its coefficients")
+                  : std::nullopt;
+}
+
+int lower_kind(const Object& object, const Quadric& quadric, std::int32_t surface,
+               SurfaceLists& lists)
+{
+    const bool unit_sphere = quadric.kind == QuadricKind::ellipsoid && !quadric.z_range;
+    if (unit_sphere && lower_sphere(Sphere{}, object.transform, surface, lists))
+        return 1;
+    lists.quadrics.push_back(lower_quadric(object, quadric, surface));
+    return pieces_of(lists.quadrics.back());
+}
+
 LoweredQuadric lower_quadric(const Object& object, const Quadric& quadric, std::int32_t surface)
 {
     const CanonicalForm form = canonical_form(quadric.coefficients);
@@ -155,5 +200,66 @@ Quadric as_quadric(const Sphere& sphere)
         0, -2 * c.x, -2 * c.y, -2 * c.z, glm::dot(c, c) - sphere.radius * sphere.radius};
     return quadric;
 }
+
+Exit exit_of(const LoweredQuadric& quadric, const Vec3& eye, const Vec3& forward)
+{
+    const Vec3 p = quadric.inverse * (eye - quadric.center);
+    const Vec3 v = quadric.inverse * forward;
+    const double value =
+        glm::dot(quadric.square * p, p) + 2.0 * quadric.linear * p.z + quadric.constant;
+    const double height = glm::dot(quadric.clip, eye - quadric.center) + quadric.clip_offset;
+    if (!(value < 0.0 && height > quadric.clip_low && height < quadric.clip_high))
+        return std::nullopt;
+    double first =
+        first_positive_root(glm::dot(quadric.square * v, v),
+                            glm::dot(quadric.square * p, v) + quadric.linear * v.z, value);
+    const double climb = glm::dot(quadric.clip, forward);
+    for (const double end : {quadric.clip_low, quadric.clip_high})
+        if (const double t = (end - height) / climb; t > 0.0)
+            first = std::min(first, t);
+    return first;
+}
+
+bool is_certifiable(const LoweredQuadric& quadric)
+{
+    for (int row = 0; row < 3; ++row)
+        if (!is_certifiable(Vec3(0.0), glm::length(glm::row(quadric.inverse, row))))
+            return false;
+    return is_certifiable(quadric.center, 1.0) &&
+           (!std::isfinite(quadric.bound_radius) ||
+            is_certifiable(quadric.bound, quadric.bound_radius));
+}
+
+bool fits_tree(const LoweredQuadric& quadric)
+{
+    return std::isfinite(quadric.bound_radius) && quadric.condition < worst_condition &&
+           within_tree(box_of(quadric));
+}
+
+template <class Real>
+abi::QuadricRecord<Real> pack(const LoweredQuadric& quadric)
+{
+    abi::QuadricRecord<Real> packed;
+    round_to(packed.center, quadric.center);
+    round_to(packed.center_low, quadric.center - widen(packed.center));
+    for (int row = 0; row < 3; ++row)
+        round_to(packed.inverse[row], glm::row(quadric.inverse, row));
+    round_to(packed.square, quadric.square);
+    packed.linear = static_cast<Real>(quadric.linear);
+    packed.constant = static_cast<Real>(quadric.constant);
+    round_to(packed.clip, quadric.clip);
+    packed.clip_offset = static_cast<Real>(quadric.clip_offset);
+    packed.clip_low = static_cast<Real>(quadric.clip_low);
+    packed.clip_high = static_cast<Real>(quadric.clip_high);
+    round_to(packed.bound, quadric.bound);
+    packed.bound_radius = static_cast<Real>(quadric.bound_radius);
+    packed.clipped = quadric.clipped() ? 1 : 0;
+    packed.capped = quadric.capped ? 1 : 0;
+    packed.surface = quadric.surface;
+    return packed;
+}
+
+template abi::QuadricRecord<float> pack(const LoweredQuadric&);
+template abi::QuadricRecord<double> pack(const LoweredQuadric&);
 
 }  // namespace packtrace

@@ -1,4 +1,4 @@
-#include "lower/canonical_form.hpp"
+#include "geometry/canonical_form.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -6,7 +6,7 @@
 #include <glm/geometric.hpp>
 #include <glm/matrix.hpp>
 
-#include "lower/symmetric_eigen.hpp"
+#include "geometry/symmetric_eigen.hpp"
 
 namespace packtrace {
 namespace {

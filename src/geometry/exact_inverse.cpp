@@ -1,4 +1,4 @@
-#include "lower/exact_inverse.hpp"
+#include "geometry/exact_inverse.hpp"
 
 #include "core/quad.hpp"
 

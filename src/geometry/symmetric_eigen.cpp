@@ -1,4 +1,4 @@
-#include "lower/symmetric_eigen.hpp"
+#include "geometry/symmetric_eigen.hpp"
 
 #include <cmath>
 

@@ -1,0 +1,66 @@
+#pragma once
+
+#include <tuple>
+#include <utility>
+#include <vector>
+
+#include "geometry/plane.hpp"
+#include "geometry/quadric.hpp"
+#include "geometry/sphere.hpp"
+
+// The kinds of surfaces, a list each: whatever holds for all of them loops over these lists at
+// compile time, and asks a surface by overloads that its kind's file has.
+namespace packtrace {
+
+/// Surfaces in world space.
+struct SurfaceLists {
+    std::vector<LoweredSphere> spheres;  ///< rising surface numbers, as in every list
+    std::vector<LoweredAnchoredSphere> anchored_spheres;
+    std::vector<LoweredPlane> planes;
+    std::vector<LoweredQuadric> quadrics;
+};
+
+inline constexpr std::tuple surface_lists(&SurfaceLists::spheres, &SurfaceLists::anchored_spheres,
+                                          &SurfaceLists::planes, &SurfaceLists::quadrics);
+inline constexpr std::size_t kind_count = std::tuple_size_v<decltype(surface_lists)>;
+
+/// Calls `visit` with the member pointer of every list.
+template <class Visit>
+void for_each_kind(const Visit& visit)
+{
+    std::apply([&](auto... list) { (visit(list), ...); }, surface_lists);
+}
+
+/// Calls `visit` with every list.
+template <class Lists, class Visit>
+void for_each_list(Lists& lists, const Visit& visit)
+{
+    for_each_kind([&](auto list) { visit(lists.*list); });
+}
+
+/// Calls `visit` with every surface, kind by kind.
+template <class Lists, class Visit>
+void for_each_surface(Lists& lists, const Visit& visit)
+{
+    for_each_list(lists, [&](auto& list) {
+        for (auto& surface : list)
+            visit(surface);
+    });
+}
+
+template <class List>
+struct KindOfList;
+template <class Kind>
+struct KindOfList<std::vector<Kind> SurfaceLists::*> {
+    using type = Kind;
+};
+
+/// The kind whose list a member pointer leads to.
+template <class List>
+using KindOf = typename KindOfList<List>::type;
+
+/// What a surface is refined and shaded by.
+template <class Kind>
+using ShapeOf = decltype(shape_of(std::declval<const Kind&>()));
+
+}  // namespace packtrace

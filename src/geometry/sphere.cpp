@@ -1,0 +1,166 @@
+#include "geometry/sphere.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include <glm/geometric.hpp>
+#include <glm/matrix.hpp>
+
+#include "geometry/kinds.hpp"
+#include "geometry/round_to.hpp"
+
+namespace packtrace {
+namespace {
+
+/// How many times the distance of its surface from the world's origin a sphere's radius must be;
+/// from the study of formulas in docs/numerics_derivations.md, where both forms are about as exact
+/// at this ratio. The sphere alone decides, so that nothing else of a scene changes a digit.
+constexpr double anchored_ratio = 64.0;
+
+/// The point of the surface nearest the world's origin.
+Vec3 anchor_of(const LoweredSphere& sphere)
+{
+    const double distance = glm::length(sphere.center);
+    if (distance == 0.0)
+        return {0.0, sphere.radius, 0.0};
+    return sphere.center - sphere.center * (sphere.radius / distance);
+}
+
+bool is_anchored(const LoweredSphere& sphere)
+{
+    // Most spheres are not by far, which costs no square root.
+    const double reach = sphere.radius * (1.0 + 2.0 / anchored_ratio);
+    if (glm::dot(sphere.center, sphere.center) > reach * reach)
+        return false;
+    return sphere.radius > anchored_ratio * glm::length(anchor_of(sphere));
+}
+
+/// The factor of a similarity transform, or 0 when angles or ratios of lengths change.
+double similarity_scale(const Mat4& transform)
+{
+    const Mat3 linear(transform);
+    const Mat3 square = glm::transpose(linear) * linear;
+    const double scale2 = (square[0][0] + square[1][1] + square[2][2]) / 3.0;
+    for (int column = 0; column < 3; ++column)
+        for (int row = 0; row < 3; ++row) {
+            const double expected = column == row ? scale2 : 0.0;
+            if (std::abs(square[column][row] - expected) > 1e-12 * scale2)
+                return 0.0;
+        }
+    return std::sqrt(scale2);
+}
+
+Exit exit_of_sphere(const Vec3& center, double radius, const Vec3& eye, const Vec3& forward)
+{
+    const Vec3 o = eye - center;
+    const double c = glm::dot(o, o) - radius * radius;
+    if (!(c < 0.0))
+        return std::nullopt;
+    return first_positive_root(glm::dot(forward, forward), glm::dot(o, forward), c);
+}
+
+}  // namespace
+
+Fault fault_of(const Sphere& sphere)
+{
+    if (!is_finite(sphere.center))
+        return "the sphere's center is not finite; give it three finite numbers";
+    if (!(sphere.radius > 0.0) || std::isinf(sphere.radius))
+        return "the sphere's radius is " + std::to_string(sphere.radius) +
+               "; use a finite one above 0";
+    return std::nullopt;
+}
+
+bool lower_sphere(const Sphere& sphere, const Mat4& transform, std::int32_t surface,
+                  SurfaceLists& lists)
+{
+    const double scale = similarity_scale(transform);
+    if (scale == 0.0)
+        return false;
+    LoweredSphere result;
+    result.center = Vec3(transform * glm::dvec4(sphere.center, 1.0));
+    result.radius = scale * sphere.radius;
+    result.surface = surface;
+    lists.spheres.push_back(result);
+    return true;
+}
+
+int lower_kind(const Object& object, const Sphere& sphere, std::int32_t surface,
+               SurfaceLists& lists)
+{
+    if (!lower_sphere(sphere, object.transform, surface, lists)) {
+        // Moved to its own centre first, so that no digits are lost to it.
+        Object centered = object;
+        centered.transform[3] = object.transform * glm::dvec4(sphere.center, 1.0);
+        lists.quadrics.push_back(
+            lower_quadric(centered, as_quadric({Vec3(0.0), sphere.radius}), surface));
+    }
+    return 1;
+}
+
+void part_anchored_spheres(SurfaceLists& lists)
+{
+    const auto first =
+        std::stable_partition(lists.spheres.begin(), lists.spheres.end(),
+                              [](const LoweredSphere& sphere) { return !is_anchored(sphere); });
+    for (auto sphere = first; sphere != lists.spheres.end(); ++sphere)
+        lists.anchored_spheres.push_back(
+            {sphere->center, sphere->radius, anchor_of(*sphere), sphere->surface});
+    lists.spheres.erase(first, lists.spheres.end());
+}
+
+Exit exit_of(const LoweredSphere& sphere, const Vec3& eye, const Vec3& forward)
+{
+    return exit_of_sphere(sphere.center, sphere.radius, eye, forward);
+}
+
+Exit exit_of(const LoweredAnchoredSphere& sphere, const Vec3& eye, const Vec3& forward)
+{
+    return exit_of_sphere(sphere.center, sphere.radius, eye, forward);
+}
+
+abi::SphereShape shape_of(const LoweredSphere& sphere)
+{
+    abi::SphereShape shape;
+    round_to(shape.center, sphere.center);
+    shape.radius = sphere.radius;
+    return shape;
+}
+
+abi::AnchoredSphere<double> shape_of(const LoweredAnchoredSphere& sphere)
+{
+    return pack<double>(sphere);
+}
+
+template <class Real>
+double center_error(const LoweredSphere& sphere)
+{
+    Real rounded[3];
+    round_to(rounded, sphere.center);
+    return 1.000001 * glm::length(widen(rounded) - sphere.center);
+}
+
+/// The curvature form around the anchor as rounded: what rounding moved goes into the offset.
+template <class Real>
+abi::AnchoredSphere<Real> pack(const LoweredAnchoredSphere& sphere)
+{
+    abi::AnchoredSphere<Real> packed;
+    round_to(packed.anchor, sphere.anchor);
+    const Vec3 outwards = widen(packed.anchor) - sphere.center;
+    const double distance = glm::length(outwards);
+    round_to(packed.normal, outwards / sphere.radius);
+    packed.curvature = static_cast<Real>(1.0 / sphere.radius);
+    packed.offset =
+        static_cast<Real>((distance - sphere.radius) * (distance + sphere.radius) / sphere.radius);
+    round_to(packed.center, sphere.center);
+    packed.radius = static_cast<Real>(sphere.radius);
+    packed.surface = sphere.surface;
+    return packed;
+}
+
+template double center_error<float>(const LoweredSphere&);
+template double center_error<double>(const LoweredSphere&);
+template abi::AnchoredSphere<float> pack(const LoweredAnchoredSphere&);
+template abi::AnchoredSphere<double> pack(const LoweredAnchoredSphere&);
+
+}  // namespace packtrace

@@ -1,0 +1,108 @@
+#pragma once
+
+#include <packtrace/scene.hpp>
+
+#include "geometry/object_rules.hpp"
+#include "kernel_abi/lists.hpp"
+#include "kernel_abi/shapes.hpp"
+
+// Spheres. One whose surface passes so near the world's origin for its size that its curvature
+// there is more exact than its centre, such as a ground, is stored as an anchored sphere.
+namespace packtrace {
+
+struct SurfaceLists;
+
+struct LoweredSphere {
+    static constexpr abi::SurfaceKind kind = abi::SurfaceKind::sphere;
+    static constexpr auto shapes = &abi::ShapesView::spheres;
+
+    Vec3 center{0.0};
+    double radius = 1.0;
+    std::int32_t surface = 0;
+};
+
+/// A sphere of which kernels use the curvature at `anchor`, the point of its surface nearest the
+/// world's origin, in place of its centre.
+struct LoweredAnchoredSphere {
+    static constexpr abi::SurfaceKind kind = abi::SurfaceKind::anchored_sphere;
+    static constexpr auto shapes = &abi::ShapesView::anchored_spheres;
+
+    Vec3 center{0.0};
+    double radius = 1.0;
+    Vec3 anchor{0.0};
+    std::int32_t surface = 0;
+};
+
+[[nodiscard]] Fault fault_of(const Sphere& sphere);
+
+/// Appends the sphere to the list of what it is in world space; returns how many surface numbers it
+/// takes. Under a similarity it stays a sphere, else it becomes a quadric.
+int lower_kind(const Object& object, const Sphere& sphere, std::int32_t surface,
+               SurfaceLists& lists);
+
+/// Appends the sphere under a similarity; false under any other transform.
+bool lower_sphere(const Sphere& sphere, const Mat4& transform, std::int32_t surface,
+                  SurfaceLists& lists);
+
+/// Moves the spheres whose surface passes near the world's origin for their size to a list of
+/// their own, and finds their anchors.
+void part_anchored_spheres(SurfaceLists& lists);
+
+[[nodiscard]] Exit exit_of(const LoweredSphere& sphere, const Vec3& eye, const Vec3& forward);
+[[nodiscard]] Exit exit_of(const LoweredAnchoredSphere& sphere, const Vec3& eye,
+                           const Vec3& forward);
+
+[[nodiscard]] inline auto key_of(const LoweredSphere& sphere)
+{
+    return std::tuple_cat(key_of(sphere.center), std::tuple(sphere.radius));
+}
+[[nodiscard]] inline auto key_of(const LoweredAnchoredSphere& sphere)
+{
+    return std::tuple_cat(key_of(sphere.center), std::tuple(sphere.radius));
+}
+
+[[nodiscard]] inline bool is_certifiable(const LoweredSphere& sphere)
+{
+    return is_certifiable(sphere.center, sphere.radius);
+}
+[[nodiscard]] inline bool is_certifiable(const LoweredAnchoredSphere& sphere)
+{
+    return is_certifiable(sphere.center, sphere.radius);
+}
+
+[[nodiscard]] inline CenteredBox box_of(const LoweredSphere& sphere)
+{
+    return {sphere.center, Vec3(sphere.radius)};
+}
+
+[[nodiscard]] inline bool fits_tree(const LoweredSphere& sphere)
+{
+    return within_tree(box_of(sphere));
+}
+
+/// Stays in a list.
+[[nodiscard]] inline bool fits_tree(const LoweredAnchoredSphere&)
+{
+    return false;
+}
+
+[[nodiscard]] inline int pieces_of(const LoweredSphere&)
+{
+    return 1;
+}
+[[nodiscard]] inline int pieces_of(const LoweredAnchoredSphere&)
+{
+    return 1;
+}
+
+[[nodiscard]] abi::SphereShape shape_of(const LoweredSphere& sphere);
+[[nodiscard]] abi::AnchoredSphere<double> shape_of(const LoweredAnchoredSphere& sphere);
+
+/// How far rounding to Real moves a sphere's centre, at most.
+template <class Real>
+[[nodiscard]] double center_error(const LoweredSphere& sphere);
+
+template <class Real>
+[[nodiscard]] abi::AnchoredSphere<Real> pack(const LoweredAnchoredSphere& sphere);
+
+}  // namespace packtrace
