@@ -1,8 +1,15 @@
 #pragma once
 
+#include "kernel_abi/features.hpp"
 #include "kernel_abi/lists.hpp"
-#include "kernels/geometry/quadratic.hpp"
+#include "kernel_abi/observation.hpp"
+#include "kernel_abi/scene_view.hpp"
+#include "kernels/geometry/cone.hpp"
+#include "kernels/geometry/filter.hpp"
+#include "kernels/geometry/object_list.hpp"
+#include "kernels/geometry/one_surface.hpp"
 
+// Spheres seen from near their surface: the test, for rays from one point, too, and a hit's place.
 namespace packtrace::PACKTRACE_ISA {
 namespace {
 
@@ -85,6 +92,61 @@ inline Quadratic<Real> quadratic_of(const SharedOriginAnchored<Real>& sphere,
     return anchored_quadratic<Real>({broadcast(sphere.g), vreal<Real>(sphere.constant)},
                                     vreal<Real>(sphere.curvature), vreal<Real>(sphere.curved),
                                     rays);
+}
+
+/// Whether rays of `cone` leave a convex surface behind them: they start outside and go the
+/// way of its outward gradient.
+template <class Real>
+inline bool leaves_behind(const Cone<Real>& cone, const SharedOriginAnchored<Real>& sphere)
+{
+    const Real inwards[3] = {-sphere.g[0], -sphere.g[1], -sphere.g[2]};
+    return sphere.constant > 0 && runs_against(cone, inwards);
+}
+
+/// Of length 1 on the surface.
+template <class Real>
+inline Vec3v<Real> normal_at(const abi::AnchoredSphere<double>& sphere, const Vec3v<Real>& point)
+{
+    return madd<Real>(vreal<Real>(static_cast<Real>(sphere.curvature)),
+                      point - broadcast_as<Real>(sphere.anchor), broadcast_as<Real>(sphere.normal));
+}
+
+template <class Real>
+inline Vec3v<Real> unit_normal(const abi::AnchoredSphere<double>& sphere, unsigned,
+                               const Vec3v<Real>& point, const Vec3v<Real>& dir)
+{
+    return unit_or_against<Real>(normal_at<Real>(sphere, point), dir);
+}
+
+inline RefinedHalf refine(const abi::AnchoredSphere<double>& sphere, unsigned,
+                          const RayPacket<double>& rays)
+{
+    RefinedHalf hit;
+    hit.t = first_root(quadratic_of(sphere, rays), rays.t_min);
+    hit.point = point_at(rays, hit.t);
+    hit.normal = normal_at<double>(sphere, hit.point);
+    return hit;
+}
+
+inline AnchoredForm form_of(const abi::AnchoredSphere<double>& sphere)
+{
+    return anchored_form(sphere.anchor, sphere.normal, sphere.curvature, sphere.offset);
+}
+
+inline HitAgain hit_again(const abi::AnchoredSphere<double>&, unsigned)
+{
+    return HitAgain::from_inside;
+}
+
+/// Where rays from points of the surface meet it again beyond t_min. `outside` are the lanes that
+/// leave it on the outer side.
+inline OwnCrossing second_crossing(const abi::AnchoredSphere<double>& sphere, unsigned,
+                                   const Vec3v<double>& point, const Vec3v<double>& dir,
+                                   const vreal<double>& t_min, vmask<double> outside)
+{
+    return only_crossing({dot(normal_at<double>(sphere, point), dir),
+                          vreal<double>(sphere.curvature) * dot(dir, dir)},
+                         t_min, outside);
 }
 
 }  // namespace

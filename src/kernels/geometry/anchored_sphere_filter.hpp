@@ -195,11 +195,11 @@ inline AnchoredHit first_root(const AnchoredLine& line)
     return hit;
 }
 
-template <bool Shared>
-inline void keep_anchored(HitPacket<float>& hit, const AnchoredFilter& filter,
-                          const RayPacket<float>& rays, const RayScale& scale,
-                          std::uint32_t not_own)
+template <bool Shared, class Own>
+inline void keep_certain(HitPacket<float>& hit, const AnchoredFilter& filter,
+                         const RayPacket<float>& rays, const RayScale& scale, const Own& own)
 {
+    const std::uint32_t not_own = own.template lanes_on_others<float>(filter.surface);
     const AnchoredHit at = first_root(line_of<Shared>(filter, rays, scale));
     const std::uint32_t open = ~at.nothing & not_own;
     if (open == 0)
@@ -215,9 +215,9 @@ inline void keep_anchored(HitPacket<float>& hit, const AnchoredFilter& filter,
                    at.sure);
 }
 
-template <bool Shared>
+template <bool Shared, class Own>
 inline Occlusion occludes(const AnchoredFilter& filter, const RayPacket<float>& rays,
-                          const RayScale& scale, const vreal<float>& t_end)
+                          const RayScale& scale, const vreal<float>& t_end, const Own&)
 {
     const AnchoredLine line = line_of<Shared>(filter, rays, scale);
     const std::uint32_t above = stays_above(line, t_end);
@@ -238,6 +238,45 @@ inline Occlusion occludes(const AnchoredFilter& filter, const RayPacket<float>& 
     note_in_the_way(unsure & ~at.sure, abi::Cause::tangent);
     return {blocked, unsure};
 }
+
+template <bool Shared>
+inline AnchoredFilter certain_form(const abi::AnchoredSphere<float>&,
+                                   const abi::AnchoredSphere<double>& wide, const Origins& origins)
+{
+    return anchored_filter<Shared>(wide, origins);
+}
+
+/// Whether all rays of a cone leave an anchored sphere behind: they start outside and go the way
+/// of its outward gradient.
+inline bool leaves_behind(const Cone<float>& cone, const AnchoredFilter& sphere)
+{
+    const float inwards[3] = {-sphere.gradient[0], -sphere.gradient[1], -sphere.gradient[2]};
+    return sphere.value > sphere.value_error && runs_against(cone, inwards);
+}
+
+/// The kind (kinds.hpp).
+struct AnchoredSphere {
+    static constexpr abi::Primitive primitive = abi::Primitive::anchored_sphere;
+    static constexpr abi::SurfaceKind first_surface = abi::SurfaceKind::anchored_sphere;
+    static constexpr unsigned surfaces = 1;
+    template <class Real>
+    using FromPoint = ObjectArray<SharedOriginAnchored<Real>>;
+    using Certain = ObjectArray<AnchoredFilter>;
+
+    static constexpr bool in(abi::Features)
+    {
+        return true;
+    }
+    template <class Real>
+    static const auto& list(const abi::GeometryView<Real>& scene)
+    {
+        return scene.anchored_spheres;
+    }
+    static const auto* shapes(const abi::ShapesView& shapes)
+    {
+        return shapes.anchored_spheres;
+    }
+};
 
 }  // namespace
 }  // namespace packtrace::PACKTRACE_ISA

@@ -1,8 +1,17 @@
 #pragma once
 
-#include "kernel_abi/lists.hpp"
-#include "kernels/geometry/packet.hpp"
+#include <type_traits>
 
+#include "kernel_abi/features.hpp"
+#include "kernel_abi/lists.hpp"
+#include "kernel_abi/observation.hpp"
+#include "kernel_abi/scene_view.hpp"
+#include "kernels/geometry/cone.hpp"
+#include "kernels/geometry/filter.hpp"
+#include "kernels/geometry/object_list.hpp"
+#include "kernels/geometry/one_surface.hpp"
+
+// Planes: the test, for rays from one point, too, a hit's place, and the test with error bounds.
 namespace packtrace::PACKTRACE_ISA {
 namespace {
 
@@ -43,6 +52,240 @@ inline vreal<Real> plane_t(const SharedOriginPlane<Real>& plane, const RayPacket
 {
     return vreal<Real>(plane.height) / dot(broadcast(plane.normal), rays.dir);
 }
+
+/// Whether all rays of a cone run away from it on the side they start on.
+template <class Real>
+inline bool leaves_behind(const Cone<Real>& cone, const SharedOriginPlane<Real>& plane)
+{
+    const Real side = plane.height < 0 ? Real(-1) : Real(1);
+    const Real towards[3] = {side * plane.normal[0], side * plane.normal[1],
+                             side * plane.normal[2]};
+    return plane.height != 0 && runs_against(cone, towards);
+}
+
+template <class Object, class Real>
+concept IsPlane = std::is_same_v<Object, abi::PlaneRecord<Real>> ||
+    std::is_same_v<Object, SharedOriginPlane<Real>>;
+
+/// Keeps what is closer, but for the lanes of `own`.
+template <class Object, class Real, class Own>
+requires IsPlane<Object, Real>
+inline void keep_closest(HitPacket<Real>& hit, const Object& plane, const RayPacket<Real>& rays,
+                         const Own& own)
+{
+    const vreal<Real> t = plane_t(plane, rays);
+    const std::uint32_t ahead = bits(t > rays.t_min);
+    keep_closer<Real>(hit,
+                      from_bits<Real>(ahead & own.template lanes_on_others<Real>(plane.surface)), t,
+                      plane.surface);
+}
+
+/// Lanes that it is in the way of.
+template <class Object, class Real>
+requires IsPlane<Object, Real>
+inline std::uint32_t occluding_lanes(const RayEnd<Real>& end, const Object& plane,
+                                     const RayPacket<Real>& rays)
+{
+    return bits(end.blocked_at(plane_t(plane, rays), rays));
+}
+
+template <class Real, class Visit>
+inline void visit_crossings(const abi::PlaneRecord<Real>& plane, const RayPacket<Real>& rays,
+                            const Visit& visit)
+{
+    visit(from_bits<Real>(all_lanes<Real>), plane_t(plane, rays), 0);
+}
+
+template <class Real>
+inline Vec3v<Real> unit_normal(const abi::PlaneRecord<double>& plane, unsigned, const Vec3v<Real>&,
+                               const Vec3v<Real>&)
+{
+    return broadcast_as<Real>(plane.normal);
+}
+
+/// A plane is never met again.
+inline HitAgain hit_again(const abi::PlaneRecord<double>&, unsigned)
+{
+    return HitAgain::never;
+}
+inline OwnCrossing second_crossing(const abi::PlaneRecord<double>&, unsigned, const Vec3v<double>&,
+                                   const Vec3v<double>&, const vreal<double>&, vmask<double>)
+{
+    return {vreal<double>(__builtin_inf())};
+}
+
+inline RefinedHalf refine(const abi::PlaneRecord<double>& plane, unsigned,
+                          const RayPacket<double>& rays)
+{
+    const vreal<double> t = plane_t(plane, rays);
+    return {t, point_at(rays, t), broadcast(plane.normal)};
+}
+
+inline AnchoredForm form_of(const abi::PlaneRecord<double>& plane)
+{
+    return anchored_form(plane.point, plane.normal, 0.0, 0.0);
+}
+
+// Certain tests of planes in single precision. Each group of rays sees the plane by the point
+// nearest its origins, so that heights are as small as they can be.
+
+/// A plane for the origins of one group: t = height / (normal·d), height = normal·(point - o).
+struct PlaneFilter {
+    float point[3];
+    float normal[3];
+    float height;        ///< over a shared origin, rounded once from double
+    float height_error;  ///< at most
+    float slope_error;   ///< of normal·d, per |d|
+    std::int32_t surface;
+};
+
+template <bool Shared>
+[[gnu::noinline]] PlaneFilter plane_filter(const abi::PlaneRecord<double>& plane,
+                                           const Origins& origins)
+{
+    PlaneFilter filter{};
+    double height = 0;
+    double size = 0;
+    for (int axis = 0; axis < 3; ++axis) {
+        const double to_plane = plane.point[axis] - double{origins.center[axis]};
+        height += plane.normal[axis] * to_plane;
+        size += to_plane < 0 ? -to_plane : to_plane;
+    }
+    double off = 0;
+    double distance2 = 0;
+    double normal_error2 = 0;
+    for (int axis = 0; axis < 3; ++axis) {
+        const double point = double{origins.center[axis]} + height * plane.normal[axis];
+        filter.point[axis] = static_cast<float>(point);
+        filter.normal[axis] = static_cast<float>(plane.normal[axis]);
+        const double moved = double{filter.point[axis]} - point;
+        const double turned = double{filter.normal[axis]} - plane.normal[axis];
+        off += moved < 0 ? -moved : moved;
+        normal_error2 += turned * turned;
+        const double from = double{filter.point[axis]} - double{origins.center[axis]};
+        distance2 += from * from;
+    }
+    const double u = roundoffs(1.0f);
+    const double normal_error = __builtin_sqrt(normal_error2);
+    const double reach = __builtin_sqrt(distance2) * 1.000001 + double{origins.radius};
+    const double magnitude = height < 0 ? -height : height;
+    // Doubles lose 2^-50 of what enters the height.
+    const double of_double = size * 0x1p-50;
+    const double error = Shared ? 1.1 * u * magnitude + of_double
+                                : off + (4.2 * u + normal_error) * reach + of_double;
+    filter.height = static_cast<float>(height);
+    filter.height_error = static_cast<float>(error) * (1.0f + roundoffs(4.0f));
+    filter.slope_error = static_cast<float>(normal_error + 3.1 * u) * (1.0f + roundoffs(4.0f));
+    filter.surface = plane.surface;
+    return filter;
+}
+
+/// Where a plane is along the rays.
+struct PlaneCrossing {
+    vreal<float> low, high;
+    std::uint32_t sure;  ///< lanes whose crossing is in [low, high]
+    vreal<float> height, slope, slope_error;
+};
+
+/// Where it is not before in the other lanes, if ahead at all.
+inline vreal<float> not_before(const PlaneFilter& filter, const PlaneCrossing& at)
+{
+    const vreal<float> height = abs(at.height) - vreal<float>(filter.height_error);
+    return max(height, vreal<float>(0.0f)) / (abs(at.slope) + at.slope_error) *
+           vreal<float>(1.0f - roundoffs(8.0f));
+}
+
+template <bool Shared>
+inline PlaneCrossing crossing(const PlaneFilter& filter, const RayPacket<float>& rays,
+                              const RayScale& scale)
+{
+    const Vec3v<float> normal = broadcast(filter.normal);
+    const vreal<float> height =
+        Shared ? vreal<float>(filter.height) : dot(normal, broadcast(filter.point) - rays.org);
+    const vreal<float> slope = dot(normal, rays.dir);
+    const vreal<float> slope_error = vreal<float>(filter.slope_error) * scale.length;
+    const vreal<float> height_error(filter.height_error);
+    const vreal<float> inverse = vreal<float>(1.0f) / slope;
+    const vreal<float> t = height * inverse;
+    const vreal<float> size = abs(t);
+    // The true slope is half of this one at least in the lanes that are sure.
+    const vreal<float> error =
+        madd(madd(size, slope_error, height_error), vreal<float>(2.0f * inflation) * abs(inverse),
+             size * vreal<float>(roundoffs(4.0f)));
+    PlaneCrossing result{t - error, t + error, 0, height, slope, slope_error};
+    result.sure = bits(abs(slope) > slope_error + slope_error);
+    return result;
+}
+
+template <bool Shared, class Own>
+inline void keep_certain(HitPacket<float>& hit, const PlaneFilter& filter,
+                         const RayPacket<float>& rays, const RayScale& scale, const Own& own)
+{
+    const std::uint32_t not_own = own.template lanes_on_others<float>(filter.surface);
+    const PlaneCrossing at = crossing<Shared>(filter, rays, scale);
+    const std::uint32_t ahead = at.sure & bits(at.low > rays.t_min);
+    const std::uint32_t behind = at.sure & bits(at.high < rays.t_min);
+    keep_sure(hit, from_bits<float>(ahead & not_own), at.low, at.high, filter.surface);
+    const std::uint32_t rest = ~ahead & ~behind & not_own;
+    if (rest != 0)
+        keep_doubt(hit, from_bits<float>(rest),
+                   select(from_bits<float>(at.sure), at.low, not_before(filter, at)), at.sure);
+}
+
+template <bool Shared, class Own>
+inline Occlusion occludes(const PlaneFilter& filter, const RayPacket<float>& rays,
+                          const RayScale& scale, const vreal<float>& t_end, const Own&)
+{
+    const PlaneCrossing at = crossing<Shared>(filter, rays, scale);
+    Occlusion result = root_between(at.low, at.high, at.sure, rays.t_min, t_end);
+    const std::uint32_t flat = ~at.sure & all_lanes<float>;
+    if (flat != 0) {
+        const std::uint32_t unsure = flat & ~bits(not_before(filter, at) > t_end);
+        note_in_the_way(unsure, abi::Cause::tangent);
+        result.unsure |= unsure;
+    }
+    return result;
+}
+
+template <bool Shared>
+inline PlaneFilter certain_form(const abi::PlaneRecord<float>&,
+                                const abi::PlaneRecord<double>& wide, const Origins& origins)
+{
+    return plane_filter<Shared>(wide, origins);
+}
+
+/// Whether all rays of a cone run away from it on the side they start on.
+inline bool leaves_behind(const Cone<float>& cone, const PlaneFilter& plane)
+{
+    const float side = plane.height < 0 ? -1.0f : 1.0f;
+    const float towards[3] = {side * plane.normal[0], side * plane.normal[1],
+                              side * plane.normal[2]};
+    return side * plane.height > plane.height_error && runs_against(cone, towards);
+}
+
+/// The kind (kinds.hpp).
+struct Plane {
+    static constexpr abi::Primitive primitive = abi::Primitive::plane;
+    static constexpr abi::SurfaceKind first_surface = abi::SurfaceKind::plane;
+    static constexpr unsigned surfaces = 1;
+    template <class Real>
+    using FromPoint = ObjectArray<SharedOriginPlane<Real>>;
+    using Certain = ObjectArray<PlaneFilter>;
+
+    static constexpr bool in(abi::Features)
+    {
+        return true;
+    }
+    template <class Real>
+    static const auto& list(const abi::GeometryView<Real>& scene)
+    {
+        return scene.planes;
+    }
+    static const auto* shapes(const abi::ShapesView& shapes)
+    {
+        return shapes.planes;
+    }
+};
 
 }  // namespace
 }  // namespace packtrace::PACKTRACE_ISA

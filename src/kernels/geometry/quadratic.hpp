@@ -76,5 +76,44 @@ inline vmask<Real> root_between(const Quadratic<Real>& q, const vreal<Real>& t_m
     return enters | leaves | dips;
 }
 
+template <class Real, class Own>
+inline void keep_quadratic(HitPacket<Real>& hit, const Quadratic<Real>& quadratic,
+                           const RayPacket<Real>& rays, std::int32_t surface, const Own& own)
+{
+    const auto active = may_hit(quadratic);
+    if (any(active))
+        keep_first_root<Real>(
+            hit, quadratic,
+            from_bits<Real>(bits(active) & own.template lanes_on_others<Real>(surface)), rays.t_min,
+            surface);
+}
+
+/// The part of a ray where objects are in its way. One type serves all rays, and tells them apart
+/// by a branch that is always right: a type each would be a copy of the hierarchy's traversal each.
+template <class Real>
+struct RayEnd {
+    vreal<Real> t_end;  ///< infinite for directional lights
+    /// [t_min, t_end], decided by signs alone, as between a shaded point and a light; or else
+    /// (t_min, t_end), decided by the roots, as rays from outside have it.
+    bool closed;
+
+    vmask<Real> blocked_by(const Quadratic<Real>& quadratic, const RayPacket<Real>& rays) const
+    {
+        if (closed)
+            return root_between(quadratic, rays.t_min, t_end);
+        if (none(may_hit(quadratic)))
+            return from_bits<Real>(0);
+        std::uint32_t blocked = 0;
+        visit_roots(quadratic, [&](vmask<Real> valid, const vreal<Real>& t) {
+            blocked |= bits(valid & (t > rays.t_min) & (t < t_end));
+        });
+        return from_bits<Real>(blocked);
+    }
+    vmask<Real> blocked_at(const vreal<Real>& t, const RayPacket<Real>& rays) const
+    {
+        return closed ? (t >= rays.t_min) & (t <= t_end) : (t > rays.t_min) & (t < t_end);
+    }
+};
+
 }  // namespace
 }  // namespace packtrace::PACKTRACE_ISA

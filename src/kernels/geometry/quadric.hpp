@@ -1,9 +1,17 @@
 #pragma once
 
-#include "kernel_abi/lists.hpp"
-#include "kernels/geometry/quadratic.hpp"
+#include <type_traits>
 
-// Quadrics after the inverse transform (abi::QuadricRecord).
+#include "kernel_abi/features.hpp"
+#include "kernel_abi/lists.hpp"
+#include "kernel_abi/observation.hpp"
+#include "kernel_abi/scene_view.hpp"
+#include "kernels/geometry/cone.hpp"
+#include "kernels/geometry/object_list.hpp"
+#include "kernels/geometry/one_surface.hpp"
+
+// Quadrics after the inverse transform (abi::QuadricRecord): the test, for rays from one point,
+// too, and a hit's place.
 namespace packtrace::PACKTRACE_ISA {
 namespace {
 
@@ -226,15 +234,158 @@ inline void visit_crossings(const SharedOriginQuadric<Real>& quadric, const RayP
     visit_crossings(*quadric.record, origin, rays, visit);
 }
 
+/// How many surfaces a quadric has: its side, and two caps where it is capped.
 template <class Real>
-inline const abi::QuadricRecord<Real>& record_of(const abi::QuadricRecord<Real>& quadric)
+inline int pieces_of(const abi::QuadricRecord<Real>& quadric)
 {
-    return quadric;
+    return quadric.capped ? 3 : 1;
+}
+
+template <class Real>
+inline Body body_of(const abi::QuadricRecord<Real>& quadric)
+{
+    return {quadric.surface, pieces_of(quadric)};
 }
 template <class Real>
-inline const abi::QuadricRecord<Real>& record_of(const SharedOriginQuadric<Real>& quadric)
+inline Body body_of(const SharedOriginQuadric<Real>& quadric)
 {
-    return *quadric.record;
+    return body_of(*quadric.record);
+}
+
+/// Whether no ray of a cone reaches a quadric.
+template <class Real>
+inline bool out_of_reach(const Cone<Real>& cone, const abi::QuadricRecord<Real>& quadric)
+{
+    const Vec3v<Real> to_bound = broadcast(quadric.bound) - broadcast(cone.base);
+    return cone.bounded && none(may_meet<Real>(cone, to_bound, vreal<Real>(quadric.bound_radius)));
+}
+
+template <class Object, class Real>
+concept IsQuadric = std::is_same_v<Object, abi::QuadricRecord<Real>> ||
+    std::is_same_v<Object, SharedOriginQuadric<Real>>;
+
+/// Keeps what is closer, but for the lanes of `own`.
+template <class Object, class Real, class Own>
+requires IsQuadric<Object, Real>
+inline void keep_closest(HitPacket<Real>& hit, const Object& quadric, const RayPacket<Real>& rays,
+                         const Own& own)
+{
+    const Body body = body_of(quadric);
+    const std::uint32_t others = own.template lanes_on_others<Real>(body.first, body.pieces);
+    visit_crossings(quadric, rays, [&](vmask<Real> valid, const vreal<Real>& t, int piece) {
+        std::uint32_t counts = others & bits(valid & (t > rays.t_min));
+        // A ray that touches the rim enters by the cap where the cap was visited first.
+        const std::uint32_t ties = piece == 0 ? counts & bits(t == hit.t) : 0;
+        if (ties != 0)
+            counts &= ~(ties & lanes_on_body<Real>(hit.surface, body.first + 1, body.pieces - 1));
+        keep_closer<Real>(hit, from_bits<Real>(counts), t, body.first + piece);
+    });
+}
+/// Lanes that any piece is in the way of.
+template <class Object, class Real>
+requires IsQuadric<Object, Real>
+inline std::uint32_t occluding_lanes(const RayEnd<Real>& end, const Object& quadric,
+                                     const RayPacket<Real>& rays)
+{
+    std::uint32_t blocked = 0;
+    visit_crossings(quadric, rays, [&](vmask<Real> valid, const vreal<Real>& t, int) {
+        blocked |= bits(valid & end.blocked_at(t, rays));
+    });
+    return blocked;
+}
+/// A covector of canonical space in the world.
+template <class Real>
+inline Vec3v<Real> apply_transposed(const abi::QuadricRecord<double>& quadric, const Vec3v<Real>& g)
+{
+    return madd<Real>(g.x, broadcast_as<Real>(quadric.inverse[0]),
+                      madd<Real>(g.y, broadcast_as<Real>(quadric.inverse[1]),
+                                 scale<Real>(g.z, broadcast_as<Real>(quadric.inverse[2]))));
+}
+
+/// Whether a quadric is two planes that cross: s_i x_i² + s_j x_j² = 0.
+inline bool crossing_planes(const abi::QuadricRecord<double>& quadric)
+{
+    const double(&s)[3] = quadric.square;
+    const int flat = (s[0] == 0) + (s[1] == 0) + (s[2] == 0);
+    return quadric.constant == 0 && quadric.linear == 0 && flat == 1;
+}
+
+/// The gradient of two planes that cross is that of one of them, and of no other direction however
+/// near to their edge: |s_i| x_i² = |s_j| x_j² there.
+template <class Real>
+inline Vec3v<Real> plane_gradient(const abi::QuadricRecord<double>& quadric, const Vec3v<Real>& p)
+{
+    const auto component = [](double s, const vreal<Real>& x) {
+        const vreal<Real> size(static_cast<Real>(__builtin_sqrt(s < 0 ? -s : s)));
+        const vreal<Real> g = with_sign_of(size, s < 0 ? negated(x) : x);
+        return select(x == vreal<Real>(Real(0)), x, g);
+    };
+    return apply_transposed<Real>(
+        quadric, {component(quadric.square[0], p.x), component(quadric.square[1], p.y),
+                  component(quadric.square[2], p.z)});
+}
+
+/// Of the side, at a point given in canonical space.
+template <class Real>
+inline Vec3v<Real> side_gradient(const abi::QuadricRecord<double>& quadric, const Vec3v<Real>& p)
+{
+    if (crossing_planes(quadric))
+        return plane_gradient<Real>(quadric, p);
+    Vec3v<Real> g = broadcast_as<Real>(quadric.square) * p;
+    g.z = g.z + vreal<Real>(static_cast<Real>(quadric.linear));
+    return apply_transposed<Real>(quadric, g);
+}
+
+/// The same at a point of the world.
+template <class Real>
+inline Vec3v<Real> side_gradient_at(const abi::QuadricRecord<double>& quadric,
+                                    const Vec3v<Real>& point)
+{
+    const Vec3v<Real> w =
+        (point - broadcast_as<Real>(quadric.center)) - broadcast_as<Real>(quadric.center_low);
+    const Vec3v<Real> p{dot(broadcast_as<Real>(quadric.inverse[0]), w),
+                        dot(broadcast_as<Real>(quadric.inverse[1]), w),
+                        dot(broadcast_as<Real>(quadric.inverse[2]), w)};
+    return side_gradient<Real>(quadric, p);
+}
+
+template <class Real>
+inline Vec3v<Real> cap_gradient(const abi::QuadricRecord<double>& quadric, bool high)
+{
+    const vreal<Real> sign(high ? Real(1) : Real(-1));
+    return scale<Real>(sign, broadcast_as<Real>(quadric.clip));
+}
+
+/// Piece 0 is the side, 1 and 2 the low and the high cap.
+template <class Real>
+inline Vec3v<Real> unit_normal(const abi::QuadricRecord<double>& quadric, unsigned piece,
+                               const Vec3v<Real>& point, const Vec3v<Real>& dir)
+{
+    return unit_or_against<Real>(piece == 0 ? side_gradient_at<Real>(quadric, point)
+                                            : cap_gradient<Real>(quadric, piece == 2),
+                                 dir);
+}
+
+/// The first of the crossings of one piece.
+[[gnu::noinline]] inline RefinedHalf refine(const abi::QuadricRecord<double>& quadric,
+                                            unsigned wanted, const RayPacket<double>& rays)
+{
+    vreal<double> first(__builtin_inf());
+    const QuadricOrigin<double> origin = quadric_origin<double>(quadric, rays.org);
+    visit_crossings(quadric, origin, rays,
+                    [&](vmask<double> valid, const vreal<double>& t, int piece) {
+                        if (piece == static_cast<int>(wanted))
+                            first = select(valid & (t > rays.t_min) & (t < first), t, first);
+                    });
+    RefinedHalf hit;
+    hit.t = first;
+    hit.point = point_at(rays, first);
+    const Vec3v<double> v = apply_inverse(quadric, rays.dir);
+    const Vec3v<double> gradient =
+        wanted == 0 ? side_gradient<double>(quadric, madd<double>(first, v, origin.p))
+                    : cap_gradient<double>(quadric, wanted == 2);
+    hit.normal = unit_or_against<double>(gradient, rays.dir);
+    return hit;
 }
 
 }  // namespace

@@ -1,7 +1,7 @@
 #pragma once
 
-#include "kernels/geometry/cone.hpp"
 #include "kernels/geometry/quadric.hpp"
+#include "kernels/geometry/quadric_body.hpp"
 #include "kernels/geometry/sphere_filter.hpp"
 
 // Quadrics for rays in single precision: a certain rejection, and behind it the test in double,
@@ -241,6 +241,81 @@ inline void visit_in_double(const abi::QuadricRecord<double>& quadric, const Ray
         visit(valid, rounded_low(t), rounded_high(t), at < 2 ? 0 : at - 1);
     }
 }
+
+inline Body body_of(const QuadricFilter& quadric)
+{
+    return body_of(*quadric.record);
+}
+
+template <bool Shared>
+inline QuadricFilter certain_form(const abi::QuadricRecord<float>& record,
+                                  const abi::QuadricRecord<double>& wide, const Origins& origins)
+{
+    return quadric_filter<Shared>(record, wide, origins);
+}
+
+/// What may hit is tested in double.
+template <bool Shared, class Own>
+inline void keep_certain(HitPacket<float>& hit, const QuadricFilter& filter,
+                         const RayPacket<float>& rays, const RayScale& scale, const Own& own)
+{
+    const auto [first, pieces] = body_of(filter);
+    const std::uint32_t active = may_hit<Shared>(filter, rays, scale, hit.t) &
+                                 own.template lanes_on_others<float>(first, pieces);
+    if (active == 0)
+        return;
+    visit_in_double(*filter.wide, rays, active,
+                    [&, first = first](std::uint32_t lanes_of, const vreal<float>& low,
+                                       const vreal<float>& high, int piece) {
+                        keep_sure(hit, from_bits<float>(lanes_of), low, high, first + piece);
+                    });
+}
+
+/// What any piece does to the lanes that do not start on it.
+template <bool Shared, class Own>
+inline Occlusion occludes(const QuadricFilter& filter, const RayPacket<float>& rays,
+                          const RayScale& scale, const vreal<float>& t_end, const Own& own)
+{
+    std::uint32_t active = may_hit<Shared>(filter, rays, scale, t_end);
+    if (active == 0)
+        return {};
+    const auto [first, pieces] = body_of(filter);
+    active &= own.template lanes_on_others<float>(first, pieces);
+    Occlusion result;
+    visit_in_double(
+        *filter.wide, rays, active,
+        [&](std::uint32_t lanes_of, const vreal<float>& low, const vreal<float>& high, int) {
+            const Occlusion at = root_between(low, high, lanes_of, rays.t_min, t_end);
+            result.blocked |= at.blocked;
+            result.unsure |= at.unsure;
+        });
+    result.unsure &= ~result.blocked;
+    return result;
+}
+
+/// The kind (kinds.hpp).
+struct Quadric {
+    static constexpr abi::Primitive primitive = abi::Primitive::quadric;
+    static constexpr abi::SurfaceKind first_surface = abi::SurfaceKind::quadric_side;
+    static constexpr unsigned surfaces = 3;
+    template <class Real>
+    using FromPoint = ObjectArray<SharedOriginQuadric<Real>>;
+    using Certain = ObjectArray<QuadricFilter>;
+
+    static constexpr bool in(abi::Features features)
+    {
+        return features.quadrics;
+    }
+    template <class Real>
+    static const auto& list(const abi::GeometryView<Real>& scene)
+    {
+        return scene.quadrics;
+    }
+    static const auto* shapes(const abi::ShapesView& shapes)
+    {
+        return shapes.quadrics;
+    }
+};
 
 }  // namespace
 }  // namespace packtrace::PACKTRACE_ISA

@@ -1,8 +1,13 @@
 #pragma once
 
+#include "kernel_abi/features.hpp"
 #include "kernel_abi/lists.hpp"
-#include "kernels/geometry/quadratic.hpp"
+#include "kernel_abi/observation.hpp"
+#include "kernel_abi/scene_view.hpp"
+#include "kernels/geometry/object_list.hpp"
+#include "kernels/geometry/one_surface.hpp"
 
+// Spheres: the test, for rays from one point, too, and a hit's place.
 namespace packtrace::PACKTRACE_ISA {
 namespace {
 
@@ -45,6 +50,231 @@ template <class Real>
 inline batch<Real> signed_square(batch<Real> x)
 {
     return x * abs(x);
+}
+
+/// Spheres for rays that share their origin: `x, y, z` is that origin relative to the centre,
+/// `constant` what sphere_constant gives there. In rising order.
+template <class Real>
+struct SharedOriginSpheres {
+    Real* x = nullptr;
+    Real* y = nullptr;
+    Real* z = nullptr;
+    Real* radius2 = nullptr;
+    Real* constant = nullptr;
+    lane_int<Real>* surface = nullptr;
+    int count = 0;
+};
+
+template <class Real>
+inline Quadratic<Real> quadratic_of(const SharedOriginSpheres<Real>& list, int index,
+                                    const RayPacket<Real>& rays)
+{
+    const Vec3v<Real> o{vreal<Real>(list.x[index]), vreal<Real>(list.y[index]),
+                        vreal<Real>(list.z[index])};
+    return sphere_quadratic<Real>(rays, o, vreal<Real>(list.radius2[index]),
+                                  vreal<Real>(list.constant[index]));
+}
+
+/// Calls `visit(first, kept, center)` for the packets of spheres that hold any which a ray of the
+/// cone may meet: those of the lanes `kept`.
+template <class Real, class Visit>
+inline void for_each_met(const Cone<Real>& cone, const abi::SphereListView<Real>& spheres,
+                         const Visit& visit)
+{
+    const Vec3v<Real> base = broadcast(cone.base);
+    for (int first = 0; first < spheres.count; first += lanes<Real>) {
+        const Vec3v<Real> center{load(spheres.center_x + first), load(spheres.center_y + first),
+                                 load(spheres.center_z + first)};
+        std::uint32_t kept = first_lanes<Real>(spheres.count - first);
+        if (cone.bounded)
+            kept &= bits(may_meet<Real>(cone, center - base, load(spheres.radius + first)));
+        if (kept != 0)
+            visit(first, kept, center);
+    }
+}
+
+template <class Real>
+inline void append_sphere(SharedOriginSpheres<Real>& list, const abi::SphereListView<Real>& spheres,
+                          int first, std::uint32_t kept, const Vec3v<Real>& place)
+{
+    compress_store(list.x + list.count, kept, place.x);
+    compress_store(list.y + list.count, kept, place.y);
+    compress_store(list.z + list.count, kept, place.z);
+    compress_store(list.radius2 + list.count, kept, load(spheres.radius2 + first));
+    compress_store(list.surface + list.count, kept, load(spheres.surface + first));
+    list.count += __builtin_popcount(kept);
+}
+
+/// Fills `list` with the spheres that rays from `cone.base` may meet. What is kept of a sphere
+/// has the same bits as what the test of a single packet computes.
+template <class Real>
+inline void find_from_point(SharedOriginSpheres<Real>& list, const Cone<Real>& cone,
+                            const abi::SphereListView<Real>& spheres)
+{
+    const Vec3v<Real> base = broadcast(cone.base);
+    list.count = 0;
+    for_each_met(cone, spheres, [&](int first, std::uint32_t kept, const Vec3v<Real>& center) {
+        const Vec3v<Real> o = base - center;
+        compress_store(list.constant + list.count, kept,
+                       sphere_constant<Real>(o, load(spheres.radius2 + first)));
+        append_sphere(list, spheres, first, kept, o);
+    });
+}
+
+/// The spheres that parallel rays from several points may meet, in the room of a list for rays that
+/// share their origin: centres in place of origins.
+template <class Real>
+inline void find_parallel_candidates(SharedOriginSpheres<Real>& list, const Cone<Real>& cone,
+                                     const abi::SphereListView<Real>& spheres)
+{
+    list.count = 0;
+    for_each_met(cone, spheres, [&](int first, std::uint32_t kept, const Vec3v<Real>& center) {
+        append_sphere(list, spheres, first, kept, center);
+    });
+}
+
+/// A list that find_parallel_candidates() filled.
+template <class Real>
+inline abi::SphereListView<Real> parallel_candidates(const SharedOriginSpheres<Real>& list)
+{
+    return {list.x, list.y, list.z, nullptr, list.radius2, nullptr, list.surface, list.count};
+}
+
+/// A sphere of a list, whichever form that has.
+template <class List>
+struct ListedSphere {
+    const List& list;
+    int index;
+};
+template <class Real>
+inline ListedSphere<abi::SphereListView<Real>> object_at(const abi::SphereListView<Real>& list,
+                                                         int index)
+{
+    return {list, index};
+}
+template <class Real>
+inline ListedSphere<SharedOriginSpheres<Real>> object_at(const SharedOriginSpheres<Real>& list,
+                                                         int index)
+{
+    return {list, index};
+}
+
+template <class List>
+inline Body body_of(const ListedSphere<List>& sphere)
+{
+    return {static_cast<std::int32_t>(sphere.list.surface[sphere.index])};
+}
+
+template <class List, class Real>
+inline Quadratic<Real> quadratic_of(const ListedSphere<List>& sphere, const RayPacket<Real>& rays)
+{
+    return quadratic_of(sphere.list, sphere.index, rays);
+}
+
+/// Of length 1 on the surface.
+template <class Real>
+inline Vec3v<Real> normal_at(const abi::SphereShape& sphere, const Vec3v<Real>& point)
+{
+    return scale<Real>(vreal<Real>(static_cast<Real>(1.0 / sphere.radius)),
+                       point - broadcast_as<Real>(sphere.center));
+}
+
+template <class Real>
+inline Vec3v<Real> unit_normal(const abi::SphereShape& sphere, unsigned, const Vec3v<Real>& point,
+                               const Vec3v<Real>& dir)
+{
+    return unit_or_against<Real>(normal_at<Real>(sphere, point), dir);
+}
+
+inline RefinedHalf refine(const abi::SphereShape& sphere, unsigned, const RayPacket<double>& rays)
+{
+    const vreal<double> radius2(sphere.radius * sphere.radius);
+    const Vec3v<double> o = rays.org - broadcast(sphere.center);
+    RefinedHalf hit;
+    hit.t =
+        first_root(sphere_quadratic<double>(rays, o, radius2, sphere_constant<double>(o, radius2)),
+                   rays.t_min);
+    hit.point = point_at(rays, hit.t);
+    hit.normal = normal_at<double>(sphere, hit.point);
+    return hit;
+}
+
+/// Spheres, one a lane or one for all: |w|² = radius² for w from the centre.
+struct SphereForm {
+    BothHalves<Vec3v<double>> base;
+    BothHalves<vreal<double>> radius2;
+    Vec3v<float> rough_base;
+    vreal<float> rough_radius;
+};
+
+inline SphereForm form_of(const abi::SphereShape& sphere)
+{
+    const Vec3v<double> center = broadcast(sphere.center);
+    const vreal<double> radius2(sphere.radius * sphere.radius);
+    return {{center, center}, {radius2, radius2}, rough(sphere.center), rough(sphere.radius)};
+}
+
+/// `form` with another sphere in the lanes of `same`.
+inline SphereForm blended(const SphereForm& form, const abi::SphereShape& sphere,
+                          std::uint32_t same)
+{
+    const SphereForm other = form_of(sphere);
+    const vmask<float> lanes_of = from_bits<float>(same);
+    const vmask<double> low = from_bits<double>(same & all_lanes<double>);
+    const vmask<double> high = from_bits<double>(same >> lanes<double>);
+    return {
+        {select(low, other.base.low, form.base.low), select(high, other.base.high, form.base.high)},
+        {select(low, other.radius2.low, form.radius2.low),
+         select(high, other.radius2.high, form.radius2.high)},
+        select(lanes_of, other.rough_base, form.rough_base),
+        select(lanes_of, other.rough_radius, form.rough_radius)};
+}
+
+inline RoughRoot rough_root(const SphereForm& form, const RayPacket<float>& rays)
+{
+    const Vec3v<float> w = rays.org - form.rough_base;
+    const Vec3v<float> moment = cross(w, rays.dir);
+    const vreal<float> across = rays.dir2 * (form.rough_radius * form.rough_radius);
+    const vreal<float> root = sqrt(max(across - dot(moment, moment), vreal<float>(0.0f)));
+    const vreal<float> b = dot(w, rays.dir);
+    const vreal<float> inverse = vreal<float>(1.0f) / rays.dir2;
+    const vreal<float> near = negated(b + root) * inverse;
+    const auto counts = near > rays.t_min;
+    // Gradients of smaller spheres lose digits to underflow: nothing is enough for a NaN.
+    const auto small = form.rough_radius < vreal<float>(1e-30f);
+    const vreal<float> t = select(counts, near, (root - b) * inverse);
+    return {select(small, vreal<float>(__builtin_nanf("")), t), rays.dir2};
+}
+
+inline Residual residual(const SphereForm& form, const WideRays& rays, const vreal<float>& t)
+{
+    const Vec3v<double> low = from_base(rays.org.low, rays.dir.low, widen_low(t), form.base.low);
+    const Vec3v<double> high =
+        from_base(rays.org.high, rays.dir.high, widen_high(t), form.base.high);
+    return {narrow(dot(low, low) - form.radius2.low, dot(high, high) - form.radius2.high),
+            narrow(dot(low, rays.dir.low), dot(high, rays.dir.high)), narrow(low, high)};
+}
+
+/// The unit normal a `step` from where the gradient was taken.
+inline Vec3v<float> normal_of(const SphereForm& form, const Vec3v<float>& gradient,
+                              const Vec3v<float>& step)
+{
+    return scale<float>(vreal<float>(1.0f) / form.rough_radius, gradient + step);
+}
+
+inline HitAgain hit_again(const abi::SphereShape&, unsigned)
+{
+    return HitAgain::from_inside;
+}
+
+/// Where rays from points of the surface meet it again beyond t_min. `outside` are the lanes that
+/// leave it on the outer side.
+inline OwnCrossing second_crossing(const abi::SphereShape& sphere, unsigned,
+                                   const Vec3v<double>& point, const Vec3v<double>& dir,
+                                   const vreal<double>& t_min, vmask<double> outside)
+{
+    return only_crossing({dot(point - broadcast(sphere.center), dir), dot(dir, dir)}, t_min,
+                         outside);
 }
 
 }  // namespace

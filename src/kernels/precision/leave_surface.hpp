@@ -1,15 +1,12 @@
 #pragma once
 
-#include "kernels/geometry/filter.hpp"
-#include "kernels/geometry/gradient.hpp"
-#include "kernels/geometry/leave_body.hpp"
-#include "kernels/geometry/packet.hpp"
+#include "kernels/geometry/kinds.hpp"
 #include "kernels/precision/own_surface.hpp"
 #include "kernels/simd/records.hpp"
 
 // How rays leave the surface they start on. One root of its equation along such a ray is known to
 // be 0, so that it is not looked for, and the constant is 0 whatever rounding makes of it: the
-// other root is -2 slope / bend, for every kind of surface (leave_body.hpp). Where the ray meets
+// other root is -2 slope / bend, for every kind of surface (one_surface.hpp). Where the ray meets
 // its own body again is found once, when the ray is made, in double; the search passes over all
 // pieces of it. Of other surfaces rays keep off by what rounding does to the place they start at.
 namespace packtrace::PACKTRACE_ISA {
@@ -63,26 +60,12 @@ inline HitPacket<Real> start_of_search(const StartPacket<Real>& start, const vre
     return hit;
 }
 
-/// Whether a surface may be met again from its inner side alone, from anywhere, or never.
-enum class HitAgain { never, from_inside, from_anywhere };
-
 inline HitAgain hit_again(const abi::ShapesView& shapes, const abi::SurfaceIndex& index)
 {
-    switch (index.kind) {
-        case abi::SurfaceKind::sphere:
-        case abi::SurfaceKind::anchored_sphere:
-            return HitAgain::from_inside;
-        case abi::SurfaceKind::quadric_side: {
-            const double(&s)[3] = shapes.quadrics[index.record].square;
-            return s[0] >= 0 && s[1] >= 0 && s[2] >= 0 ? HitAgain::from_inside
-                                                       : HitAgain::from_anywhere;
-        }
-        case abi::SurfaceKind::low_cap:
-        case abi::SurfaceKind::high_cap:
-            return HitAgain::from_inside;
-        default:
-            return HitAgain::never;
-    }
+    if (index.kind == abi::SurfaceKind::none)
+        return HitAgain::never;
+    return with_shape(shapes, index,
+                      [](const auto& shape, unsigned piece) { return hit_again(shape, piece); });
 }
 
 /// Where rays from points of one surface meet it again beyond t_min, in double. `outside` are the
@@ -91,24 +74,9 @@ inline OwnCrossing second_crossing(const abi::ShapesView& shapes, const abi::Sur
                                    const Vec3v<double>& point, const Vec3v<double>& dir,
                                    const vreal<double>& t_min, vmask<double> outside)
 {
-    switch (index.kind) {
-        case abi::SurfaceKind::sphere: {
-            const abi::SphereShape& sphere = shapes.spheres[index.record];
-            return only_crossing({dot(point - broadcast(sphere.center), dir), dot(dir, dir)}, t_min,
-                                 outside);
-        }
-        case abi::SurfaceKind::anchored_sphere: {
-            const abi::AnchoredSphere<double>& sphere = shapes.anchored_spheres[index.record];
-            return only_crossing({dot(normal_at<double>(sphere, point), dir),
-                                  vreal<double>(sphere.curvature) * dot(dir, dir)},
-                                 t_min, outside);
-        }
-        case abi::SurfaceKind::quadric_side:
-            return crossing_from_side(shapes.quadrics[index.record], point, dir, t_min, outside);
-        default:
-            return crossing_from_cap(shapes.quadrics[index.record],
-                                     index.kind == abi::SurfaceKind::low_cap, point, dir, t_min);
-    }
+    return with_shape(shapes, index, [&](const auto& shape, unsigned piece) {
+        return second_crossing(shape, piece, point, dir, t_min, outside);
+    });
 }
 
 /// The surface numbers of a crossing; `first` is that of the body's side.

@@ -1,28 +1,11 @@
 #pragma once
 
-#include "kernels/geometry/packet.hpp"
+#include "kernels/geometry/object_list.hpp"
 
 // The body each ray starts on, which its search passes over: where the ray meets it again is known
 // before (leave_surface.hpp).
 namespace packtrace::PACKTRACE_ISA {
 namespace {
-
-/// The lanes of `own` that are one of a body's `pieces`, which are numbered from `first` on.
-template <class Real>
-inline std::uint32_t lanes_on_body(const vint<Real>& own, std::int32_t first, int pieces = 1)
-{
-    std::uint32_t on_body = 0;
-    for (int piece = 0; piece < pieces; ++piece)
-        on_body |= bits(int_equal(own, vint<Real>(static_cast<lane_int<Real>>(first + piece))));
-    return on_body;
-}
-
-/// How many surfaces a quadric has: its side, and two caps where it is capped.
-template <class Real>
-inline int pieces_of(const abi::QuadricRecord<Real>& quadric)
-{
-    return quadric.capped ? 3 : 1;
-}
 
 /// Rays of which none starts on a surface.
 struct NoOwn {

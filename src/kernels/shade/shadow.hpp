@@ -3,7 +3,7 @@
 #include "kernels/shade/lighting.hpp"
 #include "kernels/shade/shade_context.hpp"
 #include "kernels/traverse/occluded.hpp"
-#include "kernels/traverse/retrace.hpp"
+#include "kernels/traverse/retrace_occluded.hpp"
 
 // Shadow rays of a packet. Those of a point light are traced from it, where they share their
 // origin: t there is 1 - t of the notes' ray from the point.
@@ -103,8 +103,8 @@ inline auto with_light_objects(const ShadeContext<F, Real>& context, int light, 
     if constexpr (F.exact)
         return visit(objects.along);
     else
-        return visit(ParallelObjects<Real>{casters_of(*context.scene),
-                                           parallel_candidates(objects.from_point.spheres)});
+        return visit(ParallelObjects<Real>{
+            casters_of(*context.scene), parallel_candidates(list_of<Sphere>(objects.from_point))});
 }
 
 /// The lanes of `open` that anything but their own surface keeps from a light.
@@ -126,7 +126,7 @@ inline std::uint32_t blocked_lanes(const ShadeContext<F, Real>& context, int lig
             return occlusion.blocked | retrace_occluded<F>(*casters_of(scene).wide, rays, own,
                                                            t_end, closed, occlusion.unsure);
         } else {
-            return occluded<F>(Reach<Real>{t_end, closed}, objects, rays, own, open);
+            return occluded<F>(RayEnd<Real>{t_end, closed}, objects, rays, own, open);
         }
     });
 }
@@ -160,7 +160,7 @@ inline void visit_light_occluders(const ShadeContext<F, Real>& context, int ligh
                               return false;
                           });
         } else {
-            visit_occluders<F>(Reach<Real>{t_end, closed}, objects, rays, own, pass_on);
+            visit_occluders<F>(RayEnd<Real>{t_end, closed}, objects, rays, own, pass_on);
         }
     });
 }

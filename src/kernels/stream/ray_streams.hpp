@@ -8,7 +8,8 @@
 #include "kernels/traverse/bvh_crossings.hpp"
 #include "kernels/traverse/bvh_occluded.hpp"
 #include "kernels/traverse/object_sets.hpp"
-#include "kernels/traverse/retrace.hpp"
+#include "kernels/traverse/retrace_closest.hpp"
+#include "kernels/traverse/retrace_occluded.hpp"
 
 // Streams of rays from outside: closest hits, occlusion, all hits.
 namespace packtrace::PACKTRACE_ISA {
@@ -260,7 +261,7 @@ inline void occluded_chunk_in_lists(const abi::SceneView<Real>& scene,
                 blocked |= retrace_occluded<F>(*scene.wide, packet.rays, own, packet.t_max, false,
                                                occlusion.unsure);
         } else {
-            blocked = occluded<F>(Reach<Real>{packet.t_max, false}, work.nearby, packet.rays, own,
+            blocked = occluded<F>(RayEnd<Real>{packet.t_max, false}, work.nearby, packet.rays, own,
                                   wanted);
         }
         store_mask<Real>(mask + first, blocked, packet.count);

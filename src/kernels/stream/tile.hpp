@@ -42,8 +42,8 @@ inline void find_occluders(const TileRun<F, Real>& run)
             filter_objects<F, false>(occluders.along, origins_in(box.low, box.high),
                                      parallel_cone(light.vector, box), casters);
         else
-            find_parallel_candidates(occluders.from_point.spheres, parallel_cone(light.vector, box),
-                                     casters.spheres);
+            find_parallel_candidates(list_of<Sphere>(occluders.from_point),
+                                     parallel_cone(light.vector, box), casters.spheres);
     }
 }
 

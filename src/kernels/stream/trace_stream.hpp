@@ -4,7 +4,7 @@
 #include "kernels/stream/camera.hpp"
 #include "kernels/stream/shade_stream.hpp"
 #include "kernels/traverse/object_sets.hpp"
-#include "kernels/traverse/retrace.hpp"
+#include "kernels/traverse/retrace_closest.hpp"
 
 // From rays to hit points, one generation at a time.
 namespace packtrace::PACKTRACE_ISA {

@@ -1,10 +1,8 @@
 #pragma once
 
-#include <type_traits>
-
 #include "kernels/shade/shade_context.hpp"
 #include "kernels/stream/tile_memory.hpp"
-#include "kernels/traverse/shared_origin.hpp"
+#include "kernels/traverse/object_sets.hpp"
 
 // How a thread's scratch memory is divided. Sizes depend on the scene alone.
 namespace packtrace::PACKTRACE_ISA {
@@ -34,60 +32,6 @@ private:
     char* block_;
     std::size_t used_ = 0;
 };
-
-template <class Real>
-inline SharedOriginObjects<Real> take_candidates(Arena& arena, const abi::GeometryView<Real>& scene)
-{
-    const std::size_t spheres = static_cast<std::size_t>(scene.spheres.count) + abi::padding;
-    SharedOriginObjects<Real> objects;
-    objects.spheres.x = arena.take<Real>(spheres);
-    objects.spheres.y = arena.take<Real>(spheres);
-    objects.spheres.z = arena.take<Real>(spheres);
-    objects.spheres.radius2 = arena.take<Real>(spheres);
-    objects.spheres.constant = arena.take<Real>(spheres);
-    objects.spheres.surface = arena.take<lane_int<Real>>(spheres);
-    objects.anchored_spheres = arena.take<SharedOriginAnchored<Real>>(
-        static_cast<std::size_t>(scene.anchored_spheres.count));
-    objects.planes =
-        arena.take<SharedOriginPlane<Real>>(static_cast<std::size_t>(scene.planes.count));
-    objects.quadrics =
-        arena.take<SharedOriginQuadric<Real>>(static_cast<std::size_t>(scene.quadrics.count));
-    return objects;
-}
-
-template <bool Shared>
-inline FilteredObjects<Shared> take_filters(Arena& arena, const abi::GeometryView<float>& scene)
-{
-    const std::size_t spheres = static_cast<std::size_t>(scene.spheres.count) + abi::padding;
-    FilteredObjects<Shared> objects;
-    objects.spheres.x = arena.take<float>(spheres);
-    objects.spheres.y = arena.take<float>(spheres);
-    objects.spheres.z = arena.take<float>(spheres);
-    objects.spheres.radius2 = arena.take<float>(spheres);
-    objects.spheres.bounds.outer2 = arena.take<float>(spheres);
-    objects.spheres.bounds.inner2 = arena.take<float>(spheres);
-    objects.spheres.bounds.along = arena.take<float>(spheres);
-    objects.spheres.bounds.moment = arena.take<float>(spheres);
-    objects.spheres.bounds.size = arena.take<float>(spheres);
-    objects.spheres.bounds.band2 = arena.take<float>(spheres);
-    objects.spheres.surface = arena.take<std::int32_t>(spheres);
-    objects.anchored_spheres =
-        arena.take<AnchoredFilter>(static_cast<std::size_t>(scene.anchored_spheres.count));
-    objects.planes = arena.take<PlaneFilter>(static_cast<std::size_t>(scene.planes.count));
-    objects.quadrics = arena.take<QuadricFilter>(static_cast<std::size_t>(scene.quadrics.count));
-    return objects;
-}
-
-template <class Objects, class Real>
-inline Objects take_objects(Arena& arena, const abi::GeometryView<Real>& scene)
-{
-    if constexpr (std::is_same_v<Objects, SharedOriginObjects<Real>>)
-        return take_candidates(arena, scene);
-    else if constexpr (std::is_same_v<Objects, AllObjects<Real>>)
-        return {&scene};
-    else
-        return take_filters<Objects::shared>(arena, scene);
-}
 
 template <class Real>
 inline std::size_t count_shadowed(const abi::SceneView<Real>& scene)

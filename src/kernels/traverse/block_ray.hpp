@@ -1,7 +1,6 @@
 #pragma once
 
 #include "kernels/traverse/leaf_bounds.hpp"
-#include "kernels/traverse/occluded.hpp"
 
 // One ray against the spheres of a block side by side, by the operations that test one sphere
 // against a packet of rays, so with the same bits.
@@ -53,13 +52,13 @@ public:
         return met;
     }
 
-    /// A bit for each sphere in the ray's way up to `t_end`, which is in it or not (Reach).
+    /// A bit for each sphere in the ray's way up to `t_end`, which is in it or not (RayEnd).
     std::uint32_t blocked_by(const abi::SphereBlock<Real>& block, Real t_end, bool closed) const
     {
-        const Reach<Real> reach{vreal<Real>(t_end), closed};
+        const RayEnd<Real> end{vreal<Real>(t_end), closed};
         std::uint32_t blocking = 0;
         for (int first = 0; first < abi::node_width; first += lanes<Real>)
-            blocking |= bits(reach.blocked_by(quadratics(block, first), rays_)) << first;
+            blocking |= bits(end.blocked_by(quadratics(block, first), rays_)) << first;
         return blocking;
     }
 

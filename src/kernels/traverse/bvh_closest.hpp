@@ -1,70 +1,12 @@
 #pragma once
 
 #include "kernels/traverse/closest_ray.hpp"
+#include "kernels/traverse/coherent_cells.hpp"
 #include "kernels/traverse/walk_lists.hpp"
 
 // Closest hits of a bundle of rays among the objects of the hierarchy.
 namespace packtrace::PACKTRACE_ISA {
 namespace {
-
-/// The sphere in one place of a block.
-template <class Real>
-inline Quadratic<Real> quadratic_of(const abi::SphereBlock<Real>& block, int slot,
-                                    const RayPacket<Real>& rays)
-{
-    const Vec3v<Real> center{vreal<Real>(block.center[0][slot]), vreal<Real>(block.center[1][slot]),
-                             vreal<Real>(block.center[2][slot])};
-    const Vec3v<Real> o = rays.org - center;
-    const Real radius = block.radius[slot];
-    const vreal<Real> radius2(radius * (radius < 0 ? -radius : radius));
-    return sphere_quadratic<Real>(rays, o, radius2, sphere_constant<Real>(o, radius2));
-}
-
-/// Not below any of a cell's `t`, in single precision.
-template <class Real>
-inline float furthest(const RayBundle<Real>& bundle, int cell)
-{
-    const Real* t = bundle.t + cell * cell_rays;
-    const float most = largest_of8(max(load8(t), load8(t + 8)));
-    return sizeof(Real) == sizeof(float) ? most : most * 1.000001f;
-}
-
-/// The coherent cells' rays go as far as the bundle says; the others nowhere.
-template <class Real>
-inline void start_coherent(CellBounds& bounds, const RayBundle<Real>& bundle)
-{
-    for (int cell = 0; cell < bundle_cells; ++cell)
-        bounds.t_max[cell] = bounds.coherent >> cell & 1u ? furthest(bundle, cell) : -no_end;
-    join_t_max(bounds);
-}
-
-/// Calls `visit(slot, cell)` for the spheres of a block and the cells of `cells` that may meet
-/// them.
-template <class Real, class Visit>
-inline void visit_spheres(const CellBounds& bounds, const abi::SphereBlock<Real>& block,
-                          std::uint32_t cells, const Visit& visit)
-{
-    const EightBoxes boxes = boxes_of(block);
-    std::uint32_t met = meet_boxes(bounds, frustum_of(cells), boxes).hits;
-    if ((cells & (cells - 1)) == 0) {
-        for (; met != 0; met &= met - 1)
-            visit(__builtin_ctz(met), __builtin_ctz(cells));
-        return;
-    }
-    alignas(32) float low[3][8];
-    alignas(32) float high[3][8];
-    for (int axis = 0; axis < 3; ++axis) {
-        store8(low[axis], boxes.low[axis]);
-        store8(high[axis], boxes.high[axis]);
-    }
-    for (; met != 0; met &= met - 1) {
-        const int slot = __builtin_ctz(met);
-        std::uint32_t by = meet_cells(bounds, {low[0][slot], low[1][slot], low[2][slot]},
-                                      {high[0][slot], high[1][slot], high[2][slot]}, cells);
-        for (; by != 0; by &= by - 1)
-            visit(slot, __builtin_ctz(by));
-    }
-}
 
 /// Tests one leaf after another against the cells that may meet it.
 template <abi::Features F, class Real>

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "kernels/traverse/bvh_closest.hpp"
+#include "kernels/traverse/coherent_cells.hpp"
 
 namespace packtrace::PACKTRACE_ISA {
 namespace {

@@ -1,15 +1,15 @@
 #pragma once
 
-#include "kernels/traverse/bvh_closest.hpp"
+#include "kernels/traverse/coherent_cells.hpp"
 #include "kernels/traverse/occluded_ray.hpp"
 #include "kernels/traverse/walk_lists.hpp"
 
 // What stands in the way of a bundle of rays among the objects of the hierarchy.
 //
-// A `Occluder` is called as occluder(surface, first, lanes) for an object and the lanes it blocks
+// An `Occluder` is called as occluder(surface, first, lanes) for an object and the lanes it blocks
 // of the packet at `first`, and returns those lanes that nothing further matters to; they are taken
-// out of the bundle's active rays. The rays' reach ends at the bundle's `t`, and is `closed` or not
-// (occluded.hpp). A ray's own surface does not block it. With Features::exact only what blocks for
+// out of the bundle's active rays. The rays end at the bundle's `t`, and is `closed` or not
+// (RayEnd). A ray's own surface does not block it. With Features::exact only what blocks for
 // sure is called for, and rays that something else may block are marked as unsure in the bundle.
 namespace packtrace::PACKTRACE_ISA {
 namespace {
@@ -86,11 +86,10 @@ private:
             return {but_own<Real>(occlusion.blocked, own, surface),
                     but_own<Real>(occlusion.unsure, own, surface)};
         } else {
-            const Reach<Real> reach{load(bundle_.t + first), closed_};
-            return {
-                but_own<Real>(bits(reach.blocked_by(quadratic_of(leaf.block, slot, rays), rays)),
-                              own, surface),
-                0};
+            const RayEnd<Real> end{load(bundle_.t + first), closed_};
+            return {but_own<Real>(bits(end.blocked_by(quadratic_of(leaf.block, slot, rays), rays)),
+                                  own, surface),
+                    0};
         }
     }
 
@@ -238,7 +237,8 @@ inline void visit_occluders_of_bundle(const abi::GeometryView<Real>& scene, cons
                 visit_occluders<F>(load(bundle.t + first), lists, rays, own, take);
             doubt_lanes(bundle, first, unsure & wanted);
         } else {
-            visit_occluders<F>(Reach<Real>{load(bundle.t + first), closed}, lists, rays, own, take);
+            visit_occluders<F>(RayEnd<Real>{load(bundle.t + first), closed}, lists, rays, own,
+                               take);
         }
         left |= active_lanes(bundle, first);
     }

@@ -36,6 +36,22 @@ inline void closest_of_spheres(RayBundle<Real>& bundle, int ray, const BlockRay<
     }
 }
 
+/// A quadric of a leaf.
+template <abi::Features F, class Real, class Own>
+inline void keep_leaf_quadric(HitPacket<Real>& hit, const abi::BvhView<Real>& tree, int number,
+                              const RayBundle<Real>& bundle, const RayPacket<Real>& rays,
+                              const Own& own)
+{
+    if constexpr (F.exact) {
+        const abi::QuadricRecord<float>& record = tree.quadrics[number];
+        const abi::QuadricRecord<double>& wide =
+            tree.shapes->quadrics[tree.shapes->index[record.surface].record];
+        keep_certain<false>(hit, leaf_filter(record, wide, bundle), rays, RayScale(rays), own);
+    } else {
+        keep_closest(hit, leaf_quadric(tree, number), rays, own);
+    }
+}
+
 template <abi::Features F, class Real>
 inline void closest_of_quadrics(const abi::BvhView<Real>& tree, RayBundle<Real>& bundle, int ray,
                                 int begin, int count)

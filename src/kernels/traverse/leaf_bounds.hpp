@@ -1,7 +1,6 @@
 #pragma once
 
-#include "kernels/geometry/cone.hpp"
-#include "kernels/traverse/closest.hpp"
+#include "kernels/geometry/kinds.hpp"
 #include "kernels/traverse/leaf.hpp"
 
 // Error bounds of the objects of a hierarchy for a bundle of rays, by where those start.
@@ -52,7 +51,7 @@ inline QuadricFilter leaf_filter(const abi::QuadricRecord<float>& record,
     for (int axis = 0; axis < 3; ++axis)
         origins.center[axis] = record.bound[axis];
     origins.radius = bundle.length;
-    return quadric_filter<false>(record, wide, origins);
+    return certain_form<false>(record, wide, origins);
 }
 
 /// The bounds of spheres of a hierarchy for a bundle's rays.
@@ -69,22 +68,6 @@ inline vreal<float> leaf_outer2(const RayBundle<float>& bundle, const vreal<floa
     const vreal<float> moment(bundle.moment_error * (1.0f + roundoffs(12.0f)));
     const vreal<float> outer = madd(radius, vreal<float>(1.0f + roundoffs(12.0f)), moment);
     return signed_square<float>(outer);
-}
-
-/// A quadric of a leaf.
-template <abi::Features F, class Real, class Own>
-inline void keep_leaf_quadric(HitPacket<Real>& hit, const abi::BvhView<Real>& tree, int number,
-                              const RayBundle<Real>& bundle, const RayPacket<Real>& rays,
-                              const Own& own)
-{
-    if constexpr (F.exact) {
-        const abi::QuadricRecord<float>& record = tree.quadrics[number];
-        const abi::QuadricRecord<double>& wide =
-            tree.shapes->quadrics[tree.shapes->index[record.surface].record];
-        keep_quadric<false>(hit, leaf_filter(record, wide, bundle), rays, RayScale(rays), own);
-    } else {
-        keep_quadric(hit, leaf_quadric(tree, number), rays, own);
-    }
 }
 
 }  // namespace

@@ -1,45 +1,39 @@
 #pragma once
 
-#include "kernels/traverse/shared_origin.hpp"
+#include <type_traits>
 
-// One way to walk the objects of a scene and those of a cone.
+#include "kernels/geometry/kinds.hpp"
+
+// The objects that rays are tested against, a list of each kind: all of a scene, or those that a
+// cone of rays may meet, with what depends on the rays' origin computed once, by the operations a
+// single packet would use, so with the same bits.
 namespace packtrace::PACKTRACE_ISA {
 namespace {
 
-template <class Real, class Objects>
-struct ObjectLists;
+/// The objects as rays see them that start from one point.
+template <class Real, class List = Kinds>
+struct SharedOriginObjects;
+template <class Real, class... Kind>
+struct SharedOriginObjects<Real, KindList<Kind...>>
+    : ListOfKind<Kind, typename Kind::template FromPoint<Real>>... {
+    bool empty() const
+    {
+        return (list_of<Kind>(*this).count + ...) == 0;
+    }
+};
 
-template <class Real>
-struct ObjectLists<Real, abi::GeometryView<Real>> {
-    const abi::GeometryView<Real>& scene;
+/// The objects with the error bounds of one group of rays: of those from one point, or of those
+/// from anywhere in a ball.
+template <bool Shared, class List = Kinds>
+struct FilteredObjects;
+template <bool Shared, class... Kind>
+struct FilteredObjects<Shared, KindList<Kind...>> : ListOfKind<Kind, typename Kind::Certain>... {
+    static constexpr bool shared = Shared;
+    bool certifiable = false;  ///< the scene's sizes and the origins are such that bounds hold
 
-    const abi::SphereListView<Real>& spheres() const
+    bool empty() const
     {
-        return scene.spheres;
-    }
-    int anchored_count() const
-    {
-        return scene.anchored_spheres.count;
-    }
-    const abi::AnchoredSphere<Real>& anchored(int i) const
-    {
-        return scene.anchored_spheres.data[i];
-    }
-    int plane_count() const
-    {
-        return scene.planes.count;
-    }
-    const abi::PlaneRecord<Real>& plane(int i) const
-    {
-        return scene.planes.data[i];
-    }
-    int quadric_count() const
-    {
-        return scene.quadrics.count;
-    }
-    const abi::QuadricRecord<Real>& quadric(int i) const
-    {
-        return scene.quadrics.data[i];
+        return (list_of<Kind>(*this).count + ...) == 0;
     }
 };
 
@@ -50,54 +44,101 @@ struct ParallelObjects {
     abi::SphereListView<Real> spheres;
 };
 
+/// The lists of a scene as they are.
 template <class Real>
-struct ObjectLists<Real, ParallelObjects<Real>> : ObjectLists<Real, abi::GeometryView<Real>> {
-    const abi::SphereListView<Real>& met_spheres;
-
-    explicit ObjectLists(const ParallelObjects<Real>& objects)
-        : ObjectLists<Real, abi::GeometryView<Real>>{objects.scene}, met_spheres(objects.spheres)
-    {
-    }
-
-    const abi::SphereListView<Real>& spheres() const
-    {
-        return met_spheres;
-    }
+struct AllObjects {
+    const abi::GeometryView<Real>* scene = nullptr;
 };
 
-template <class Real>
-struct ObjectLists<Real, SharedOriginObjects<Real>> {
-    const SharedOriginObjects<Real>& objects;
-
-    const SharedOriginSpheres<Real>& spheres() const
-    {
+template <class Kind, class Real>
+inline const auto& objects_of(const abi::GeometryView<Real>& scene)
+{
+    return Kind::list(scene);
+}
+template <class Kind, class Real>
+inline const auto& objects_of(const AllObjects<Real>& objects)
+{
+    return Kind::list(*objects.scene);
+}
+template <class Kind, class Real>
+inline const auto& objects_of(const ParallelObjects<Real>& objects)
+{
+    if constexpr (std::is_same_v<Kind, Sphere>)
         return objects.spheres;
+    else
+        return Kind::list(objects.scene);
+}
+template <class Kind, class Real>
+inline const auto& objects_of(const SharedOriginObjects<Real>& objects)
+{
+    return list_of<Kind>(objects);
+}
+template <class Kind, bool Shared>
+inline const auto& objects_of(const FilteredObjects<Shared>& objects)
+{
+    return list_of<Kind>(objects);
+}
+
+/// Fills `objects` with what rays of `cone`, all from its base, may meet.
+template <abi::Features F, class Real>
+inline void find_objects(SharedOriginObjects<Real>& objects, const Cone<Real>& cone,
+                         const abi::GeometryView<Real>& scene)
+{
+    for_each_kind<F>([&](auto kind) {
+        find_from_point(list_of<decltype(kind)>(objects), cone, kind.list(scene));
+        return true;
+    });
+}
+
+/// Fills `objects` with what rays from `origins` may meet; `cone` bounds rays from one point, and
+/// spheres alone of others.
+template <abi::Features F, bool Shared>
+[[gnu::noinline]] void filter_objects(FilteredObjects<Shared>& objects, const Origins& origins,
+                                      const Cone<float>& cone, const abi::SceneView<float>& scene)
+{
+    objects.certifiable = scene.certifiable && certifiable(origins);
+    for_each_kind<F>([&](auto kind) {
+        find_certain<Shared>(list_of<decltype(kind)>(objects), origins, cone, kind.list(scene),
+                             kind.list(*scene.wide));
+        return true;
+    });
+}
+
+/// What the rays of a cone from one point may meet.
+template <abi::Features F>
+inline void find_objects(FilteredObjects<true>& objects, const Cone<float>& cone,
+                         const abi::SceneView<float>& scene)
+{
+    Origins origins;
+    for (int axis = 0; axis < 3; ++axis)
+        origins.center[axis] = cone.base[axis];
+    filter_objects<F, true>(objects, origins, cone, scene);
+}
+
+/// What rays from `origins` may meet, wherever they go.
+template <abi::Features F>
+inline void find_objects(FilteredObjects<false>& objects, const Origins& origins,
+                         const abi::SceneView<float>& scene)
+{
+    filter_objects<F, false>(objects, origins, Cone<float>{}, scene);
+}
+
+/// Room for the objects of a scene.
+template <class Objects, class Arena, class Real>
+inline Objects take_objects(Arena& arena, const abi::GeometryView<Real>& scene)
+{
+    if constexpr (std::is_same_v<Objects, AllObjects<Real>>) {
+        return {&scene};
+    } else {
+        constexpr abi::Features all{.quadrics = true};
+        Objects objects{};
+        for_each_kind<all>([&](auto kind) {
+            take_room(arena, list_of<decltype(kind)>(objects), kind.list(scene).count);
+            return true;
+        });
+        return objects;
     }
-    int anchored_count() const
-    {
-        return objects.anchored_count;
-    }
-    const SharedOriginAnchored<Real>& anchored(int i) const
-    {
-        return objects.anchored_spheres[i];
-    }
-    int plane_count() const
-    {
-        return objects.plane_count;
-    }
-    const SharedOriginPlane<Real>& plane(int i) const
-    {
-        return objects.planes[i];
-    }
-    int quadric_count() const
-    {
-        return objects.quadric_count;
-    }
-    const SharedOriginQuadric<Real>& quadric(int i) const
-    {
-        return objects.quadrics[i];
-    }
-};
+}
 
 }  // namespace
 }  // namespace packtrace::PACKTRACE_ISA

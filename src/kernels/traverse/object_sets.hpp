@@ -3,19 +3,12 @@
 #include <type_traits>
 
 #include "kernels/geometry/cone.hpp"
-#include "kernels/traverse/filtered_objects.hpp"
 #include "kernels/traverse/object_lists.hpp"
 
 // What a tile's rays are tested against: with Features::exact objects with their error bounds, else
 // what depends on a shared origin alone, computed once.
 namespace packtrace::PACKTRACE_ISA {
 namespace {
-
-/// The lists of a scene as they are.
-template <class Real>
-struct AllObjects {
-    const abi::GeometryView<Real>* scene = nullptr;
-};
 
 template <abi::Features F, class Real>
 using FromPoint = std::conditional_t<F.exact, FilteredObjects<true>, SharedOriginObjects<Real>>;
@@ -27,14 +20,6 @@ template <abi::Features F, class Real>
 struct LightObjects {
     FromPoint<F, Real> from_point;
     FromAnywhere<F, Real> along;
-};
-
-template <class Real>
-struct ObjectLists<Real, AllObjects<Real>> : ObjectLists<Real, abi::GeometryView<Real>> {
-    explicit ObjectLists(const AllObjects<Real>& objects)
-        : ObjectLists<Real, abi::GeometryView<Real>>{*objects.scene}
-    {
-    }
 };
 
 /// Where a run of rays starts.

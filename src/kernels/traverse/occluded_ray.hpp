@@ -2,6 +2,7 @@
 
 #include "kernels/traverse/cell_rays.hpp"
 #include "kernels/traverse/near_spheres.hpp"
+#include "kernels/traverse/occluded.hpp"
 
 namespace packtrace::PACKTRACE_ISA {
 namespace {
@@ -41,11 +42,13 @@ inline Occlusion leaf_quadric_occludes(const abi::BvhView<Real>& tree, int numbe
         const abi::QuadricRecord<float>& record = tree.quadrics[number];
         const abi::QuadricRecord<double>& wide =
             tree.shapes->quadrics[tree.shapes->index[record.surface].record];
-        const std::uint32_t active =
-            may_hit<false>(leaf_filter(record, wide, bundle), rays, RayScale(rays), t_end);
-        return active == 0 ? Occlusion{} : occludes(wide, rays, t_end, own, active);
+        return occludes<false>(leaf_filter(record, wide, bundle), rays, RayScale(rays), t_end,
+                               CertainOthers{own, all_lanes<float>});
     } else {
-        return {quadric_blocks(Reach<Real>{t_end, closed}, leaf_quadric(tree, number), rays, own),
+        const abi::QuadricRecord<Real>& quadric = leaf_quadric(tree, number);
+        const Body body = body_of(quadric);
+        return {but_own<Real>(occluding_lanes(RayEnd<Real>{t_end, closed}, quadric, rays), own,
+                              body.first, body.pieces),
                 0};
     }
 }

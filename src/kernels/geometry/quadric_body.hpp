@@ -1,7 +1,5 @@
 #pragma once
 
-#include <limits>
-
 #include "kernels/geometry/quadric.hpp"
 
 // Where rays that start on a piece of a body meet that body again, in double. That the start is on
@@ -11,45 +9,6 @@
 // starts does so at the least number above 0.
 namespace packtrace::PACKTRACE_ISA {
 namespace {
-
-/// A surface along lines from a point on it: 2 slope t + bend t² = 0.
-struct SurfaceLine {
-    vreal<double> slope, bend;
-};
-
-/// Where the rays of half a packet meet their own body again, and the lanes that meet it in a cap.
-struct OwnCrossing {
-    vreal<double> t;  ///< infinite for nowhere
-    std::uint32_t low_cap = 0;
-    std::uint32_t high_cap = 0;
-};
-
-/// The least t that counts as beyond the start.
-inline vreal<double> at_once()
-{
-    return vreal<double>(std::numeric_limits<double>::min());
-}
-
-/// The other root of `line`, whose slope has the sign of the side that the rays leave on, so that
-/// rounding cannot turn it for grazing rays. Negative or NaN where there is none ahead.
-inline vreal<double> other_root(const SurfaceLine& line, vmask<double> outside)
-{
-    const vreal<double> twice = abs(line.slope) + abs(line.slope);
-    return select(outside, negated(twice), twice) / line.bend;
-}
-
-/// The other root of a surface that no other piece belongs to.
-inline OwnCrossing only_crossing(const SurfaceLine& line, const vreal<double>& t_min,
-                                 vmask<double> outside)
-{
-    const vreal<double> never(__builtin_inf());
-    const vreal<double> root = other_root(line, outside);
-    // A ray along the surface, on its inner side, leaves what bends away from it at once.
-    const std::uint32_t inwards = ~bits(outside) & bits(line.bend > vreal<double>(0.0));
-    const std::uint32_t ahead = inwards | bits(root > vreal<double>(0.0));
-    const vreal<double> t = max(root, at_once());
-    return {select(from_bits<double>(ahead & bits(t > t_min) & bits(t < never)), t, never)};
-}
 
 /// The crossings ahead in their order: two of the side at most, then one of a cap.
 struct CrossingsAhead {
@@ -142,6 +101,21 @@ inline OwnCrossing crossing_from_cap(const abi::QuadricRecord<double>& quadric, 
     return first_of(
         {{leaves, between.high}, across, {by_side, enters}, ~by_side | enters, from_low ? ~0u : 0u},
         t_min);
+}
+
+inline HitAgain hit_again(const abi::QuadricRecord<double>& quadric, unsigned piece)
+{
+    const double(&s)[3] = quadric.square;
+    return piece != 0 || (s[0] >= 0 && s[1] >= 0 && s[2] >= 0) ? HitAgain::from_inside
+                                                               : HitAgain::from_anywhere;
+}
+
+inline OwnCrossing second_crossing(const abi::QuadricRecord<double>& quadric, unsigned piece,
+                                   const Vec3v<double>& point, const Vec3v<double>& dir,
+                                   const vreal<double>& t_min, vmask<double> outside)
+{
+    return piece == 0 ? crossing_from_side(quadric, point, dir, t_min, outside)
+                      : crossing_from_cap(quadric, piece == 1, point, dir, t_min);
 }
 
 }  // namespace

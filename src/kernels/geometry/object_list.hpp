@@ -1,0 +1,104 @@
+#pragma once
+
+#include "kernel_abi/lists.hpp"
+#include "kernels/geometry/cone.hpp"
+#include "kernels/geometry/error_bounds.hpp"
+
+// Lists of objects of one kind, and what holds of an object unless its kind says otherwise.
+namespace packtrace::PACKTRACE_ISA {
+namespace {
+
+/// The surfaces of one object, which are numbered from `first` on.
+struct Body {
+    std::int32_t first;
+    int pieces = 1;
+};
+
+/// Of objects that have one surface.
+template <class Object>
+inline Body body_of(const Object& object)
+{
+    return {object.surface};
+}
+
+/// The lanes of `own` that are one of a body's `pieces`, which are numbered from `first` on.
+template <class Real>
+inline std::uint32_t lanes_on_body(const vint<Real>& own, std::int32_t first, int pieces = 1)
+{
+    std::uint32_t on_body = 0;
+    for (int piece = 0; piece < pieces; ++piece)
+        on_body |= bits(int_equal(own, vint<Real>(static_cast<lane_int<Real>>(first + piece))));
+    return on_body;
+}
+
+template <class Object>
+struct ObjectArray {
+    Object* data = nullptr;
+    int count = 0;
+};
+
+template <class Object>
+inline const Object& object_at(const ObjectArray<Object>& list, int index)
+{
+    return list.data[index];
+}
+template <class Record>
+inline const Record& object_at(const abi::RecordList<Record>& list, int index)
+{
+    return list.data[index];
+}
+
+template <class Arena, class Object>
+inline void take_room(Arena& arena, ObjectArray<Object>& list, int count)
+{
+    list.data = arena.template take<Object>(static_cast<std::size_t>(count));
+}
+
+/// Whether no ray of a cone reaches an object, by its record alone.
+template <class Real, class Record>
+inline bool out_of_reach(const Cone<Real>&, const Record&)
+{
+    return false;
+}
+/// Whether all rays of a cone leave an object behind, by its form for their origin.
+template <class Real, class Form>
+inline bool leaves_behind(const Cone<Real>&, const Form&)
+{
+    return false;
+}
+
+/// Fills `list` with what rays of `cone`, all from its base, may meet.
+template <class Form, class Real, class Record>
+inline void find_from_point(ObjectArray<Form>& list, const Cone<Real>& cone,
+                            const abi::RecordList<Record>& records)
+{
+    const Vec3v<Real> origin = broadcast(cone.base);
+    list.count = 0;
+    for (int i = 0; i < records.count; ++i) {
+        if (out_of_reach(cone, records.data[i]))
+            continue;
+        const Form form = share_origin(records.data[i], origin);
+        if (!leaves_behind(cone, form))
+            list.data[list.count++] = form;
+    }
+}
+
+/// Fills `list` with the error bounds of what rays from `origins` may meet; `cone` bounds rays from
+/// one point.
+template <bool Shared, class Form, class Record, class WideRecord>
+inline void find_certain(ObjectArray<Form>& list, const Origins& origins, const Cone<float>& cone,
+                         const abi::RecordList<Record>& records,
+                         const abi::RecordList<WideRecord>& wide)
+{
+    list.count = 0;
+    for (int i = 0; i < wide.count; ++i) {
+        if (Shared && out_of_reach(cone, records.data[i]))
+            continue;
+        Form& form = list.data[list.count];
+        form = certain_form<Shared>(records.data[i], wide.data[i], origins);
+        list.count += !(Shared && leaves_behind(cone, form));
+    }
+}
+
+}  // namespace
+}  // namespace packtrace::PACKTRACE_ISA

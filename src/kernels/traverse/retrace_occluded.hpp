@@ -1,0 +1,83 @@
+#pragma once
+
+#include "kernels/traverse/bvh_occluded.hpp"
+#include "kernels/traverse/retrace.hpp"
+
+// Unsure occlusion, decided in double.
+namespace packtrace::PACKTRACE_ISA {
+namespace {
+
+/// Whether it matters what is in the way of a ray, or only that something is.
+enum class Occluders { any, all };
+
+/// Counts the rays of which double does not tell what is in their way.
+template <abi::Features F>
+inline void count_undecided_shadows(const abi::GeometryView<double>& wide, const WideBundle& bundle,
+                                    bool closed, Occluders which)
+{
+    count_undecided_of(bundle.rays, bundle, [&](RayBundle<double>& rays, std::uint64_t* found) {
+        for (int i = 0; i < bundle.count; ++i)
+            found[i] = 0;
+        visit_occluders_of_bundle<wide_features<F>>(
+            wide, wide, rays, closed, [&](std::int32_t surface, int first, std::uint32_t lanes_of) {
+                // A sum that hardly any two sets of surfaces share.
+                const std::uint64_t of_surface =
+                    (static_cast<std::uint64_t>(surface) + 1) * 0x9e3779b97f4a7c15u;
+                for (std::uint32_t left = lanes_of; left != 0; left &= left - 1)
+                    found[first + __builtin_ctz(left)] += which == Occluders::all ? of_surface : 1;
+                return which == Occluders::all ? 0 : lanes_of;
+            });
+    });
+}
+
+/// What is in the way of rays up to their end, in double: calls `blocked(ray, surface)` for each
+/// object until it returns true.
+template <abi::Features F, class Blocked>
+inline void block_wide(const abi::GeometryView<double>& wide, WideBundle& bundle, bool closed,
+                       [[maybe_unused]] Occluders which, const Blocked& blocked)
+{
+    const RetraceScope retracing;
+    end_bundle(bundle.rays, bundle.count);
+    if constexpr (F.probe)
+        if (asks_for_undecided())
+            count_undecided_shadows<F>(wide, bundle, closed, which);
+    visit_occluders_of_bundle<wide_features<F>>(
+        wide, wide, bundle.rays, closed,
+        [&](std::int32_t surface, int first, std::uint32_t lanes_of) {
+            std::uint32_t done = 0;
+            for (; lanes_of != 0; lanes_of &= lanes_of - 1) {
+                const int lane = __builtin_ctz(lanes_of);
+                done |= blocked(int{bundle.from[first + lane]}, surface) ? 1u << lane : 0;
+            }
+            return done;
+        });
+}
+
+/// Adds the lanes of `unsure` of a packet of rays that end at t_end.
+inline void add_segments(WideBundle& bundle, int first, const RayPacket<float>& rays,
+                         const vint<float>& own, const vreal<float>& t_end, std::uint32_t unsure)
+{
+    StartPacket<float> start = no_start<float>();
+    start.surface = own;
+    add_lanes(bundle, first, rays, start, t_end, unsure);
+}
+
+/// The lanes of `unsure` that are blocked, by double.
+template <abi::Features F>
+[[gnu::noinline]] std::uint32_t retrace_occluded(const abi::GeometryView<double>& wide,
+                                                 const RayPacket<float>& rays,
+                                                 const vint<float>& own, const vreal<float>& t_end,
+                                                 bool closed, std::uint32_t unsure)
+{
+    WideBundle bundle;
+    add_segments(bundle, 0, rays, own, t_end, unsure);
+    std::uint32_t lanes_blocked = 0;
+    block_wide<F>(wide, bundle, closed, Occluders::any, [&](int lane, std::int32_t) {
+        lanes_blocked |= 1u << lane;
+        return true;
+    });
+    return lanes_blocked;
+}
+
+}  // namespace
+}  // namespace packtrace::PACKTRACE_ISA
