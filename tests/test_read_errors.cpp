@@ -342,8 +342,8 @@ TEST_CASE("a value is no longer than any key needs", "[read_errors]")
 {
     CHECK(error_of_line("max_depth = (" + repeat("1,", 64) + "1)") ==
           "x.scene:2:142: more than 64 numbers in a tuple; remove some");
-    CHECK(error_of_line("max_depth = " + repeat("1,", 64) + "1") ==
-          "x.scene:2:141: more than 64 items in a value; remove some");
+    CHECK(error_of_line("max_depth = " + repeat("1,", 65536) + "1") ==
+          "x.scene:2:131085: more than 65536 items in a value; remove some");
 }
 
 TEST_CASE("a line too long is refused before it is parsed", "[read_errors]")

@@ -19,7 +19,7 @@ constexpr double inf = reference::infinity<double>;
 
 // The note's listing with its radii put back. The size keeps clear of canvas points like
 // (-0.4, 0.1), where the ray touches the blue sphere and the square root halves the digits.
-Scene four_spheres()
+Scene note_spheres()
 {
     const auto shiny = [](const Rgb& color, double specular, double reflective) {
         Material material;
@@ -90,7 +90,7 @@ TEST_CASE("the highlight does not ask whether the light is in front", "[referenc
 
 TEST_CASE("a ray that meets nothing gets the background", "[reference_001]")
 {
-    Scene scene = four_spheres();
+    Scene scene = note_spheres();
     scene.background = Rgb(0.1, 0.2, 0.3);
     check_color(trace(scene, {0, 0, 0}, {0, 1, 0}), scene.background);
 }
@@ -232,7 +232,7 @@ TEST_CASE("the middle of the note's picture is the red sphere's topmost point", 
     // it: N.L/|L| is 1/sqrt(14) and 4/sqrt(33); the highlights vanish; the mirrored ray goes on
     // along z into the black background, with weight 0.2.
     const double local = 0.2 + 0.6 / std::sqrt(14.0) + 0.2 * 4 / std::sqrt(33.0);
-    const Scene scene = four_spheres();
+    const Scene scene = note_spheres();
     check_color(reference::Reference<double>(scene).trace_pixel(19, 18), Rgb(0.8 * local, 0, 0));
     check_color(reference::Reference<long double>(scene).trace_pixel(19, 18),
                 Rgb(0.8 * local, 0, 0));
@@ -242,7 +242,7 @@ TEST_CASE("the middle of the note's picture is the red sphere's topmost point", 
 
 TEST_CASE("float, double and long double draw the same picture", "[reference_001]")
 {
-    Scene scene = four_spheres();
+    Scene scene = note_spheres();
     const Image<double> picture = render_reference<double>(scene);
     const Image<long double> exact = render_reference<long double>(scene);
     for (std::size_t i = 0; i < picture.rgb.size(); ++i)
@@ -257,7 +257,7 @@ TEST_CASE("float, double and long double draw the same picture", "[reference_001
 
 TEST_CASE("the picture does not depend on threads, and progress ends at one", "[reference_001]")
 {
-    const Scene scene = four_spheres();
+    const Scene scene = note_spheres();
     double last = 0;
     const auto watch = [&](double share) {
         CHECK(share > last);

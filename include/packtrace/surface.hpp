@@ -2,7 +2,9 @@
 
 #include <array>
 #include <optional>
+#include <string>
 #include <variant>
+#include <vector>
 
 #include <packtrace/vec.hpp>
 
@@ -54,6 +56,20 @@ struct Quadric {
     bool capped = false;
 };
 
-using Surface = std::variant<Sphere, Plane, Quadric>;
+/// A flat piece of a plane. Its contours are closed from the last corner to the first; what a line
+/// from it crosses an odd number of times is inside, so that a contour in another one is a hole.
+struct Polygon {
+    /// At least one contour, each of three corners or more; all corners in one plane.
+    std::vector<std::vector<Vec3>> contours;
+};
+
+/// The unit normal of a polygon's plane by Newell's method over the first contour, whose corners
+/// run clockwise seen from the side that it points to. Zero where the contour encloses no area.
+[[nodiscard]] Vec3 polygon_normal(const Polygon& polygon);
+
+/// What is wrong with a polygon, to be read behind its name: too few corners, no area, not flat.
+[[nodiscard]] std::optional<std::string> polygon_fault(const Polygon& polygon);
+
+using Surface = std::variant<Sphere, Plane, Quadric, Polygon>;
 
 }  // namespace packtrace

@@ -28,6 +28,18 @@ void define(ExactSurface& surface, const Plane& plane)
     surface.center = plane.point;
 }
 
+void define(ExactSurface& surface, const Polygon& polygon)
+{
+    surface.center = polygon.contours[0][0];
+    const BallVec center = balls(surface.center);
+    for (const auto& contour : polygon.contours)
+        for (std::size_t i = 0; i < contour.size(); ++i)
+            surface.edges.push_back(
+                {balls(contour[i]) - center, balls(contour[(i + 1) % contour.size()]) - center});
+    for (std::size_t i = 0; i < polygon.contours[0].size(); ++i)
+        surface.linear = surface.linear + cross(surface.edges[i][0], surface.edges[i][1]);
+}
+
 /// The planes that a x² - b y² = 0 is made of, along any two of the axes; nothing for all else.
 std::optional<std::array<BallVec, 2>> crossing_planes(const std::array<double, 10>& k)
 {

@@ -1,6 +1,8 @@
 #pragma once
 
+#include <array>
 #include <optional>
+#include <vector>
 
 #include <packtrace/scene.hpp>
 
@@ -22,6 +24,9 @@ struct ExactSurface {
     bool capped = false;
     /// Of a x² = b y², along any two axes: normals of the two planes that it is.
     std::optional<std::array<BallVec, 2>> sheets;
+
+    /// Edges of a polygon from `center`, two ends each; `linear` is half a normal of its plane.
+    std::vector<std::array<BallVec, 2>> edges;
 
     ExactSurface(const Surface& from, const Mat4& transform);
 

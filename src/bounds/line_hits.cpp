@@ -1,6 +1,7 @@
 #include "bounds/line_hits.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "bounds/exact_surface.hpp"
@@ -50,6 +51,10 @@ public:
         if (surface_.sheets) {
             for (const BallVec& sheet : *surface_.sheets)
                 add_plane(dot(sheet, p_), dot(sheet, v_), found);
+            return found;
+        }
+        if (!surface_.edges.empty()) {
+            add_polygon(found);
             return found;
         }
         add_sides(found);
@@ -125,6 +130,73 @@ private:
             }
             found.push_back(hit);
         }
+    }
+
+    void add_polygon(std::vector<HitInterval>& found) const
+    {
+        const Proof inside = within_edges();
+        if (inside == Proof::no)
+            return;
+        std::vector<HitInterval> crossing;
+        add_plane(surface_.value(p_), dot(surface_.linear + surface_.linear, v_), crossing);
+        for (HitInterval& hit : crossing) {
+            hit.certain = hit.certain && inside == Proof::yes;
+            found.push_back(hit);
+        }
+    }
+
+    /// Whether the line passes through a polygon, by the even-odd rule along one of four half axes
+    /// across it: one on which no end of an edge lies.
+    [[nodiscard]] Proof within_edges() const
+    {
+        const Ball v[3] = {v_.x, v_.y, v_.z};
+        int along = magnitude(v[1].mid) > magnitude(v[0].mid) ? 1 : 0;
+        along = magnitude(v[2].mid) > magnitude(v[along].mid) ? 2 : along;
+        for (const int turn : {0, 1, 2, 3})
+            if (const Proof inside = crossing_parity(along, turn); inside != Proof::open)
+                return inside;
+        return Proof::open;
+    }
+
+    /// An edge's end across the line, times the line's component `along`.
+    [[nodiscard]] std::array<Ball, 2> across(const BallVec& end, int along) const
+    {
+        const BallVec off = end - p_;
+        const Ball q[3] = {off.x, off.y, off.z};
+        const Ball v[3] = {v_.x, v_.y, v_.z};
+        const int x = (along + 1) % 3;
+        const int y = (along + 2) % 3;
+        return {q[x] * v[along] - v[x] * q[along], q[y] * v[along] - v[y] * q[along]};
+    }
+
+    [[nodiscard]] Proof crossing_parity(int along, int turn) const
+    {
+        bool odd = false;
+        for (const auto& [from, to] : surface_.edges) {
+            std::array<std::array<Ball, 2>, 2> ends{across(from, along), across(to, along)};
+            for (auto& end : ends)
+                for (int quarter = 0; quarter < turn; ++quarter)
+                    end = {-end[1], end[0]};
+            const Proof crosses = crosses_half_axis(ends[0], ends[1]);
+            if (crosses == Proof::open)
+                return Proof::open;
+            odd ^= crosses == Proof::yes;
+        }
+        return odd ? Proof::yes : Proof::no;
+    }
+
+    static Proof crosses_half_axis(const std::array<Ball, 2>& a, const std::array<Ball, 2>& b)
+    {
+        if (is_negative(a[0]) && is_negative(b[0]))
+            return Proof::no;
+        if ((is_positive(a[1]) && is_positive(b[1])) || (is_negative(a[1]) && is_negative(b[1])))
+            return Proof::no;
+        if (!has_sign(a[1]) || !has_sign(b[1]))
+            return Proof::open;
+        const Ball side = a[0] * b[1] - b[0] * a[1];
+        if (!has_sign(side))
+            return Proof::open;
+        return is_positive(side) == is_positive(b[1]) ? Proof::yes : Proof::no;
     }
 
     /// Where height + t slope is 0.

@@ -99,7 +99,8 @@ void print_scene(const std::string& file, const Scene& scene, const SceneFeature
               << listed(count_lights(scene)) << "\nmodel    " << word_of(scene.illumination)
               << "\ndepth    " << scene.max_depth << "\nshadows  " << word_of(scene.shadows)
               << '\n';
-    print_memory(features.bytes, scene.objects.size());
+    if (features.bytes > 0)
+        print_memory(features.bytes, scene.objects.size());
 }
 
 std::string joined(const std::vector<std::string>& words)
@@ -127,8 +128,10 @@ void print_unsure(const UnsureSample& sample)
 void print_features(const SceneFeatures& features, const IsaInfo& isa,
                     const std::optional<UnsureSample>& unsure)
 {
-    std::cout << "kernel   " << features.kernel << ", " << isa.name << ", " << isa.lanes_single
-              << " lanes\nuses     " << joined(features.uses) << '\n';
+    std::cout << "kernel   " << features.kernel;
+    if (features.kernel != scalar_only)
+        std::cout << ", " << isa.name << ", " << isa.lanes_single << " lanes";
+    std::cout << "\nuses     " << joined(features.uses) << '\n';
     if (unsure)
         print_unsure(*unsure);
     std::cout << '\n';

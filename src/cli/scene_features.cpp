@@ -20,6 +20,7 @@ std::vector<std::string> used_features(const LoweredScene& lowered, Traversal tr
     add(!lowered.anchored_spheres.empty(), "anchored spheres");
     add(!lowered.planes.empty(), "planes");
     add(lowered.features.quadrics, "quadrics");
+    add(!lowered.polygons.empty(), "polygons");
     add(std::any_of(lowered.quadrics.begin(), lowered.quadrics.end(),
                     [](const LoweredQuadric& quadric) { return quadric.clipped(); }),
         "clipping");
@@ -44,6 +45,10 @@ SceneFeatures scene_features(const Scene& scene, const IsaInfo& isa)
     for (LeftOut& unused : unused_features(lowered, traversal))
         features.left_out.push_back(std::move(unused));
     features.uses = used_features(lowered, traversal);
+    if (!lowered.polygons.empty()) {
+        features.kernel = scalar_only;
+        return features;
+    }
     features.kernel =
         kernels_for(precision<float>(kernels_of(isa.name)), lowered.features).set.name;
     features.bytes = PackedScene<float>(lowered, traversal).bytes();

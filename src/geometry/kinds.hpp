@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "geometry/plane.hpp"
+#include "geometry/polygon.hpp"
 #include "geometry/quadric.hpp"
 #include "geometry/sphere.hpp"
 
@@ -18,10 +19,12 @@ struct SurfaceLists {
     std::vector<LoweredAnchoredSphere> anchored_spheres;
     std::vector<LoweredPlane> planes;
     std::vector<LoweredQuadric> quadrics;
+    std::vector<LoweredPolygon> polygons;
 };
 
 inline constexpr std::tuple surface_lists(&SurfaceLists::spheres, &SurfaceLists::anchored_spheres,
-                                          &SurfaceLists::planes, &SurfaceLists::quadrics);
+                                          &SurfaceLists::planes, &SurfaceLists::quadrics,
+                                          &SurfaceLists::polygons);
 inline constexpr std::size_t kind_count = std::tuple_size_v<decltype(surface_lists)>;
 
 /// Calls `visit` with the member pointer of every list.

@@ -22,6 +22,8 @@ struct GeometryView {
     RecordList<AnchoredSphere<Real>> anchored_spheres;
     RecordList<PlaneRecord<Real>> planes;
     RecordList<QuadricRecord<Real>> quadrics;
+    RecordList<PolygonRecord<Real>> polygons;
+    const PolygonCorner<Real>* polygon_corners = nullptr;
     BvhView<Real> tree;  ///< holds what the lists do not
 };
 

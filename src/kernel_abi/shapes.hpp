@@ -18,6 +18,9 @@ enum class SurfaceKind : std::uint32_t {
     high_cap
 };
 
+/// A polygon's; it becomes one of the enumeration when kernels know it.
+inline constexpr SurfaceKind polygon_kind{7};
+
 /// Where the record of a surface is: in the array of its kind (caps: of quadrics).
 struct SurfaceIndex {
     std::uint32_t record : 28;
@@ -36,6 +39,8 @@ struct ShapesView {
     const AnchoredSphere<double>* anchored_spheres = nullptr;
     const PlaneRecord<double>* planes = nullptr;
     const QuadricRecord<double>* quadrics = nullptr;
+    const PolygonRecord<double>* polygons = nullptr;
+    const PolygonCorner<double>* polygon_corners = nullptr;
     /// Some surface may be hit again by rays that leave it on its outer side.
     bool hit_again_outside = false;
 };

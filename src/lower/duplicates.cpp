@@ -23,6 +23,14 @@ std::uint64_t hash_of(const std::tuple<Part...>& key)
     return hash;
 }
 
+std::uint64_t hash_of(const std::vector<double>& key)
+{
+    std::uint64_t hash = 0;
+    for (const double part : key)
+        hash = hash_of(std::tuple(double(hash >> 12), part));
+    return hash;
+}
+
 struct HashedSurface {
     std::uint64_t hash;
     std::uint32_t number;  ///< in the list

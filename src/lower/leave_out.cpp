@@ -87,7 +87,7 @@ std::vector<LeftOut> unused_features(const LoweredScene& lowered, Traversal trav
             unused.push_back({what, why});
     };
     unless(traversal == Traversal::tree, "hierarchy", "lists are quicker for so few");
-    unless(uses.quadrics, "quadrics", "all surfaces are spheres and planes");
+    unless(uses.quadrics, "quadrics", "no surface is one");
     unless(uses.exact, "certain tests and refinement", "--accuracy fast does without");
     unless(!lowered.checkers.empty(), "checkers", "no plane has one");
     unless(!lowered.lights.empty(), "lights", "none shines from a place or a direction");

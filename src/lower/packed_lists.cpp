@@ -41,6 +41,10 @@ PackedLists<Real>::PackedLists(const LoweredScene& lowered, bool is_tree)
     pack_all(lowered.anchored_spheres, is_tree, anchored_spheres_, pack<Real>);
     pack_all(lowered.planes, is_tree, planes_, pack<Real>);
     pack_all(lowered.quadrics, is_tree, quadrics_, pack<Real>);
+    pack_all(lowered.polygons, is_tree, polygons_, pack<Real>);
+    const auto corners = pack_corners<Real>(lowered.polygons);
+    polygon_corners_ = AlignedArray<abi::PolygonCorner<Real>>(corners.size());
+    std::copy(corners.begin(), corners.end(), polygon_corners_.data());
 }
 
 template <class Real>
@@ -80,6 +84,8 @@ void PackedLists<Real>::show(abi::GeometryView<Real>& view) const
     view.anchored_spheres = list_of(anchored_spheres_);
     view.planes = list_of(planes_);
     view.quadrics = list_of(quadrics_);
+    view.polygons = list_of(polygons_);
+    view.polygon_corners = polygon_corners_.data();
 }
 
 template class PackedLists<float>;

@@ -20,7 +20,7 @@ public:
     [[nodiscard]] std::size_t bytes() const
     {
         return sphere_reals_.bytes() + sphere_surfaces_.bytes() + anchored_spheres_.bytes() +
-               planes_.bytes() + quadrics_.bytes();
+               planes_.bytes() + quadrics_.bytes() + polygons_.bytes() + polygon_corners_.bytes();
     }
 
 private:
@@ -33,6 +33,8 @@ private:
     AlignedArray<abi::AnchoredSphere<Real>> anchored_spheres_;
     AlignedArray<abi::PlaneRecord<Real>> planes_;
     AlignedArray<abi::QuadricRecord<Real>> quadrics_;
+    AlignedArray<abi::PolygonRecord<Real>> polygons_;
+    AlignedArray<abi::PolygonCorner<Real>> polygon_corners_;
 };
 
 }  // namespace packtrace

@@ -23,6 +23,7 @@ namespace packtrace {
 template <class Real>
 class PackedScene {
 public:
+    /// Throws std::invalid_argument for polygons, which no kernel traces.
     explicit PackedScene(const LoweredScene& lowered, Traversal traversal = Traversal::automatic);
     PackedScene(const PackedScene&) = delete;
     PackedScene& operator=(const PackedScene&) = delete;

@@ -25,12 +25,13 @@ public:
     [[nodiscard]] std::size_t bytes() const
     {
         const auto sum = [](const auto&... shapes) { return (shapes.bytes() + ...); };
-        return index_.bytes() + std::apply(sum, shapes_);
+        return index_.bytes() + polygon_corners_.bytes() + std::apply(sum, shapes_);
     }
 
 private:
     AlignedArray<abi::SurfaceIndex> index_;
     decltype(shape_arrays_of(surface_lists)) shapes_;
+    AlignedArray<abi::PolygonCorner<double>> polygon_corners_;
     abi::ShapesView view_;
 };
 

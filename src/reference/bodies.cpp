@@ -30,6 +30,12 @@ QuadricBody<Real> convert_surface(const Quadric& quadric, int object, SelfHits)
     return body;
 }
 
+template <class Real>
+PolygonBody<Real> convert_surface(const Polygon& polygon, int object, SelfHits)
+{
+    return polygon_body<Real>(polygon, Affine<long double>(Mat4(1.0)), object);
+}
+
 }  // namespace
 
 template <class Real>
@@ -62,6 +68,10 @@ Bodies<Real>::Bodies(const Scene& scene, SelfHits rule, bool (*wanted)(const Obj
         } else if (const auto* plane = std::get_if<Plane>(&from.surface); plane && in_world) {
             places.push_back({BodyKind::plane, planes.size()});
             planes.push_back(convert_surface<Real>(*plane, object, rule));
+        } else if (const auto* polygon = std::get_if<Polygon>(&from.surface)) {
+            places.push_back({BodyKind::polygon, polygons.size()});
+            polygons.push_back(
+                polygon_body<Real>(*polygon, Affine<long double>(from.transform), object));
         } else {
             places.push_back({BodyKind::placed, placed.size()});
             placed.push_back(place_body<Real>(from, object, rule));

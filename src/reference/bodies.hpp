@@ -4,6 +4,7 @@
 #include <packtrace/scene.hpp>
 #include "reference/affine.hpp"
 #include "reference/plane.hpp"
+#include "reference/polygon.hpp"
 #include "reference/quadric.hpp"
 #include "reference/sphere.hpp"
 
@@ -16,13 +17,14 @@ namespace packtrace::reference {
 template <class Real>
 struct PlacedBody {
     Affine<Real> placement;
-    std::variant<SphereBody<Real>, PlaneBody<Real>, QuadricBody<Real>> surface;
+    std::variant<SphereBody<Real>, PlaneBody<Real>, QuadricBody<Real>, PolygonBody<Real>> surface;
     int object = 0;
 };
 
-enum class BodyKind { sphere, plane, placed };
+enum class BodyKind { sphere, plane, polygon, placed };
 
-/// A scene's surfaces, converted once; objects without a matrix stay in world space.
+/// A scene's surfaces, converted once; objects without a matrix stay in world space, and polygons
+/// always come to it, so that they share their corners.
 template <class Real>
 struct Bodies {
     struct Place {
@@ -31,6 +33,7 @@ struct Bodies {
     };
     std::vector<SphereBody<Real>> spheres;
     std::vector<PlaneBody<Real>> planes;
+    std::vector<PolygonBody<Real>> polygons;
     std::vector<PlacedBody<Real>> placed;
     std::vector<Place> places;  ///< by object number, of those that are in
 
@@ -53,6 +56,9 @@ void visit_bodies(const Bodies<Real>& bodies, const Visit& visit)
             return;
     for (const PlaneBody<Real>& plane : bodies.planes)
         if (!visit(plane))
+            return;
+    for (const PolygonBody<Real>& polygon : bodies.polygons)
+        if (!visit(polygon))
             return;
     for (const PlacedBody<Real>& body : bodies.placed)
         if (!visit(body))

@@ -38,6 +38,9 @@ template <class Real>
     }
     for (const PlaneBody<Real>& plane : bodies.planes)
         offer(intersect_ray_plane(O, D, plane), plane.object, Part::side, dot(plane.normal, D) > 0);
+    for (const PolygonBody<Real>& polygon : bodies.polygons)
+        for (const auto& root : roots_of(polygon, O, D))
+            offer(root.t, polygon.object, root.part, root.leaving);
     for (const PlacedBody<Real>& body : bodies.placed)
         for (const auto& root : roots_of(body, O, D))
             offer(root.t, body.object, root.part, root.leaving);

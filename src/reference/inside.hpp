@@ -19,6 +19,13 @@ template <class Real>
     return dot(plane.normal, p - plane.point) < 0;
 }
 
+/// A sheet has no inside.
+template <class Real>
+[[nodiscard]] bool is_inside(const PolygonBody<Real>&, const Vec3<Real>&)
+{
+    return false;
+}
+
 template <class Real>
 [[nodiscard]] bool is_inside(const QuadricBody<Real>& quadric, const Vec3<Real>& p)
 {

@@ -71,6 +71,13 @@ template <class Real>
     return {};
 }
 
+template <class Real>
+[[nodiscard]] Roots<Real> own_roots(const PolygonBody<Real>&, const Vec3<Real>&, const Vec3<Real>&,
+                                    Part, Side)
+{
+    return {};
+}
+
 /// From a point on the side.
 template <class Real>
 [[nodiscard]] Roots<Real> roots_from_side(const QuadricBody<Real>& quadric, const Vec3<Real>& P,

@@ -29,6 +29,8 @@ template <class Real>
             return normal_at(bodies.spheres[index], P, hit.part);
         case BodyKind::plane:
             return normal_at(bodies.planes[index], P, hit.part);
+        case BodyKind::polygon:
+            return normal_at(bodies.polygons[index], P, hit.part);
         case BodyKind::placed:
             break;
     }
@@ -46,7 +48,8 @@ template <class Real>
     return {-unit(D).value_or(Vec3<Real>()), false};
 }
 
-/// The place that a surface's coordinates are off from: a sphere's centre, a plane's point, where
+/// The place that a surface's coordinates are off from: a sphere's centre, a plane's or a
+/// polygon's first point, where
 /// a matrix takes the own origin.
 template <class Real>
 [[nodiscard]] Vec3<Real> place_of(const Bodies<Real>& bodies, int object)
@@ -57,6 +60,8 @@ template <class Real>
             return bodies.spheres[index].center;
         case BodyKind::plane:
             return bodies.planes[index].point;
+        case BodyKind::polygon:
+            return bodies.polygons[index].contours[0][0];
         case BodyKind::placed:
             break;
     }

@@ -107,6 +107,7 @@ std::string surface_table()
     add(Sphere{});
     add(Plane{});
     add(Quadric{});
+    add(Polygon{});
     return result;
 }
 

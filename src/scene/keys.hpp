@@ -150,6 +150,33 @@ inline const Rows<Quadric> rows<Quadric>{
             "example z_range = (-1, 1) or remove it"),
 };
 
+/// Each time it stands there it adds a contour.
+inline Row<Polygon> vertices_row()
+{
+    const Type<std::vector<Vec3>> contour = points();
+    return {
+        .key = "vertices",
+        .meaning =
+            "the corners in turn, all in one plane; once more for each further contour, "
+            "such as a hole",
+        .takes = contour.takes,
+        .read = [contour](const Field& field,
+                          Polygon& polygon) { polygon.contours.push_back(contour.read(field)); },
+        .write =
+            [contour](std::string& out, const Polygon& polygon) {
+                for (std::size_t i = 0; i < polygon.contours.size(); ++i) {
+                    out += i == 0 ? "" : " vertices=";
+                    contour.write(out, polygon.contours[i]);
+                }
+            },
+        .is_set = [](const Polygon& polygon) { return !polygon.contours.empty(); },
+        .example = "(0, 0, 3), (1, 0, 3), (0, 1, 3)",
+        .repeatable = true};
+}
+
+template <>
+inline const Rows<Polygon> rows<Polygon>{vertices_row()};
+
 template <>
 inline const Rows<ObjectKeys> rows<ObjectKeys>{
     row("name", name(), &ObjectKeys::name,

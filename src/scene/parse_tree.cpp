@@ -16,7 +16,8 @@ namespace {
 
 // A tree takes far more memory than its text. These bound it for a text that is no scene: no
 // key takes as many numbers, and no scene of the largest size has as many keys.
-constexpr std::size_t most_items = 64;
+constexpr std::size_t most_items = 65'536;
+constexpr std::size_t most_numbers = 64;
 constexpr std::size_t most_entries = 8'000'000;
 
 /// Grows the syntax tree while the grammar matches; its calls follow the text from left to right.
@@ -77,7 +78,7 @@ public:
     void add_part(Word part)
     {
         std::vector<Word>& parts = open_.back().value.back().parts;
-        check_room(parts.size(), most_items, part.at, "numbers in a tuple");
+        check_room(parts.size(), most_numbers, part.at, "numbers in a tuple");
         parts.push_back(part);
     }
 

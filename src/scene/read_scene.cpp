@@ -135,12 +135,18 @@ public:
     [[nodiscard]] Object read(const Field& field, const SurfaceWord& kind)
     {
         refuse_foreign_keys(field);
-        const Block block(field, kind.word, object_keys_.at(kind.word), keys<Mat4>());
+        Keys repeatable = keys<Mat4>();
+        add(repeatable, std::visit([](const auto& surface) { return repeatable_keys_of(surface); },
+                                   kind.blank));
+        const Block block(field, kind.word, object_keys_.at(kind.word), repeatable);
         Object object;
         object.surface = kind.blank;
         std::visit([&](auto& surface) { read_rows(block, surface); }, object.surface);
         if (auto* const plane = std::get_if<Plane>(&object.surface))
             plane_axes(*plane);
+        if (const auto* const polygon = std::get_if<Polygon>(&object.surface))
+            if (const auto fault = polygon_fault(*polygon))
+                block.find("vertices")->fail(*fault);
         for (const Field& step : block.fields())
             for (const Row<Mat4>& row : rows<Mat4>)
                 if (row.key == step.entry.key.text)
@@ -157,6 +163,9 @@ private:
     [[nodiscard]] Keys keys_of_object(const Surface& blank) const
     {
         Keys result = std::visit([](const auto& surface) { return keys_of(surface); }, blank);
+        const Keys repeatable =
+            std::visit([](const auto& surface) { return repeatable_keys_of(surface); }, blank);
+        std::erase_if(result, [&](std::string_view key) { return contains(repeatable, key); });
         add(result, material_keys_);
         add(result, keys<ObjectKeys>());
         return result;

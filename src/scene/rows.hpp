@@ -136,14 +136,30 @@ template <class Owner>
     return result;
 }
 
+/// Those of them that may stand in a block several times.
+template <class Owner>
+[[nodiscard]] Keys repeatable_keys_of(const Owner&)
+{
+    Keys result;
+    for (const Row<Owner>& row : rows<Owner>)
+        if (row.repeatable)
+            result.push_back(row.key);
+    return result;
+}
+
 /// Sets what the block's keys say. Throws SceneError for a wrong, a misplaced or a missing one.
 template <class Owner>
 void read_rows(const Block& block, Owner& owner)
 {
     for (const Row<Owner>& row : rows<Owner>) {
         const auto field = block.find(row.key);
-        if (field)
+        if (row.repeatable) {
+            for (const Field& each : block.fields())
+                if (each.entry.key.text == row.key)
+                    row.read(each, owner);
+        } else if (field) {
             row.read(*field, owner);
+        }
         const bool allowed = row.is_allowed(owner);
         if (field && !allowed)
             field->fail(std::string(row.fault));

@@ -280,6 +280,29 @@ Type<Vec3> point()
     return {"point", read_point, append_vector};
 }
 
+Type<std::vector<Vec3>> points()
+{
+    return {"points",
+            [](const Field& field) {
+                constexpr std::string_view form = "(0, 0, 3), (1, 0, 3), (0, 1, 3)";
+                if (field.entry.kind != EntryKind::value)
+                    fail_kind(field, field.entry.key.at, "points, not a block", form);
+                std::vector<Vec3> points;
+                for (const Item& item : field.entry.value) {
+                    if (item.kind != ItemKind::tuple || !item.text.empty())
+                        fail_kind(field, item.at, "points in brackets", form);
+                    points.push_back(to_vector(part_numbers(field, item, 3, form, any_number)));
+                }
+                return points;
+            },
+            [](std::string& out, const std::vector<Vec3>& points) {
+                for (std::size_t i = 0; i < points.size(); ++i) {
+                    out += i == 0 ? "" : ",";
+                    append_vector(out, points[i]);
+                }
+            }};
+}
+
 Type<Vec3> direction()
 {
     return {"direction",

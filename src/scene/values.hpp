@@ -53,6 +53,8 @@ inline constexpr Range share{.low = 0.0, .high = 1.0};
 [[nodiscard]] Type<int> whole_number(int low, int high);
 /// (x, y, z)
 [[nodiscard]] Type<Vec3> point();
+/// (x, y, z), (x, y, z), …
+[[nodiscard]] Type<std::vector<Vec3>> points();
 /// (x, y, z) other than (0, 0, 0), as long as written.
 [[nodiscard]] Type<Vec3> direction();
 /// (a, b)

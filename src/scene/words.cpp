@@ -26,6 +26,7 @@ std::span<const SurfaceWord> surface_words()
                 {info.name, Quadric{info.kind, info.coefficients, {}, false}, info.equation});
         all.push_back(
             {"quadric", Quadric{}, "Ax² + By² + Cz² + Dxy + Exz + Fyz + Gx + Hy + Iz + J = 0"});
+        all.push_back({"polygon", Polygon{}, "flat, of any outline, holes by the even-odd rule"});
         return all;
     }();
     return words;

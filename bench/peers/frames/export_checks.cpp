@@ -21,7 +21,8 @@ double checked_ambient(const Scene& scene)
 
 void check_object(const Object& object)
 {
-    if (std::holds_alternative<Quadric>(object.surface) || object.transform != Mat4(1.0) ||
+    if (std::holds_alternative<Quadric>(object.surface) ||
+        std::holds_alternative<Polygon>(object.surface) || object.transform != Mat4(1.0) ||
         object.material.checker)
         throw std::runtime_error(object.name +
                                  " can't be exported, only plain spheres and planes can");

@@ -35,6 +35,13 @@ void round(Plane& plane)
     round<Real>(plane.point);
 }
 template <class Real>
+void round(Polygon& polygon)
+{
+    for (auto& contour : polygon.contours)
+        for (Vec3& corner : contour)
+            round<Real>(corner);
+}
+template <class Real>
 void round(Quadric&)
 {
 }

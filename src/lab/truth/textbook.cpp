@@ -31,6 +31,13 @@ Definition define(const Plane& plane)
     return {{0, 0, 0, 0, 0, 0, n.x, n.y, n.z, 0}, plane.point};
 }
 
+/// The plane; what is inside is decided by the corners.
+Definition define(const Polygon& polygon)
+{
+    const Vec3 n = polygon_normal(polygon);
+    return {{0, 0, 0, 0, 0, 0, n.x, n.y, n.z, 0}, polygon.contours[0][0]};
+}
+
 Definition define(const Quadric& quadric)
 {
     return {quadric.coefficients, Vec3(0.0)};
@@ -104,6 +111,14 @@ TextbookScene<Real>::TextbookScene(const Scene& scene)
             }
             body.capped = quadric->capped;
         }
+        if (const auto* polygon = std::get_if<Polygon>(&object.surface))
+            for (const auto& contour : polygon->contours)
+                for (std::size_t corner = 0; corner < contour.size(); ++corner)
+                    for (const Vec3& end :
+                         {contour[corner], contour[(corner + 1) % contour.size()]})
+                        body.corners.push_back({static_cast<Real>(end.x - place.x),
+                                                static_cast<Real>(end.y - place.y),
+                                                static_cast<Real>(end.z - place.z)});
         bodies_.push_back(body);
     }
 }
@@ -119,10 +134,32 @@ Vec<Real> direction_to_own(const TextbookBody<Real>& body, const Vec<Real>& d)
             m[2][0] * d.x + m[2][1] * d.y + m[2][2] * d.z};
 }
 
+/// By the crossing numbers of a polygon's edges, seen along the axis nearest to its normal.
+template <class Real>
+bool within_edges(const TextbookBody<Real>& body, const Vec<Real>& p)
+{
+    const Real* const n = body.coefficient + 6;
+    std::size_t along = std::abs(n[1]) > std::abs(n[0]) ? 1 : 0;
+    along = std::abs(n[2]) > std::abs(n[along]) ? 2 : along;
+    const std::size_t x = (along + 1) % 3;
+    const std::size_t y = (along + 2) % 3;
+    const Real at[3] = {p.x, p.y, p.z};
+    bool inside = false;
+    for (std::size_t i = 0; i < body.corners.size(); i += 2) {
+        const auto& a = body.corners[i];
+        const auto& b = body.corners[i + 1];
+        if ((a[y] > at[y]) != (b[y] > at[y]))
+            inside ^= at[x] < a[x] + (b[x] - a[x]) * (at[y] - a[y]) / (b[y] - a[y]);
+    }
+    return inside;
+}
+
 /// `which` of the places is on the clipped side or on a cap.
 template <class Real>
 bool on_surface(const TextbookBody<Real>& body, const Vec<Real>& p, int which)
 {
+    if (!body.corners.empty())
+        return within_edges(body, p);
     return which < 2 ? p.z >= body.low && p.z <= body.high : value(body.coefficient, p) <= 0;
 }
 

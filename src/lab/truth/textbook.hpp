@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <limits>
 #include <vector>
 
@@ -14,6 +15,7 @@ struct TextbookBody {
     Real low = -std::numeric_limits<Real>::infinity();
     Real high = std::numeric_limits<Real>::infinity();
     bool capped = false;
+    std::vector<std::array<Real, 3>> corners;  ///< of a polygon, own space; a pair is an edge
 };
 
 /// What a first book on the subject gives: centre and radius, b² - 4 a c, (-b ± √D) / 2a, a

@@ -40,6 +40,26 @@ void define(WideSurface& surface, const Plane& plane)
     surface.by_points = surface.placed;
 }
 
+void define(WideSurface& surface, const Polygon& polygon)
+{
+    set_coefficients(surface, {});
+    const WideVec first = wide(polygon.contours[0][0]);
+    for (const auto& contour : polygon.contours)
+        for (std::size_t i = 0; i < contour.size(); ++i)
+            surface.edges.push_back({wide(contour[i]), wide(contour[(i + 1) % contour.size()])});
+    for (std::size_t i = 0; i < polygon.contours[0].size(); ++i) {
+        const auto& [from, to] = surface.edges[i];
+        surface.linear = surface.linear + cross(from - first, to - first);
+    }
+    surface.constant = -Wide(2) * dot(surface.linear, first);
+    for (const auto& [from, to] : surface.edges) {
+        const WideVec size = magnitudes(from);
+        surface.place = {std::max(surface.place.x, size.x), std::max(surface.place.y, size.y),
+                         std::max(surface.place.z, size.z)};
+    }
+    surface.by_points = surface.placed;
+}
+
 /// The planes that a x² - b y² = 0 is made of, along any two of the axes; nothing for all else.
 std::optional<std::array<WideVec, 2>> crossing_planes(const std::array<double, 10>& k)
 {

@@ -3,11 +3,12 @@
 #include <array>
 #include <cstdint>
 #include <optional>
+#include <vector>
 
 #include <packtrace/scene.hpp>
 
-#include "lab/truth/wide.hpp"
 #include "geometry/canonical_form.hpp"
+#include "lab/truth/wide.hpp"
 
 namespace packtrace::lab {
 
@@ -30,6 +31,8 @@ struct WideSurface {
     bool capped = false;
     /// Of x² = z² and its like: normals of the two planes, whose product the equation is.
     std::optional<std::array<WideVec, 2>> sheets;
+    /// Edges of a polygon, two ends each; `linear` is half a normal of its plane.
+    std::vector<std::array<WideVec, 2>> edges;
     std::int32_t object = 0;
 
     explicit WideSurface(const Object& from, std::int32_t number);

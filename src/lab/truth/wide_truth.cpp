@@ -16,6 +16,9 @@ constexpr double never = std::numeric_limits<double>::infinity();
 /// A coordinate in own space is a sum of three products, each rounded up to three times.
 constexpr double own_roundings = 3.0;
 
+/// What a polygon's normal, made of its edges' cross products, is rounded by.
+constexpr double normal_roundings = 8.0;
+
 double narrow(const Wide& x)
 {
     return static_cast<double>(x);
@@ -114,6 +117,9 @@ public:
         b_ = dot(surface.gradient(p_), v_);
         c_ = surface.value(p_);
         infinity_margin_ = margin_of_infinity(second);
+        const Vec3 size = glm::abs(own_dir_);
+        widest_ = size.y > size.x ? 1 : 0;
+        widest_ = size.z > size[widest_] ? 2 : widest_;
     }
 
     void find(std::vector<TrueHit>& found) const
@@ -121,6 +127,10 @@ public:
         if (surface_.sheets) {
             for (const std::size_t sheet : {std::size_t{0}, std::size_t{1}})
                 find_sheet((*surface_.sheets)[sheet], (*surface_.sheets)[1 - sheet], found);
+            return;
+        }
+        if (!surface_.edges.empty()) {
+            find_polygon(found);
             return;
         }
         find_sides(found);
@@ -330,6 +340,71 @@ private:
         hit.spread = hit.condition * std::abs(narrow(hit.t));
     }
 
+    /// Where the line hits a polygon's plane; on it or not by the even-odd rule across the line,
+    /// and as far from the other as the nearest edge is, in what changes of the inputs move it by.
+    void find_polygon(std::vector<TrueHit>& found) const
+    {
+        const WideVec g = surface_.linear;
+        const Wide slope = dot(g, v_);
+        if (slope == 0)
+            return;
+        const Wide t = -(c_ / 2) / slope;
+        const WideVec own = own_at(t);
+        const double steep = std::abs(narrow(slope));
+        const double spread = reach(g, t, own) / steep;
+        const double turn = sensitivity_.of_direction(narrow3(g), to_world(g), own_dir_);
+        bool inside = false;
+        double margin = steep / turn;
+        for (const auto& [from, to] : surface_.edges) {
+            inside ^= crosses_positive_x(across(from), across(to));
+            margin = std::min(margin, margin_of_edge(from, to, t, own));
+        }
+        TrueHit& hit = add(t, spread, g, inside, margin, found);
+        hit.normal_spread = normal_roundings;
+    }
+
+    /// A point from the line along its largest component, seen along the line.
+    [[nodiscard]] WideVec across(const WideVec& P) const
+    {
+        const WideVec off = P - p_;
+        const Wide p[3] = {off.x, off.y, off.z};
+        const Wide v[3] = {v_.x, v_.y, v_.z};
+        const int x = (widest_ + 1) % 3;
+        const int y = (widest_ + 2) % 3;
+        return {p[x] - v[x] / v[widest_] * p[widest_], p[y] - v[y] / v[widest_] * p[widest_], 0};
+    }
+
+    static bool crosses_positive_x(const WideVec& a, const WideVec& b)
+    {
+        if ((a.y > 0) == (b.y > 0))
+            return false;
+        const WideVec& lower = a.y > 0 ? b : a;
+        const WideVec& upper = a.y > 0 ? a : b;
+        return lower.x * upper.y > upper.x * lower.y;
+    }
+
+    /// Relative change of the inputs that brings the line to an edge.
+    [[nodiscard]] double margin_of_edge(const WideVec& from, const WideVec& to, const Wide& t,
+                                        const WideVec& own) const
+    {
+        const WideVec a = across(from);
+        const WideVec way = across(to) - a;
+        const Wide length2 = dot(way, way);
+        const Wide share =
+            length2 > 0 ? std::clamp(Wide(-dot(a, way) / length2), Wide(0), Wide(1)) : Wide(0);
+        const WideVec nearest = a + share * way;
+        const double distance = narrow(square_root(dot(nearest, nearest)));
+        double blur = 0.0;
+        for (const int axis : {(widest_ + 1) % 3, (widest_ + 2) % 3}) {
+            Wide unit[3] = {0, 0, 0};
+            unit[axis] = 1;
+            const Wide v[3] = {v_.x, v_.y, v_.z};
+            unit[widest_] = -v[axis] / v[widest_];
+            blur += reach({unit[0], unit[1], unit[2]}, t, own);
+        }
+        return distance / blur;
+    }
+
     void find_cap(double height, int side, std::vector<TrueHit>& found) const
     {
         if (v_.z == 0)
@@ -357,6 +432,7 @@ private:
     Wide b_ = 0;
     Wide c_ = 0;
     double infinity_margin_ = 0.0;
+    int widest_ = 0;  ///< the largest component of the direction
 };
 
 }  // namespace

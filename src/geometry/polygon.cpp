@@ -1,0 +1,115 @@
+#include "geometry/polygon.hpp"
+
+#include <algorithm>
+#include <limits>
+
+#include <glm/common.hpp>
+#include <glm/geometric.hpp>
+#include <glm/matrix.hpp>
+
+#include "geometry/kinds.hpp"
+#include "geometry/round_to.hpp"
+
+namespace packtrace {
+namespace {
+
+void bound(LoweredPolygon& polygon)
+{
+    Vec3 low(std::numeric_limits<double>::infinity());
+    Vec3 high = -low;
+    for (const auto& corner : polygon.corners) {
+        low = glm::min(low, widen(corner.position));
+        high = glm::max(high, widen(corner.position));
+    }
+    // Rounding of the bound itself; far more than it can be.
+    constexpr double slack = 1.0 + 1e-9;
+    polygon.bound = 0.5 * low + 0.5 * high;
+    polygon.box_half = slack * glm::max(high - polygon.bound, polygon.bound - low);
+    for (const auto& corner : polygon.corners)
+        polygon.bound_radius = std::max(
+            polygon.bound_radius, slack * glm::length(widen(corner.position) - polygon.bound));
+}
+
+void add_contour(const std::vector<Vec3>& contour, const Mat4& transform, LoweredPolygon& polygon)
+{
+    const std::size_t start = polygon.corners.size();
+    for (const Vec3& own : contour) {
+        abi::PolygonCorner<double> corner{};
+        round_to(corner.position, Vec3(transform * glm::dvec4(own, 1.0)));
+        corner.starts_contour = polygon.corners.size() == start ? 1 : 0;
+        polygon.corners.push_back(corner);
+    }
+    polygon.corners.push_back(polygon.corners[start]);
+    polygon.corners.back().starts_contour = 0;
+}
+
+}  // namespace
+
+int lower_kind(const Object& object, const Polygon& polygon, std::int32_t surface,
+               SurfaceLists& lists)
+{
+    LoweredPolygon result;
+    for (const std::vector<Vec3>& contour : polygon.contours)
+        add_contour(contour, object.transform, result);
+    const Mat3 normal_map = glm::transpose(glm::inverse(Mat3(object.transform)));
+    result.normal = glm::normalize(normal_map * polygon_normal(polygon));
+    bound(result);
+    result.surface = surface;
+    lists.polygons.push_back(std::move(result));
+    return 1;
+}
+
+void number_corners(SurfaceLists& lists)
+{
+    std::size_t count = 0;
+    for (LoweredPolygon& polygon : lists.polygons) {
+        polygon.first_corner = static_cast<std::int32_t>(count);
+        count += polygon.corners.size();
+    }
+}
+
+std::vector<double> key_of(const LoweredPolygon& polygon)
+{
+    std::vector<double> key{polygon.normal.x, polygon.normal.y, polygon.normal.z};
+    for (const auto& corner : polygon.corners) {
+        key.insert(key.end(), std::begin(corner.position), std::end(corner.position));
+        key.push_back(corner.starts_contour);
+    }
+    return key;
+}
+
+template <class Real>
+abi::PolygonRecord<Real> pack(const LoweredPolygon& polygon)
+{
+    abi::PolygonRecord<Real> packed;
+    round_to(packed.normal, polygon.normal);
+    round_to(packed.point, widen(polygon.corners[0].position));
+    round_to(packed.bound, polygon.bound);
+    packed.bound_radius = static_cast<Real>(polygon.bound_radius);
+    packed.first_corner = polygon.first_corner;
+    packed.corner_count = static_cast<std::int32_t>(polygon.corners.size());
+    packed.surface = polygon.surface;
+    return packed;
+}
+
+template <class Real>
+std::vector<abi::PolygonCorner<Real>> pack_corners(std::span<const LoweredPolygon> polygons)
+{
+    std::vector<abi::PolygonCorner<Real>> packed;
+    for (const LoweredPolygon& polygon : polygons) {
+        const auto first = static_cast<std::size_t>(polygon.first_corner);
+        packed.resize(std::max(packed.size(), first + polygon.corners.size()));
+        for (std::size_t i = 0; i < polygon.corners.size(); ++i) {
+            round_to(packed[first + i].position, widen(polygon.corners[i].position));
+            packed[first + i].starts_contour = polygon.corners[i].starts_contour;
+        }
+    }
+    return packed;
+}
+
+template abi::PolygonRecord<float> pack(const LoweredPolygon&);
+template abi::PolygonRecord<double> pack(const LoweredPolygon&);
+template std::vector<abi::PolygonCorner<float>> pack_corners(std::span<const LoweredPolygon>);
+template std::vector<abi::PolygonCorner<double>> pack_corners(std::span<const LoweredPolygon>);
+
+}  // namespace packtrace

@@ -1,0 +1,85 @@
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include <packtrace/scene.hpp>
+
+#include "geometry/object_rules.hpp"
+#include "kernel_abi/lists.hpp"
+#include "kernel_abi/shapes.hpp"
+
+namespace packtrace {
+
+struct SurfaceLists;
+
+struct LoweredPolygon {
+    static constexpr abi::SurfaceKind kind = abi::polygon_kind;
+    static constexpr auto shapes = &abi::ShapesView::polygons;
+
+    /// Of each contour the first corner stands once more at its end.
+    std::vector<abi::PolygonCorner<double>> corners;
+    Vec3 normal{0.0, 1.0, 0.0};  ///< unit, outwards
+    Vec3 bound{0.0};             ///< centre of a box around the corners, and of a ball
+    Vec3 box_half{0.0};
+    double bound_radius = 0.0;
+    std::int32_t first_corner = 0;  ///< in an array of the corners of all polygons
+    std::int32_t surface = 0;
+};
+
+[[nodiscard]] inline Fault fault_of(const Polygon& polygon)
+{
+    return polygon_fault(polygon);
+}
+
+/// Appends the polygon in world space; returns how many surface numbers it takes.
+int lower_kind(const Object& object, const Polygon& polygon, std::int32_t surface,
+               SurfaceLists& lists);
+
+/// Gives the corners of each polygon their places in one array.
+void number_corners(SurfaceLists& lists);
+
+/// A sheet has no inside.
+[[nodiscard]] inline Exit exit_of(const LoweredPolygon&, const Vec3&, const Vec3&)
+{
+    return std::nullopt;
+}
+
+/// All corners, one after another.
+[[nodiscard]] std::vector<double> key_of(const LoweredPolygon& polygon);
+
+[[nodiscard]] inline bool is_certifiable(const LoweredPolygon& polygon)
+{
+    return is_certifiable(polygon.bound, polygon.bound_radius);
+}
+
+[[nodiscard]] inline CenteredBox box_of(const LoweredPolygon& polygon)
+{
+    return {polygon.bound, polygon.box_half};
+}
+
+/// Stays in a list: no leaf of the hierarchy holds polygons.
+[[nodiscard]] inline bool fits_tree(const LoweredPolygon&)
+{
+    return false;
+}
+
+[[nodiscard]] inline int pieces_of(const LoweredPolygon&)
+{
+    return 1;
+}
+
+template <class Real>
+[[nodiscard]] abi::PolygonRecord<Real> pack(const LoweredPolygon& polygon);
+
+/// The corners of all polygons by their numbers, each coordinate rounded once.
+template <class Real>
+[[nodiscard]] std::vector<abi::PolygonCorner<Real>> pack_corners(
+    std::span<const LoweredPolygon> polygons);
+
+[[nodiscard]] inline abi::PolygonRecord<double> shape_of(const LoweredPolygon& polygon)
+{
+    return pack<double>(polygon);
+}
+
+}  // namespace packtrace
