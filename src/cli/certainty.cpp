@@ -73,11 +73,6 @@ std::string write_certainty(const RenderArguments& arguments, const Scene& scene
 
 std::optional<UnsureSample> sample_unsure(const Scene& scene, const std::string& isa)
 {
-    const auto is_polygon = [](const Object& object) {
-        return std::holds_alternative<Polygon>(object.surface);
-    };
-    if (std::any_of(scene.objects.begin(), scene.objects.end(), is_polygon))
-        return std::nullopt;
     Scene small = scene;
     const double shrink =
         std::min(1.0, static_cast<double>(sample_edge) / std::max(scene.width, scene.height));

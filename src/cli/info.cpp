@@ -128,10 +128,8 @@ void print_unsure(const UnsureSample& sample)
 void print_features(const SceneFeatures& features, const IsaInfo& isa,
                     const std::optional<UnsureSample>& unsure)
 {
-    std::cout << "kernel   " << features.kernel;
-    if (features.kernel != scalar_only)
-        std::cout << ", " << isa.name << ", " << isa.lanes_single << " lanes";
-    std::cout << "\nuses     " << joined(features.uses) << '\n';
+    std::cout << "kernel   " << features.kernel << ", " << isa.name << ", " << isa.lanes_single
+              << " lanes\nuses     " << joined(features.uses) << '\n';
     if (unsure)
         print_unsure(*unsure);
     std::cout << '\n';

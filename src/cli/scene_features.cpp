@@ -45,10 +45,6 @@ SceneFeatures scene_features(const Scene& scene, const IsaInfo& isa)
     for (LeftOut& unused : unused_features(lowered, traversal))
         features.left_out.push_back(std::move(unused));
     features.uses = used_features(lowered, traversal);
-    if (!lowered.polygons.empty()) {
-        features.kernel = scalar_only;
-        return features;
-    }
     features.kernel =
         kernels_for(precision<float>(kernels_of(isa.name)), lowered.features).set.name;
     features.bytes = PackedScene<float>(lowered, traversal).bytes();

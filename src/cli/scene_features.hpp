@@ -10,15 +10,12 @@
 
 namespace packtrace::cli {
 
-/// The kernel of a scene that packets do not trace.
-inline constexpr const char* scalar_only = "scalar";
-
 /// What becomes of a scene when packets of floats render it.
 struct SceneFeatures {
-    std::string kernel;             ///< name of the feature set, or `scalar_only`
+    std::string kernel;             ///< name of the feature set
     std::vector<std::string> uses;  ///< in the order of a frame's stages
     std::vector<LeftOut> left_out;
-    std::size_t bytes = 0;  ///< held for the scene by packets; 0 where they do not trace it
+    std::size_t bytes = 0;  ///< held for the scene by packets
 };
 
 [[nodiscard]] SceneFeatures scene_features(const Scene& scene, const IsaInfo& isa);

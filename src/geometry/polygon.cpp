@@ -59,15 +59,6 @@ int lower_kind(const Object& object, const Polygon& polygon, std::int32_t surfac
     return 1;
 }
 
-void number_corners(SurfaceLists& lists)
-{
-    std::size_t count = 0;
-    for (LoweredPolygon& polygon : lists.polygons) {
-        polygon.first_corner = static_cast<std::int32_t>(count);
-        count += polygon.corners.size();
-    }
-}
-
 std::vector<double> key_of(const LoweredPolygon& polygon)
 {
     std::vector<double> key{polygon.normal.x, polygon.normal.y, polygon.normal.z};
@@ -86,30 +77,34 @@ abi::PolygonRecord<Real> pack(const LoweredPolygon& polygon)
     round_to(packed.point, widen(polygon.corners[0].position));
     round_to(packed.bound, polygon.bound);
     packed.bound_radius = static_cast<Real>(polygon.bound_radius);
-    packed.first_corner = polygon.first_corner;
+    packed.corners = nullptr;
     packed.corner_count = static_cast<std::int32_t>(polygon.corners.size());
     packed.surface = polygon.surface;
     return packed;
 }
 
 template <class Real>
-std::vector<abi::PolygonCorner<Real>> pack_corners(std::span<const LoweredPolygon> polygons)
+PackedCorners<Real>::PackedCorners(std::span<const LoweredPolygon* const> polygons,
+                                   std::span<abi::PolygonRecord<Real>> records)
 {
-    std::vector<abi::PolygonCorner<Real>> packed;
-    for (const LoweredPolygon& polygon : polygons) {
-        const auto first = static_cast<std::size_t>(polygon.first_corner);
-        packed.resize(std::max(packed.size(), first + polygon.corners.size()));
-        for (std::size_t i = 0; i < polygon.corners.size(); ++i) {
-            round_to(packed[first + i].position, widen(polygon.corners[i].position));
-            packed[first + i].starts_contour = polygon.corners[i].starts_contour;
+    std::size_t count = 0;
+    for (const LoweredPolygon* polygon : polygons)
+        count += polygon->corners.size();
+    corners_ = AlignedArray<abi::PolygonCorner<Real>>(count);
+    abi::PolygonCorner<Real>* next = corners_.data();
+    for (std::size_t i = 0; i < polygons.size(); ++i) {
+        records[i].corners = next;
+        for (const abi::PolygonCorner<double>& corner : polygons[i]->corners) {
+            round_to(next->position, widen(corner.position));
+            next->starts_contour = corner.starts_contour;
+            ++next;
         }
     }
-    return packed;
 }
 
 template abi::PolygonRecord<float> pack(const LoweredPolygon&);
 template abi::PolygonRecord<double> pack(const LoweredPolygon&);
-template std::vector<abi::PolygonCorner<float>> pack_corners(std::span<const LoweredPolygon>);
-template std::vector<abi::PolygonCorner<double>> pack_corners(std::span<const LoweredPolygon>);
+template class PackedCorners<float>;
+template class PackedCorners<double>;
 
 }  // namespace packtrace

@@ -5,6 +5,7 @@
 
 #include <packtrace/scene.hpp>
 
+#include "core/aligned_array.hpp"
 #include "geometry/object_rules.hpp"
 #include "kernel_abi/lists.hpp"
 #include "kernel_abi/shapes.hpp"
@@ -14,7 +15,7 @@ namespace packtrace {
 struct SurfaceLists;
 
 struct LoweredPolygon {
-    static constexpr abi::SurfaceKind kind = abi::polygon_kind;
+    static constexpr abi::SurfaceKind kind = abi::SurfaceKind::polygon;
     static constexpr auto shapes = &abi::ShapesView::polygons;
 
     /// Of each contour the first corner stands once more at its end.
@@ -23,7 +24,6 @@ struct LoweredPolygon {
     Vec3 bound{0.0};             ///< centre of a box around the corners, and of a ball
     Vec3 box_half{0.0};
     double bound_radius = 0.0;
-    std::int32_t first_corner = 0;  ///< in an array of the corners of all polygons
     std::int32_t surface = 0;
 };
 
@@ -35,9 +35,6 @@ struct LoweredPolygon {
 /// Appends the polygon in world space; returns how many surface numbers it takes.
 int lower_kind(const Object& object, const Polygon& polygon, std::int32_t surface,
                SurfaceLists& lists);
-
-/// Gives the corners of each polygon their places in one array.
-void number_corners(SurfaceLists& lists);
 
 /// A sheet has no inside.
 [[nodiscard]] inline Exit exit_of(const LoweredPolygon&, const Vec3&, const Vec3&)
@@ -58,10 +55,9 @@ void number_corners(SurfaceLists& lists);
     return {polygon.bound, polygon.box_half};
 }
 
-/// Stays in a list: no leaf of the hierarchy holds polygons.
-[[nodiscard]] inline bool fits_tree(const LoweredPolygon&)
+[[nodiscard]] inline bool fits_tree(const LoweredPolygon& polygon)
 {
-    return false;
+    return within_tree(box_of(polygon));
 }
 
 [[nodiscard]] inline int pieces_of(const LoweredPolygon&)
@@ -69,17 +65,32 @@ void number_corners(SurfaceLists& lists);
     return 1;
 }
 
+/// Without its corners, which PackedCorners adds.
 template <class Real>
 [[nodiscard]] abi::PolygonRecord<Real> pack(const LoweredPolygon& polygon);
-
-/// The corners of all polygons by their numbers, each coordinate rounded once.
-template <class Real>
-[[nodiscard]] std::vector<abi::PolygonCorner<Real>> pack_corners(
-    std::span<const LoweredPolygon> polygons);
 
 [[nodiscard]] inline abi::PolygonRecord<double> shape_of(const LoweredPolygon& polygon)
 {
     return pack<double>(polygon);
 }
+
+/// The corners of some polygons, each coordinate rounded once.
+template <class Real>
+class PackedCorners {
+public:
+    PackedCorners() = default;
+
+    /// Points `records`, which are those of `polygons`, to their corners.
+    PackedCorners(std::span<const LoweredPolygon* const> polygons,
+                  std::span<abi::PolygonRecord<Real>> records);
+
+    [[nodiscard]] std::size_t bytes() const
+    {
+        return corners_.bytes();
+    }
+
+private:
+    AlignedArray<abi::PolygonCorner<Real>> corners_;
+};
 
 }  // namespace packtrace

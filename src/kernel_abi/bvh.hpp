@@ -24,28 +24,28 @@ struct alignas(64) BvhNode {
     std::uint32_t child[node_width];  ///< see below
 };
 
-// A child is a node by its index, a block of spheres, or a run of quadrics.
+// A child is a node by its index, a block of spheres, or a run of objects of one other kind.
 inline constexpr std::uint32_t leaf_bit = 1u << 31;
-inline constexpr std::uint32_t quadric_bit = 1u << 30;
-inline constexpr int quadric_count_shift = 27;  ///< three bits: count - 1
-inline constexpr std::uint32_t block_mask = quadric_bit - 1;
-inline constexpr std::uint32_t quadric_mask = (1u << quadric_count_shift) - 1;
+inline constexpr std::uint32_t run_bit = 1u << 30;
+inline constexpr int run_count_shift = 27;  ///< three bits: count - 1
+inline constexpr std::uint32_t block_mask = run_bit - 1;
+inline constexpr std::uint32_t run_mask = (1u << run_count_shift) - 1;
 
 constexpr bool is_leaf(std::uint32_t child)
 {
     return (child & leaf_bit) != 0;
 }
-constexpr bool is_quadric_leaf(std::uint32_t child)
+constexpr bool is_run(std::uint32_t child)
 {
-    return (child & quadric_bit) != 0;
+    return (child & run_bit) != 0;
 }
-constexpr int first_quadric(std::uint32_t child)
+constexpr int first_of_run(std::uint32_t child)
 {
-    return static_cast<int>(child & quadric_mask);
+    return static_cast<int>(child & run_mask);
 }
-constexpr int quadric_count(std::uint32_t child)
+constexpr int run_count(std::uint32_t child)
 {
-    return static_cast<int>(child >> quadric_count_shift & 7) + 1;
+    return static_cast<int>(child >> run_count_shift & 7) + 1;
 }
 
 /// The spheres of one leaf; unused places have a negative radius, which nothing hits.
@@ -62,8 +62,10 @@ struct BvhView {
     /// `shapes`.
     const SphereBlock<Real>* blocks = nullptr;
     const std::int32_t* block_surfaces = nullptr;   ///< eight a block, apart: only hits need them
-    const QuadricRecord<Real>* quadrics = nullptr;  ///< likewise
-    const std::int32_t* quadric_surfaces = nullptr;
+    const std::int32_t* run_surfaces = nullptr;     ///< of the objects in runs, quadrics first
+    const QuadricRecord<Real>* quadrics = nullptr;  ///< likewise null
+    const PolygonRecord<Real>* polygons = nullptr;  ///< likewise; those after the quadrics
+    int quadric_count = 0;
     const ShapesView* shapes = nullptr;
     int node_count = 0;  ///< 0: the scene has no hierarchy, its lists hold everything
     /// Largest magnitude of a coordinate of the root's box.

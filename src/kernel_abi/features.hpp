@@ -28,7 +28,6 @@ inline constexpr FeatureSet feature_sets[] = {
     {"shiny", {.highlights = true}},
     {"mirrors", {.highlights = true, .bounces = true}},
     {"matt quadrics", {.quadrics = true}},
-    {"quadrics", {.quadrics = true, .highlights = true, .bounces = true, .colored = true}},
     {"general",
      {.quadrics = true, .highlights = true, .bounces = true, .colored = true, .glass = true}},
     {"probe",

@@ -75,6 +75,12 @@ struct QuadricRecord {
     std::int32_t surface;  ///< its number; with caps the next is the low one's, then the high's
 };
 
+template <class Real>
+struct PolygonCorner {
+    Real position[3];
+    std::int32_t starts_contour;
+};
+
 /// A planar polygon in world space, by the even-odd rule over its contours. Of each contour the
 /// first corner stands once more at its end, so that an edge leads from every corner to the one
 /// after it unless that `starts_contour`.
@@ -84,15 +90,9 @@ struct PolygonRecord {
     Real point[3];   ///< of the plane: the first corner
     Real bound[3];   ///< centre of a ball around the corners
     Real bound_radius;
-    std::int32_t first_corner;  ///< in the array of all corners
+    const PolygonCorner<Real>* corners;
     std::int32_t corner_count;
     std::int32_t surface;
-};
-
-template <class Real>
-struct PolygonCorner {
-    Real position[3];
-    std::int32_t starts_contour;
 };
 
 template <class Record>

@@ -26,6 +26,7 @@ enum class Part : std::int32_t {
     anchored_spheres,
     planes,
     quadrics,
+    polygons,
     retrace,     ///< unsure rays traced again in double
     compaction,  ///< hits to a stream, with those that are solved again
     surface,     ///< normals and materials at hits
@@ -34,7 +35,7 @@ enum class Part : std::int32_t {
     children,    ///< directions and weights of child rays, and their way into streams
     film         ///< light into pixels
 };
-inline constexpr int part_count = 14;
+inline constexpr int part_count = 15;
 
 /// Whether work is done for shadow rays, or for those they start from.
 enum class Role : std::int32_t { own, shadow };
@@ -74,8 +75,8 @@ struct TestCounts {
     std::uint64_t pairs = 0;    ///< of a live ray and an object in them
 };
 
-enum class Primitive : std::int32_t { sphere, anchored_sphere, plane, quadric };
-inline constexpr int primitive_count = 4;
+enum class Primitive : std::int32_t { sphere, anchored_sphere, plane, quadric, polygon };
+inline constexpr int primitive_count = 5;
 
 /// Why single precision could not decide about a ray.
 enum class Cause : std::int32_t {

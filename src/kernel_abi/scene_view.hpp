@@ -23,7 +23,6 @@ struct GeometryView {
     RecordList<PlaneRecord<Real>> planes;
     RecordList<QuadricRecord<Real>> quadrics;
     RecordList<PolygonRecord<Real>> polygons;
-    const PolygonCorner<Real>* polygon_corners = nullptr;
     BvhView<Real> tree;  ///< holds what the lists do not
 };
 

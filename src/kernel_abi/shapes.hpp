@@ -15,11 +15,9 @@ enum class SurfaceKind : std::uint32_t {
     plane,
     quadric_side,
     low_cap,
-    high_cap
+    high_cap,
+    polygon
 };
-
-/// A polygon's; it becomes one of the enumeration when kernels know it.
-inline constexpr SurfaceKind polygon_kind{7};
 
 /// Where the record of a surface is: in the array of its kind (caps: of quadrics).
 struct SurfaceIndex {
@@ -40,7 +38,6 @@ struct ShapesView {
     const PlaneRecord<double>* planes = nullptr;
     const QuadricRecord<double>* quadrics = nullptr;
     const PolygonRecord<double>* polygons = nullptr;
-    const PolygonCorner<double>* polygon_corners = nullptr;
     /// Some surface may be hit again by rays that leave it on its outer side.
     bool hit_again_outside = false;
 };

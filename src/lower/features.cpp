@@ -37,7 +37,7 @@ std::vector<bool> used_materials(const LoweredScene& lowered)
 abi::Features features_of(const LoweredScene& lowered)
 {
     abi::Features features;
-    features.quadrics = !lowered.quadrics.empty();
+    features.quadrics = !lowered.quadrics.empty() || !lowered.polygons.empty();
     const std::vector<bool> used = used_materials(lowered);
     for (std::size_t i = 0; i < used.size(); ++i)
         if (used[i])

@@ -94,7 +94,6 @@ LoweredScene lower(const Scene& scene, Accuracy accuracy, SelfHits self_hits)
     lower_model_rules(scene, lowered);
     lower_objects(scene, lowered);
     part_anchored_spheres(lowered);
-    number_corners(lowered);
     lowered.self_hits = self_hits;
     lowered.casts_shadow = shadow_casters(scene, lowered);
 

@@ -1,7 +1,5 @@
 #include "lower/packed_lists.hpp"
 
-#include <algorithm>
-
 namespace packtrace {
 namespace {
 
@@ -42,9 +40,8 @@ PackedLists<Real>::PackedLists(const LoweredScene& lowered, bool is_tree)
     pack_all(lowered.planes, is_tree, planes_, pack<Real>);
     pack_all(lowered.quadrics, is_tree, quadrics_, pack<Real>);
     pack_all(lowered.polygons, is_tree, polygons_, pack<Real>);
-    const auto corners = pack_corners<Real>(lowered.polygons);
-    polygon_corners_ = AlignedArray<abi::PolygonCorner<Real>>(corners.size());
-    std::copy(corners.begin(), corners.end(), polygon_corners_.data());
+    polygon_corners_ = PackedCorners<Real>(listed(lowered.polygons, is_tree),
+                                           {polygons_.data(), polygons_.size()});
 }
 
 template <class Real>
@@ -85,7 +82,6 @@ void PackedLists<Real>::show(abi::GeometryView<Real>& view) const
     view.planes = list_of(planes_);
     view.quadrics = list_of(quadrics_);
     view.polygons = list_of(polygons_);
-    view.polygon_corners = polygon_corners_.data();
 }
 
 template class PackedLists<float>;

@@ -34,7 +34,7 @@ private:
     AlignedArray<abi::PlaneRecord<Real>> planes_;
     AlignedArray<abi::QuadricRecord<Real>> quadrics_;
     AlignedArray<abi::PolygonRecord<Real>> polygons_;
-    AlignedArray<abi::PolygonCorner<Real>> polygon_corners_;
+    PackedCorners<Real> polygon_corners_;
 };
 
 }  // namespace packtrace

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <limits>
-#include <stdexcept>
 
 #include "geometry/round_to.hpp"
 #include "lower/in_parallel.hpp"
@@ -49,12 +48,6 @@ PackedTree<Real> pack_tree(const LoweredScene& lowered, Traversal traversal)
                : PackedTree<Real>();
 }
 
-void refuse_polygons(const LoweredScene& lowered)
-{
-    if (!lowered.polygons.empty())
-        throw std::invalid_argument("polygons are traced by --kernel scalar only");
-}
-
 /// Whether each surface has the number of its object, so that none need be looked up.
 bool are_objects(const std::vector<abi::MaterialIndex>& surfaces)
 {
@@ -76,7 +69,6 @@ PackedScene<Real>::PackedScene(const LoweredScene& lowered, Traversal traversal)
       lists_(lowered, !tree_.view().empty()),
       shapes_(lowered)
 {
-    refuse_polygons(lowered);
     tree_.set_shapes(shapes_.view());
     view_.tree = tree_.view();
     lists_.show(view_);

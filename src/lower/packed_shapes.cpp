@@ -40,10 +40,11 @@ PackedShapes::PackedShapes(const LoweredScene& lowered) : index_(lowered.materia
         auto& shapes = std::get<AlignedArray<ShapeOf<Kind>>>(shapes_);
         shapes = pack_kind(lowered.*list, lowered.faces_viewer, index_, view_.*Kind::shapes);
     });
-    const auto corners = pack_corners<double>(lowered.polygons);
-    polygon_corners_ = AlignedArray<abi::PolygonCorner<double>>(corners.size());
-    std::copy(corners.begin(), corners.end(), polygon_corners_.data());
-    view_.polygon_corners = polygon_corners_.data();
+    std::vector<const LoweredPolygon*> polygons;
+    for (const LoweredPolygon& polygon : lowered.polygons)
+        polygons.push_back(&polygon);
+    auto& records = std::get<AlignedArray<abi::PolygonRecord<double>>>(shapes_);
+    polygon_corners_ = PackedCorners<double>(polygons, {records.data(), records.size()});
     view_.index = index_.data();
     view_.hit_again_outside =
         !std::all_of(lowered.quadrics.begin(), lowered.quadrics.end(), is_convex);

@@ -31,7 +31,7 @@ public:
 private:
     AlignedArray<abi::SurfaceIndex> index_;
     decltype(shape_arrays_of(surface_lists)) shapes_;
-    AlignedArray<abi::PolygonCorner<double>> polygon_corners_;
+    PackedCorners<double> polygon_corners_;
     abi::ShapesView view_;
 };
 

@@ -10,7 +10,7 @@
 namespace packtrace {
 namespace {
 
-enum ItemKind : std::uint32_t { sphere_item, quadric_item };
+enum ItemKind : std::uint32_t { sphere_item, quadric_item, polygon_item };
 
 /// How far single precision shifts the hits of a sphere, as a share of the distances there are:
 /// docs/numerics_derivations.md derives 16 units in the last place.
@@ -43,8 +43,9 @@ BvhItem make_item(const CenteredBox& box, std::size_t number, ItemKind kind)
 }
 
 template <class Object>
-constexpr ItemKind item_kind =
-    Object::kind == abi::SurfaceKind::sphere ? sphere_item : quadric_item;
+constexpr ItemKind item_kind = Object::kind == abi::SurfaceKind::sphere    ? sphere_item
+                               : Object::kind == abi::SurfaceKind::polygon ? polygon_item
+                                                                           : quadric_item;
 
 /// Writes items of the objects that fit, in order; returns the end of them.
 template <class Object>
@@ -60,10 +61,11 @@ BvhItem* fill_items(const std::vector<Object>& objects, BvhItem* items)
 
 Bvh build_tree(const LoweredScene& lowered)
 {
-    const auto items =
-        AlignedArray<BvhItem>::unset(lowered.spheres.size() + lowered.quadrics.size());
+    const auto items = AlignedArray<BvhItem>::unset(
+        lowered.spheres.size() + lowered.quadrics.size() + lowered.polygons.size());
     BvhItem* end = fill_items(lowered.spheres, items.data());
     end = fill_items(lowered.quadrics, end);
+    end = fill_items(lowered.polygons, end);
     return build_bvh({items.data(), end});
 }
 
@@ -126,8 +128,10 @@ PackedTree<Real>::PackedTree(const LoweredScene& lowered)
     view_.nodes = nodes_.data();
     view_.blocks = blocks_.data();
     view_.block_surfaces = block_surfaces_.data();
+    view_.run_surfaces = run_surfaces_.data();
     view_.quadrics = quadrics_.data();
-    view_.quadric_surfaces = quadric_surfaces_.data();
+    view_.polygons = polygons_.data();
+    view_.quadric_count = static_cast<int>(quadrics_.size());
     view_.node_count = static_cast<int>(bvh.nodes.size());
     view_.extent = extent_of(nodes_[0]);
     view_.slack = static_cast<float>(worst_slack(lowered));
@@ -164,7 +168,8 @@ abi::BvhView<double> PackedTree<Real>::wide_view(const abi::ShapesView& shapes) 
     abi::BvhView<double> wide;
     wide.nodes = view_.nodes;
     wide.block_surfaces = view_.block_surfaces;
-    wide.quadric_surfaces = view_.quadric_surfaces;
+    wide.run_surfaces = view_.run_surfaces;
+    wide.quadric_count = view_.quadric_count;
     wide.shapes = &shapes;
     wide.node_count = view_.node_count;
     wide.extent = view_.extent;
@@ -177,45 +182,60 @@ abi::BvhView<double> PackedTree<Real>::wide_view(const abi::ShapesView& shapes) 
 template <class Real>
 void PackedTree<Real>::pack_leaves(const LoweredScene& lowered, Bvh& bvh)
 {
-    std::size_t block_count = 0;
-    std::size_t quadric_count = 0;
+    std::size_t count[] = {0, 0, 0};  // blocks, quadrics, polygons
+    for (const BvhLeaf& leaf : bvh.leaves)
+        count[leaf.kind] += leaf.kind == sphere_item ? 1 : leaf.count;
+    blocks_ = AlignedArray<abi::SphereBlock<Real>>::unset(count[sphere_item]);
+    block_surfaces_ = AlignedArray<std::int32_t>::unset(count[sphere_item] * abi::node_width);
+    quadrics_ = AlignedArray<abi::QuadricRecord<Real>>::unset(count[quadric_item]);
+    polygons_ = AlignedArray<abi::PolygonRecord<Real>>::unset(count[polygon_item]);
+    run_surfaces_ = AlignedArray<std::int32_t>::unset(count[quadric_item] + count[polygon_item]);
+    std::vector<const LoweredPolygon*> polygons(count[polygon_item]);
+    std::uint32_t next[] = {0, 0, static_cast<std::uint32_t>(count[quadric_item])};
     std::vector<std::uint32_t> packed_at(bvh.leaves.size());
     for (std::size_t i = 0; i < bvh.leaves.size(); ++i) {
         const BvhLeaf& leaf = bvh.leaves[i];
-        if (leaf.kind == sphere_item) {
-            packed_at[i] = abi::leaf_bit | static_cast<std::uint32_t>(block_count++);
-        } else {
-            packed_at[i] = abi::leaf_bit | abi::quadric_bit |
-                           (leaf.count - 1) << abi::quadric_count_shift |
-                           static_cast<std::uint32_t>(quadric_count);
-            quadric_count += leaf.count;
-        }
+        std::uint32_t& place = next[leaf.kind];
+        packed_at[i] = abi::leaf_bit | place;
+        if (leaf.kind != sphere_item)
+            packed_at[i] |= abi::run_bit | (leaf.count - 1) << abi::run_count_shift;
+        place += leaf.kind == sphere_item ? 1 : leaf.count;
     }
-    blocks_ = AlignedArray<abi::SphereBlock<Real>>::unset(block_count);
-    block_surfaces_ = AlignedArray<std::int32_t>::unset(block_count * abi::node_width);
-    quadric_surfaces_ = AlignedArray<std::int32_t>::unset(quadric_count);
-    quadrics_ = AlignedArray<abi::QuadricRecord<Real>>::unset(quadric_count);
     for_each_in_parallel(bvh.leaves, [&](const BvhLeaf& leaf) {
         const std::uint32_t at = packed_at[static_cast<std::size_t>(&leaf - bvh.leaves.data())];
         if (leaf.kind == sphere_item)
             pack_block(lowered, bvh, leaf, at & abi::block_mask);
+        else if (leaf.kind == quadric_item)
+            pack_run(lowered.quadrics, bvh, leaf, at & abi::run_mask, 0, quadrics_);
         else
-            pack_run(lowered, bvh, leaf, at & abi::quadric_mask);
+            pack_run(lowered.polygons, bvh, leaf, at & abi::run_mask, count[quadric_item],
+                     polygons_);
     });
+    for (const BvhLeaf& leaf : bvh.leaves)
+        if (leaf.kind == polygon_item) {
+            const std::uint32_t at = packed_at[static_cast<std::size_t>(&leaf - bvh.leaves.data())];
+            for (std::uint32_t i = 0; i < leaf.count; ++i)
+                polygons[(at & abi::run_mask) - count[quadric_item] + i] =
+                    &lowered.polygons[bvh.order[leaf.first + i]];
+        }
+    polygon_corners_ = PackedCorners<Real>(polygons, {polygons_.data(), polygons_.size()});
     for (abi::BvhNode& node : bvh.nodes)
         for (int slot = 0; slot < abi::node_width; ++slot)
             if (abi::is_leaf(node.child[slot]) && node.low[0][slot] <= node.high[0][slot])
                 node.child[slot] = packed_at[node.child[slot] & ~abi::leaf_bit];
 }
 
+/// The run begins with the number `first`, and `records` with the number `base`.
 template <class Real>
-void PackedTree<Real>::pack_run(const LoweredScene& lowered, const Bvh& bvh, const BvhLeaf& leaf,
-                                std::uint32_t first)
+template <class Object, class Record>
+void PackedTree<Real>::pack_run(const std::vector<Object>& objects, const Bvh& bvh,
+                                const BvhLeaf& leaf, std::size_t first, std::size_t base,
+                                AlignedArray<Record>& records)
 {
     for (std::uint32_t i = 0; i < leaf.count; ++i) {
-        const LoweredQuadric& quadric = lowered.quadrics[bvh.order[leaf.first + i]];
-        quadrics_[first + i] = pack<Real>(quadric);
-        quadric_surfaces_[first + i] = quadric.surface;
+        const Object& object = objects[bvh.order[leaf.first + i]];
+        records[first - base + i] = pack<Real>(object);
+        run_surfaces_[first + i] = object.surface;
     }
 }
 

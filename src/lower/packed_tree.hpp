@@ -35,22 +35,25 @@ public:
     [[nodiscard]] std::size_t bytes() const
     {
         return nodes_.bytes() + blocks_.bytes() + block_surfaces_.bytes() + quadrics_.bytes() +
-               quadric_surfaces_.bytes();
+               polygons_.bytes() + polygon_corners_.bytes() + run_surfaces_.bytes();
     }
 
 private:
     void pack_leaves(const LoweredScene& lowered, Bvh& bvh);
     void bound_root(const abi::BvhNode& root);
-    void pack_run(const LoweredScene& lowered, const Bvh& bvh, const BvhLeaf& leaf,
-                  std::uint32_t first);
+    template <class Object, class Record>
+    void pack_run(const std::vector<Object>& objects, const Bvh& bvh, const BvhLeaf& leaf,
+                  std::size_t first, std::size_t base, AlignedArray<Record>& records);
     void pack_block(const LoweredScene& lowered, const Bvh& bvh, const BvhLeaf& leaf,
                     std::uint32_t index);
 
     AlignedArray<abi::BvhNode> nodes_;
     AlignedArray<abi::SphereBlock<Real>> blocks_;
     AlignedArray<std::int32_t> block_surfaces_;
-    AlignedArray<std::int32_t> quadric_surfaces_;
+    AlignedArray<std::int32_t> run_surfaces_;
     AlignedArray<abi::QuadricRecord<Real>> quadrics_;
+    AlignedArray<abi::PolygonRecord<Real>> polygons_;
+    PackedCorners<Real> polygon_corners_;
     abi::BvhView<Real> view_;
 };
 

@@ -2,6 +2,7 @@
 
 #include "kernels/geometry/anchored_sphere_filter.hpp"
 #include "kernels/geometry/plane.hpp"
+#include "kernels/geometry/polygon.hpp"
 #include "kernels/geometry/quadric_filter.hpp"
 #include "kernels/geometry/sphere_filter.hpp"
 
@@ -53,7 +54,7 @@ inline void visit_crossings(const Object& object, const RayPacket<Real>& rays, c
 template <class... Kind>
 struct KindList {
 };
-using Kinds = KindList<Sphere, AnchoredSphere, Plane, Quadric>;
+using Kinds = KindList<Sphere, AnchoredSphere, Plane, Quadric, Polygon>;
 
 /// Calls `visit(kind)` for the kinds that scenes of these features have, until it returns false.
 template <abi::Features F, class Visit, class... Kind>

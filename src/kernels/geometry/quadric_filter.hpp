@@ -1,8 +1,8 @@
 #pragma once
 
+#include "kernels/geometry/ball_filter.hpp"
 #include "kernels/geometry/quadric.hpp"
 #include "kernels/geometry/quadric_body.hpp"
-#include "kernels/geometry/sphere_filter.hpp"
 
 // Quadrics for rays in single precision: a certain rejection, and behind it the test in double,
 // two half packets at a time.
@@ -14,9 +14,7 @@ struct QuadricFilter {
     const abi::QuadricRecord<float>* record;
     const abi::QuadricRecord<double>* wide;
     float p[3];             ///< a shared origin in canonical space, rounded once from double
-    float ball[3];          ///< centre of the bounding ball; for a shared origin from there to it
-    float ball_outer2;      ///< infinite for an unbounded quadric
-    float ball_reach;       ///< half the way of a ray through the ball at most, times |d|
+    BallFilter ball;        ///< around it; infinite for an unbounded quadric
     float moment_error[3];  ///< of m = p × v, per |d|
     float dir_error[3];     ///< of v, per |d|
     float most_error;       ///< of the discriminant, per d·d
@@ -75,18 +73,12 @@ template <bool Shared>
     QuadricFilter filter{};
     filter.record = &record;
     filter.wide = &wide;
+    filter.ball = ball_filter<Shared>(wide.bound, record.bound_radius, origins);
     double distance2 = 0;
-    double to_ball2 = 0;
-    float ball_error = 0;
     double w[3];
     for (int axis = 0; axis < 3; ++axis) {
         w[axis] = double{origins.center[axis]} - wide.center[axis] - wide.center_low[axis];
         distance2 += w[axis] * w[axis];
-        const double to_ball = double{origins.center[axis]} - wide.bound[axis];
-        to_ball2 += to_ball * to_ball;
-        filter.ball[axis] = static_cast<float>(Shared ? to_ball : wide.bound[axis]);
-        const double moved = double{filter.ball[axis]} - (Shared ? to_ball : wide.bound[axis]);
-        ball_error += static_cast<float>(moved < 0 ? -moved : moved);
     }
     const float reach =
         (static_cast<float>(__builtin_sqrt(distance2)) + origins.radius) * inflation;
@@ -103,15 +95,6 @@ template <bool Shared>
         filter.moment_error[axis] =
             roundoffs(26.0f) * row[(axis + 1) % 3] * row[(axis + 2) % 3] * reach;
     filter.most_error = most_error(filter, row, reach);
-    const float to_ball =
-        (static_cast<float>(__builtin_sqrt(to_ball2)) + origins.radius) * inflation;
-    const vreal<float> center_error(ball_error * inflation);
-    const SphereBounds<vreal<float>> ball =
-        sphere_bounds(vreal<float>(record.bound_radius * inflation), center_error,
-                      moment_error(center_error, vreal<float>(to_ball)));
-    filter.ball_outer2 = first_lane<float>(ball.outer2);
-    filter.ball_reach =
-        (__builtin_sqrtf(filter.ball_outer2) + first_lane<float>(ball.along)) * inflation;
     return filter;
 }
 
@@ -174,29 +157,14 @@ template <bool Shared>
     return quadric.capped ? misses & bits(a > of_a * vreal<float>(inflation)) : misses;
 }
 
-/// Lanes that may hit the quadric's bounding ball between t_min and t_end.
-template <bool Shared>
-inline std::uint32_t may_hit_ball(const QuadricFilter& filter, const RayPacket<float>& rays,
-                                  const RayScale& scale, const vreal<float>& t_end)
-{
-    const Vec3v<float> w = Shared ? broadcast(filter.ball) : rays.org - broadcast(filter.ball);
-    const std::uint32_t near = bits(approach(w, vreal<float>(filter.ball_outer2), rays).near);
-    if (near == 0)
-        return 0;
-    const vreal<float> middle = negated(dot(w, rays.dir)) * scale.inverse2;
-    const vreal<float> reach = madd(vreal<float>(filter.ball_reach), scale.inverse,
-                                    vreal<float>(roundoffs(28.0f)) * abs(middle));
-    return near & ~bits(middle + reach < rays.t_min) & ~bits(middle - reach > t_end);
-}
-
 /// Lanes that may hit the quadric between t_min and t_end, in double to be looked at.
 template <bool Shared>
 inline std::uint32_t may_hit(const QuadricFilter& filter, const RayPacket<float>& rays,
                              const RayScale& scale, const vreal<float>& t_end)
 {
     std::uint32_t near = all_lanes<float>;
-    if (filter.ball_outer2 < __builtin_inff())
-        near = may_hit_ball<Shared>(filter, rays, scale, t_end);
+    if (filter.ball.outer2 < __builtin_inff())
+        near = may_hit_ball<Shared>(filter.ball, rays, scale, t_end);
     return near == 0 ? 0 : near & ~surely_misses<Shared>(filter, rays, scale);
 }
 

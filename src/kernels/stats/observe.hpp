@@ -137,6 +137,11 @@ inline std::uint32_t count_lit(std::uint32_t, std::uint32_t lit)
     return lit;
 }
 
+constexpr abi::Part part_of(abi::Primitive)
+{
+    return {};
+}
+
 struct PartScope {
     explicit PartScope(abi::Part)
     {

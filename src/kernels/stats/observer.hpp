@@ -278,7 +278,7 @@ inline void count_block_tests(const abi::SphereBlock<Real>& block)
 constexpr abi::Part part_of(abi::Primitive kind)
 {
     constexpr abi::Part parts[] = {abi::Part::spheres, abi::Part::anchored_spheres,
-                                   abi::Part::planes, abi::Part::quadrics};
+                                   abi::Part::planes, abi::Part::quadrics, abi::Part::polygons};
     return parts[static_cast<int>(kind)];
 }
 

@@ -22,8 +22,8 @@ public:
     void operator()(std::uint32_t child, std::uint32_t cells) const
     {
         if constexpr (F.quadrics)
-            if (abi::is_quadric_leaf(child))
-                return quadrics(child, cells);
+            if (abi::is_run(child))
+                return run(child, cells);
         abi::SphereBlock<Real> room;
         spheres(sphere_leaf(tree_, child, room), cells);
     }
@@ -98,23 +98,21 @@ private:
         return true;
     }
 
-    void quadrics(std::uint32_t child, std::uint32_t cells) const
+    void run(std::uint32_t child, std::uint32_t cells) const
     {
-        const PartScope part(abi::Part::quadrics);
-        for (int i = 0; i < abi::quadric_count(child); ++i)
+        for (int i = 0; i < abi::run_count(child); ++i)
             for (std::uint32_t left = cells; left != 0; left &= left - 1)
-                keep_quadric_of(abi::first_quadric(child) + i, __builtin_ctz(left));
+                keep_object(abi::first_of_run(child) + i, __builtin_ctz(left));
         join_t_max(bounds_);
     }
 
-    void keep_quadric_of(int number, int cell) const
+    void keep_object(int number, int cell) const
     {
         for (int first = cell * cell_rays; first < (cell + 1) * cell_rays; first += lanes<Real>) {
             tell_live(active_lanes(bundle_, first));
-            count_tests(abi::Primitive::quadric, 1);
             HitPacket<Real> hit = load_hits(bundle_, first);
-            keep_leaf_quadric<F>(hit, tree_, number, bundle_, load_rays(bundle_, first),
-                                 own_of(bundle_, first));
+            keep_of_run<F>(hit, tree_, number, bundle_, load_rays(bundle_, first),
+                           own_of(bundle_, first));
             store_hits<F>(bundle_, first, hit);
         }
         bounds_.t_max[cell] = furthest(bundle_, cell);

@@ -17,11 +17,10 @@ public:
 
     void operator()(std::uint32_t child, std::uint32_t cells) const
     {
-        if (F.quadrics && abi::is_quadric_leaf(child)) {
-            for (int i = 0; i < abi::quadric_count(child); ++i)
+        if (F.quadrics && abi::is_run(child)) {
+            for (int i = 0; i < abi::run_count(child); ++i)
                 for (std::uint32_t left = cells; left != 0; left &= left - 1)
-                    quadric(leaf_quadric(tree_, abi::first_quadric(child) + i),
-                            __builtin_ctz(left));
+                    object(abi::first_of_run(child) + i, __builtin_ctz(left));
             return;
         }
         abi::SphereBlock<Real> room;
@@ -58,11 +57,14 @@ private:
         });
     }
 
-    void quadric(const abi::QuadricRecord<Real>& record, int cell) const
+    void object(int number, int cell) const
     {
-        packets_of(cell, [&](int first, const RayPacket<Real>& rays) {
-            visit_crossings(record, rays, [&](vmask<Real> valid, const vreal<Real>& t, int piece) {
-                visit_(first, valid, t, record.surface + piece);
+        with_object_of_run(tree_, number, [&](auto, const auto& record, const auto&) {
+            packets_of(cell, [&](int first, const RayPacket<Real>& rays) {
+                visit_crossings(record, rays,
+                                [&](vmask<Real> valid, const vreal<Real>& t, int piece) {
+                                    visit_(first, valid, t, record.surface + piece);
+                                });
             });
         });
     }

@@ -32,8 +32,8 @@ public:
     void operator()(std::uint32_t child, std::uint32_t cells) const
     {
         if constexpr (F.quadrics)
-            if (abi::is_quadric_leaf(child))
-                return quadrics(child, cells);
+            if (abi::is_run(child))
+                return run(child, cells);
         abi::SphereBlock<Real> room;
         spheres(sphere_leaf(tree_, child, room), cells);
     }
@@ -93,17 +93,18 @@ private:
         }
     }
 
-    void quadrics(std::uint32_t child, std::uint32_t cells) const
+    void run(std::uint32_t child, std::uint32_t cells) const
     {
-        const PartScope part(abi::Part::quadrics);
-        for (int i = 0; i < abi::quadric_count(child); ++i) {
-            const int number = abi::first_quadric(child) + i;
-            const std::int32_t surface = leaf_quadric(tree_, number).surface;
+        for (int i = 0; i < abi::run_count(child); ++i) {
+            const int number = abi::first_of_run(child) + i;
+            const std::int32_t surface = tree_.run_surfaces[number];
+            const abi::Primitive kind = primitive_of_run(tree_, number);
+            const PartScope part(part_of(kind));
             for (std::uint32_t left = cells; left != 0; left &= left - 1)
-                object(abi::Primitive::quadric, __builtin_ctz(left), surface, [&](int first) {
-                    return leaf_quadric_occludes<F>(
-                        tree_, number, bundle_, load_rays(bundle_, first), load(bundle_.t + first),
-                        load(bundle_.own + first), closed_);
+                object(kind, __builtin_ctz(left), surface, [&](int first) {
+                    return object_occludes<F>(tree_, number, bundle_, load_rays(bundle_, first),
+                                              load(bundle_.t + first), load(bundle_.own + first),
+                                              closed_);
                 });
         }
         join_t_max(bounds_);

@@ -36,36 +36,33 @@ inline void closest_of_spheres(RayBundle<Real>& bundle, int ray, const BlockRay<
     }
 }
 
-/// A quadric of a leaf.
+/// An object of a run.
 template <abi::Features F, class Real, class Own>
-inline void keep_leaf_quadric(HitPacket<Real>& hit, const abi::BvhView<Real>& tree, int number,
-                              const RayBundle<Real>& bundle, const RayPacket<Real>& rays,
-                              const Own& own)
+inline void keep_of_run(HitPacket<Real>& hit, const abi::BvhView<Real>& tree, int number,
+                        const RayBundle<Real>& bundle, const RayPacket<Real>& rays, const Own& own)
 {
-    if constexpr (F.exact) {
-        const abi::QuadricRecord<float>& record = tree.quadrics[number];
-        const abi::QuadricRecord<double>& wide =
-            tree.shapes->quadrics[tree.shapes->index[record.surface].record];
-        keep_certain<false>(hit, leaf_filter(record, wide, bundle), rays, RayScale(rays), own);
-    } else {
-        keep_closest(hit, leaf_quadric(tree, number), rays, own);
-    }
+    with_object_of_run(tree, number, [&](auto kind, const auto& record, const auto& shape) {
+        const PartScope part(part_of(kind.primitive));
+        count_tests(kind.primitive, 1);
+        if constexpr (F.exact)
+            keep_certain<false>(hit, leaf_filter(record, shape, bundle), rays, RayScale(rays), own);
+        else
+            keep_closest(hit, record, rays, own);
+    });
 }
 
 template <abi::Features F, class Real>
-inline void closest_of_quadrics(const abi::BvhView<Real>& tree, RayBundle<Real>& bundle, int ray,
-                                int begin, int count)
+inline void closest_of_run(const abi::BvhView<Real>& tree, RayBundle<Real>& bundle, int ray,
+                           int begin, int count)
 {
-    const PartScope part(abi::Part::quadrics);
     tell_live(1);
-    count_tests(abi::Primitive::quadric, count);
     const RayPacket<Real> rays = broadcast_ray(bundle, ray);
     load_rival_of_ray<Real>(ray);
     HitPacket<Real> hit{vreal<Real>(bundle.t[ray]), vint<Real>(bundle.surface[ray]),
                         vreal<Real>(bundle.t_low[ray]), vreal<Real>(bundle.other[ray])};
     const OwnSurface own{vint<Real>(bundle.own[ray])};
     for (int i = 0; i < count; ++i)
-        keep_leaf_quadric<F>(hit, tree, begin + i, bundle, rays, own);
+        keep_of_run<F>(hit, tree, begin + i, bundle, rays, own);
     alignas(64) lane_int<Real> surface[lanes<Real>];
     store(surface, hit.surface);
     bundle.t[ray] = first_lane<Real>(hit.t);
@@ -82,9 +79,9 @@ template <abi::Features F, class Real>
 inline void closest_of_leaf(const abi::BvhView<Real>& tree, RayBundle<Real>& bundle, int ray,
                             const BlockRay<Real>& alone, std::uint32_t child)
 {
-    if (F.quadrics && abi::is_quadric_leaf(child))
-        return closest_of_quadrics<F>(tree, bundle, ray, abi::first_quadric(child),
-                                      abi::quadric_count(child));
+    if (F.quadrics && abi::is_run(child))
+        return closest_of_run<F>(tree, bundle, ray, abi::first_of_run(child),
+                                 abi::run_count(child));
     abi::SphereBlock<Real> room;
     closest_of_spheres<F>(bundle, ray, alone, sphere_leaf(tree, child, room));
 }

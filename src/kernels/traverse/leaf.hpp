@@ -1,5 +1,6 @@
 #pragma once
 
+#include "kernels/geometry/kinds.hpp"
 #include "kernels/traverse/bundle.hpp"
 
 namespace packtrace::PACKTRACE_ISA {
@@ -46,14 +47,36 @@ inline SphereLeaf<Real> sphere_leaf(const abi::BvhView<Real>& tree, std::uint32_
     return {room, surfaces};
 }
 
-/// A quadric of a leaf.
-template <class Real>
-inline const abi::QuadricRecord<Real>& leaf_quadric(const abi::BvhView<Real>& tree, int number)
+/// One record of `records`, or its shape where those are not kept for rays in double.
+template <class Real, template <class> class Record>
+inline const Record<Real>& record_or_shape(const Record<Real>* records, int number,
+                                           const Record<double>& shape)
 {
     if constexpr (sizeof(Real) == sizeof(double))
-        if (tree.quadrics == nullptr)
-            return tree.shapes->quadrics[tree.shapes->index[tree.quadric_surfaces[number]].record];
-    return tree.quadrics[number];
+        if (records == nullptr)
+            return shape;
+    return records[number];
+}
+
+template <class Real>
+inline abi::Primitive primitive_of_run(const abi::BvhView<Real>& tree, int number)
+{
+    return number < tree.quadric_count ? Quadric::primitive : Polygon::primitive;
+}
+
+/// `visit(kind, record, shape)` of an object of a run.
+template <class Real, class Visit>
+inline auto with_object_of_run(const abi::BvhView<Real>& tree, int number, const Visit& visit)
+{
+    const abi::ShapesView& shapes = *tree.shapes;
+    const abi::SurfaceIndex& index = shapes.index[tree.run_surfaces[number]];
+    if (number < tree.quadric_count) {
+        const abi::QuadricRecord<double>& shape = shapes.quadrics[index.record];
+        return visit(Quadric{}, record_or_shape<Real>(tree.quadrics, number, shape), shape);
+    }
+    const abi::PolygonRecord<double>& shape = shapes.polygons[index.record];
+    return visit(Polygon{},
+                 record_or_shape<Real>(tree.polygons, number - tree.quadric_count, shape), shape);
 }
 
 }  // namespace

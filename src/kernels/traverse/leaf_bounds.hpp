@@ -42,10 +42,10 @@ inline RayScale scale_of(const RayBundle<float>& bundle, int first, const RayPac
     return {rays, load(bundle.inverse + first)};
 }
 
-/// The bounds of a quadric of a hierarchy for a bundle's rays.
-inline QuadricFilter leaf_filter(const abi::QuadricRecord<float>& record,
-                                 const abi::QuadricRecord<double>& wide,
-                                 const RayBundle<float>& bundle)
+/// The bounds of an object of a run for a bundle's rays.
+template <template <class> class Record>
+inline auto leaf_filter(const Record<float>& record, const Record<double>& wide,
+                        const RayBundle<float>& bundle)
 {
     Origins origins;
     for (int axis = 0; axis < 3; ++axis)

@@ -32,46 +32,46 @@ inline bool goes_behind(RayBundle<Real>& bundle, int ray, std::int32_t surface,
     return is_active(bundle, ray);
 }
 
-/// What a quadric of a leaf does to a packet until t_end.
+/// What an object of a run does to a packet until t_end.
 template <abi::Features F, class Real>
-inline Occlusion leaf_quadric_occludes(const abi::BvhView<Real>& tree, int number,
-                                       const RayBundle<Real>& bundle, const RayPacket<Real>& rays,
-                                       const vreal<Real>& t_end, const vint<Real>& own, bool closed)
+inline Occlusion object_occludes(const abi::BvhView<Real>& tree, int number,
+                                 const RayBundle<Real>& bundle, const RayPacket<Real>& rays,
+                                 const vreal<Real>& t_end, const vint<Real>& own, bool closed)
 {
-    if constexpr (F.exact) {
-        const abi::QuadricRecord<float>& record = tree.quadrics[number];
-        const abi::QuadricRecord<double>& wide =
-            tree.shapes->quadrics[tree.shapes->index[record.surface].record];
-        return occludes<false>(leaf_filter(record, wide, bundle), rays, RayScale(rays), t_end,
-                               CertainOthers{own, all_lanes<float>});
-    } else {
-        const abi::QuadricRecord<Real>& quadric = leaf_quadric(tree, number);
-        const Body body = body_of(quadric);
-        return {but_own<Real>(occluding_lanes(RayEnd<Real>{t_end, closed}, quadric, rays), own,
+    return with_object_of_run(tree, number, [&](auto, const auto& record, const auto& shape) {
+        if constexpr (F.exact) {
+            return occludes<false>(leaf_filter(record, shape, bundle), rays, RayScale(rays), t_end,
+                                   CertainOthers{own, all_lanes<float>});
+        } else {
+            const Body body = body_of(record);
+            return Occlusion{
+                but_own<Real>(occluding_lanes(RayEnd<Real>{t_end, closed}, record, rays), own,
                               body.first, body.pieces),
                 0};
-    }
+        }
+    });
 }
 
 template <abi::Features F, class Real, class Occluder>
-inline bool goes_behind_quadrics(const abi::BvhView<Real>& tree, RayBundle<Real>& bundle, int ray,
-                                 bool closed, std::uint32_t child, const Occluder& occluder)
+inline bool goes_behind_run(const abi::BvhView<Real>& tree, RayBundle<Real>& bundle, int ray,
+                            bool closed, std::uint32_t child, const Occluder& occluder)
 {
-    const PartScope part(abi::Part::quadrics);
     tell_live(1);
     const RayPacket<Real> rays = broadcast_ray(bundle, ray);
     const vint<Real> own(bundle.own[ray]);
-    for (int i = 0; i < abi::quadric_count(child); ++i) {
-        const int number = abi::first_quadric(child) + i;
-        count_tests(abi::Primitive::quadric, 1);
-        const Occlusion occlusion = leaf_quadric_occludes<F>(
-            tree, number, bundle, rays, vreal<Real>(bundle.t[ray]), own, closed);
+    for (int i = 0; i < abi::run_count(child); ++i) {
+        const int number = abi::first_of_run(child) + i;
+        const abi::Primitive kind = primitive_of_run(tree, number);
+        const PartScope part(part_of(kind));
+        count_tests(kind, 1);
+        const Occlusion occlusion =
+            object_occludes<F>(tree, number, bundle, rays, vreal<Real>(bundle.t[ray]), own, closed);
         if (occlusion.unsure != 0) {
             keep_noted_of_ray(ray, occlusion.unsure);
             bundle.unsure[ray / cell_rays] |= static_cast<std::uint16_t>(1u << ray % cell_rays);
         }
         if (occlusion.blocked != 0 &&
-            !goes_behind(bundle, ray, leaf_quadric(tree, number).surface, occluder))
+            !goes_behind(bundle, ray, tree.run_surfaces[number], occluder))
             return false;
     }
     return true;
@@ -97,8 +97,8 @@ inline bool goes_behind_leaf(const abi::BvhView<Real>& tree, RayBundle<Real>& bu
                              const BlockRay<Real>& alone, bool closed, std::uint32_t child,
                              const Occluder& occluder)
 {
-    if (F.quadrics && abi::is_quadric_leaf(child))
-        return goes_behind_quadrics<F>(tree, bundle, ray, closed, child, occluder);
+    if (F.quadrics && abi::is_run(child))
+        return goes_behind_run<F>(tree, bundle, ray, closed, child, occluder);
     const PartScope part(abi::Part::spheres);
     abi::SphereBlock<Real> room;
     const SphereLeaf<Real> leaf = sphere_leaf(tree, child, room);

@@ -19,6 +19,7 @@ constexpr const char* part_names[] = {
     "anchored spheres",
     "planes",
     "quadrics",
+    "polygons",
     "unsure rays again in double",
     "compaction of hits",
     "normals and materials",

@@ -9,7 +9,8 @@ constexpr const char* work_names[] = {"closest hits", "shadow rays", "local ligh
                                       "highlight powers", "child rays"};
 static_assert(std::size(work_names) == abi::packet_work_count);
 
-constexpr const char* primitive_names[] = {"spheres", "anchored spheres", "planes", "quadrics"};
+constexpr const char* primitive_names[] = {"spheres", "anchored spheres", "planes", "quadrics",
+                                             "polygons"};
 static_assert(std::size(primitive_names) == abi::primitive_count);
 
 constexpr const char* role_names[] = {"closest", "shadow"};

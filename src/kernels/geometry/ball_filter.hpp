@@ -1,0 +1,56 @@
+#pragma once
+
+#include "kernels/geometry/sphere_filter.hpp"
+
+// Balls around objects whose own test is dear: which rays in single precision surely pass them.
+namespace packtrace::PACKTRACE_ISA {
+namespace {
+
+/// A ball for the origins of one group.
+struct BallFilter {
+    float center[3];  ///< for a shared origin from there to it
+    float outer2;     ///< of its radius with all errors; infinite for an unbounded object
+    float reach;      ///< half the way of a ray through the ball at most, times |d|
+};
+
+template <bool Shared>
+inline BallFilter ball_filter(const double (&center)[3], float radius, const Origins& origins)
+{
+    BallFilter ball{};
+    double distance2 = 0;
+    float moved_by = 0;
+    for (int axis = 0; axis < 3; ++axis) {
+        const double to_ball = double{origins.center[axis]} - center[axis];
+        distance2 += to_ball * to_ball;
+        ball.center[axis] = static_cast<float>(Shared ? to_ball : center[axis]);
+        const double moved = double{ball.center[axis]} - (Shared ? to_ball : center[axis]);
+        moved_by += static_cast<float>(moved < 0 ? -moved : moved);
+    }
+    const float distance =
+        (static_cast<float>(__builtin_sqrt(distance2)) + origins.radius) * inflation;
+    const vreal<float> center_error(moved_by * inflation);
+    const SphereBounds<vreal<float>> bounds =
+        sphere_bounds(vreal<float>(radius * inflation), center_error,
+                      moment_error(center_error, vreal<float>(distance)));
+    ball.outer2 = first_lane<float>(bounds.outer2);
+    ball.reach = (__builtin_sqrtf(ball.outer2) + first_lane<float>(bounds.along)) * inflation;
+    return ball;
+}
+
+/// Lanes that may pass through the ball between t_min and t_end.
+template <bool Shared>
+inline std::uint32_t may_hit_ball(const BallFilter& ball, const RayPacket<float>& rays,
+                                  const RayScale& scale, const vreal<float>& t_end)
+{
+    const Vec3v<float> w = Shared ? broadcast(ball.center) : rays.org - broadcast(ball.center);
+    const std::uint32_t near = bits(approach(w, vreal<float>(ball.outer2), rays).near);
+    if (near == 0)
+        return 0;
+    const vreal<float> middle = negated(dot(w, rays.dir)) * scale.inverse2;
+    const vreal<float> reach =
+        madd(vreal<float>(ball.reach), scale.inverse, vreal<float>(roundoffs(28.0f)) * abs(middle));
+    return near & ~bits(middle + reach < rays.t_min) & ~bits(middle - reach > t_end);
+}
+
+}  // namespace
+}  // namespace packtrace::PACKTRACE_ISA
