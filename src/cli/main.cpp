@@ -1,20 +1,47 @@
+#include <cerrno>
+#include <cstdio>
 #include <exception>
 #include <iostream>
 #include <new>
 
 #include "cli/command.hpp"
+#include "cli/interrupts.hpp"
 #include "cli/usage_error.hpp"
+#include "core/file_error.hpp"
 
 namespace packtrace::cli {
 namespace {
 
+/// Throws FileError where part of what was printed is lost, as on a full disk.
+void check_standard_output()
+{
+    std::cout.flush();
+    const bool flushed = std::fflush(stdout) == 0;
+    if (!std::cout || !flushed || std::ferror(stdout) != 0)
+        throw FileError("standard output", "can't write", errno != 0 ? errno : EIO);
+}
+
 // CLI11 prints help and version itself; a wrong use becomes one line.
 int report_parse_end(const CLI::App& app, const CLI::ParseError& end, int argc, char** argv)
 {
-    if (end.get_exit_code() == 0)
-        return app.exit(end);
+    if (end.get_exit_code() == 0) {
+        const int code = app.exit(end);
+        check_standard_output();
+        return code;
+    }
     std::cerr << usage_error(app, end, argc, argv) << '\n';
     return exit_usage;
+}
+
+/// The same, where nobody catches what it throws.
+int end_of_parsing(const CLI::App& app, const CLI::ParseError& end, int argc, char** argv)
+{
+    try {
+        return report_parse_end(app, end, argc, argv);
+    } catch (const FileError& error) {
+        std::cerr << error.what() << '\n';
+        return exit_failed;
+    }
 }
 
 int run(int argc, char** argv)
@@ -35,12 +62,14 @@ int run(int argc, char** argv)
     add_demo(app);
     add_onedim(app);
     add_stress(app);
+    clean_up_when_interrupted();
     try {
         app.parse(argc, argv);
         if (app.get_subcommands().empty())
             throw CLI::RequiredError::Subcommand(1);
+        check_standard_output();
     } catch (const CLI::ParseError& end) {
-        return report_parse_end(app, end, argc, argv);
+        return end_of_parsing(app, end, argc, argv);
     } catch (const Failed& failed) {
         return failed.exit_code;
     } catch (const std::bad_alloc&) {

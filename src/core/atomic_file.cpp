@@ -1,44 +1,182 @@
 #include "core/atomic_file.hpp"
 
+#include <algorithm>
+#include <array>
+#include <atomic>
 #include <cerrno>
+#include <charconv>
+#include <climits>
+#include <csignal>
+#include <cstring>
 #include <string>
 #include <utility>
 
+#include <fcntl.h>
+#include <sys/file.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
 namespace packtrace {
 namespace {
 
-// Hidden, and told apart by process and by call, so that writers of one target don't meet.
+constexpr std::size_t longest_name = 255;  // of a file, on every common file system
+constexpr std::string_view ending = ".tmp";
+
+/// What the temporary names of a target begin with: hidden, and as long as leaves room for the
+/// process and the attempt.
+std::string temporary_prefix(const std::filesystem::path& target)
+{
+    constexpr std::size_t room = 40;
+    return "." + target.filename().string().substr(0, longest_name - room) + ".";
+}
+
+// Told apart by process and by call, so that writers of one target don't meet.
 std::filesystem::path temporary_name(const std::filesystem::path& target, int attempt)
 {
-    std::string name = ".";
-    name += target.filename().string();
-    name += "." + std::to_string(getpid()) + "-" + std::to_string(attempt) + ".tmp";
+    std::string name = temporary_prefix(target);
+    name += std::to_string(getpid()) + "-" + std::to_string(attempt);
+    name += ending;
     return target.parent_path() / name;
+}
+
+/// The process in a temporary name; 0 if it is none.
+pid_t writer_of(std::string_view name, std::string_view prefix)
+{
+    if (!name.starts_with(prefix) || !name.ends_with(ending))
+        return 0;
+    name.remove_prefix(prefix.size());
+    pid_t process = 0;
+    const auto [end, error] = std::from_chars(name.data(), name.data() + name.size(), process);
+    return error == std::errc() && *end == '-' ? process : 0;
+}
+
+/// Whether nobody writes to the file any more: its process is gone, and its lock, which also
+/// tells of processes of other machines, is free.
+bool is_left_over(const std::filesystem::path& file, pid_t writer)
+{
+    if (kill(writer, 0) == 0 || errno != ESRCH)
+        return false;
+    const int handle = open(file.c_str(), O_RDONLY | O_CLOEXEC);
+    if (handle < 0)
+        return false;
+    const bool free = flock(handle, LOCK_EX | LOCK_NB) == 0;
+    close(handle);
+    return free;
+}
+
+/// Removes what killed writers of `target` have left.
+void remove_left_over(const std::filesystem::path& target)
+{
+    const std::string prefix = temporary_prefix(target);
+    const std::filesystem::path folder =
+        target.has_parent_path() ? target.parent_path() : std::filesystem::path(".");
+    std::error_code error;
+    for (std::filesystem::directory_iterator entry(folder, error), end; !error && entry != end;
+         entry.increment(error)) {
+        const std::string name = entry->path().filename().string();
+        const pid_t writer = writer_of(name, prefix);
+        std::error_code ignored;
+        if (writer != 0 && is_left_over(entry->path(), writer))
+            std::filesystem::remove(entry->path(), ignored);
+    }
+}
+
+/// The file that a chain of links leads to, whether it is there or not.
+std::filesystem::path followed(std::filesystem::path target)
+{
+    constexpr int longest_chain = 40;
+    std::error_code error;
+    for (int i = 0; i < longest_chain && std::filesystem::is_symlink(target, error); ++i) {
+        const std::filesystem::path next = std::filesystem::read_symlink(target, error);
+        if (error)
+            break;
+        target = next.is_absolute() ? next : target.parent_path() / next;
+    }
+    return target;
+}
+
+/// The names of the temporary files that live. A handler of signals reads them: a name is complete
+/// before its slot says so.
+struct TemporarySlot {
+    std::atomic<bool> taken{false};
+    std::atomic<bool> complete{false};
+    std::array<char, PATH_MAX> name{};
+};
+std::array<TemporarySlot, 64> temporaries;
+
+/// The number of the slot; -1 if all are taken or the name is too long.
+int note_temporary(const std::filesystem::path& file)
+{
+    const std::string& name = file.native();
+    if (name.size() >= PATH_MAX)
+        return -1;
+    for (std::size_t i = 0; i < temporaries.size(); ++i) {
+        TemporarySlot& slot = temporaries[i];
+        if (slot.taken.exchange(true))
+            continue;
+        std::memcpy(slot.name.data(), name.c_str(), name.size() + 1);
+        slot.complete.store(true);
+        return static_cast<int>(i);
+    }
+    return -1;
+}
+
+void forget_temporary(int slot)
+{
+    if (slot < 0)
+        return;
+    temporaries[static_cast<std::size_t>(slot)].complete.store(false);
+    temporaries[static_cast<std::size_t>(slot)].taken.store(false);
 }
 
 }  // namespace
 
-AtomicFile::AtomicFile(std::filesystem::path target) : target_(std::move(target))
+AtomicFile::AtomicFile(std::filesystem::path target) : target_(followed(std::move(target)))
 {
-    std::error_code ignored;
-    if (std::filesystem::is_directory(target_, ignored))
+    struct stat found {};
+    const bool is_there = stat(target_.c_str(), &found) == 0;
+    if (!is_there && errno != ENOENT)
+        throw FileError(target_, "can't write", errno);
+    if (is_there && S_ISDIR(found.st_mode))
         throw FileError(target_, "can't write", EISDIR);
+    if (is_there && !S_ISREG(found.st_mode))
+        open_directly();
+    else
+        open_temporary();
+}
+
+void AtomicFile::open_directly()
+{
+    file_.reset(std::fopen(target_.c_str(), "wb"));
+    if (!file_)
+        throw FileError(target_, "can't write", errno);
+}
+
+void AtomicFile::open_temporary()
+{
+    remove_left_over(target_);
     for (int attempt = 0; !file_; ++attempt) {
         temporary_ = temporary_name(target_, attempt);
-        file_.reset(std::fopen(temporary_.c_str(), "wbx"));
+        file_.reset(std::fopen(temporary_.c_str(), "wbxe"));
         if (!file_ && errno != EEXIST)
             throw FileError(target_, "can't write", errno);
     }
+    slot_ = note_temporary(temporary_);
+    flock(fileno(file_.get()), LOCK_EX | LOCK_NB);
+}
+
+void AtomicFile::remove_temporary()
+{
+    std::error_code ignored;
+    if (!temporary_.empty())
+        std::filesystem::remove(temporary_, ignored);
+    forget_temporary(slot_);
 }
 
 AtomicFile::~AtomicFile()
 {
     file_.reset();
-    std::error_code ignored;
-    if (!temporary_.empty())
-        std::filesystem::remove(temporary_, ignored);
+    remove_temporary();
 }
 
 void AtomicFile::write(std::span<const std::byte> bytes)
@@ -57,16 +195,32 @@ void AtomicFile::commit()
     // A full disk may show only now, when the last buffer goes out.
     if (std::fclose(file_.release()) != 0)
         throw FileError(target_, "can't write", errno);
+    if (temporary_.empty())
+        return;
     std::error_code error;
     std::filesystem::rename(temporary_, target_, error);
     if (error)
         throw FileError(target_, "can't write", error.value());
     temporary_.clear();
+    forget_temporary(std::exchange(slot_, -1));
 }
 
 void check_writable(const std::filesystem::path& target)
 {
+    std::error_code ignored;
+    // Opening a pipe would wait for its reader.
+    if (std::filesystem::is_fifo(target, ignored))
+        return;
     const AtomicFile probe(target);
+}
+
+int remove_all_temporaries()
+{
+    int removed = 0;
+    for (TemporarySlot& slot : temporaries)
+        if (slot.complete.load())
+            removed += unlink(slot.name.data()) == 0;
+    return removed;
 }
 
 }  // namespace packtrace

@@ -13,7 +13,10 @@ namespace packtrace {
 
 /// A file that appears complete or not at all: bytes go to a temporary name beside `target`,
 /// `commit` renames it. Without a commit the destructor removes it and leaves what was at
-/// `target` untouched. Everything but the destructor throws FileError.
+/// `target` untouched. A link is followed: the file it leads to is replaced. What is no regular
+/// file, such as a pipe or a device, is written to directly. The constructor also removes
+/// temporary files of `target` whose writers were killed. Everything but the destructor throws
+/// FileError.
 class AtomicFile {
 public:
     explicit AtomicFile(std::filesystem::path target);
@@ -33,13 +36,22 @@ private:
         }
     };
 
+    void open_directly();
+    void open_temporary();
+    void remove_temporary();
+
     std::filesystem::path target_;
-    std::filesystem::path temporary_;
+    std::filesystem::path temporary_;  ///< empty where `target_` is written to directly
+    int slot_ = -1;                    ///< where remove_all_temporaries() finds it
     std::unique_ptr<std::FILE, Closer> file_;
 };
 
 /// Throws FileError, as an AtomicFile for `target` would: its folder is missing or can't be
 /// written to, or it is a folder itself. Leaves nothing behind.
 void check_writable(const std::filesystem::path& target);
+
+/// Removes the temporary files of all AtomicFiles that live, for signal handlers: takes no lock
+/// and allocates nothing. Returns how many there were.
+int remove_all_temporaries();
 
 }  // namespace packtrace

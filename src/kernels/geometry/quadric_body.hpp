@@ -63,7 +63,7 @@ inline OwnCrossing crossing_from_side(const abi::QuadricRecord<double>& quadric,
     // The inside is ahead up to the other root where the surface bends away, beyond it where the
     // surface bends towards rays outside.
     const std::uint32_t bends_away = bits(line.bend > zero) & ~bits(outside);
-    const std::uint32_t bends_towards = bits(line.bend < zero) & bits(outside);
+    const std::uint32_t bends_towards = bits(line.bend < zero) & bits(root > zero) & bits(outside);
     const std::uint32_t by_side = (bends_away | bends_towards) & bits(root <= out);
     const std::uint32_t ends_inside = quadric.capped ? by_side ^ ~bits(outside) : 0;
     return first_of({{root, root}, out, {by_side, 0}, ends_inside, climbs}, t_min);

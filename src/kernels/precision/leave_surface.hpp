@@ -113,7 +113,7 @@ inline SecondHit<float> second_hit_of(const abi::ShapesView& shapes, const abi::
                         from_bits<double>((outside & all_lanes<float>) >> lanes<double>));
     // A body that a ray leaves at once is left beyond 0 all the same.
     const vreal<float> t =
-        max(narrow(low.t, high.t), vreal<float>(std::numeric_limits<float>::min()));
+        max(narrow(low.t, high.t), vreal<float>(std::numeric_limits<float>::denorm_min()));
     return {t, pieces_met<float>(first, narrow_bits(low.low_cap, high.low_cap),
                                  narrow_bits(low.high_cap, high.high_cap))};
 }

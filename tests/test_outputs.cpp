@@ -1,0 +1,184 @@
+// Where output goes: links, pipes, full disks, interrupted and killed programs.
+#include <chrono>
+#include <csignal>
+#include <cstdio>
+#include <filesystem>
+#include <fstream>
+#include <thread>
+
+#include <fcntl.h>
+#include <sys/stat.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include "catch.hpp"
+#include "core/atomic_file.hpp"
+#include "run_program.hpp"
+
+namespace packtrace::test {
+namespace {
+
+ProgramResult render_small(const std::filesystem::path& picture)
+{
+    return run_packtrace(
+        {"render", four_spheres_file, "--size", "16x12", "-q", "-o", picture.string()});
+}
+
+/// Starts `packtrace intersect` with rays from a pipe that stays open and empty, so that it waits
+/// with its output begun.
+class WaitingProgram {
+public:
+    explicit WaitingProgram(const TempFolder& folder) : output_(folder / "hits.csv")
+    {
+        const std::string rays = (folder / "rays").string();
+        REQUIRE(mkfifo(rays.c_str(), 0600) == 0);
+        process_ = fork();
+        if (process_ == 0) {
+            const int input = open(rays.c_str(), O_RDONLY);
+            const int errors = open((folder / "err").c_str(), O_WRONLY | O_CREAT, 0600);
+            dup2(input, STDIN_FILENO);
+            dup2(errors, STDERR_FILENO);
+            execl(PACKTRACE_CLI, PACKTRACE_CLI, "intersect", four_spheres_file.c_str(), "-o",
+                  output_.c_str(), static_cast<char*>(nullptr));
+            _exit(127);
+        }
+        pipe_ = open(rays.c_str(), O_WRONLY);
+    }
+    ~WaitingProgram()
+    {
+        close(pipe_);
+    }
+    WaitingProgram(const WaitingProgram&) = delete;
+    WaitingProgram& operator=(const WaitingProgram&) = delete;
+
+    /// Waits until the temporary file is there. Then sends `number`; returns what waitpid() says.
+    [[nodiscard]] int end_by(int number, const TempFolder& folder) const
+    {
+        for (int i = 0; i < 6000 && temporaries(folder) == 0; ++i)
+            std::this_thread::sleep_for(std::chrono::milliseconds(10));
+        REQUIRE(temporaries(folder) == 1);
+        kill(process_, number);
+        int status = 0;
+        waitpid(process_, &status, 0);
+        return status;
+    }
+
+    [[nodiscard]] static std::size_t temporaries(const TempFolder& folder)
+    {
+        std::size_t count = 0;
+        for (const std::string& name : folder.names())
+            count += std::size_t{name.ends_with(".tmp")};
+        return count;
+    }
+
+private:
+    std::filesystem::path output_;
+    pid_t process_ = 0;
+    int pipe_ = -1;
+};
+
+}  // namespace
+
+TEST_CASE("output through a link replaces the file that the link leads to", "[outputs]")
+{
+    const TempFolder folder;
+    write_text(folder / "real.pfm", "before");
+    std::filesystem::create_symlink("real.pfm", folder / "link.pfm");
+    std::filesystem::create_symlink("new.pfm", folder / "dangling.pfm");
+    CHECK(render_small(folder / "link.pfm").exit_code == 0);
+    CHECK(render_small(folder / "dangling.pfm").exit_code == 0);
+    CHECK(std::filesystem::is_symlink(folder / "link.pfm"));
+    CHECK(std::filesystem::is_symlink(folder / "dangling.pfm"));
+    CHECK(read_text(folder / "real.pfm") == read_text(folder / "new.pfm"));
+    CHECK(read_text(folder / "real.pfm").starts_with("PF"));
+}
+
+TEST_CASE("output into a pipe goes through the pipe", "[outputs]")
+{
+    const TempFolder folder;
+    const std::string pipe = (folder / "pipe.pfm").string();
+    const std::string copy = (folder / "copy.pfm").string();
+    REQUIRE(mkfifo(pipe.c_str(), 0600) == 0);
+    std::thread reader([&] {
+        std::ifstream from(pipe, std::ios::binary);
+        std::ofstream(copy, std::ios::binary) << from.rdbuf();
+    });
+    CHECK(render_small(pipe).exit_code == 0);
+    reader.join();
+    CHECK(std::filesystem::is_fifo(pipe));
+    CHECK(render_small(folder / "file.pfm").exit_code == 0);
+    CHECK(read_text(copy) == read_text(folder / "file.pfm"));
+}
+
+TEST_CASE("the longest file name is written, a longer one is refused", "[outputs]")
+{
+    const TempFolder folder;
+    CHECK(render_small(folder / (std::string(251, 'a') + ".pfm")).exit_code == 0);
+    const ProgramResult longer = render_small(folder / (std::string(252, 'a') + ".pfm"));
+    CHECK(longer.exit_code == 1);
+    CHECK_THAT(longer.err, ContainsSubstring("File name too long"));
+}
+
+TEST_CASE("results that do not fit on standard output end with exit code 1", "[outputs]")
+{
+    for (const std::vector<std::string>& words :
+         std::vector<std::vector<std::string>>{{"info", four_spheres_file},
+                                               {"info", "--keys"},
+                                               {"--help"},
+                                               {"render", "--help"},
+                                               {"stress", "--list"}}) {
+        std::string command = shell_quoted(PACKTRACE_CLI);
+        for (const std::string& word : words)
+            command += " " + shell_quoted(word);
+        CAPTURE(command);
+        const int status = std::system((command + " >/dev/full 2>/dev/null").c_str());
+        CHECK(WEXITSTATUS(status) == 1);
+    }
+}
+
+TEST_CASE("an interrupted program removes its unfinished file and ends by the signal", "[outputs]")
+{
+    for (const int number : {SIGINT, SIGTERM, SIGHUP}) {
+        const TempFolder folder;
+        const WaitingProgram program(folder);
+        const int status = program.end_by(number, folder);
+        CAPTURE(number);
+        CHECK(WIFSIGNALED(status));
+        CHECK(WTERMSIG(status) == number);
+        CHECK(WaitingProgram::temporaries(folder) == 0);
+        CHECK_FALSE(std::filesystem::exists(folder / "hits.csv"));
+        CHECK_THAT(read_text(folder / "err"), ContainsSubstring("interrupted"));
+    }
+}
+
+TEST_CASE("what a killed program left is removed by the next that writes the same file",
+          "[outputs]")
+{
+    const TempFolder folder;
+    {
+        const WaitingProgram program(folder);
+        const int status = program.end_by(SIGKILL, folder);
+        CHECK(WIFSIGNALED(status));
+        CHECK(WaitingProgram::temporaries(folder) == 1);
+    }
+    // A writer that lives keeps its file.
+    AtomicFile living(folder / "hits.csv");
+    CHECK(WaitingProgram::temporaries(folder) == 1);
+    AtomicFile second(folder / "hits.csv");
+    CHECK(WaitingProgram::temporaries(folder) == 2);
+    living.commit();
+    second.commit();
+    CHECK(WaitingProgram::temporaries(folder) == 0);
+}
+
+TEST_CASE("more threads than are of use are not started", "[outputs]")
+{
+    const TempFolder folder;
+    const ProgramResult result =
+        run_packtrace({"render", four_spheres_file, "--size", "64x48", "-q", "--threads", "1024",
+                       "-o", (folder / "a.pfm").string()});
+    CHECK(result.exit_code == 0);
+    CHECK_THAT(result.err, ContainsSubstring("--threads 1024"));
+}
+
+}  // namespace packtrace::test
