@@ -46,7 +46,7 @@ int end_of_parsing(const CLI::App& app, const CLI::ParseError& end, int argc, ch
 
 int run(int argc, char** argv)
 {
-    CLI::App app{"packtrace: a SIMD ray-packet tracer for spheres, planes and quadrics"};
+    CLI::App app{"packtrace: a SIMD ray-packet tracer for spheres, planes, quadrics and polygons"};
     app.set_version_flag("--version", "packtrace " PACKTRACE_VERSION);
     // Not required here: a mistyped one would be called missing.
     app.require_subcommand(0, 1);
