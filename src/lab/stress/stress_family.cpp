@@ -53,7 +53,8 @@ const std::vector<StressFamily>& stress_families()
     static const std::vector<StressFamily> families = [] {
         std::vector<StressFamily> all;
         for (auto some : {sphere_families(), plane_families(), quadric_families(), scene_families(),
-                          far_families(), touching_families(), edge_families(), mixed_families()})
+                          far_families(), touching_families(), edge_families(), polygon_families(),
+                          mixed_families()})
             all.insert(all.end(), std::move_iterator(some.begin()), std::move_iterator(some.end()));
         return all;
     }();

@@ -41,6 +41,7 @@ struct StressFamily {
 [[nodiscard]] std::vector<StressFamily> far_families();
 [[nodiscard]] std::vector<StressFamily> touching_families();
 [[nodiscard]] std::vector<StressFamily> edge_families();
+[[nodiscard]] std::vector<StressFamily> polygon_families();
 [[nodiscard]] std::vector<StressFamily> mixed_families();
 
 [[nodiscard]] StressRay ray_towards(const Vec3& org, const Vec3& target);

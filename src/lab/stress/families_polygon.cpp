@@ -1,0 +1,105 @@
+#include <cmath>
+
+#include <glm/geometric.hpp>
+
+#include "lab/stress/placed_quadric.hpp"
+#include "lab/stress/stress_family.hpp"
+
+// Polygons: rays at edges that two share, at corners, past notches and through holes.
+namespace packtrace::lab {
+namespace {
+
+using Contour = std::vector<Vec3>;
+
+Object polygon_object(std::vector<Contour> contours, const Mat4& transform)
+{
+    Object object;
+    object.surface = Polygon{std::move(contours)};
+    object.transform = transform;
+    return object;
+}
+
+/// The six faces of |x|, |y|, |z| <= 1.
+std::vector<Contour> cube_faces()
+{
+    std::vector<Contour> faces;
+    for (int axis = 0; axis < 3; ++axis)
+        for (const double side : {-1.0, 1.0}) {
+            Contour face;
+            for (const auto& [u, v] :
+                 {std::pair(-1.0, -1.0), {1.0, -1.0}, {1.0, 1.0}, {-1.0, 1.0}}) {
+                Vec3 corner;
+                corner[axis] = side;
+                corner[(axis + 1) % 3] = side > 0 ? u : v;
+                corner[(axis + 2) % 3] = side > 0 ? v : u;
+                face.push_back(corner);
+            }
+            faces.push_back(face);
+        }
+    return faces;
+}
+
+/// A point of a contour's edge: a corner in one of four.
+Vec3 at_edge(StressRandom& r, const Contour& contour)
+{
+    const auto i = static_cast<std::size_t>(r.below(static_cast<int>(contour.size())));
+    const Vec3& from = contour[i];
+    const Vec3& to = contour[(i + 1) % contour.size()];
+    return r.below(4) == 0 ? from : glm::mix(from, to, r.between(0.0, 1.0));
+}
+
+/// Rays at `contour`, seen from `transform`'s side; past it by 1e-12 to 1e-2, or at it.
+StressRay ray_at_edge(StressRandom& r, const Contour& contour, const Mat4& transform)
+{
+    const double off = r.below(4) == 0 ? 0.0 : r.power(1e-12, 1e-2);
+    const Vec3 own = at_edge(r, contour) + off * r.unit();
+    const Vec3 aim(transform * glm::dvec4(own, 1.0));
+    return ray_towards(aim + r.between(2.0, 6.0) * r.unit(), aim);
+}
+
+/// A cube of six polygons, its faces joined at shared edges.
+StressCase polygon_cube(StressRandom& random)
+{
+    const Mat4 transform = any_placement(random, any_stretch(random, 0.3), random.box(2.0));
+    const std::vector<Contour> faces = cube_faces();
+    StressCase result;
+    for (const Contour& face : faces)
+        result.scene.objects.push_back(polygon_object({face}, transform));
+    result.ray = [=](StressRandom& r) {
+        return ray_at_edge(r, faces[static_cast<std::size_t>(r.below(6))], transform);
+    };
+    return result;
+}
+
+/// A star with a hole.
+StressCase polygon_star(StressRandom& random)
+{
+    const Mat4 transform = any_placement(random, any_stretch(random, 0.3), random.box(2.0));
+    std::vector<Contour> contours(2);
+    constexpr double tenth = 0.62831853;
+    for (int i = 0; i < 10; ++i) {
+        const double radius = i % 2 == 0 ? 2.0 : 0.8;
+        contours[0].emplace_back(radius * std::cos(tenth * i), radius * std::sin(tenth * i), 0.0);
+    }
+    for (int i = 0; i < 5; ++i)
+        contours[1].emplace_back(0.4 * std::cos(2 * tenth * i), 0.4 * std::sin(2 * tenth * i), 0.0);
+    StressCase result;
+    result.scene.objects.push_back(polygon_object(contours, transform));
+    result.ray = [=](StressRandom& r) {
+        return ray_at_edge(r, contours[static_cast<std::size_t>(r.below(2))], transform);
+    };
+    return result;
+}
+
+}  // namespace
+
+std::vector<StressFamily> polygon_families()
+{
+    return {
+        {"polygon-edges", "at the edges and corners that the six polygons of a cube share",
+         polygon_cube},
+        {"polygon-star", "at the outline of a star and of the hole in it", polygon_star},
+    };
+}
+
+}  // namespace packtrace::lab
