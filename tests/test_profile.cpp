@@ -118,7 +118,7 @@ TEST_CASE("what-if rows are frames without the rays of what they lack", "[profil
     // Highlights make a light wanted where it shines from behind.
     CHECK(row_of(result, "without highlights").rays.shadow <= result.rays.shadow);
     CHECK(row_of(result, "without highlights").rays.reflected == result.rays.reflected);
-    const ProfileWhatIf& once = row_of(result, "without anti-aliasing");
+    const ProfileWhatIf once = row_of(result, "without anti-aliasing");
     CHECK(4 * once.rays.camera == result.rays.camera);
     CHECK(once.rays.total() < result.rays.total() / 2);
     for (const ProfileWhatIf& row : result.what_if)
