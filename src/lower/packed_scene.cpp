@@ -17,7 +17,7 @@ constexpr std::size_t stream_tree_objects = 32;
 /// that lists stay ahead for longer the wider the packets are.
 constexpr std::size_t frame_tree_objects(int lanes)
 {
-    return lanes >= 16 ? 384 : lanes >= 8 ? 192 : 128;
+    return lanes >= 16 ? 160 : lanes >= 8 ? 128 : 96;
 }
 
 /// How many roundoffs rays start off a surface by. Hits in single precision are refined in double
