@@ -609,7 +609,7 @@ TEST_CASE("many rays at edges of a hundred thousand polygons do not slip through
           "[polygons][slow]")
 {
     const char* const wanted = std::getenv("PACKTRACE_POLYGON_RAYS");
-    const int count = wanted != nullptr ? std::atoi(wanted) : 200'000;
+    const int count = wanted != nullptr ? std::atoi(wanted) : 50'000;
     Random random(72);
     const Scene scene = facets(160);
     for (int done = 0; done < count; done += 100'000) {
