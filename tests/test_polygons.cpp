@@ -17,6 +17,7 @@
 #include <packtrace/write_scene.hpp>
 
 #include "catch.hpp"
+#include "lab/stress/ray_columns.hpp"
 #include "lab/truth/textbook.hpp"
 #include "lab/truth/wide_truth.hpp"
 #include "lower/check_scene.hpp"
@@ -555,8 +556,7 @@ Scene facets(int steps)
 template <class Real>
 void check_no_leaks(const Scene& scene, const RenderOptions& options, int count, Random& random)
 {
-    const RayScene<Real> rays(scene, options);
-    std::array<std::vector<Real>, 8> columns;
+    std::vector<lab::StressRay> aimed;
     for (int i = 0; i < count; ++i) {
         const auto& corners =
             std::get<Polygon>(scene.objects[random.below(scene.objects.size())].surface)
@@ -564,26 +564,18 @@ void check_no_leaks(const Scene& scene, const RenderOptions& options, int count,
         const double share = i % 3 == 0 ? 0.0 : random.between(0, 1);
         const Vec3 org = random.box(0.3);
         const Vec3 at = glm::mix(corners[0], corners[i % 2 == 0 ? 1 : corners.size() - 1], share);
-        const Vec3 dir = at - org;
-        const double values[8] = {org.x, org.y, org.z, dir.x,
-                                  dir.y, dir.z, 0.0,   std::numeric_limits<double>::infinity()};
-        for (std::size_t axis = 0; axis < 8; ++axis)
-            columns[axis].push_back(static_cast<Real>(values[axis]));
+        aimed.push_back({org, at - org, 0.0, std::numeric_limits<double>::infinity()});
     }
+    const lab::RayColumns<Real> columns(aimed);
+    const RayScene<Real> rays(scene, options);
     int leaks = 0;
-    rays.all_hits({columns[0].data(), columns[1].data(), columns[2].data(), columns[3].data(),
-                   columns[4].data(), columns[5].data(), columns[6].data(), columns[7].data(),
-                   columns[0].size()},
-                  [&](std::size_t, std::span<const SurfaceHit<Real>> hits) {
-                      leaks += hits.size() % 2 == 0;
-                  });
+    rays.all_hits(columns.view(), [&](std::size_t, std::span<const SurfaceHit<Real>> hits) {
+        leaks += hits.size() % 2 == 0;
+    });
     CHECK(leaks == 0);
-    std::vector<std::int32_t> object(columns[0].size());
-    std::vector<Real> t(columns[0].size());
-    rays.closest_hits({columns[0].data(), columns[1].data(), columns[2].data(), columns[3].data(),
-                       columns[4].data(), columns[5].data(), columns[6].data(), columns[7].data(),
-                       columns[0].size()},
-                      {t.data(), object.data()});
+    std::vector<std::int32_t> object(aimed.size());
+    std::vector<Real> t(aimed.size());
+    rays.closest_hits(columns.view(), {t.data(), object.data()});
     CHECK(std::count(object.begin(), object.end(), -1) == 0);
 }
 

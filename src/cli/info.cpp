@@ -99,8 +99,7 @@ void print_scene(const std::string& file, const Scene& scene, const SceneFeature
               << listed(count_lights(scene)) << "\nmodel    " << word_of(scene.illumination)
               << "\ndepth    " << scene.max_depth << "\nshadows  " << word_of(scene.shadows)
               << '\n';
-    if (features.bytes > 0)
-        print_memory(features.bytes, scene.objects.size());
+    print_memory(features.bytes, scene.objects.size());
 }
 
 std::string joined(const std::vector<std::string>& words)

@@ -33,15 +33,18 @@ int report_parse_end(const CLI::App& app, const CLI::ParseError& end, int argc, 
     return exit_usage;
 }
 
-/// The same, where nobody catches what it throws.
-int end_of_parsing(const CLI::App& app, const CLI::ParseError& end, int argc, char** argv)
+/// Runs the subcommand; what it throws ends the program.
+int parse_and_run(CLI::App& app, int argc, char** argv)
 {
     try {
+        app.parse(argc, argv);
+        if (app.get_subcommands().empty())
+            throw CLI::RequiredError::Subcommand(1);
+    } catch (const CLI::ParseError& end) {
         return report_parse_end(app, end, argc, argv);
-    } catch (const FileError& error) {
-        std::cerr << error.what() << '\n';
-        return exit_failed;
     }
+    check_standard_output();
+    return exit_ok;
 }
 
 int run(int argc, char** argv)
@@ -64,12 +67,7 @@ int run(int argc, char** argv)
     add_stress(app);
     clean_up_when_interrupted();
     try {
-        app.parse(argc, argv);
-        if (app.get_subcommands().empty())
-            throw CLI::RequiredError::Subcommand(1);
-        check_standard_output();
-    } catch (const CLI::ParseError& end) {
-        return end_of_parsing(app, end, argc, argv);
+        return parse_and_run(app, argc, argv);
     } catch (const Failed& failed) {
         return failed.exit_code;
     } catch (const std::bad_alloc&) {
@@ -79,7 +77,6 @@ int run(int argc, char** argv)
         std::cerr << error.what() << '\n';
         return exit_failed;
     }
-    return exit_ok;
 }
 
 }  // namespace

@@ -19,7 +19,7 @@ std::vector<std::string> used_features(const LoweredScene& lowered, Traversal tr
     add(!lowered.spheres.empty(), "spheres");
     add(!lowered.anchored_spheres.empty(), "anchored spheres");
     add(!lowered.planes.empty(), "planes");
-    add(lowered.features.quadrics, "quadrics");
+    add(!lowered.quadrics.empty(), "quadrics");
     add(!lowered.polygons.empty(), "polygons");
     add(std::any_of(lowered.quadrics.begin(), lowered.quadrics.end(),
                     [](const LoweredQuadric& quadric) { return quadric.clipped(); }),

@@ -1,6 +1,5 @@
 #include "core/atomic_file.hpp"
 
-#include <algorithm>
 #include <array>
 #include <atomic>
 #include <cerrno>
@@ -8,8 +7,11 @@
 #include <climits>
 #include <csignal>
 #include <cstring>
+#include <map>
+#include <mutex>
 #include <string>
 #include <utility>
+#include <vector>
 
 #include <fcntl.h>
 #include <sys/file.h>
@@ -64,20 +66,34 @@ bool is_left_over(const std::filesystem::path& file, pid_t writer)
     return free;
 }
 
-/// Removes what killed writers of `target` have left.
+/// The names in a folder that may be of temporary files, read once: a run that writes many files
+/// into one folder looks through it a single time.
+std::vector<std::string> temporaries_in(const std::filesystem::path& folder)
+{
+    static std::mutex mutex;
+    static std::map<std::filesystem::path, std::vector<std::string>> known;
+    const std::scoped_lock lock(mutex);
+    const auto [place, is_new] = known.try_emplace(folder);
+    std::error_code error;
+    if (is_new)
+        for (std::filesystem::directory_iterator entry(folder, error), end; !error && entry != end;
+             entry.increment(error))
+            if (std::string name = entry->path().filename().string(); name.ends_with(ending))
+                place->second.push_back(std::move(name));
+    return place->second;
+}
+
+/// Removes what writers of `target` have left that were killed before this program began.
 void remove_left_over(const std::filesystem::path& target)
 {
     const std::string prefix = temporary_prefix(target);
     const std::filesystem::path folder =
         target.has_parent_path() ? target.parent_path() : std::filesystem::path(".");
-    std::error_code error;
-    for (std::filesystem::directory_iterator entry(folder, error), end; !error && entry != end;
-         entry.increment(error)) {
-        const std::string name = entry->path().filename().string();
+    for (const std::string& name : temporaries_in(folder)) {
         const pid_t writer = writer_of(name, prefix);
         std::error_code ignored;
-        if (writer != 0 && is_left_over(entry->path(), writer))
-            std::filesystem::remove(entry->path(), ignored);
+        if (writer != 0 && is_left_over(folder / name, writer))
+            std::filesystem::remove(folder / name, ignored);
     }
 }
 

@@ -9,7 +9,7 @@ namespace packtrace::PACKTRACE_ISA {
 
 /// The kernels of Features::probe. They have a source of their own because in one object with the
 /// others they would sway the compiler's choice of what to inline there, and because programs
-/// without src/study do without them.
+/// without src/lab do without them.
 /// A reference, which takes no instruction that the machine may lack.
 [[nodiscard]] const abi::ProbeKernels& probe_kernels();
 

@@ -1,6 +1,7 @@
 #include "lower/packed_tree.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include <glm/geometric.hpp>
@@ -11,6 +12,7 @@ namespace packtrace {
 namespace {
 
 enum ItemKind : std::uint32_t { sphere_item, quadric_item, polygon_item };
+constexpr std::size_t item_kinds = 3;
 
 /// How far single precision shifts the hits of a sphere, as a share of the distances there are:
 /// docs/numerics_derivations.md derives 16 units in the last place.
@@ -178,51 +180,88 @@ abi::BvhView<double> PackedTree<Real>::wide_view(const abi::ShapesView& shapes) 
     return wide;
 }
 
+namespace {
+
+/// How many of what leaves hold there are: blocks of spheres, and objects of the other kinds.
+using LeafCounts = std::array<std::uint32_t, item_kinds>;
+
+std::uint32_t places_of(const BvhLeaf& leaf)
+{
+    return leaf.kind == sphere_item ? 1 : leaf.count;
+}
+
+LeafCounts count_places(const Bvh& bvh)
+{
+    LeafCounts count{};
+    for (const BvhLeaf& leaf : bvh.leaves)
+        count[leaf.kind] += places_of(leaf);
+    return count;
+}
+
+/// What nodes name each leaf by. Runs are numbered through, quadrics first.
+std::vector<std::uint32_t> leaf_names(const Bvh& bvh, const LeafCounts& count)
+{
+    LeafCounts next{};
+    next[polygon_item] = count[quadric_item];
+    std::vector<std::uint32_t> names;
+    names.reserve(bvh.leaves.size());
+    for (const BvhLeaf& leaf : bvh.leaves) {
+        std::uint32_t name = abi::leaf_bit | next[leaf.kind];
+        if (leaf.kind != sphere_item)
+            name |= abi::run_bit | (leaf.count - 1) << abi::run_count_shift;
+        names.push_back(name);
+        next[leaf.kind] += places_of(leaf);
+    }
+    return names;
+}
+
+/// The polygons of runs, in the order of their records.
+std::vector<const LoweredPolygon*> polygons_of_runs(const LoweredScene& lowered, const Bvh& bvh)
+{
+    std::vector<const LoweredPolygon*> polygons;
+    for (const BvhLeaf& leaf : bvh.leaves)
+        if (leaf.kind == polygon_item)
+            for (std::uint32_t i = 0; i < leaf.count; ++i)
+                polygons.push_back(&lowered.polygons[bvh.order[leaf.first + i]]);
+    return polygons;
+}
+
+void name_leaves(Bvh& bvh, const std::vector<std::uint32_t>& names)
+{
+    for (abi::BvhNode& node : bvh.nodes)
+        for (int slot = 0; slot < abi::node_width; ++slot)
+            if (abi::is_leaf(node.child[slot]) && node.low[0][slot] <= node.high[0][slot])
+                node.child[slot] = names[node.child[slot] & ~abi::leaf_bit];
+}
+
+}  // namespace
+
 /// Also points the nodes' leaves to where they are packed.
 template <class Real>
 void PackedTree<Real>::pack_leaves(const LoweredScene& lowered, Bvh& bvh)
 {
-    std::size_t count[] = {0, 0, 0};  // blocks, quadrics, polygons
-    for (const BvhLeaf& leaf : bvh.leaves)
-        count[leaf.kind] += leaf.kind == sphere_item ? 1 : leaf.count;
+    const LeafCounts count = count_places(bvh);
+    const std::vector<std::uint32_t> names = leaf_names(bvh, count);
     blocks_ = AlignedArray<abi::SphereBlock<Real>>::unset(count[sphere_item]);
-    block_surfaces_ = AlignedArray<std::int32_t>::unset(count[sphere_item] * abi::node_width);
+    block_surfaces_ =
+        AlignedArray<std::int32_t>::unset(std::size_t{count[sphere_item]} * abi::node_width);
     quadrics_ = AlignedArray<abi::QuadricRecord<Real>>::unset(count[quadric_item]);
     polygons_ = AlignedArray<abi::PolygonRecord<Real>>::unset(count[polygon_item]);
-    run_surfaces_ = AlignedArray<std::int32_t>::unset(count[quadric_item] + count[polygon_item]);
-    std::vector<const LoweredPolygon*> polygons(count[polygon_item]);
-    std::uint32_t next[] = {0, 0, static_cast<std::uint32_t>(count[quadric_item])};
-    std::vector<std::uint32_t> packed_at(bvh.leaves.size());
-    for (std::size_t i = 0; i < bvh.leaves.size(); ++i) {
-        const BvhLeaf& leaf = bvh.leaves[i];
-        std::uint32_t& place = next[leaf.kind];
-        packed_at[i] = abi::leaf_bit | place;
-        if (leaf.kind != sphere_item)
-            packed_at[i] |= abi::run_bit | (leaf.count - 1) << abi::run_count_shift;
-        place += leaf.kind == sphere_item ? 1 : leaf.count;
-    }
+    run_surfaces_ =
+        AlignedArray<std::int32_t>::unset(std::size_t{count[quadric_item]} + count[polygon_item]);
     for_each_in_parallel(bvh.leaves, [&](const BvhLeaf& leaf) {
-        const std::uint32_t at = packed_at[static_cast<std::size_t>(&leaf - bvh.leaves.data())];
+        const std::uint32_t name = names[static_cast<std::size_t>(&leaf - bvh.leaves.data())];
         if (leaf.kind == sphere_item)
-            pack_block(lowered, bvh, leaf, at & abi::block_mask);
+            pack_block(lowered, bvh, leaf, name & abi::block_mask);
         else if (leaf.kind == quadric_item)
-            pack_run(lowered.quadrics, bvh, leaf, at & abi::run_mask, 0, quadrics_);
+            pack_run(lowered.quadrics, bvh, leaf, name & abi::run_mask, 0, quadrics_);
         else
-            pack_run(lowered.polygons, bvh, leaf, at & abi::run_mask, count[quadric_item],
+            pack_run(lowered.polygons, bvh, leaf, name & abi::run_mask, count[quadric_item],
                      polygons_);
     });
-    for (const BvhLeaf& leaf : bvh.leaves)
-        if (leaf.kind == polygon_item) {
-            const std::uint32_t at = packed_at[static_cast<std::size_t>(&leaf - bvh.leaves.data())];
-            for (std::uint32_t i = 0; i < leaf.count; ++i)
-                polygons[(at & abi::run_mask) - count[quadric_item] + i] =
-                    &lowered.polygons[bvh.order[leaf.first + i]];
-        }
-    polygon_corners_ = PackedCorners<Real>(polygons, {polygons_.data(), polygons_.size()});
-    for (abi::BvhNode& node : bvh.nodes)
-        for (int slot = 0; slot < abi::node_width; ++slot)
-            if (abi::is_leaf(node.child[slot]) && node.low[0][slot] <= node.high[0][slot])
-                node.child[slot] = packed_at[node.child[slot] & ~abi::leaf_bit];
+    polygon_corners_ =
+        PackedCorners<Real>(polygons_of_runs(lowered, bvh), {polygons_.data(), polygons_.size()});
+    name_leaves(bvh, names);
 }
 
 /// The run begins with the number `first`, and `records` with the number `base`.

@@ -15,17 +15,25 @@
 namespace packtrace::PACKTRACE_ISA {
 namespace {
 
+/// Planes, and what lies in one: polygons.
+template <class Record>
+concept IsFlat = requires(const Record& flat)
+{
+    flat.point;
+    flat.normal;
+};
+
 /// Height of the plane over the origin along its normal. The origin is taken relative to the
 /// plane's point, which halves the error of n·point - n·org.
-template <class Real>
-inline vreal<Real> plane_height(const abi::PlaneRecord<Real>& plane, const Vec3v<Real>& org)
+template <class Real, IsFlat Flat>
+inline vreal<Real> plane_height(const Flat& plane, const Vec3v<Real>& org)
 {
     return dot(broadcast(plane.normal), broadcast(plane.point) - org);
 }
 
 /// Where the rays cross a plane; infinite or NaN for rays along it.
-template <class Real>
-inline vreal<Real> plane_t(const abi::PlaneRecord<Real>& plane, const RayPacket<Real>& rays)
+template <IsFlat Flat, class Real>
+inline vreal<Real> plane_t(const Flat& plane, const RayPacket<Real>& rays)
 {
     return plane_height<Real>(plane, rays.org) / dot(broadcast(plane.normal), rays.dir);
 }
@@ -96,32 +104,34 @@ inline void visit_crossings(const abi::PlaneRecord<Real>& plane, const RayPacket
     visit(from_bits<Real>(all_lanes<Real>), plane_t(plane, rays), 0);
 }
 
-template <class Real>
-inline Vec3v<Real> unit_normal(const abi::PlaneRecord<double>& plane, unsigned, const Vec3v<Real>&,
-                               const Vec3v<Real>&)
+template <class Real, IsFlat Flat>
+inline Vec3v<Real> unit_normal(const Flat& plane, unsigned, const Vec3v<Real>&, const Vec3v<Real>&)
 {
     return broadcast_as<Real>(plane.normal);
 }
 
-/// A plane is never met again.
-inline HitAgain hit_again(const abi::PlaneRecord<double>&, unsigned)
+/// What is flat is never met again.
+template <IsFlat Flat>
+inline HitAgain hit_again(const Flat&, unsigned)
 {
     return HitAgain::never;
 }
-inline OwnCrossing second_crossing(const abi::PlaneRecord<double>&, unsigned, const Vec3v<double>&,
+template <IsFlat Flat>
+inline OwnCrossing second_crossing(const Flat&, unsigned, const Vec3v<double>&,
                                    const Vec3v<double>&, const vreal<double>&, vmask<double>)
 {
     return {vreal<double>(__builtin_inf())};
 }
 
-inline RefinedHalf refine(const abi::PlaneRecord<double>& plane, unsigned,
-                          const RayPacket<double>& rays)
+template <IsFlat Flat>
+inline RefinedHalf refine(const Flat& plane, unsigned, const RayPacket<double>& rays)
 {
     const vreal<double> t = plane_t(plane, rays);
     return {t, point_at(rays, t), broadcast(plane.normal)};
 }
 
-inline AnchoredForm form_of(const abi::PlaneRecord<double>& plane)
+template <IsFlat Flat>
+inline AnchoredForm form_of(const Flat& plane)
 {
     return anchored_form(plane.point, plane.normal, 0.0, 0.0);
 }

@@ -1,17 +1,10 @@
 #pragma once
 
-#include <type_traits>
-
-#include "kernel_abi/features.hpp"
-#include "kernel_abi/lists.hpp"
-#include "kernel_abi/observation.hpp"
-#include "kernel_abi/scene_view.hpp"
 #include "kernels/geometry/ball_filter.hpp"
-#include "kernels/geometry/object_list.hpp"
-#include "kernels/geometry/one_surface.hpp"
+#include "kernels/geometry/plane.hpp"
 
-// Planar polygons by the even-odd rule: the test, a hit's place, and, for rays in single precision,
-// a certain rejection with the test in double behind it.
+// Planar polygons by the even-odd rule: the test, and, for rays in single precision, a certain
+// rejection with the test in double behind it. A hit's place is that of the plane (plane.hpp).
 //
 // Corners are projected along the ray (the shear of Woop, Benthin and Wald, "Watertight
 // Ray/Triangle Intersection", 2013), and the edges counted that cross a half line from where the
@@ -78,13 +71,6 @@ template <class Real>
     return inside;
 }
 
-template <class Real>
-inline vreal<Real> polygon_t(const abi::PolygonRecord<Real>& polygon, const RayPacket<Real>& rays)
-{
-    const Vec3v<Real> normal = broadcast(polygon.normal);
-    return dot(normal, broadcast(polygon.point) - rays.org) / dot(normal, rays.dir);
-}
-
 /// Rays from one point see it as others do.
 template <class Real>
 inline abi::PolygonRecord<Real> share_origin(const abi::PolygonRecord<Real>& polygon,
@@ -105,7 +91,7 @@ template <class Real, class Own>
 inline void keep_closest(HitPacket<Real>& hit, const abi::PolygonRecord<Real>& polygon,
                          const RayPacket<Real>& rays, const Own& own)
 {
-    const vreal<Real> t = polygon_t(polygon, rays);
+    const vreal<Real> t = plane_t(polygon, rays);
     const std::uint32_t ahead =
         bits((t > rays.t_min) & (t <= hit.t)) & own.template lanes_on_others<Real>(polygon.surface);
     if (ahead != 0)
@@ -119,7 +105,7 @@ inline std::uint32_t occluding_lanes(const RayEnd<Real>& end,
                                      const abi::PolygonRecord<Real>& polygon,
                                      const RayPacket<Real>& rays)
 {
-    const std::uint32_t ahead = bits(end.blocked_at(polygon_t(polygon, rays), rays));
+    const std::uint32_t ahead = bits(end.blocked_at(plane_t(polygon, rays), rays));
     return ahead == 0 ? 0 : ahead & passes_through(polygon, rays);
 }
 
@@ -127,38 +113,7 @@ template <class Real, class Visit>
 inline void visit_crossings(const abi::PolygonRecord<Real>& polygon, const RayPacket<Real>& rays,
                             const Visit& visit)
 {
-    visit(from_bits<Real>(passes_through(polygon, rays)), polygon_t(polygon, rays), 0);
-}
-
-template <class Real>
-inline Vec3v<Real> unit_normal(const abi::PolygonRecord<double>& polygon, unsigned,
-                               const Vec3v<Real>&, const Vec3v<Real>&)
-{
-    return broadcast_as<Real>(polygon.normal);
-}
-
-/// A polygon is never met again.
-inline HitAgain hit_again(const abi::PolygonRecord<double>&, unsigned)
-{
-    return HitAgain::never;
-}
-inline OwnCrossing second_crossing(const abi::PolygonRecord<double>&, unsigned,
-                                   const Vec3v<double>&, const Vec3v<double>&, const vreal<double>&,
-                                   vmask<double>)
-{
-    return {vreal<double>(__builtin_inf())};
-}
-
-inline RefinedHalf refine(const abi::PolygonRecord<double>& polygon, unsigned,
-                          const RayPacket<double>& rays)
-{
-    const vreal<double> t = polygon_t(polygon, rays);
-    return {t, point_at(rays, t), broadcast(polygon.normal)};
-}
-
-inline AnchoredForm form_of(const abi::PolygonRecord<double>& polygon)
-{
-    return anchored_form(polygon.point, polygon.normal, 0.0, 0.0);
+    visit(from_bits<Real>(passes_through(polygon, rays)), plane_t(polygon, rays), 0);
 }
 
 /// A polygon for the origins of one group of rays in single precision.
@@ -191,7 +146,7 @@ inline HalfPolygonCrossings half_crossings(const abi::PolygonRecord<double>& pol
                                            const RayPacket<double>& rays)
 {
     HalfPolygonCrossings half;
-    half.t = polygon_t(polygon, rays);
+    half.t = plane_t(polygon, rays);
     const std::uint32_t ahead =
         bits((half.t > rays.t_min) & (half.t < vreal<double>(__builtin_inf())));
     half.valid = ahead == 0 ? 0 : ahead & passes_through(polygon, rays);

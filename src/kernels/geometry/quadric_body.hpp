@@ -54,10 +54,10 @@ inline OwnCrossing crossing_from_side(const abi::QuadricRecord<double>& quadric,
     if (!quadric.clipped)
         return only_crossing(line, t_min, outside);
     const ClipCrossings<double> clip = clip_crossings<double>(quadric, height, dir);
-    const std::uint32_t climbs = bits(dot(broadcast(quadric.clip), dir) > zero);
-    const auto along = dot(broadcast(quadric.clip), dir) == zero;
+    const vreal<double> climb = dot(broadcast(quadric.clip), dir);
+    const std::uint32_t climbs = bits(climb > zero);
     const vreal<double> out =
-        select(along, vreal<double>(__builtin_inf()),
+        select(climb == zero, vreal<double>(__builtin_inf()),
                max(select(from_bits<double>(climbs), clip.high_t, clip.low_t), zero));
     const vreal<double> root = other_root(line, outside);
     // The inside is ahead up to the other root where the surface bends away, beyond it where the

@@ -100,16 +100,19 @@ private:
 
     void run(std::uint32_t child, std::uint32_t cells) const
     {
+        const abi::Primitive kind = primitive_of_run(tree_, abi::first_of_run(child));
+        const PartScope part(part_of(kind));
         for (int i = 0; i < abi::run_count(child); ++i)
             for (std::uint32_t left = cells; left != 0; left &= left - 1)
-                keep_object(abi::first_of_run(child) + i, __builtin_ctz(left));
+                keep_object(kind, abi::first_of_run(child) + i, __builtin_ctz(left));
         join_t_max(bounds_);
     }
 
-    void keep_object(int number, int cell) const
+    void keep_object(abi::Primitive kind, int number, int cell) const
     {
         for (int first = cell * cell_rays; first < (cell + 1) * cell_rays; first += lanes<Real>) {
             tell_live(active_lanes(bundle_, first));
+            count_tests(kind, 1);
             HitPacket<Real> hit = load_hits(bundle_, first);
             keep_of_run<F>(hit, tree_, number, bundle_, load_rays(bundle_, first),
                            own_of(bundle_, first));

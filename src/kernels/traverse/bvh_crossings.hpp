@@ -59,7 +59,7 @@ private:
 
     void object(int number, int cell) const
     {
-        with_object_of_run(tree_, number, [&](auto, const auto& record, const auto&) {
+        with_object_of_run(tree_, number, [&](const auto& record, const auto&) {
             packets_of(cell, [&](int first, const RayPacket<Real>& rays) {
                 visit_crossings(record, rays,
                                 [&](vmask<Real> valid, const vreal<Real>& t, int piece) {

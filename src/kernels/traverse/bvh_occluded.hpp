@@ -95,11 +95,11 @@ private:
 
     void run(std::uint32_t child, std::uint32_t cells) const
     {
+        const abi::Primitive kind = primitive_of_run(tree_, abi::first_of_run(child));
+        const PartScope part(part_of(kind));
         for (int i = 0; i < abi::run_count(child); ++i) {
             const int number = abi::first_of_run(child) + i;
             const std::int32_t surface = tree_.run_surfaces[number];
-            const abi::Primitive kind = primitive_of_run(tree_, number);
-            const PartScope part(part_of(kind));
             for (std::uint32_t left = cells; left != 0; left &= left - 1)
                 object(kind, __builtin_ctz(left), surface, [&](int first) {
                     return object_occludes<F>(tree_, number, bundle_, load_rays(bundle_, first),

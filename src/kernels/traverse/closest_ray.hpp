@@ -41,9 +41,7 @@ template <abi::Features F, class Real, class Own>
 inline void keep_of_run(HitPacket<Real>& hit, const abi::BvhView<Real>& tree, int number,
                         const RayBundle<Real>& bundle, const RayPacket<Real>& rays, const Own& own)
 {
-    with_object_of_run(tree, number, [&](auto kind, const auto& record, const auto& shape) {
-        const PartScope part(part_of(kind.primitive));
-        count_tests(kind.primitive, 1);
+    with_object_of_run(tree, number, [&](const auto& record, const auto& shape) {
         if constexpr (F.exact)
             keep_certain<false>(hit, leaf_filter(record, shape, bundle), rays, RayScale(rays), own);
         else
@@ -55,7 +53,10 @@ template <abi::Features F, class Real>
 inline void closest_of_run(const abi::BvhView<Real>& tree, RayBundle<Real>& bundle, int ray,
                            int begin, int count)
 {
+    const abi::Primitive kind = primitive_of_run(tree, begin);
+    const PartScope part(part_of(kind));
     tell_live(1);
+    count_tests(kind, count);
     const RayPacket<Real> rays = broadcast_ray(bundle, ray);
     load_rival_of_ray<Real>(ray);
     HitPacket<Real> hit{vreal<Real>(bundle.t[ray]), vint<Real>(bundle.surface[ray]),

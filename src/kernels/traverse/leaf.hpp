@@ -58,13 +58,14 @@ inline const Record<Real>& record_or_shape(const Record<Real>* records, int numb
     return records[number];
 }
 
+/// The kind of all objects of a run, by the number of any.
 template <class Real>
 inline abi::Primitive primitive_of_run(const abi::BvhView<Real>& tree, int number)
 {
     return number < tree.quadric_count ? Quadric::primitive : Polygon::primitive;
 }
 
-/// `visit(kind, record, shape)` of an object of a run.
+/// `visit(record, shape)` of an object of a run.
 template <class Real, class Visit>
 inline auto with_object_of_run(const abi::BvhView<Real>& tree, int number, const Visit& visit)
 {
@@ -72,11 +73,10 @@ inline auto with_object_of_run(const abi::BvhView<Real>& tree, int number, const
     const abi::SurfaceIndex& index = shapes.index[tree.run_surfaces[number]];
     if (number < tree.quadric_count) {
         const abi::QuadricRecord<double>& shape = shapes.quadrics[index.record];
-        return visit(Quadric{}, record_or_shape<Real>(tree.quadrics, number, shape), shape);
+        return visit(record_or_shape<Real>(tree.quadrics, number, shape), shape);
     }
     const abi::PolygonRecord<double>& shape = shapes.polygons[index.record];
-    return visit(Polygon{},
-                 record_or_shape<Real>(tree.polygons, number - tree.quadric_count, shape), shape);
+    return visit(record_or_shape<Real>(tree.polygons, number - tree.quadric_count, shape), shape);
 }
 
 }  // namespace

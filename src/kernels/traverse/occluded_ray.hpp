@@ -38,7 +38,7 @@ inline Occlusion object_occludes(const abi::BvhView<Real>& tree, int number,
                                  const RayBundle<Real>& bundle, const RayPacket<Real>& rays,
                                  const vreal<Real>& t_end, const vint<Real>& own, bool closed)
 {
-    return with_object_of_run(tree, number, [&](auto, const auto& record, const auto& shape) {
+    return with_object_of_run(tree, number, [&](const auto& record, const auto& shape) {
         if constexpr (F.exact) {
             return occludes<false>(leaf_filter(record, shape, bundle), rays, RayScale(rays), t_end,
                                    CertainOthers{own, all_lanes<float>});
@@ -56,13 +56,13 @@ template <abi::Features F, class Real, class Occluder>
 inline bool goes_behind_run(const abi::BvhView<Real>& tree, RayBundle<Real>& bundle, int ray,
                             bool closed, std::uint32_t child, const Occluder& occluder)
 {
+    const abi::Primitive kind = primitive_of_run(tree, abi::first_of_run(child));
+    const PartScope part(part_of(kind));
     tell_live(1);
     const RayPacket<Real> rays = broadcast_ray(bundle, ray);
     const vint<Real> own(bundle.own[ray]);
     for (int i = 0; i < abi::run_count(child); ++i) {
         const int number = abi::first_of_run(child) + i;
-        const abi::Primitive kind = primitive_of_run(tree, number);
-        const PartScope part(part_of(kind));
         count_tests(kind, 1);
         const Occlusion occlusion =
             object_occludes<F>(tree, number, bundle, rays, vreal<Real>(bundle.t[ray]), own, closed);
