@@ -246,12 +246,13 @@ inline AnchoredFilter certain_form(const abi::AnchoredSphere<float>&,
     return anchored_filter<Shared>(wide, origins);
 }
 
-/// Whether all rays of a cone leave an anchored sphere behind: they start outside and go the way
-/// of its outward gradient.
+/// Whether no ray of a cone reaches an anchored sphere: all stay in front of a plane that touches
+/// it, or, from one point, start outside and go the way of its outward gradient.
 inline bool leaves_behind(const Cone<float>& cone, const AnchoredFilter& sphere)
 {
     const float inwards[3] = {-sphere.gradient[0], -sphere.gradient[1], -sphere.gradient[2]};
-    return sphere.value > sphere.value_error && runs_against(cone, inwards);
+    return stays_in_front(cone, sphere.anchor, sphere.normal) ||
+           (cone.radius == 0 && sphere.value > sphere.value_error && runs_against(cone, inwards));
 }
 
 /// The kind (kinds.hpp).

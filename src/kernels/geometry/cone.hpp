@@ -36,6 +36,10 @@ inline Real magnitude(Real x)
 template <class Real>
 inline constexpr Real cone_slack = sizeof(Real) == 4 ? Real(1e-5) : Real(1e-13);
 
+/// Beyond this a cone's reach is no length.
+template <class Real>
+inline constexpr Real largest_reach = Real(1e18);
+
 /// Lanes whose sphere, `v` from the cone's base to its centre, may be met by a ray.
 template <class Real>
 inline vmask<Real> may_meet(const Cone<Real>& cone, const Vec3v<Real>& v, const vreal<Real>& radius)
@@ -68,6 +72,52 @@ inline bool runs_against(const Cone<Real>& cone, const Real (&direction)[3])
     return cone.bounded && along < -(cone.sine + cone_slack<Real>)*square_root(length2);
 }
 
+template <class Real>
+struct Ball {
+    Real center[3];
+    Real radius;
+};
+
+/// The ball that holds the ends of a cone's rays, which all have one (segment_cone()).
+template <class Real>
+inline Ball<Real> far_end(const Cone<Real>& cone)
+{
+    const Real distance = cone.reach / (Real(1) + cone.sine);
+    Ball<Real> ball;
+    for (int i = 0; i < 3; ++i)
+        ball.center[i] = cone.base[i] + distance * cone.axis[i];
+    ball.radius = distance * cone.sine;
+    return ball;
+}
+
+/// Whether a ball is wholly in front of a plane with a unit normal, by more than rounding can move
+/// either.
+template <class Real>
+inline bool is_in_front(const Ball<Real>& ball, const Real (&point)[3], const Real (&normal)[3])
+{
+    Real height = 0;
+    Real size = ball.radius;
+    for (int i = 0; i < 3; ++i) {
+        height += normal[i] * (ball.center[i] - point[i]);
+        size += magnitude(ball.center[i]) + magnitude(point[i]);
+    }
+    return height > ball.radius + cone_slack<Real> * size;
+}
+
+/// Whether every ray of a cone stays in front of a plane: it starts there, and goes away from the
+/// plane or ends before it.
+template <class Real>
+inline bool stays_in_front(const Cone<Real>& cone, const Real (&point)[3], const Real (&normal)[3])
+{
+    if (!cone.bounded ||
+        !is_in_front<Real>({{cone.base[0], cone.base[1], cone.base[2]}, cone.radius}, point,
+                           normal))
+        return false;
+    const Real towards[3] = {-normal[0], -normal[1], -normal[2]};
+    return runs_against(cone, towards) || (cone.radius == 0 && cone.reach < largest_reach<Real> &&
+                                           is_in_front(far_end(cone), point, normal));
+}
+
 // Bounds of a stream's points, and the cones of shadow rays towards or along them.
 
 template <class Real>
@@ -92,18 +142,21 @@ inline void extent_of_lanes(batch<Real> smallest, batch<Real> largest, Real& low
     }
 }
 
+/// `count` > 0.
 template <class Real>
 inline void extent(const Real* values, int count, Real& low, Real& high)
 {
-    // Lanes beyond the end repeat the first value.
-    const vreal<Real> first(values[0]);
-    vreal<Real> smallest = first;
-    vreal<Real> largest = first;
-    for (int i = 0; i < count; i += lanes<Real>) {
+    vreal<Real> smallest(values[0]);
+    vreal<Real> largest = smallest;
+    int i = 0;
+    for (; i + lanes<Real> <= count; i += lanes<Real>) {
+        smallest = min(smallest, load(values + i));
+        largest = max(largest, load(values + i));
+    }
+    if (i < count) {
         const auto active = from_bits<Real>(first_lanes<Real>(count - i));
-        const vreal<Real> value = select(active, load(values + i), first);
-        smallest = min(smallest, value);
-        largest = max(largest, value);
+        smallest = select(active, min(smallest, load(values + i)), smallest);
+        largest = select(active, max(largest, load(values + i)), largest);
     }
     extent_of_lanes<Real>(smallest, largest, low, high);
 }
@@ -117,12 +170,6 @@ inline Box<Real> box_of(const Real (&points)[3][Size], int count)
         extent(points[axis], count, box.low[axis], box.high[axis]);
     return box;
 }
-
-template <class Real>
-struct Ball {
-    Real center[3];
-    Real radius;
-};
 
 /// The ball around a box, with room for what rounding does to coordinates as large as its own:
 /// to its centre, and to rays that start lifted off the points in it.

@@ -83,8 +83,7 @@ inline void find_from_point(ObjectArray<Form>& list, const Cone<Real>& cone,
     }
 }
 
-/// Fills `list` with the error bounds of what rays from `origins` may meet; `cone` bounds rays from
-/// one point.
+/// Fills `list` with the error bounds of what rays from `origins` may meet; `cone` bounds them.
 template <bool Shared, class Form, class Record, class WideRecord>
 inline void find_certain(ObjectArray<Form>& list, const Origins& origins, const Cone<float>& cone,
                          const abi::RecordList<Record>& records,
@@ -92,11 +91,11 @@ inline void find_certain(ObjectArray<Form>& list, const Origins& origins, const 
 {
     list.count = 0;
     for (int i = 0; i < wide.count; ++i) {
-        if (Shared && out_of_reach(cone, records.data[i]))
+        if (out_of_reach(cone, records.data[i]))
             continue;
         Form& form = list.data[list.count];
         form = certain_form<Shared>(records.data[i], wide.data[i], origins);
-        list.count += !(Shared && leaves_behind(cone, form));
+        list.count += !leaves_behind(cone, form);
     }
 }
 

@@ -264,13 +264,16 @@ inline PlaneFilter certain_form(const abi::PlaneRecord<float>&,
     return plane_filter<Shared>(wide, origins);
 }
 
-/// Whether all rays of a cone run away from it on the side they start on.
+/// Whether all rays of a cone stay on the side they start on.
 inline bool leaves_behind(const Cone<float>& cone, const PlaneFilter& plane)
 {
     const float side = plane.height < 0 ? -1.0f : 1.0f;
     const float towards[3] = {side * plane.normal[0], side * plane.normal[1],
                               side * plane.normal[2]};
-    return side * plane.height > plane.height_error && runs_against(cone, towards);
+    const float away[3] = {-towards[0], -towards[1], -towards[2]};
+    return stays_in_front(cone, plane.point, away) ||
+           (cone.radius == 0 && side * plane.height > plane.height_error &&
+            runs_against(cone, towards));
 }
 
 /// The kind (kinds.hpp).

@@ -9,6 +9,10 @@ namespace {
 
 /// Rays of which none starts on a surface.
 struct NoOwn {
+    static constexpr bool all_on(const Body&)
+    {
+        return false;
+    }
     template <class Real>
     std::uint32_t lanes_on_others(std::int32_t, int = 1) const
     {
@@ -20,6 +24,13 @@ struct NoOwn {
 template <class Packet>
 struct OwnSurface {
     Packet surface;
+    std::int32_t common = -1;  ///< the one that all rays which count start on, if there is one
+
+    /// Whether none of the rays is looked for on a body.
+    bool all_on(const Body& body) const
+    {
+        return common >= body.first && common < body.first + body.pieces;
+    }
 
     /// Lanes whose rays start elsewhere than on the body of `pieces` surfaces from `first` on.
     template <class Real>
@@ -30,6 +41,17 @@ struct OwnSurface {
 };
 template <class Packet>
 OwnSurface(Packet) -> OwnSurface<Packet>;
+template <class Packet>
+OwnSurface(Packet, std::int32_t) -> OwnSurface<Packet>;
+
+/// `first` is the surface of any lane of `active`.
+template <class Real>
+inline OwnSurface<vint<Real>> own_with_common(const vint<Real>& surface, lane_int<Real> first,
+                                              std::uint32_t active)
+{
+    const std::uint32_t others = active & ~bits(int_equal(surface, vint<Real>(first)));
+    return {surface, others == 0 ? static_cast<std::int32_t>(first) : -1};
+}
 
 /// No ray's own surface.
 template <class Real>

@@ -48,6 +48,18 @@ inline vint<Real> own_of(const abi::SceneView<Real>& scene, const SurfacePacket<
     return scene.start_error > 0 ? surface.number : no_surface<Real>();
 }
 
+/// The same for a packet against all objects of a list; any lane is `active`.
+template <class Real>
+inline OwnSurface<vint<Real>> common_own_of(const abi::SceneView<Real>& scene,
+                                            const SurfacePacket<Real>& surface,
+                                            std::uint32_t active)
+{
+    if (!(scene.start_error > 0))
+        return {no_surface<Real>()};
+    const DistinctNumbers<Real> distinct(surface.number, active);
+    return own_with_common<Real>(surface.number, distinct.value(), active);
+}
+
 /// Lanes of `wanted` that their own body keeps from a light, by SelfHits::exact.
 template <class Real>
 inline std::uint32_t own_shadow(const abi::SceneView<Real>& scene,
@@ -114,7 +126,7 @@ inline std::uint32_t blocked_lanes(const ShadeContext<F, Real>& context, int lig
                                    const vreal<Real>& t_end, std::uint32_t open)
 {
     const abi::SceneView<Real>& scene = *context.scene;
-    const vint<Real> own = own_of(scene, surface);
+    const OwnSurface<vint<Real>> own = common_own_of(scene, surface, open);
     const bool closed = has_closed_reach(scene, light);
     return with_light_objects(context, light, [&](const auto& objects) -> std::uint32_t {
         if constexpr (F.exact) {
@@ -123,8 +135,9 @@ inline std::uint32_t blocked_lanes(const ShadeContext<F, Real>& context, int lig
                 return occlusion.blocked;
             count_unsure(*context.counts, occlusion.unsure);
             count_unsure_shadows(occlusion.unsure);
-            return occlusion.blocked | retrace_occluded<F>(*casters_of(scene).wide, rays, own,
-                                                           t_end, closed, occlusion.unsure);
+            return occlusion.blocked |
+                   retrace_occluded<F>(*casters_of(scene).wide, rays, own.surface, t_end, closed,
+                                       occlusion.unsure);
         } else {
             return occluded<F>(RayEnd<Real>{t_end, closed}, objects, rays, own, open);
         }
@@ -141,7 +154,7 @@ inline void visit_light_occluders(const ShadeContext<F, Real>& context, int ligh
                                   const PassOn& pass_on, const StartAgain& start_again)
 {
     const abi::SceneView<Real>& scene = *context.scene;
-    const vint<Real> own = own_of(scene, surface);
+    const OwnSurface<vint<Real>> own = common_own_of(scene, surface, wanted);
     const bool closed = has_closed_reach(scene, light);
     with_light_objects(context, light, [&](const auto& objects) {
         if constexpr (F.exact) {
@@ -153,7 +166,7 @@ inline void visit_light_occluders(const ShadeContext<F, Real>& context, int ligh
             count_unsure_shadows(unsure);
             start_again(unsure);
             WideBundle bundle;
-            add_segments(bundle, 0, rays, own, t_end, unsure);
+            add_segments(bundle, 0, rays, own.surface, t_end, unsure);
             block_wide<F>(*casters_of(scene).wide, bundle, closed, Occluders::all,
                           [&](int lane, std::int32_t occluder) {
                               pass_on(occluder, 1u << lane);
@@ -163,6 +176,40 @@ inline void visit_light_occluders(const ShadeContext<F, Real>& context, int ligh
             visit_occluders<F>(RayEnd<Real>{t_end, closed}, objects, rays, own, pass_on);
         }
     });
+}
+
+/// Whether lists hold nothing but what all rays start on.
+template <abi::Features F, class Objects, class Own>
+inline bool holds_but_own(const Objects& objects, const Own& own)
+{
+    return for_each_kind<F>([&](auto kind) {
+        const auto& list = objects_of<decltype(kind)>(objects);
+        for (int i = 0; i < list.count; ++i)
+            if (!own.all_on(body_of(object_at(list, i))))
+                return false;
+        return true;
+    });
+}
+
+/// Whether no object but their own may be in the way of a light, for the lanes of `open`, and
+/// bounds hold for the segments: with a margin, as rays start off their surfaces.
+template <abi::Features F, class Real>
+inline bool nothing_between(const ShadeContext<F, Real>& context, int light,
+                            const LightPacket<Real>& packet, const SurfacePacket<Real>& surface,
+                            std::uint32_t open)
+{
+    if constexpr (F.exact) {
+        const auto certain = (packet.inverse_length > vreal<Real>(1e-8f)) &
+                             (packet.inverse_length < vreal<Real>(1e8f));
+        if ((open & ~bits(certain)) != 0)
+            return false;
+        const auto own = common_own_of(*context.scene, surface, open);
+        return with_light_objects(context, light, [&](const auto& objects) {
+            return objects.certifiable && holds_but_own<F>(objects, own);
+        });
+    } else {
+        return false;
+    }
 }
 
 inline void count_shadow_rays(abi::RayCounts& counts, int first, std::uint32_t traced)
@@ -189,6 +236,8 @@ inline std::uint32_t unshadowed(const ShadeContext<F, Real>& context, int light,
     const abi::SceneView<Real>& scene = *context.scene;
     const std::uint32_t open =
         wanted & ~own_shadow(scene, scene.lights.data[light], packet, surface, wanted);
+    if (open == 0 || nothing_between(context, light, packet, surface, open))
+        return count_lit<Real>(wanted, open);
     return count_lit<Real>(
         wanted, open & ~with_shadow_ray(context, light, packet, surface,
                                         [&](const vreal<Real>& t_end, const RayPacket<Real>& rays) {

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <utility>
+
 #include "kernel_abi/kernel_table.hpp"
 #include "kernels/simd/records.hpp"
 
@@ -33,6 +35,15 @@ inline void store_pixels(double* to, vreal<double> r, vreal<double> g, vreal<dou
     }
 }
 
+/// `first` and those after it.
+template <class Real>
+inline vint<Real> lane_numbers(int first)
+{
+    alignas(64) static constexpr lane_int<Real> number[16] = {0, 1, 2,  3,  4,  5,  6,  7,
+                                                              8, 9, 10, 11, 12, 13, 14, 15};
+    return load(number) + vint<Real>(static_cast<lane_int<Real>>(first));
+}
+
 /// A packet's first light in a pixel replaces the background there; later light is added.
 enum class PixelWrite { set, add };
 
@@ -46,12 +57,19 @@ inline void write_colors(TilePixelColors<Real>& pixels, const vint<Real>& number
         return;
     alignas(64) lane_int<Real> at[lanes<Real>];
     store(at, number);
-    // Hits keep their pixels' order, so that the ends of a packet tell whether any is missing.
-    if (Write == PixelWrite::set && active == all_lanes<Real> &&
-        at[lanes<Real> - 1] - at[0] == lanes<Real> - 1)
-        return store_pixels(pixels + pixel_elements * at[0], color.x, color.y, color.z);
+    const bool are_neighbours =
+        active == all_lanes<Real> &&
+        bits(int_equal(number, lane_numbers<Real>(static_cast<int>(at[0])))) == all_lanes<Real>;
+    Real* const block = pixels + pixel_elements * at[0];
+    if (Write == PixelWrite::set && are_neighbours)
+        return store_pixels(block, color.x, color.y, color.z);
     alignas(64) Real colors[pixel_elements * lanes<Real>];
     store_pixels(colors, color.x, color.y, color.z);
+    if (Write == PixelWrite::add && are_neighbours) {
+        for (int i = 0; i < pixel_elements * lanes<Real>; i += lanes<Real>)
+            store(block + i, load(block + i) + load(colors + i));
+        return;
+    }
     for (; active != 0; active &= active - 1) {
         const int lane = __builtin_ctz(active);
         Real* const pixel = pixels + pixel_elements * at[lane];
@@ -87,38 +105,44 @@ constexpr int spread_bits(int number)
     return (number & 1) | ((number & 2) << 1) | ((number & 4) << 2) | ((number & 8) << 3);
 }
 
-struct ColumnOrder {
-    std::uint8_t number[abi::tile_size] = {};
+/// Two neighbours in a row, of which the number of the first is even, into `to`, and two elements
+/// more that the next ones overwrite.
+template <class Real>
+inline void write_two(Real* to, const Real* pixels)
+{
+    Reals<Real, 2 * pixel_elements> two;
+    __builtin_memcpy(&two, pixels, sizeof two);
+    two = __builtin_shufflevector(two, two, 0, 1, 2, 4, 5, 6, 3, 7);
+    __builtin_memcpy(to, &two, sizeof two);
+}
 
-    constexpr ColumnOrder()
-    {
-        for (int column = 0; column < abi::tile_size; ++column)
-            number[column] = static_cast<std::uint8_t>(spread_bits(column));
-    }
-};
+template <class Real>
+inline void write_one(Real* to, const Real* pixel)
+{
+    for (int channel = 0; channel < 3; ++channel)
+        to[channel] = pixel[channel];
+}
 
-constexpr ColumnOrder column_order;
+/// A whole row of a tile but its last two pixels.
+template <class Real, int... Pair>
+inline void write_pairs(Real* to, const Real* row, std::integer_sequence<int, Pair...>)
+{
+    (write_two(to + 6 * Pair, row + pixel_elements * spread_bits(2 * Pair)), ...);
+}
 
-/// One row of a tile into `to`, interleaved. Pixels go by twos, which are neighbours in the tile,
-/// and are stored with two elements more that the next ones overwrite.
+/// One row of a tile into `to`, interleaved.
 template <class Real>
 inline void write_row(Real* to, const TilePixelColors<Real>& pixels, int row, int width)
 {
-    const int row_bits = spread_bits(row) << 1;
+    const Real* const first = pixels + pixel_elements * (spread_bits(row) << 1);
     int column = 0;
-    for (; column + 2 < width; column += 2, to += 6) {
-        Reals<Real, 8> two;
-        __builtin_memcpy(&two, pixels + pixel_elements * (row_bits | column_order.number[column]),
-                         sizeof two);
-        two = __builtin_shufflevector(two, two, 0, 1, 2, 4, 5, 6, 3, 7);
-        __builtin_memcpy(to, &two, sizeof two);
+    if (width == abi::tile_size) {
+        constexpr int pairs = abi::tile_size / 2 - 1;
+        write_pairs(to, first, std::make_integer_sequence<int, pairs>{});
+        column = 2 * pairs;
     }
-    for (; column < width; ++column, to += 3) {
-        const Real* const pixel =
-            pixels + pixel_elements * (row_bits | column_order.number[column]);
-        for (int channel = 0; channel < 3; ++channel)
-            to[channel] = pixel[channel];
-    }
+    for (; column < width; ++column)
+        write_one(to + 3 * column, first + pixel_elements * spread_bits(column));
 }
 
 }  // namespace

@@ -175,7 +175,9 @@ inline void closest_chunk_in_lists(const abi::SceneView<Real>& scene,
         const StartPacket<Real> start = start_of(scene, view, first, packet.rays);
         HitPacket<Real> hit = start_of_search(start, packet.t_max);
         if (view.start_surface != nullptr)
-            closest_hit<F>(hit, work.nearby, packet.rays, OwnSurface{start.surface});
+            closest_hit<F>(hit, work.nearby, packet.rays,
+                           own_with_common<Real>(start.surface, view.start_surface[first],
+                                                 first_lanes<Real>(packet.count)));
         else
             closest_hit<F>(hit, work.nearby, packet.rays, NoOwn{});
         settle_packet<F>(scene, packet.rays, hit, start, packet.t_max,
@@ -251,15 +253,15 @@ inline void occluded_chunk_in_lists(const abi::SceneView<Real>& scene,
     for (int first = begin; first < end; first += lanes<Real>) {
         const StreamPacket<Real> packet(view, first);
         const std::uint32_t wanted = first_lanes<Real>(packet.count);
-        const vint<Real> own = no_surface<Real>();
+        const OwnSurface<vint<Real>> own{no_surface<Real>()};
         std::uint32_t blocked = 0;
         if constexpr (F.exact) {
             const Occlusion occlusion =
                 occluded<F>(packet.t_max, work.nearby, packet.rays, own, wanted);
             blocked = occlusion.blocked;
             if (occlusion.unsure != 0)
-                blocked |= retrace_occluded<F>(*scene.wide, packet.rays, own, packet.t_max, false,
-                                               occlusion.unsure);
+                blocked |= retrace_occluded<F>(*scene.wide, packet.rays, own.surface, packet.t_max,
+                                               false, occlusion.unsure);
         } else {
             blocked = occluded<F>(RayEnd<Real>{packet.t_max, false}, work.nearby, packet.rays, own,
                                   wanted);

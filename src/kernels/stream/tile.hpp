@@ -141,6 +141,7 @@ void trace_generation(const TileRun<F, Real>& run, const RayStream<F, Real>& ray
             tell_chunk(refracted_rays(rays, begin, end), end - begin);
         find_nearby<F, Real>(run.work.nearby,
                              {rays.org[0] + begin, rays.org[1] + begin, rays.org[2] + begin},
+                             {rays.dir[0] + begin, rays.dir[1] + begin, rays.dir[2] + begin},
                              end - begin, run.scene);
         if (run.scene.tree.empty())
             trace_secondary(run.scene, rays, begin, end, run.work.nearby, *run.work.memory,

@@ -61,14 +61,6 @@ inline std::uint32_t hit_lanes(const HitPacket<Real>& hit)
 }
 
 template <class Real>
-inline vint<Real> lane_numbers(int first)
-{
-    alignas(64) static constexpr lane_int<Real> number[16] = {0, 1, 2,  3,  4,  5,  6,  7,
-                                                              8, 9, 10, 11, 12, 13, 14, 15};
-    return load(number) + vint<Real>(static_cast<lane_int<Real>>(first));
-}
-
-template <class Real>
 inline GlassPacket<Real> glass_around_eye(const abi::CameraView<Real>& camera)
 {
     GlassPacket<Real> glass;
@@ -250,7 +242,9 @@ inline void trace_secondary(const abi::SceneView<Real>& scene, const RayStream<F
         tell_live(active);
         tell_first(first - begin);
         if (stream.starts != nullptr)
-            closest_hit<F>(hit, nearby, from.rays, OwnSurface{from.start.surface});
+            closest_hit<F>(
+                hit, nearby, from.rays,
+                own_with_common<Real>(from.start.surface, stream.starts->surface[first], active));
         else
             closest_hit<F>(hit, nearby, from.rays, NoOwn{});
         count_unsure(counts,

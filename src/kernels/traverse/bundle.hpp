@@ -109,6 +109,15 @@ inline std::uint32_t active_lanes(const RayBundle<Real>& bundle, int first)
     return bundle.active[first / cell_rays] >> first % cell_rays & all_lanes<Real>;
 }
 
+/// The same for rays against all objects of a list; any of them is `active`.
+template <class Real>
+inline OwnSurface<vint<Real>> common_own_of(const RayBundle<Real>& bundle, int first,
+                                            std::uint32_t active)
+{
+    const vint<Real> own = load(bundle.own + first);
+    return own_with_common<Real>(own, bundle.own[first + __builtin_ctz(active)], active);
+}
+
 template <class Real>
 inline bool is_active(const RayBundle<Real>& bundle, int ray)
 {

@@ -186,11 +186,12 @@ inline void closest_of_bundle(const abi::GeometryView<Real>& scene, const Object
                               RayBundle<Real>& bundle)
 {
     for (int first = 0; first < bundle_rays; first += lanes<Real>) {
-        if (active_lanes(bundle, first) == 0)
+        const std::uint32_t active = active_lanes(bundle, first);
+        if (active == 0)
             continue;
-        tell_live(active_lanes(bundle, first));
+        tell_live(active);
         HitPacket<Real> hit = load_hits(bundle, first);
-        closest_hit<F>(hit, lists, load_rays(bundle, first), own_of(bundle, first));
+        closest_hit<F>(hit, lists, load_rays(bundle, first), common_own_of(bundle, first, active));
         store_hits<F>(bundle, first, hit);
     }
     if (!scene.tree.empty())

@@ -232,7 +232,7 @@ inline void visit_occluders_of_bundle(const abi::GeometryView<Real>& scene, cons
             return active_lanes(bundle, first) != 0;
         };
         const RayPacket<Real> rays = load_rays(bundle, first);
-        const vint<Real> own = load(bundle.own + first);
+        const OwnSurface<vint<Real>> own = common_own_of(bundle, first, wanted);
         if constexpr (F.exact) {
             const std::uint32_t unsure =
                 visit_occluders<F>(load(bundle.t + first), lists, rays, own, take);

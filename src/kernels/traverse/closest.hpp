@@ -16,9 +16,13 @@ inline void closest_hit(HitPacket<Real>& hit, const Objects& objects, const RayP
     const TestScope at;
     for_each_kind<F>([&](auto kind) {
         const auto& list = objects_of<decltype(kind)>(objects);
-        at.test(kind.primitive, list.count);
-        for (int i = 0; i < list.count; ++i)
-            keep_closest(hit, object_at(list, i), rays, own);
+        for (int i = 0; i < list.count; ++i) {
+            const auto& object = object_at(list, i);
+            if (own.all_on(body_of(object)))
+                continue;
+            at.test(kind.primitive);
+            keep_closest(hit, object, rays, own);
+        }
         return true;
     });
 }
@@ -32,9 +36,13 @@ inline void closest_hit(HitPacket<float>& hit, const FilteredObjects<Shared>& ob
     const TestScope at;
     for_each_kind<F>([&](auto kind) {
         const auto& list = objects_of<decltype(kind)>(objects);
-        at.test(kind.primitive, list.count);
-        for (int i = 0; i < list.count; ++i)
-            keep_certain<Shared>(hit, object_at(list, i), rays, scale, own);
+        for (int i = 0; i < list.count; ++i) {
+            const auto& object = object_at(list, i);
+            if (own.all_on(body_of(object)))
+                continue;
+            at.test(kind.primitive);
+            keep_certain<Shared>(hit, object, rays, scale, own);
+        }
         return true;
     });
     if (!objects.certifiable)

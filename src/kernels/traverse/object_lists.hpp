@@ -90,8 +90,7 @@ inline void find_objects(SharedOriginObjects<Real>& objects, const Cone<Real>& c
     });
 }
 
-/// Fills `objects` with what rays from `origins` may meet; `cone` bounds rays from one point, and
-/// spheres alone of others.
+/// Fills `objects` with what rays from `origins` may meet; `cone` bounds them.
 template <abi::Features F, bool Shared>
 [[gnu::noinline]] void filter_objects(FilteredObjects<Shared>& objects, const Origins& origins,
                                       const Cone<float>& cone, const abi::SceneView<float>& scene)

@@ -33,18 +33,20 @@ struct CertainOthers {
 /// false. What a lane's `own` surface blocks does not count.
 template <abi::Features F, class Objects, class Real, class Occluder>
 inline void visit_occluders(const RayEnd<Real>& end, const Objects& objects,
-                            const RayPacket<Real>& rays, const vint<Real>& own,
+                            const RayPacket<Real>& rays, const OwnSurface<vint<Real>>& own,
                             const Occluder& occluder)
 {
     const TestScope at;
     for_each_kind<F>([&](auto kind) {
         const auto& list = objects_of<decltype(kind)>(objects);
         for (int i = 0; i < list.count; ++i) {
-            at.test(kind.primitive);
             const auto& object = object_at(list, i);
             const Body body = body_of(object);
+            if (own.all_on(body))
+                continue;
+            at.test(kind.primitive);
             const std::uint32_t blocked = occluding_lanes(end, object, rays);
-            if (!occluder(body.first, but_own<Real>(blocked, own, body.first, body.pieces)))
+            if (!occluder(body.first, but_own<Real>(blocked, own.surface, body.first, body.pieces)))
                 return false;
         }
         return true;
@@ -56,8 +58,8 @@ inline void visit_occluders(const RayEnd<Real>& end, const Objects& objects,
 template <abi::Features F, bool Shared, class Occluder>
 inline std::uint32_t visit_occluders(const vreal<float>& t_end,
                                      const FilteredObjects<Shared>& objects,
-                                     const RayPacket<float>& rays, const vint<float>& own,
-                                     const Occluder& occluder)
+                                     const RayPacket<float>& rays,
+                                     const OwnSurface<vint<float>>& own, const Occluder& occluder)
 {
     const RayScale scale(rays);
     const std::uint32_t certain = objects.certifiable ? bits(certifiable(rays)) : 0;
@@ -66,17 +68,19 @@ inline std::uint32_t visit_occluders(const vreal<float>& t_end,
     // Whether to go on.
     const auto take = [&](const Body& body, const Occlusion& occlusion) {
         const std::uint32_t blocked = occlusion.blocked & certain;
-        unsure |= but_own<float>(occlusion.unsure, own, body.first, body.pieces);
+        unsure |= but_own<float>(occlusion.unsure, own.surface, body.first, body.pieces);
         return blocked == 0 ||
-               occluder(body.first, but_own<float>(blocked, own, body.first, body.pieces));
+               occluder(body.first, but_own<float>(blocked, own.surface, body.first, body.pieces));
     };
-    const CertainOthers others{own, certain};
+    const CertainOthers others{own.surface, certain};
     const TestScope at;
     for_each_kind<F>([&](auto kind) {
         const auto& list = objects_of<decltype(kind)>(objects);
         for (int i = 0; i < list.count; ++i) {
-            at.test(kind.primitive);
             const auto& object = object_at(list, i);
+            if (own.all_on(body_of(object)))
+                continue;
+            at.test(kind.primitive);
             if (!take(body_of(object), occludes<Shared>(object, rays, scale, t_end, others)))
                 return false;
         }
@@ -88,7 +92,7 @@ inline std::uint32_t visit_occluders(const vreal<float>& t_end,
 /// The lanes of `wanted` that are blocked by anything but their own surface.
 template <abi::Features F, class Objects, class Real>
 inline std::uint32_t occluded(const RayEnd<Real>& end, const Objects& objects,
-                              const RayPacket<Real>& rays, const vint<Real>& own,
+                              const RayPacket<Real>& rays, const OwnSurface<vint<Real>>& own,
                               std::uint32_t wanted)
 {
     std::uint32_t open = wanted;
@@ -102,7 +106,7 @@ inline std::uint32_t occluded(const RayEnd<Real>& end, const Objects& objects,
 /// The same by certain tests.
 template <abi::Features F, bool Shared>
 inline Occlusion occluded(const vreal<float>& t_end, const FilteredObjects<Shared>& objects,
-                          const RayPacket<float>& rays, const vint<float>& own,
+                          const RayPacket<float>& rays, const OwnSurface<vint<float>>& own,
                           std::uint32_t wanted)
 {
     std::uint32_t open = wanted;
