@@ -1,0 +1,98 @@
+#!/usr/bin/env python3
+"""What `exact` costs: results/exact_cost.json.
+
+Rates of a caller's rays and times of frames, one thread, in `exact`, in `fast` and, with BEFORE, in
+the default mode of an earlier build of the program, all by turns.
+
+Usage: results/exact_cost.py BUILD [BEFORE [REPETITIONS]]
+BUILD and BEFORE are build folders with `packtrace` and `bench/scaling/packtrace_rays`.
+"""
+import json
+import pathlib
+import re
+import statistics
+import subprocess
+import sys
+import tempfile
+
+from provenance import commit, machine, write
+
+ROOT = pathlib.Path(__file__).resolve().parents[1]
+RAYS = [("four_spheres", 512, ("avx512", "avx2")), ("spheres32", 512, ("avx512", "avx2")),
+        ("spheres64", 512, ("avx512", "avx2")), ("spheres128", 512, ("avx512", "avx2")),
+        ("flake4", 512, ("avx512", "avx2")), ("flake6", 512, ("avx512",)),
+        ("random1m", 512, ("avx512",))]
+FRAMES = ["four_spheres", "whitted", "flight", "general", "mirror_room", "quadrics", "sketch"]
+
+
+def rates(build, scene, size, isa, fast):
+    command = [f"{build}/bench/scaling/packtrace_rays", scene, "--size", str(size), "--isa", isa]
+    done = subprocess.run(command + (["--fast"] if fast else []), capture_output=True, text=True,
+                          check=True)
+    return json.loads(done.stdout)
+
+
+def milliseconds(build, scene, isa, fast, folder):
+    command = [f"{build}/packtrace", "render", scene, "--size", "512x512", "--threads", "1", "--isa",
+               isa, "-o", f"{folder}/frame.pfm"] + (["--accuracy", "fast"] if fast else [])
+    done = subprocess.run(command, capture_output=True, text=True, check=True)
+    return float(re.search(r"([\d.]+) ms", done.stdout + done.stderr).group(1))
+
+
+def share(of, over):
+    """Median and range of the ratios of runs that stood next to each other."""
+    ratios = [a / b for a, b in zip(of, over)]
+    return {"median": statistics.median(ratios), "lowest": min(ratios), "highest": max(ratios)}
+
+
+def row_of(of, times, speed):
+    """`speed` of a measurement: higher is faster."""
+    row = dict(of, exact=statistics.median(times["exact"]), fast=statistics.median(times["fast"]))
+    speeds = {mode: [speed(x) for x in values] for mode, values in times.items()}
+    row["exact_over_fast"] = share(speeds["exact"], speeds["fast"])
+    if "before" in times:
+        row["before"] = statistics.median(times["before"])
+        row["exact_over_before"] = share(speeds["exact"], speeds["before"])
+        row["fast_over_before"] = share(speeds["fast"], speeds["before"])
+    print(json.dumps(row))
+    return row
+
+
+def main():
+    if len(sys.argv) < 2:
+        sys.exit(__doc__)
+    built_of = commit()
+    builds = {"exact": (sys.argv[1], False), "fast": (sys.argv[1], True)}
+    if len(sys.argv) > 2:
+        builds["before"] = (sys.argv[2], False)
+    repetitions = int(sys.argv[3]) if len(sys.argv) > 3 else 9
+    rows = []
+    load = machine()
+    for scene, size, isas in RAYS:
+        for isa in isas:
+            found = {}
+            for _ in range(repetitions):
+                for mode, (build, fast) in builds.items():
+                    for kind, rate in rates(build, scene, size, isa, fast).items():
+                        found.setdefault(kind, {}).setdefault(mode, []).append(rate)
+            for kind, times in found.items():
+                rows.append(row_of({"scene": scene, "isa": isa, "rays": kind,
+                                    "unit": "million rays a second"}, times, lambda x: x))
+    with tempfile.TemporaryDirectory() as folder:
+        for scene in FRAMES:
+            for isa in ("avx512", "avx2"):
+                times = {}
+                for _ in range(repetitions):
+                    for mode, (build, fast) in builds.items():
+                        times.setdefault(mode, []).append(
+                            milliseconds(build, ROOT / f"scenes/{scene}.scene", isa, fast, folder))
+                rows.append(row_of({"scene": scene, "isa": isa, "rays": "frame 512x512",
+                                    "unit": "milliseconds"}, times, lambda x: 1 / x))
+    write({"command": "results/exact_cost.py build/release BEFORE", "commit": built_of,
+           "before": "c1d3f58 in its default mode" if "before" in builds else None,
+           "machine": load, "machine_after": machine(), "repetitions": repetitions, "rows": rows},
+          "exact_cost.json")
+
+
+if __name__ == "__main__":
+    main()
