@@ -376,12 +376,12 @@ inline void gather_all(const abi::RaysView<Real>& view, int begin, RayBundle<Sea
 /// Hands the crossings of one surface to the sink.
 template <class Search, class Real>
 inline void report_hits(const abi::SceneView<Real>& scene, const RayBundle<Search>& bundle,
-                        int begin, int first, const abi::HitSink<Real>& sink, vmask<Search> valid,
+                        int begin, int first, const abi::HitSink<Real>& sink, std::uint32_t valid,
                         const vreal<Search>& t, std::int32_t surface)
 {
     const RayPacket<Search> rays = load_rays(bundle, first);
     std::uint32_t active =
-        bits(valid & (t > rays.t_min) & (t < load(bundle.t + first))) & active_lanes(bundle, first);
+        valid & bits((t > rays.t_min) & (t < load(bundle.t + first))) & active_lanes(bundle, first);
     if (active == 0)
         return;
     const Vec3v<Search> normal = surface_normal<Search>(
@@ -413,7 +413,7 @@ inline void all_hits(const abi::SceneView<Real>& scene, const abi::RaysView<Real
     RayBundle<Search> bundle;
     for (int begin = 0; begin < view.count; begin += bundle_rays) {
         gather_all(view, begin, bundle);
-        const auto report = [&](int first, vmask<Search> valid, const vreal<Search>& t,
+        const auto report = [&](int first, std::uint32_t valid, const vreal<Search>& t,
                                 std::int32_t surface) {
             report_hits(scene, bundle, begin, first, sink, valid, t, surface);
         };
@@ -422,7 +422,7 @@ inline void all_hits(const abi::SceneView<Real>& scene, const abi::RaysView<Real
                 visit_all_crossings<search>(
                     geometry, load_rays(bundle, first),
                     [&](vmask<Search> valid, const vreal<Search>& t, std::int32_t surface) {
-                        report(first, valid, t, surface);
+                        report(first, bits(valid), t, surface);
                     });
         if (!geometry.tree.empty())
             visit_crossings_in_tree<search>(geometry.tree, bundle, report);

@@ -1,41 +1,80 @@
 #pragma once
 
 #include "kernels/traverse/coherent_cells.hpp"
+#include "kernels/traverse/walk_lists.hpp"
 
+// Every hit of a bundle of rays with the objects of the hierarchy, also behind others.
 namespace packtrace::PACKTRACE_ISA {
 namespace {
 
-/// Takes every crossing of the leaves that cells may meet.
+/// Takes every crossing of leaves, with the packets of cells or with single rays.
 template <abi::Features F, class Real, class Visit>
 class CrossingsInTree {
 public:
     CrossingsInTree(const abi::BvhView<Real>& tree, const RayBundle<Real>& bundle,
-                    const CellBounds& bounds, const Visit& visit)
-        : tree_(tree), bundle_(bundle), bounds_(bounds), visit_(visit)
+                    const CellBounds& bounds, SlabRays& slabs, const Visit& visit)
+        : tree_(tree), bundle_(bundle), bounds_(bounds), slabs_(slabs), visit_(visit)
     {
     }
 
+    /// A leaf that cells may meet.
     void operator()(std::uint32_t child, std::uint32_t cells) const
     {
         if (F.quadrics && abi::is_run(child)) {
-            for (int i = 0; i < abi::run_count(child); ++i)
-                for (std::uint32_t left = cells; left != 0; left &= left - 1)
-                    object(abi::first_of_run(child) + i, __builtin_ctz(left));
+            for (std::uint32_t left = cells; left != 0; left &= left - 1)
+                packets_of(__builtin_ctz(left), [&](int first, const RayPacket<Real>& rays) {
+                    run(child, first, rays, all_lanes<Real>);
+                });
             return;
         }
         abi::SphereBlock<Real> room;
         const SphereLeaf<Real> leaf = sphere_leaf(tree_, child, room);
-        visit_spheres(bounds_, leaf.block, cells,
-                      [&](int slot, int cell) { sphere(leaf, slot, cell); });
+        visit_spheres(bounds_, leaf.block, cells, [&](int slot, int cell) {
+            packets_of(cell, [&](int first, const RayPacket<Real>& rays) {
+                sphere(leaf, slot, first, rays, all_lanes<Real>);
+            });
+        });
     }
 
-    // Rays stay together: what they meet does not end them.
-    void few_rays(std::uint32_t, int, std::uint32_t) const
+    /// Whatever is below a child that few rays of one cell may meet.
+    void few_rays(std::uint32_t child, int cell, std::uint32_t rays) const
     {
+        for (; rays != 0; rays &= rays - 1)
+            lone(child, cell * cell_rays + __builtin_ctz(rays));
     }
-    std::uint32_t rays_of(int, const float (&)[3], const float (&)[3]) const
+
+    /// The rays of a cell that may meet a box.
+    std::uint32_t rays_of(int cell, const float (&low)[3], const float (&high)[3]) const
     {
-        return ~0u;
+        fill_cell(slabs_, bundle_, cell, tree_.extent, tree_.slack);
+        return meet_rays(slabs_, bundle_, cell, low, high);
+    }
+
+    /// All below a child for one ray of a filled cell.
+    void lone(std::uint32_t child, int ray) const
+    {
+        SlabRay slab = slab_ray(slabs_, bundle_, ray);
+        walk_ray(tree_, child, slab, [&](std::uint32_t below) {
+            leaf(below, ray);
+            return true;
+        });
+    }
+
+    /// A leaf for one ray, by the operations of its packet.
+    void leaf(std::uint32_t child, int ray) const
+    {
+        const int first = ray / lanes<Real> * lanes<Real>;
+        const std::uint32_t lane = 1u << (ray - first);
+        const RayPacket<Real> rays = load_rays(bundle_, first);
+        if (F.quadrics && abi::is_run(child))
+            return run(child, first, rays, lane);
+        abi::SphereBlock<Real> room;
+        const SphereLeaf<Real> spheres = sphere_leaf(tree_, child, room);
+        Real unused[abi::node_width];
+        std::uint32_t met = BlockRay<Real>(bundle_, ray)
+                                .first_roots(spheres.block, static_cast<Real>(no_end), unused);
+        for (; met != 0; met &= met - 1)
+            sphere(spheres, __builtin_ctz(met), first, rays, lane);
     }
 
 private:
@@ -47,45 +86,52 @@ private:
                 cross(first, load_rays(bundle_, first));
     }
 
-    void sphere(const SphereLeaf<Real>& leaf, int slot, int cell) const
+    void sphere(const SphereLeaf<Real>& leaf, int slot, int first, const RayPacket<Real>& rays,
+                std::uint32_t wanted) const
     {
-        packets_of(cell, [&](int first, const RayPacket<Real>& rays) {
-            visit_roots(quadratic_of(leaf.block, slot, rays),
-                        [&](vmask<Real> valid, const vreal<Real>& t) {
-                            visit_(first, valid, t, leaf.surface_of(slot));
-                        });
-        });
+        visit_roots(quadratic_of(leaf.block, slot, rays),
+                    [&](vmask<Real> valid, const vreal<Real>& t) {
+                        visit_(first, bits(valid) & wanted, t, leaf.surface_of(slot));
+                    });
     }
 
-    void object(int number, int cell) const
+    void run(std::uint32_t child, int first, const RayPacket<Real>& rays,
+             std::uint32_t wanted) const
     {
-        with_object_of_run(tree_, number, [&](const auto& record, const auto&) {
-            packets_of(cell, [&](int first, const RayPacket<Real>& rays) {
-                visit_crossings(record, rays,
-                                [&](vmask<Real> valid, const vreal<Real>& t, int piece) {
-                                    visit_(first, valid, t, record.surface + piece);
-                                });
+        const auto report = [&](const auto& record, const auto&) {
+            visit_crossings(record, rays, [&](vmask<Real> valid, const vreal<Real>& t, int piece) {
+                visit_(first, bits(valid) & wanted, t, record.surface + piece);
             });
-        });
+        };
+        for (int i = 0; i < abi::run_count(child); ++i)
+            with_object_of_run(tree_, abi::first_of_run(child) + i, report);
     }
 
     const abi::BvhView<Real>& tree_;
     const RayBundle<Real>& bundle_;
     const CellBounds& bounds_;
+    SlabRays& slabs_;
     const Visit& visit_;
 };
 
 /// Calls `visit(first, valid, t, surface)` for every crossing of the objects of the hierarchy with
-/// the packets of a bundle; only those where `valid`, and with a t before the ray's, are one.
+/// the packets of a bundle, which has a bit of `valid` each; only those with a t before the ray's
+/// are one.
 template <abi::Features F, class Real, class Visit>
 inline void visit_crossings_in_tree(const abi::BvhView<Real>& tree, const RayBundle<Real>& bundle,
                                     const Visit& visit)
 {
+    SlabRays slabs;
     CellBounds bounds;
-    bound_cells(bounds, bundle, tree, tree.spread, Cells::all);
-    start_coherent(bounds, bundle);
-    walk_cells(tree, bounds, bounds.coherent,
-               CrossingsInTree<F, Real, Visit>(tree, bundle, bounds, visit));
+    bound_cells(bounds, bundle, tree, tree.spread);
+    const CrossingsInTree<F, Real, Visit> crossings(tree, bundle, bounds, slabs, visit);
+    if (bounds.coherent != 0) {
+        start_coherent(bounds, bundle);
+        walk_cells(tree, bounds, bounds.coherent, crossings);
+    }
+    const std::uint32_t others = active_cells(bundle) & ~bounds.coherent;
+    if (others != 0)
+        walk_in_lists(tree, slabs, bundle, others, crossings);
 }
 
 }  // namespace

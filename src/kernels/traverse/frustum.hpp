@@ -144,9 +144,6 @@ inline void set_axis(CellBounds& bounds, int axis, const CellRange& org, const C
     store8(bounds.org_high[axis] + first, blend(known, vfloat8(open_axis), org_high));
 }
 
-/// Which cells bounds are wanted of.
-enum class Cells { coherent, all };
-
 /// The cells with any active ray.
 template <class Real>
 inline std::uint32_t active_cells(const RayBundle<Real>& bundle)
@@ -190,16 +187,13 @@ inline void leave_out(CellRange& range, std::uint32_t cells)
 /// `spread` (abi::BvhView).
 template <class Real>
 inline void bound_cells(CellBounds& bounds, const RayBundle<Real>& bundle,
-                        const abi::BvhView<Real>& tree, float spread,
-                        Cells wanted = Cells::coherent)
+                        const abi::BvhView<Real>& tree, float spread)
 {
     CellRange org[3];
     CellRange dir[3];
     for (int axis = 0; axis < 3; ++axis)
         find_cells(dir[axis], bundle.dir[axis], bundle);
-    bounds.coherent = active_cells(bundle);
-    if (wanted == Cells::coherent)
-        bounds.coherent &= coherent_cells(dir, spread);
+    bounds.coherent = active_cells(bundle) & coherent_cells(dir, spread);
     if (bounds.coherent == 0)
         return;
     const std::uint32_t others = ~bounds.coherent & ((1u << bundle_cells) - 1u);
