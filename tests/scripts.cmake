@@ -24,7 +24,7 @@ if("sse42" IN_LIST PACKTRACE_KERNELS)
                               ${isa} ${objects})
     endforeach()
     packtrace_script_test(instructions.host fast check_instructions.sh ${CMAKE_OBJDUMP} host
-                          $<TARGET_OBJECTS:packtrace>)
+                          $<TARGET_OBJECTS:packtrace_objects>)
     packtrace_script_test(instructions.library fast check_instructions.sh ${CMAKE_OBJDUMP} library
                           $<TARGET_FILE:packtrace>)
 endif()
@@ -50,3 +50,15 @@ if("sse42" IN_LIST PACKTRACE_KERNELS AND "avx2" IN_LIST PACKTRACE_KERNELS)
 endif()
 
 packtrace_script_test(run_script fast check_run.sh ${PROJECT_SOURCE_DIR}/run)
+
+# Users of the library: programs that find it installed, or take it in as a part of their project.
+foreach(way IN ITEMS prefix find_package pkg_config add_subdirectory fetch_content)
+    packtrace_script_test(install.${way} fast check_install.sh ${way} ${CMAKE_COMMAND}
+                          ${CMAKE_CXX_COMPILER} ${PROJECT_BINARY_DIR} ${PROJECT_SOURCE_DIR}
+                          ${PACKTRACE_ISAS})
+endforeach()
+set_tests_properties(install.prefix PROPERTIES FIXTURES_SETUP installed)
+set_tests_properties(install.find_package install.pkg_config PROPERTIES FIXTURES_REQUIRED installed)
+packtrace_script_test(exports fast check_exports.sh ${CMAKE_NM} ${CMAKE_OBJDUMP}
+                      $<TARGET_FILE:packtrace_shared> ${PROJECT_SOURCE_DIR}/include/packtrace)
+packtrace_script_test(completion fast check_completion.sh $<TARGET_FILE:packtrace_cli>)

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <packtrace/camera.hpp>
+#include <packtrace/export.hpp>
 #include <packtrace/scene.hpp>
 
 namespace packtrace {
@@ -16,6 +17,6 @@ namespace packtrace {
 ///
 /// Throws std::invalid_argument when the scene has no animation or `frame` is not one of
 /// its frames, and when keys lead the camera through its own look_at or straight along its up.
-[[nodiscard]] Camera camera_at(const Scene& scene, int frame);
+[[nodiscard]] PACKTRACE_API Camera camera_at(const Scene& scene, int frame);
 
 }  // namespace packtrace

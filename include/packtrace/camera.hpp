@@ -2,6 +2,7 @@
 
 #include <optional>
 
+#include <packtrace/export.hpp>
 #include <packtrace/vec.hpp>
 
 namespace packtrace {
@@ -32,11 +33,11 @@ struct CameraBasis {
 };
 
 /// Lays the camera's viewport over a canvas of `width` by `height` pixels.
-[[nodiscard]] CameraBasis camera_basis(const Camera& camera, int width, int height);
+[[nodiscard]] PACKTRACE_API CameraBasis camera_basis(const Camera& camera, int width, int height);
 
 /// The rotation whose forward axis points from `position` to `target`; its right axis is
 /// perpendicular to `up` (left-handed). Throws std::invalid_argument when the view direction
 /// is zero or parallel to `up`.
-[[nodiscard]] Mat3 look_at(const Vec3& position, const Vec3& target, const Vec3& up);
+[[nodiscard]] PACKTRACE_API Mat3 look_at(const Vec3& position, const Vec3& target, const Vec3& up);
 
 }  // namespace packtrace

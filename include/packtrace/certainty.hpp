@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include <packtrace/export.hpp>
 #include <packtrace/image.hpp>
 #include <packtrace/render.hpp>
 #include <packtrace/renderer.hpp>
@@ -18,7 +19,7 @@ namespace packtrace {
 /// - range: a hit may lie on either side of an end of the ray;
 /// - clip: either of two pieces of one object may come first, as at the rim of a capped body;
 /// - magnitude: numbers of the ray, or the scene, are beyond those that error bounds hold for.
-[[nodiscard]] const std::vector<std::string>& unsure_causes();
+[[nodiscard]] PACKTRACE_API const std::vector<std::string>& unsure_causes();
 
 /// Rays traced again in double, by cause.
 using UnsureCounts = std::vector<std::uint64_t>;
@@ -45,10 +46,11 @@ struct Certainty {
 /// Renders a scene in single precision to see what becomes of its rays; of the options isa, width,
 /// traversal, self_hits, samples, threads and progress count. Throws std::invalid_argument for
 /// other kernels than packets, for Accuracy::fast and for adaptive sampling, and as render() does.
-[[nodiscard]] Certainty find_certainty(const Scene& scene, const RenderOptions& options = {});
+[[nodiscard]] PACKTRACE_API Certainty find_certainty(const Scene& scene,
+                                                     const RenderOptions& options = {});
 
 /// A picture of it: red is the share of a pixel's rays that were traced again in double, blue the
 /// share that double cannot decide either, both linear in [0, 1]; green is 0.
-[[nodiscard]] Image<float> certainty_picture(const Certainty& certainty);
+[[nodiscard]] PACKTRACE_API Image<float> certainty_picture(const Certainty& certainty);
 
 }  // namespace packtrace

@@ -3,6 +3,7 @@
 #include <cstddef>
 #include <vector>
 
+#include <packtrace/export.hpp>
 #include <packtrace/image.hpp>
 
 namespace packtrace {
@@ -31,12 +32,12 @@ struct Comparison {
 
 /// Compares two pictures. Throws std::invalid_argument that names both sizes when unequal.
 template <class Real>
-[[nodiscard]] Comparison compare(const Image<Real>& a, const Image<Real>& b,
-                                 const CompareOptions& options = {});
+[[nodiscard]] PACKTRACE_API Comparison compare(const Image<Real>& a, const Image<Real>& b,
+                                               const CompareOptions& options = {});
 
 /// A picture of the error per pixel: black for none, through blue, green, yellow, red to white
 /// at the scale of the largest error (logarithmic over six decades below it).
 template <class Real>
-[[nodiscard]] Image<float> heatmap(const Image<Real>& a, const Image<Real>& b);
+[[nodiscard]] PACKTRACE_API Image<float> heatmap(const Image<Real>& a, const Image<Real>& b);
 
 }  // namespace packtrace

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include <packtrace/export.hpp>
 #include <packtrace/render.hpp>
 #include <packtrace/scene.hpp>
 
@@ -45,16 +46,17 @@ struct RayNode {
 
 /// The ray tree of the pixel in column `x` and row `y`, as the packets of `Real` (float or
 /// double) trace it, or with the scalar kernel the reference, which comes in double only. Of the
-/// options `kernel`, `isa`, `width`, `accuracy` and `self_hits` count. Packets are those of render(), with all features
-/// compiled in and reports of this one pixel's rays added. Throws std::invalid_argument for a pixel
-/// outside the picture, impossible options, and a Scene::max_depth that packets cannot number
-/// (over 28 in float, 60 in double); else as render() does.
+/// options `kernel`, `isa`, `width`, `accuracy` and `self_hits` count. Packets are those of
+/// render(), with all features compiled in and reports of this one pixel's rays added. Throws
+/// std::invalid_argument for a pixel outside the picture, impossible options, and a
+/// Scene::max_depth that packets cannot number (over 28 in float, 60 in double); else as render()
+/// does.
 template <class Real>
-[[nodiscard]] RayNode explain_pixel(const Scene& scene, int x, int y,
-                                    const RenderOptions& options = {});
+[[nodiscard]] PACKTRACE_API RayNode explain_pixel(const Scene& scene, int x, int y,
+                                                  const RenderOptions& options = {});
 
 /// The colour of the pixel: weight * (local + brought), summed over the tree.
-[[nodiscard]] Rgb sum_of(const RayNode& tree);
+[[nodiscard]] PACKTRACE_API Rgb sum_of(const RayNode& tree);
 
 /// One quantity of one ray in two trees.
 struct TreeRow {
@@ -73,7 +75,8 @@ inline constexpr double double_tree_tolerance = 1e-9;
 /// Two trees of one pixel, quantity by quantity, ray by ray, each ray before its children. Numbers
 /// differ where they are further apart than `tolerance` times the larger of 1 and the values'
 /// lengths; another object, and a ray that only one tree has, always differ.
-[[nodiscard]] std::vector<TreeRow> side_by_side(const RayNode& first, const RayNode& second,
-                                                double tolerance);
+[[nodiscard]] PACKTRACE_API std::vector<TreeRow> side_by_side(const RayNode& first,
+                                                              const RayNode& second,
+                                                              double tolerance);
 
 }  // namespace packtrace

@@ -2,6 +2,7 @@
 
 #include <cstdint>
 
+#include <packtrace/export.hpp>
 #include <packtrace/scene.hpp>
 
 // Procedural scenes. The same options give the same scene on every machine; pictures are
@@ -17,7 +18,7 @@ struct SphereflakeOptions {
     /// Stands the root on the plane z = -1/2 and lights it by all three lamps, not one only.
     bool ground = false;
 };
-[[nodiscard]] Scene generate_sphereflake(const SphereflakeOptions& options = {});
+[[nodiscard]] PACKTRACE_API Scene generate_sphereflake(const SphereflakeOptions& options = {});
 
 /// Spheres of one radius, their centres spread evenly over the unit cube from the origin to
 /// (1, 1, 1), on a grid of 1e-7 so that their numbers are short.
@@ -27,7 +28,7 @@ struct RandomSpheresOptions {
     std::uint64_t seed = 1;
     double reflective = 0.0;  ///< share of the mirrored light, 0 to 1
 };
-[[nodiscard]] Scene generate_random_spheres(const RandomSpheresOptions& options = {});
+[[nodiscard]] PACKTRACE_API Scene generate_random_spheres(const RandomSpheresOptions& options = {});
 
 /// edge x edge x edge spheres in the middles of equal cells of the unit cube.
 struct LatticeOptions {
@@ -35,6 +36,6 @@ struct LatticeOptions {
     double radius = 0.3;      ///< in cells, above 0; neighbours touch at 0.5
     double reflective = 0.0;  ///< share of the mirrored light, 0 to 1
 };
-[[nodiscard]] Scene generate_lattice(const LatticeOptions& options = {});
+[[nodiscard]] PACKTRACE_API Scene generate_lattice(const LatticeOptions& options = {});
 
 }  // namespace packtrace

@@ -4,12 +4,13 @@
 #include <stdexcept>
 #include <string>
 
+#include <packtrace/export.hpp>
 #include <packtrace/image.hpp>
 
 namespace packtrace {
 
 /// A picture file that can't be read or written; `what()` is one line that names the file.
-struct ImageError : std::runtime_error {
+struct PACKTRACE_API ImageError : std::runtime_error {
     using std::runtime_error::runtime_error;
 };
 
@@ -28,18 +29,18 @@ struct ImageWriteOptions {
 /// long double) to what the file holds; a Radiance file is made from floats. Writes to a temporary
 /// name beside `file` and renames it when complete. Throws ImageError.
 template <class Real>
-void write_image(const std::filesystem::path& file, const Image<Real>& image,
-                 const ImageWriteOptions& options = {});
+PACKTRACE_API void write_image(const std::filesystem::path& file, const Image<Real>& image,
+                               const ImageWriteOptions& options = {});
 
 /// The recipe that a picture was written with; empty when there is none, when the picture is not
 /// the one that was written with it, or when there is no picture.
-[[nodiscard]] std::string read_recipe(const std::filesystem::path& file);
+[[nodiscard]] PACKTRACE_API std::string read_recipe(const std::filesystem::path& file);
 
 /// Throws the ImageError that `write_image` would throw for `file` whatever the picture: its
 /// extension is unknown, its folder is missing or can't be written to. Leaves nothing behind.
-void check_image_writable(const std::filesystem::path& file);
+PACKTRACE_API void check_image_writable(const std::filesystem::path& file);
 
 /// Reads a `.png`, `.pfm` or `.hdr` picture; 8-bit values become v / 255. Throws ImageError.
-[[nodiscard]] Image<float> read_image(const std::filesystem::path& file);
+[[nodiscard]] PACKTRACE_API Image<float> read_image(const std::filesystem::path& file);
 
 }  // namespace packtrace

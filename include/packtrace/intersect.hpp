@@ -7,6 +7,7 @@
 #include <memory>
 #include <span>
 
+#include <packtrace/export.hpp>
 #include <packtrace/render.hpp>
 #include <packtrace/scene.hpp>
 
@@ -86,26 +87,26 @@ class RayScene {
 public:
     /// Of the options `kernel`, `isa`, `width`, `accuracy`, `self_hits` and `traversal` count.
     /// Throws as render() does.
-    explicit RayScene(const Scene& scene, const RenderOptions& options = {});
-    ~RayScene();
-    RayScene(RayScene&&) noexcept;
-    RayScene& operator=(RayScene&&) noexcept;
+    PACKTRACE_API explicit RayScene(const Scene& scene, const RenderOptions& options = {});
+    PACKTRACE_API ~RayScene();
+    PACKTRACE_API RayScene(RayScene&&) noexcept;
+    PACKTRACE_API RayScene& operator=(RayScene&&) noexcept;
 
     /// The first hit of each ray; at equal t that of the lower object number.
-    void closest_hits(const RaysView<Real>& rays, const HitsView<Real>& hits) const;
+    PACKTRACE_API void closest_hits(const RaysView<Real>& rays, const HitsView<Real>& hits) const;
 
     /// The same of rays that leave earlier hits, from HitsView's outer_start or inner_start. With
     /// SelfHits::note, and the scalar kernel, `starts` changes nothing.
-    void closest_hits(const RaysView<Real>& rays, const StartsView<Real>& starts,
-                      const HitsView<Real>& hits) const;
+    PACKTRACE_API void closest_hits(const RaysView<Real>& rays, const StartsView<Real>& starts,
+                                    const HitsView<Real>& hits) const;
 
     /// mask[i] becomes 1 where ray i hits anything, else 0.
-    void occluded(const RaysView<Real>& rays, std::uint8_t* mask) const;
+    PACKTRACE_API void occluded(const RaysView<Real>& rays, std::uint8_t* mask) const;
 
     /// Every hit of each ray, sorted by t, then object; `take` is called once a ray, in order.
     /// A ray that touches a surface without crossing it may meet it twice at the same t.
     using TakeHits = std::function<void(std::size_t ray, std::span<const SurfaceHit<Real>> hits)>;
-    void all_hits(const RaysView<Real>& rays, const TakeHits& take) const;
+    PACKTRACE_API void all_hits(const RaysView<Real>& rays, const TakeHits& take) const;
 
     /// bounds[i] gets proven bounds of the t at which ray i first hits the object of number
     /// object[i] between its t_min and t_max; an empty interval where object[i] is -1, or where the
@@ -114,14 +115,15 @@ public:
     /// the ray's numbers as given in `Real` and of the doubles in Scene::objects. Bounds are rarely
     /// more than a last place of double apart, but where the ray only touches the object, or
     /// hits it at its rim, up to all of its range. Takes some 10 µs a ray.
-    void bound_closest_hits(const RaysView<Real>& rays, const std::int32_t* object,
-                            HitBounds* bounds) const;
+    PACKTRACE_API void bound_closest_hits(const RaysView<Real>& rays, const std::int32_t* object,
+                                          HitBounds* bounds) const;
 
     /// The same of all hits of ray number `ray`, which all_hits() gave: bounds[i] is that of
     /// hits[i]. Where single precision or double does not tell two hits of an object apart, they
     /// are taken in order. `bounds` is as long as `hits`.
-    void bound_all_hits(const RaysView<Real>& rays, std::size_t ray,
-                        std::span<const SurfaceHit<Real>> hits, std::span<HitBounds> bounds) const;
+    PACKTRACE_API void bound_all_hits(const RaysView<Real>& rays, std::size_t ray,
+                                      std::span<const SurfaceHit<Real>> hits,
+                                      std::span<HitBounds> bounds) const;
 
 private:
     struct State;

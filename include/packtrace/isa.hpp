@@ -4,6 +4,8 @@
 #include <string_view>
 #include <vector>
 
+#include <packtrace/export.hpp>
+
 namespace packtrace {
 
 /// An instruction set the packet kernels are compiled for.
@@ -15,12 +17,12 @@ struct IsaInfo {
 };
 
 /// All instruction sets compiled in, narrowest first.
-[[nodiscard]] std::vector<IsaInfo> list_isas();
+[[nodiscard]] PACKTRACE_API std::vector<IsaInfo> list_isas();
 
 /// The instruction set for a request: `auto` takes the PACKTRACE_ISA environment variable when
 /// it is set, else the widest supported; a name forces it. `width` (4, 8 or 16 float lanes)
 /// narrows `auto` and must agree with a forced name; 0 is any. Throws std::invalid_argument
 /// with one line that says what is wrong and what there is.
-[[nodiscard]] IsaInfo choose_isa(std::string_view request = "auto", int width = 0);
+[[nodiscard]] PACKTRACE_API IsaInfo choose_isa(std::string_view request = "auto", int width = 0);
 
 }  // namespace packtrace

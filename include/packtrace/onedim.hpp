@@ -8,6 +8,8 @@
 #include <string_view>
 #include <vector>
 
+#include <packtrace/export.hpp>
+
 /// The one-dimensional ray tracer of note 003: an eye looks along a line at n surfaces, and sees
 /// the darkest intensity that solves the line's equations (docs/onedim.md).
 namespace packtrace::onedim {
@@ -64,20 +66,20 @@ struct SolveOptions {
 };
 
 /// What the eye sees: L0 of the least solution.
-[[nodiscard]] Intensity solve(std::span<const Surface> system);
+[[nodiscard]] PACKTRACE_API Intensity solve(std::span<const Surface> system);
 
 /// L0 of every system, in order. Throws std::invalid_argument for an instruction set that is
 /// unknown or not supported.
-[[nodiscard]] std::vector<Intensity> solve(const Systems& systems,
-                                           const SolveOptions& options = {});
+[[nodiscard]] PACKTRACE_API std::vector<Intensity> solve(const Systems& systems,
+                                                         const SolveOptions& options = {});
 
 /// `note` is the note's own (`Inr Inl ()`), `compact` one letter, `words` English.
 enum class Notation { note, compact, words };
 
-[[nodiscard]] std::string_view to_text(Intensity value, Notation notation);
+[[nodiscard]] PACKTRACE_API std::string_view to_text(Intensity value, Notation notation);
 
 /// A system on one line, in the note's notation or (for `words` too) the compact one.
-[[nodiscard]] std::string to_text(std::span<const Surface> system, Notation notation);
+[[nodiscard]] PACKTRACE_API std::string to_text(std::span<const Surface> system, Notation notation);
 
 /// Why a line is no system.
 struct SyntaxError {
@@ -87,6 +89,7 @@ struct SyntaxError {
 
 /// Appends the system written on `line` in the note's or the compact notation, or leaves
 /// `systems` as it was and says what is wrong.
-[[nodiscard]] std::optional<SyntaxError> read_system(std::string_view line, Systems& systems);
+[[nodiscard]] PACKTRACE_API std::optional<SyntaxError> read_system(std::string_view line,
+                                                                   Systems& systems);
 
 }  // namespace packtrace::onedim

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include <packtrace/export.hpp>
 #include <packtrace/image.hpp>
 #include <packtrace/render.hpp>
 #include <packtrace/renderer.hpp>
@@ -135,8 +136,8 @@ struct Profile {
 /// `text` is read as a scene for the stages' sake, then changed as `scene` says: size, depth.
 /// `Real` is float or double.
 template <class Real>
-[[nodiscard]] Profile profile(const std::string& text, const Scene& scene,
-                              const ProfileOptions& options = {});
+[[nodiscard]] PACKTRACE_API Profile profile(const std::string& text, const Scene& scene,
+                                            const ProfileOptions& options = {});
 
 /// A tile's time on its thread.
 struct TileSpan {
@@ -150,15 +151,18 @@ struct TileSpan {
 
 /// The tiles of one frame, by their start.
 template <class Real>
-[[nodiscard]] std::vector<TileSpan> trace_tiles(const Scene& scene, const ProfileOptions& options);
+[[nodiscard]] PACKTRACE_API std::vector<TileSpan> trace_tiles(const Scene& scene,
+                                                              const ProfileOptions& options);
 
 /// Seconds of each pixel's rays, in reading order: packets full of that pixel alone, over their
 /// lanes. What rays of neighbours cost each other by parting ways is not in it.
 template <class Real>
-[[nodiscard]] std::vector<double> pixel_costs(const Scene& scene, const ProfileOptions& options);
+[[nodiscard]] PACKTRACE_API std::vector<double> pixel_costs(const Scene& scene,
+                                                            const ProfileOptions& options);
 
 /// The costs as a picture, black for the least through blue, green, yellow and red to white for
 /// the most, over a bar with its scale in nanoseconds.
-[[nodiscard]] Image<float> cost_picture(const std::vector<double>& seconds, int width, int height);
+[[nodiscard]] PACKTRACE_API Image<float> cost_picture(const std::vector<double>& seconds, int width,
+                                                      int height);
 
 }  // namespace packtrace

@@ -6,12 +6,13 @@
 #include <string>
 #include <string_view>
 
+#include <packtrace/export.hpp>
 #include <packtrace/scene.hpp>
 
 namespace packtrace {
 
 /// A scene that can't be used. `what()` is one line: `file:line:column: what, why, what to do`.
-struct SceneError : std::runtime_error {
+struct PACKTRACE_API SceneError : std::runtime_error {
     using std::runtime_error::runtime_error;
 };
 
@@ -19,10 +20,11 @@ struct SceneError : std::runtime_error {
 using TakeWarning = std::function<void(const std::string& line)>;
 
 /// Reads a scene file (docs/scene.md). Throws SceneError for unreadable or wrong input.
-[[nodiscard]] Scene read_scene(const std::filesystem::path& file, const TakeWarning& warn = {});
+[[nodiscard]] PACKTRACE_API Scene read_scene(const std::filesystem::path& file,
+                                             const TakeWarning& warn = {});
 
 /// Reads a scene from text; `name` stands for the file in messages.
-[[nodiscard]] Scene parse_scene(std::string_view text, const std::string& name,
-                                const TakeWarning& warn = {});
+[[nodiscard]] PACKTRACE_API Scene parse_scene(std::string_view text, const std::string& name,
+                                              const TakeWarning& warn = {});
 
 }  // namespace packtrace

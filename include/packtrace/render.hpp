@@ -4,6 +4,7 @@
 #include <optional>
 #include <string>
 
+#include <packtrace/export.hpp>
 #include <packtrace/image.hpp>
 #include <packtrace/scene.hpp>
 #include <packtrace/traversal.hpp>
@@ -60,6 +61,7 @@ struct RenderOptions {
 /// a scene whose numbers mean nothing (a radius of -1, coefficients that are not those of the
 /// quadric's kind), SceneError for a quadric without a surface; every kernel refuses the same.
 template <class Real>
-[[nodiscard]] Image<Real> render(const Scene& scene, const RenderOptions& options = {});
+[[nodiscard]] PACKTRACE_API Image<Real> render(const Scene& scene,
+                                               const RenderOptions& options = {});
 
 }  // namespace packtrace

@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <memory>
 
+#include <packtrace/export.hpp>
 #include <packtrace/image.hpp>
 #include <packtrace/isa.hpp>
 #include <packtrace/render.hpp>
@@ -31,19 +32,19 @@ template <class Real>
 class Renderer {
 public:
     /// Throws as render() does. `options.kernel` is not looked at.
-    explicit Renderer(const Scene& scene, const RenderOptions& options = {});
-    ~Renderer();
-    Renderer(Renderer&&) noexcept;
-    Renderer& operator=(Renderer&&) noexcept;
+    PACKTRACE_API explicit Renderer(const Scene& scene, const RenderOptions& options = {});
+    PACKTRACE_API ~Renderer();
+    PACKTRACE_API Renderer(Renderer&&) noexcept;
+    PACKTRACE_API Renderer& operator=(Renderer&&) noexcept;
 
     /// Renders into `image`, whose size is the scene's; an image of another size is replaced.
-    FrameCounts render(Image<Real>& image) const;
+    PACKTRACE_API FrameCounts render(Image<Real>& image) const;
 
     /// Memory held for the scene, its hierarchy included and threads' working memory not.
-    [[nodiscard]] std::size_t scene_bytes() const;
+    [[nodiscard]] PACKTRACE_API std::size_t scene_bytes() const;
 
     /// The instruction set in use.
-    [[nodiscard]] const IsaInfo& isa() const;
+    [[nodiscard]] PACKTRACE_API const IsaInfo& isa() const;
 
 private:
     struct State;

@@ -11,6 +11,7 @@
 #include <vector>
 
 #include <packtrace/compare.hpp>
+#include <packtrace/export.hpp>
 #include <packtrace/image.hpp>
 #include <packtrace/render.hpp>
 #include <packtrace/scene.hpp>
@@ -123,11 +124,12 @@ struct SceneReport {
 };
 
 /// The ways a scene is rendered in a report: a further one is one more row here.
-[[nodiscard]] std::vector<Variant> report_variants(const Scene& scene,
-                                                   const ReportOptions& options);
+[[nodiscard]] PACKTRACE_API std::vector<Variant> report_variants(const Scene& scene,
+                                                                 const ReportOptions& options);
 
 /// Renders a scene in all these ways. Throws what render() does.
-[[nodiscard]] SceneReport report(const ReportScene& scene, const ReportOptions& options = {});
+[[nodiscard]] PACKTRACE_API SceneReport report(const ReportScene& scene,
+                                               const ReportOptions& options = {});
 
 /// A run to take, and others that may be the one instead: the spreads of their times don't tell.
 struct RunChoice {
@@ -137,10 +139,10 @@ struct RunChoice {
 
 /// The fastest of the runs with an RMSE of at most `error`; undecided are those among them that
 /// may be as fast.
-[[nodiscard]] RunChoice cheapest_within(const StudyReport& study, double error);
+[[nodiscard]] PACKTRACE_API RunChoice cheapest_within(const StudyReport& study, double error);
 
 /// The run of least RMSE whose times stay within `seconds`; undecided are more exact ones whose
 /// times lie on both sides of it.
-[[nodiscard]] RunChoice most_exact_within(const StudyReport& study, double seconds);
+[[nodiscard]] PACKTRACE_API RunChoice most_exact_within(const StudyReport& study, double seconds);
 
 }  // namespace packtrace

@@ -6,6 +6,7 @@
 #include <variant>
 #include <vector>
 
+#include <packtrace/export.hpp>
 #include <packtrace/vec.hpp>
 
 namespace packtrace {
@@ -26,7 +27,7 @@ struct Plane {
 /// Fills `u` and `v` of a plane from its unit normal: the two world axes that are not the
 /// normal's largest component, in x, y, z order, projected into the plane and made
 /// orthonormal. The floor y = const gets u = x, v = z.
-void plane_axes(Plane& plane);
+PACKTRACE_API void plane_axes(Plane& plane);
 
 enum class QuadricKind {
     ellipsoid,     ///< x² + y² + z² = 1
@@ -65,10 +66,10 @@ struct Polygon {
 
 /// The unit normal of a polygon's plane by Newell's method over the first contour, whose corners
 /// run clockwise seen from the side that it points to. Zero where the contour encloses no area.
-[[nodiscard]] Vec3 polygon_normal(const Polygon& polygon);
+[[nodiscard]] PACKTRACE_API Vec3 polygon_normal(const Polygon& polygon);
 
 /// What is wrong with a polygon, to be read behind its name: too few corners, no area, not flat.
-[[nodiscard]] std::optional<std::string> polygon_fault(const Polygon& polygon);
+[[nodiscard]] PACKTRACE_API std::optional<std::string> polygon_fault(const Polygon& polygon);
 
 using Surface = std::variant<Sphere, Plane, Quadric, Polygon>;
 

@@ -19,4 +19,8 @@ using Mat3 = glm::dmat3;
 /// An affine map in homogeneous form; the last row is (0, 0, 0, 1).
 using Mat4 = glm::dmat4;
 
+static_assert(sizeof(Vec3) == 3 * sizeof(double),
+              "packtrace is built without GLM_FORCE_DEFAULT_ALIGNED_GENTYPES; define it after "
+              "packtrace's headers, or not at all");
+
 }  // namespace packtrace

@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include <packtrace/export.hpp>
 #include <packtrace/report.hpp>
 
 namespace packtrace {
@@ -21,7 +22,8 @@ struct ReportConditions {
 /// each scene a folder of pictures, heat maps and plots. Files appear whole or not at all. Plots
 /// are drawn by gnuplot. Throws FileError and ImageError, and PlotError for a gnuplot that can't be
 /// run.
-void write_report(const std::vector<SceneReport>& scenes, const ReportOptions& options,
-                  const ReportConditions& conditions, const std::filesystem::path& folder);
+PACKTRACE_API void write_report(const std::vector<SceneReport>& scenes,
+                                const ReportOptions& options, const ReportConditions& conditions,
+                                const std::filesystem::path& folder);
 
 }  // namespace packtrace

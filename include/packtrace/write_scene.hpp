@@ -2,6 +2,7 @@
 
 #include <string>
 
+#include <packtrace/export.hpp>
 #include <packtrace/scene.hpp>
 
 namespace packtrace {
@@ -12,6 +13,6 @@ namespace packtrace {
 /// that of a plane with squares does, is written with its object and loses the name. Throws
 /// std::invalid_argument for what the language can't say: quotes or control characters in names,
 /// a material of another model than the scene's, a colour outside 0 to 1.
-[[nodiscard]] std::string scene_text(const Scene& scene);
+[[nodiscard]] PACKTRACE_API std::string scene_text(const Scene& scene);
 
 }  // namespace packtrace

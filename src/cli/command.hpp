@@ -20,6 +20,7 @@ struct Failed {
 // throwing: std::exception for bad input (exit 1), CLI::Error for wrong use (exit 2).
 void add_bench(CLI::App& app);
 void add_compare(CLI::App& app);
+void add_completion(CLI::App& app);
 void add_demo(CLI::App& app);
 void add_explain(CLI::App& app);
 void add_generate(CLI::App& app);

@@ -3,6 +3,7 @@
 #include <charconv>
 #include <cstdio>
 
+#include <packtrace/version.hpp>
 #include <packtrace/write_scene.hpp>
 
 #include "core/text_hash.hpp"
@@ -60,7 +61,7 @@ std::string FrameRecipe::of(const Camera& camera) const
 {
     Scene camera_alone;
     camera_alone.camera = camera;
-    return "packtrace " PACKTRACE_VERSION ", scene " + scene_ + ", camera " +
+    return "packtrace " PACKTRACE_VERSION_STRING ", scene " + scene_ + ", camera " +
            hash_of(camera_alone) + ", " + options_;
 }
 

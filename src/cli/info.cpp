@@ -7,6 +7,7 @@
 #include <vector>
 
 #include <packtrace/isa.hpp>
+#include <packtrace/version.hpp>
 
 #include <nlohmann/json.hpp>
 
@@ -181,7 +182,7 @@ nlohmann::ordered_json scene_json(const std::string& file, const Scene& scene,
 void print_json(const IsaInfo& chosen, const std::optional<SceneInput>& input)
 {
     nlohmann::ordered_json json;
-    json["version"] = PACKTRACE_VERSION;
+    json["version"] = PACKTRACE_VERSION_STRING;
     json["isas"] = nlohmann::ordered_json::array();
     for (const IsaInfo& isa : list_isas())
         json["isas"].push_back({{"name", isa.name},
@@ -220,7 +221,7 @@ void run_info(const InfoArguments& arguments)
         input = read_scene_input(arguments.scene);
     if (arguments.json)
         return print_json(chosen, input);
-    std::cout << "packtrace " PACKTRACE_VERSION "\n\n";
+    std::cout << "packtrace " PACKTRACE_VERSION_STRING "\n\n";
     print_isas(chosen);
     if (input) {
         const SceneFeatures features = scene_features(input->scene, chosen);

@@ -4,6 +4,8 @@
 #include <iostream>
 #include <new>
 
+#include <packtrace/version.hpp>
+
 #include "cli/command.hpp"
 #include "cli/interrupts.hpp"
 #include "cli/usage_error.hpp"
@@ -50,11 +52,12 @@ int parse_and_run(CLI::App& app, int argc, char** argv)
 int run(int argc, char** argv)
 {
     CLI::App app{"packtrace: a SIMD ray-packet tracer for spheres, planes, quadrics and polygons"};
-    app.set_version_flag("--version", "packtrace " PACKTRACE_VERSION);
+    app.set_version_flag("--version", "packtrace " PACKTRACE_VERSION_STRING);
     // Not required here: a mistyped one would be called missing.
     app.require_subcommand(0, 1);
     add_render(app);
     add_compare(app);
+    add_completion(app);
     add_report(app);
     add_profile(app);
     add_bench(app);

@@ -1,6 +1,7 @@
 # The kernels: one source, one OBJECT library per instruction set with its own -m flags. They
-# never see link-time optimisation, and are optimised in debug builds too (xsimd 8.1 does not
-# compile for AVX-512 at -O0).
+# never see link-time optimisation, and are optimised in debug builds and in builds of no type too
+# (xsimd 8.1 does not compile for AVX-512 at -O0). They are position-independent, for the shared
+# library; as their symbols are hidden, this costs nothing.
 #
 # -finline-limit and its kin make GCC inline xsimd's one-line functions everywhere, so that no
 # weak copy of them leaves the object. -Wno-maybe-uninitialized: GCC 12's own AVX-512 header
@@ -41,14 +42,18 @@ function(packtrace_kernel isa lanes)
     target_compile_options(packtrace_kernels_${isa} PRIVATE ${ARGN} -fvisibility=hidden -fno-exceptions
         -fno-stack-protector
         $<$<CXX_COMPILER_ID:GNU>:-Wno-maybe-uninitialized$<SEMICOLON>-Wno-uninitialized>
-        $<$<CONFIG:Debug>:-O2>
+        $<$<NOT:$<CONFIG:Release,RelWithDebInfo,MinSizeRel>>:-O2>
         $<$<CXX_COMPILER_ID:GNU>:-finline-limit=100000>
         $<$<CXX_COMPILER_ID:GNU>:--param=inline-unit-growth=1000>
         $<$<CXX_COMPILER_ID:GNU>:--param=large-function-growth=10000>)
     target_link_libraries(packtrace_kernels_${isa} PRIVATE packtrace_flags packtrace_xsimd)
     set_target_properties(packtrace_kernels_${isa} PROPERTIES INTERPROCEDURAL_OPTIMIZATION OFF
-                          UNITY_BUILD OFF)
-    target_sources(packtrace PRIVATE $<TARGET_OBJECTS:packtrace_kernels_${isa}>)
+                          UNITY_BUILD OFF POSITION_INDEPENDENT_CODE ON)
+    foreach(library IN ITEMS packtrace packtrace_shared)
+        if(TARGET ${library})
+            target_sources(${library} PRIVATE $<TARGET_OBJECTS:packtrace_kernels_${isa}>)
+        endif()
+    endforeach()
     set(PACKTRACE_KERNELS ${PACKTRACE_KERNELS} ${isa} CACHE INTERNAL "")
 endfunction()
 
@@ -84,4 +89,4 @@ foreach(isa IN LISTS PACKTRACE_KERNELS)
     endif()
 endforeach()
 file(CONFIGURE OUTPUT ${CMAKE_CURRENT_BINARY_DIR}/dispatch/kernel_list.inc CONTENT "${kernel_list}")
-target_include_directories(packtrace PRIVATE ${CMAKE_CURRENT_BINARY_DIR})
+target_include_directories(packtrace_objects PRIVATE ${CMAKE_CURRENT_BINARY_DIR})

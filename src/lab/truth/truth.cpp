@@ -2,6 +2,7 @@
 
 #include <system_error>
 
+#include <packtrace/version.hpp>
 #include <packtrace/write_scene.hpp>
 
 #include "core/text_hash.hpp"
@@ -22,8 +23,9 @@ constexpr int checked_pixels = 32;
 // the program and its compiler.
 std::filesystem::path file_of(const Scene& scene, const TruthRequest& request)
 {
-    const std::string key = PACKTRACE_VERSION " " + commit_name() + ", " + compiler_name() + ", " +
-                            std::to_string(request.samples) + " samples\n" + scene_text(scene);
+    const std::string key = PACKTRACE_VERSION_STRING " " + commit_name() + ", " + compiler_name() +
+                            ", " + std::to_string(request.samples) + " samples\n" +
+                            scene_text(scene);
     char name[32];
     std::snprintf(name, sizeof name, "%016llx.truth",
                   static_cast<unsigned long long>(text_hash(key)));

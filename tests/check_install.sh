@@ -1,0 +1,153 @@
+#!/bin/sh
+# check_install.sh WAY CMAKE CXX BUILD SOURCE ISA…
+#
+# Programs of users get packtrace in the WAY named, set nothing else, and run:
+#   prefix                    no program yet: installs BUILD into BUILD/tests/prefix
+#   find_package, pkg_config  from there
+#   add_subdirectory, fetch_content
+#                             from SOURCE, linked with the library that BUILD holds already: their
+#                             own, for instruction sets ISA…, would take minutes to compile
+set -eu
+way=$1
+cmake=$2
+cxx=$3
+build=$4
+source=$5
+shift 5
+isas=$(echo "$*" | tr ' ' ';')
+consumer=$source/tests/consumer
+prefix=$build/tests/prefix
+folder=$(mktemp -d)
+trap 'rm -rf "$folder"' EXIT
+# What the user of this machine has set must not help.
+unset CXXFLAGS CPPFLAGS LDFLAGS CMAKE_PREFIX_PATH CMAKE_BUILD_TYPE PKG_CONFIG_PATH LD_LIBRARY_PATH
+
+fail() {
+    printf '%s\n' "$*"
+    exit 1
+}
+
+# Runs a command, which may print where it fails only.
+quietly() {
+    "$@" >"$folder/log" 2>&1 || fail "$*: $(cat "$folder/log")"
+}
+
+install_prefix() {
+    rm -rf "$prefix"
+    quietly "$cmake" --install "$build" --prefix "$prefix"
+    quietly "$prefix/bin/packtrace" render "$prefix/share/packtrace/scenes/four_spheres.scene" \
+        --size 16x16 -o "$folder/picture.png"
+    [ -s "$prefix/share/doc/packtrace/LICENSE" ] || fail "no licence is installed"
+    for file in bash-completion/completions/packtrace zsh/site-functions/_packtrace \
+        fish/vendor_completions.d/packtrace.fish; do
+        [ -s "$prefix/share/$file" ] || fail "no share/$file is installed"
+    done
+    # A man page for the program and each command.
+    for command in $("$prefix/bin/packtrace" --help |
+        sed -n '/^S[Uu][Bb]/,$s/^  \([a-z][a-z]*\) .*/-\1/p') ''; do
+        [ -s "$prefix/share/man/man1/packtrace$command.1" ] || fail "no packtrace$command.1 is installed"
+    done
+    # An installation moves as a whole.
+    ! grep -rlI -e "$build" -e "$source" "$prefix" || fail "these files name the build folder"
+}
+
+# configure NAME [OPTION…]: sets up the user's project in the folder NAME.
+configure() {
+    name=$1
+    shift
+    quietly "$cmake" -G Ninja -S "$consumer" -B "$folder/$name" -DCMAKE_CXX_COMPILER="$cxx" \
+        -DWAY="$way" "$@"
+    ! grep -i warning "$folder/log" || fail "cmake $* warns: $(cat "$folder/log")"
+}
+
+# runs PROGRAM: it works, and is of the shared library or not.
+runs() {
+    quietly "$1"
+    needed=$(ldd "$1" | grep -c libpacktrace || true)
+    [ "$needed" = "$2" ] || fail "$1 needs $needed shared libpacktrace, not $2: $(ldd "$1")"
+}
+
+find_package() {
+    for kind in default shared static; do
+        components=$kind
+        [ $kind != default ] || components=
+        configure $kind -DCMAKE_PREFIX_PATH="$prefix" -DCOMPONENTS=$components
+        quietly "$cmake" --build "$folder/$kind"
+        runs "$folder/$kind/consumer" "$([ $kind = static ] && echo 0 || echo 1)"
+    done
+    # What can't be had is said.
+    for options in "-DCOMPONENTS=wrong" "-DVERSION=0.1" "-DVERSION=0.9"; do
+        ! "$cmake" -S "$consumer" -B "$folder/wrong" -DCMAKE_CXX_COMPILER="$cxx" -DWAY="$way" \
+            -DCMAKE_PREFIX_PATH="$prefix" "$options" >"$folder/log" 2>&1 ||
+            fail "find_package takes $options"
+        grep -q -e "no component 'wrong'" -e 'version: 0.2' "$folder/log" ||
+            fail "$options: $(cat "$folder/log")"
+        rm -rf "$folder/wrong"
+    done
+}
+
+pkg_config() {
+    command -v pkg-config >/dev/null || fail "pkg-config is missing; type: sudo apt-get install pkgconf"
+    PKG_CONFIG_PATH=$(dirname "$(find "$prefix" -name packtrace.pc)")
+    export PKG_CONFIG_PATH
+    libraries=$(pkg-config --variable=libdir packtrace)
+    # Flags are words.
+    # shellcheck disable=SC2046
+    quietly "$cxx" "$consumer/main.cpp" -o "$folder/shared" $(pkg-config --cflags --libs packtrace)
+    LD_LIBRARY_PATH=$libraries
+    export LD_LIBRARY_PATH
+    runs "$folder/shared" 1
+    # shellcheck disable=SC2046
+    quietly "$cxx" "$consumer/main.cpp" -o "$folder/static" $(pkg-config --cflags packtrace) \
+        "$libraries/libpacktrace.a" $(pkg-config --static --libs packtrace)
+    runs "$folder/static" 0
+    # The first program of the documentation prints what stands there.
+    sed -n '/^```cpp/,/^```/p' "$source/docs/library.md" | grep -v '^```' >"$folder/first.cpp"
+    sed -n '/^```output/,/^```/p' "$source/docs/library.md" | grep -v '^```' >"$folder/expected"
+    # shellcheck disable=SC2046
+    quietly "$cxx" "$folder/first.cpp" -o "$folder/first" $(pkg-config --cflags --libs packtrace)
+    (cd "$folder" && ./first >printed) || fail "the first program of docs/library.md fails"
+    diff "$folder/expected" "$folder/printed" || fail "docs/library.md says what is not printed"
+    [ -s "$folder/first.png" ] || fail "the first program of docs/library.md writes no picture"
+    # All headers together.
+    for header in "$prefix"/include/packtrace/*.hpp; do
+        echo "#include <packtrace/$(basename "$header")>"
+    done >"$folder/headers.cpp"
+    # shellcheck disable=SC2046
+    quietly "$cxx" -fsyntax-only -Wall -Wextra -Wpedantic -Werror "$folder/headers.cpp" \
+        $(pkg-config --cflags packtrace)
+}
+
+# command_of NAME FILE: the command that makes the FILE in the user's project NAME.
+command_of() {
+    ninja -C "$folder/$1" -t commands "$2" | tail -n 1
+}
+
+# As a part of another project: compiles the user's program, and links it as that project would.
+subproject() {
+    for kind in static shared; do
+        shared=$([ $kind = static ] && echo OFF || echo ON)
+        configure $kind -DPACKTRACE_SOURCE="$source" -DPACKTRACE_ISAS="$isas" \
+            -DBUILD_SHARED_LIBS="$shared"
+        object=CMakeFiles/consumer.dir/main.cpp.o
+        quietly ninja -C "$folder/$kind" $object
+        # No flag of packtrace's own is among those of the user.
+        ! command_of $kind $object | grep -e ' -f' -e ' -O' -e ' -W' -e ' -m' ||
+            fail "flags of packtrace's own compile the program"
+        ninja -C "$folder/$kind" -t commands | grep kernels/table.cpp | grep -q -e ' -O[23] ' ||
+            fail "kernels are not optimised in a project without a build type"
+        library=$folder/$kind/packtrace
+        [ "$way" = add_subdirectory ] || library=$folder/$kind/_deps/packtrace-build
+        cp -P "$build"/src/libpacktrace.* "$library/src"
+        (cd "$folder/$kind" && quietly sh -c "$(command_of $kind consumer)")
+        runs "$folder/$kind/consumer" "$([ $kind = static ] && echo 0 || echo 1)"
+    done
+}
+
+case $way in
+prefix) install_prefix ;;
+find_package) find_package ;;
+pkg_config) pkg_config ;;
+add_subdirectory | fetch_content) subproject ;;
+*) fail "unknown way '$way'" ;;
+esac
