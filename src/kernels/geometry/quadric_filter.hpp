@@ -227,16 +227,16 @@ template <bool Shared, class Own>
 inline void keep_certain(HitPacket<float>& hit, const QuadricFilter& filter,
                          const RayPacket<float>& rays, const RayScale& scale, const Own& own)
 {
-    const auto [first, pieces] = body_of(filter);
+    const Body body = body_of(filter);
     const std::uint32_t active = may_hit<Shared>(filter, rays, scale, hit.t) &
-                                 own.template lanes_on_others<float>(first, pieces);
+                                 own.template lanes_on_others<float>(body.first, body.pieces);
     if (active == 0)
         return;
-    visit_in_double(*filter.wide, rays, active,
-                    [&, first = first](std::uint32_t lanes_of, const vreal<float>& low,
-                                       const vreal<float>& high, int piece) {
-                        keep_sure(hit, from_bits<float>(lanes_of), low, high, first + piece);
-                    });
+    visit_in_double(
+        *filter.wide, rays, active,
+        [&](std::uint32_t lanes_of, const vreal<float>& low, const vreal<float>& high, int piece) {
+            keep_sure(hit, from_bits<float>(lanes_of), low, high, body.first + piece);
+        });
 }
 
 /// What any piece does to the lanes that do not start on it.
