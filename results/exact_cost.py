@@ -1,8 +1,8 @@
 #!/usr/bin/env python3
 """What `exact` costs: results/exact_cost.json.
 
-Rates of a caller's rays and times of frames, one thread, in `exact`, in `fast` and, with BEFORE, in
-the default mode of an earlier build of the program, all by turns.
+Rates of a caller's rays and times of frames, one thread, in `exact`, in `fast`, in double precision
+and, with BEFORE, in the default mode of an earlier build of the program, all by turns.
 
 Usage: results/exact_cost.py BUILD [BEFORE [REPETITIONS]]
 BUILD and BEFORE are build folders with `packtrace` and `bench/scaling/packtrace_rays`.
@@ -22,19 +22,21 @@ RAYS = [("four_spheres", 512, ("avx512", "avx2")), ("spheres32", 512, ("avx512",
         ("spheres64", 512, ("avx512", "avx2")), ("spheres128", 512, ("avx512", "avx2")),
         ("flake4", 512, ("avx512", "avx2")), ("flake6", 512, ("avx512",)),
         ("random1m", 512, ("avx512",))]
+DEFAULT = {"rays": [], "frame": []}
+FAST = {"rays": ["--fast"], "frame": ["--accuracy", "fast"]}
+DOUBLE = {"rays": ["--double"], "frame": ["--precision", "double"]}
 FRAMES = ["four_spheres", "whitted", "flight", "general", "mirror_room", "quadrics", "sketch"]
 
 
-def rates(build, scene, size, isa, fast):
+def rates(build, scene, size, isa, options):
     command = [f"{build}/bench/scaling/packtrace_rays", scene, "--size", str(size), "--isa", isa]
-    done = subprocess.run(command + (["--fast"] if fast else []), capture_output=True, text=True,
-                          check=True)
+    done = subprocess.run(command + options["rays"], capture_output=True, text=True, check=True)
     return json.loads(done.stdout)
 
 
-def milliseconds(build, scene, isa, fast, folder):
+def milliseconds(build, scene, isa, options, folder):
     command = [f"{build}/packtrace", "render", scene, "--size", "512x512", "--threads", "1", "--isa",
-               isa, "-o", f"{folder}/frame.pfm"] + (["--accuracy", "fast"] if fast else [])
+               isa, "-o", f"{folder}/frame.pfm"] + options["frame"]
     done = subprocess.run(command, capture_output=True, text=True, check=True)
     return float(re.search(r"([\d.]+) ms", done.stdout + done.stderr).group(1))
 
@@ -47,13 +49,11 @@ def share(of, over):
 
 def row_of(of, times, speed):
     """`speed` of a measurement: higher is faster."""
-    row = dict(of, exact=statistics.median(times["exact"]), fast=statistics.median(times["fast"]))
+    row = dict(of, **{mode: statistics.median(values) for mode, values in times.items()})
     speeds = {mode: [speed(x) for x in values] for mode, values in times.items()}
-    row["exact_over_fast"] = share(speeds["exact"], speeds["fast"])
-    if "before" in times:
-        row["before"] = statistics.median(times["before"])
-        row["exact_over_before"] = share(speeds["exact"], speeds["before"])
-        row["fast_over_before"] = share(speeds["fast"], speeds["before"])
+    for mode in times:
+        if mode != "exact":
+            row[f"exact_over_{mode}"] = share(speeds["exact"], speeds[mode])
     print(json.dumps(row))
     return row
 
@@ -62,9 +62,10 @@ def main():
     if len(sys.argv) < 2:
         sys.exit(__doc__)
     built_of = commit()
-    builds = {"exact": (sys.argv[1], False), "fast": (sys.argv[1], True)}
+    builds = {"exact": (sys.argv[1], DEFAULT), "fast": (sys.argv[1], FAST),
+              "double": (sys.argv[1], DOUBLE)}
     if len(sys.argv) > 2:
-        builds["before"] = (sys.argv[2], False)
+        builds["before"] = (sys.argv[2], DEFAULT)
     repetitions = int(sys.argv[3]) if len(sys.argv) > 3 else 9
     rows = []
     load = machine()
@@ -72,8 +73,8 @@ def main():
         for isa in isas:
             found = {}
             for _ in range(repetitions):
-                for mode, (build, fast) in builds.items():
-                    for kind, rate in rates(build, scene, size, isa, fast).items():
+                for mode, (build, options) in builds.items():
+                    for kind, rate in rates(build, scene, size, isa, options).items():
                         found.setdefault(kind, {}).setdefault(mode, []).append(rate)
             for kind, times in found.items():
                 rows.append(row_of({"scene": scene, "isa": isa, "rays": kind,
@@ -83,9 +84,9 @@ def main():
             for isa in ("avx512", "avx2"):
                 times = {}
                 for _ in range(repetitions):
-                    for mode, (build, fast) in builds.items():
+                    for mode, (build, options) in builds.items():
                         times.setdefault(mode, []).append(
-                            milliseconds(build, ROOT / f"scenes/{scene}.scene", isa, fast, folder))
+                            milliseconds(build, ROOT / f"scenes/{scene}.scene", isa, options, folder))
                 rows.append(row_of({"scene": scene, "isa": isa, "rays": "frame 512x512",
                                     "unit": "milliseconds"}, times, lambda x: 1 / x))
     write({"command": "results/exact_cost.py build/release BEFORE", "commit": built_of,

@@ -7,6 +7,7 @@
 #include <functional>
 #include <iostream>
 #include <string>
+#include <type_traits>
 #include <vector>
 
 #include <CLI/CLI.hpp>
@@ -27,6 +28,7 @@ struct Arguments {
     int size = 512;
     int repetitions = 3;
     bool fast = false;
+    bool in_double = false;
 };
 
 /// Rays that are handed over at once.
@@ -50,26 +52,69 @@ Scene scene_of(const Arguments& arguments)
     return scene;
 }
 
+/// The same rays in either precision.
+template <class Real>
+class Rays {
+public:
+    explicit Rays(const RaySet& rays)
+    {
+        const std::vector<float>* const from[8] = {&rays.org[0], &rays.org[1], &rays.org[2],
+                                                   &rays.dir[0], &rays.dir[1], &rays.dir[2],
+                                                   &rays.t_min,  &rays.t_max};
+        for (int i = 0; i < 8; ++i)
+            values_[i].assign(from[i]->begin(), from[i]->end());
+    }
+    [[nodiscard]] std::size_t size() const
+    {
+        return values_[0].size();
+    }
+    [[nodiscard]] RaysView<Real> view(std::size_t first) const
+    {
+        const auto at = [&](int i) { return values_[i].data() + first; };
+        return {at(0), at(1), at(2),
+                at(3), at(4), at(5),
+                at(6), at(7), std::min(batch, size() - first)};
+    }
+
+private:
+    std::vector<Real> values_[8];
+};
+
+/// What passes over rays write to.
+template <class Real>
+struct Answers {
+    std::vector<Real> t;
+    std::vector<std::int32_t> object;
+    std::vector<std::uint8_t> occluded;
+
+    explicit Answers(std::size_t size) : t(size), object(size), occluded(size)
+    {
+    }
+};
+
 template <class Query>
-double seconds_over(const RaySet& rays, const Query& query)
+double seconds_over(std::size_t rays, const Query& query)
 {
     const auto begin = std::chrono::steady_clock::now();
-    for (std::size_t first = 0; first < rays.size(); first += batch)
-        query(rays.view(first, std::min(batch, rays.size() - first)), first);
+    for (std::size_t first = 0; first < rays; first += batch)
+        query(first);
     return std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
 }
 
-double closest(const RayScene<float>& scene, const RaySet& rays, Hits& hits)
+template <class Real>
+double closest(const RayScene<Real>& scene, const Rays<Real>& rays, Answers<Real>& answers)
 {
-    return seconds_over(rays, [&](const RaysView<float>& view, std::size_t first) {
-        scene.closest_hits(view, {hits.t.data() + first, hits.object.data() + first, {}, {}, {}});
+    return seconds_over(rays.size(), [&](std::size_t first) {
+        scene.closest_hits(rays.view(first),
+                           {answers.t.data() + first, answers.object.data() + first, {}, {}, {}});
     });
 }
 
-double occluded(const RayScene<float>& scene, const RaySet& rays, Hits& hits)
+template <class Real>
+double occluded(const RayScene<Real>& scene, const Rays<Real>& rays, Answers<Real>& answers)
 {
-    return seconds_over(rays, [&](const RaysView<float>& view, std::size_t first) {
-        scene.occluded(view, hits.occluded.data() + first);
+    return seconds_over(rays.size(), [&](std::size_t first) {
+        scene.occluded(rays.view(first), answers.occluded.data() + first);
     });
 }
 
@@ -81,6 +126,28 @@ Vec3 first_light(const Scene& scene)
     return {4, 6, -4};
 }
 
+/// The points that camera rays hit.
+std::vector<SurfacePoint> points_of(const Scene& scene, const RaySet& camera,
+                                    const RenderOptions& options)
+{
+    const RayScene<float> rays(scene, options);
+    Answers<float> answers(camera.size());
+    (void)closest(rays, Rays<float>(camera), answers);
+    Hits hits(0);
+    hits.t = answers.t;
+    hits.object = answers.object;
+    return hit_points(scene, camera, hits);
+}
+
+double best_of(int repetitions, const std::function<double()>& pass)
+{
+    double best = pass();
+    for (int i = 0; i < repetitions; ++i)
+        best = std::min(best, pass());
+    return best;
+}
+
+template <class Real>
 nlohmann::ordered_json run(const Arguments& arguments)
 {
     const Scene scene = scene_of(arguments);
@@ -88,30 +155,29 @@ nlohmann::ordered_json run(const Arguments& arguments)
     options.isa = arguments.isa;
     if (arguments.fast)
         options.accuracy = Accuracy::fast;
-    const RayScene<float> rays(scene, options);
-    const RaySet camera = camera_rays(scene);
+    const RaySet camera_set = camera_rays(scene);
+    const std::vector<SurfacePoint> points = points_of(scene, camera_set, options);
+    const Rays<Real> camera(camera_set);
+    const Rays<Real> bounce(bounce_rays(points));
+    const Rays<Real> from_surface(shadow_rays(points, first_light(scene), ShadowEnd::surface));
+    const Rays<Real> from_light(shadow_rays(points, first_light(scene), ShadowEnd::light));
+    const RayScene<Real> rays(scene, options);
+    Answers<Real> answers(camera.size());
     Hits hits(camera.size());
-    (void)closest(rays, camera, hits);
-    const std::vector<SurfacePoint> points = hit_points(scene, camera, hits);
-    const RaySet bounce = bounce_rays(points);
-    const RaySet from_surface = shadow_rays(points, first_light(scene), ShadowEnd::surface);
-    const RaySet from_light = shadow_rays(points, first_light(scene), ShadowEnd::light);
     CameraTiles tiles(scene, options.isa, options.accuracy);
-    const std::vector<Subject> subjects = {
-        {"tiles", camera.size(), [&] { return tiles.trace(hits); }},
-        {"camera", camera.size(), [&] { return closest(rays, camera, hits); }},
-        {"bounce", bounce.size(), [&] { return closest(rays, bounce, hits); }},
+    std::vector<Subject> subjects = {
+        {"camera", camera.size(), [&] { return closest(rays, camera, answers); }},
+        {"bounce", bounce.size(), [&] { return closest(rays, bounce, answers); }},
         {"shadow, from the surface", from_surface.size(),
-         [&] { return occluded(rays, from_surface, hits); }},
+         [&] { return occluded(rays, from_surface, answers); }},
         {"shadow, from the light", from_light.size(),
-         [&] { return occluded(rays, from_light, hits); }}};
+         [&] { return occluded(rays, from_light, answers); }}};
+    if (std::is_same_v<Real, float>)
+        subjects.push_back({"tiles", camera.size(), [&] { return tiles.trace(hits); }});
     nlohmann::ordered_json rates;
-    for (const Subject& subject : subjects) {
-        double best = subject.pass();
-        for (int i = 0; i < arguments.repetitions; ++i)
-            best = std::min(best, subject.pass());
-        rates[subject.name] = 1e-6 * static_cast<double>(subject.rays) / best;
-    }
+    for (const Subject& subject : subjects)
+        rates[subject.name] =
+            1e-6 * static_cast<double>(subject.rays) / best_of(arguments.repetitions, subject.pass);
     return rates;
 }
 
@@ -127,10 +193,13 @@ int main(int argc, char** argv)
     app.add_option("--isa", arguments.isa, "Instruction set");
     app.add_option("--size", arguments.size, "Edge of the picture, a multiple of 16");
     app.add_option("--repetitions", arguments.repetitions, "Passes over each kind of rays");
+    app.add_flag("--double", arguments.in_double, "Rays in double precision");
     app.add_flag("--fast", arguments.fast, "Accuracy::fast instead of the default");
     CLI11_PARSE(app, argc, argv);
     try {
-        std::cout << packtrace::peers::run(arguments).dump(1) << '\n';
+        const auto rates = arguments.in_double ? packtrace::peers::run<double>(arguments)
+                                               : packtrace::peers::run<float>(arguments);
+        std::cout << rates.dump(1) << '\n';
     } catch (const std::exception& error) {
         std::cerr << "packtrace_rays: " << error.what() << '\n';
         return 1;
