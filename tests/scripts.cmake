@@ -62,3 +62,5 @@ set_tests_properties(install.find_package install.pkg_config PROPERTIES FIXTURES
 packtrace_script_test(exports fast check_exports.sh ${CMAKE_NM} ${CMAKE_OBJDUMP}
                       $<TARGET_FILE:packtrace_shared> ${PROJECT_SOURCE_DIR}/include/packtrace)
 packtrace_script_test(completion fast check_completion.sh $<TARGET_FILE:packtrace_cli>)
+packtrace_script_test(packages fast check_packages.sh ${CMAKE_CPACK_COMMAND} ${PROJECT_BINARY_DIR}
+                      ${PROJECT_VERSION})

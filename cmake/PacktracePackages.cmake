@@ -1,0 +1,44 @@
+# `cpack` in the build folder makes Debian packages: one of each component that is installed.
+#   packtrace          runtime: the program, the shared library, example scenes
+#   libpacktrace-dev   development: headers, the static library, what finds them
+#   python3-packtrace  python, where a build installs that component
+# A package made on Debian 12 also installs on Debian 13.
+set(CPACK_GENERATOR DEB)
+set(CPACK_PACKAGE_NAME packtrace)
+set(CPACK_PACKAGE_VENDOR "The packtrace authors")
+set(CPACK_PACKAGE_CONTACT "The packtrace authors <packtrace@localhost>")
+set(CPACK_PACKAGE_DESCRIPTION_SUMMARY "${PROJECT_DESCRIPTION}")
+set(CPACK_PACKAGING_INSTALL_PREFIX /usr)
+set(CPACK_STRIP_FILES ON)
+
+get_cmake_property(CPACK_COMPONENTS_ALL COMPONENTS)
+list(REMOVE_ITEM CPACK_COMPONENTS_ALL Unspecified)
+set(CPACK_DEB_COMPONENT_INSTALL ON)
+set(CPACK_COMPONENTS_GROUPING IGNORE)
+set(CPACK_DEBIAN_FILE_NAME DEB-DEFAULT)
+set(CPACK_DEBIAN_PACKAGE_SHLIBDEPS ON)
+set(CPACK_DEBIAN_PACKAGE_GENERATE_SHLIBS ON)
+
+set(CPACK_DEBIAN_RUNTIME_PACKAGE_NAME packtrace)
+set(CPACK_DEBIAN_RUNTIME_PACKAGE_SECTION graphics)
+# Draws the plots of reports.
+set(CPACK_DEBIAN_RUNTIME_PACKAGE_SUGGESTS gnuplot-nox)
+set(CPACK_COMPONENT_RUNTIME_DESCRIPTION
+    "The program packtrace, the shared library, and example scenes.")
+
+set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_NAME libpacktrace-dev)
+set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_SECTION libdevel)
+set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_SHLIBDEPS OFF)
+set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_DEPENDS
+    "packtrace (= ${PROJECT_VERSION}), libglm-dev, libtbb-dev, libpng-dev, libdeflate-dev")
+set(CPACK_COMPONENT_DEVELOPMENT_DESCRIPTION
+    "Headers, the static library, and what CMake and pkg-config find them by.")
+
+set(CPACK_DEBIAN_PYTHON_PACKAGE_NAME python3-packtrace)
+set(CPACK_DEBIAN_PYTHON_PACKAGE_SECTION python)
+set(CPACK_DEBIAN_PYTHON_PACKAGE_DEPENDS "python3, python3-numpy")
+set(CPACK_COMPONENT_PYTHON_DESCRIPTION "The Python module packtrace.")
+
+# Where Debian's own packages have a licence, and completions for zsh.
+set(CPACK_PRE_BUILD_SCRIPTS ${CMAKE_CURRENT_LIST_DIR}/debian_paths.cmake)
+include(CPack)

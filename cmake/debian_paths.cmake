@@ -1,0 +1,21 @@
+# CPack runs this on the folder of files that it makes the packages of: moves what Debian has in
+# places of its own, compresses man pages, and gives each package the licence.
+file(GLOB packages LIST_DIRECTORIES true ${CPACK_TEMPORARY_DIRECTORY}/*)
+foreach(package IN LISTS packages)
+    set(share ${package}/usr/share)
+    get_filename_component(component ${package} NAME)
+    string(TOUPPER ${component} component)
+    set(name ${CPACK_DEBIAN_${component}_PACKAGE_NAME})
+    file(REMOVE_RECURSE ${share}/doc)
+    file(MAKE_DIRECTORY ${share}/doc/${name})
+    file(COPY_FILE ${CMAKE_CURRENT_LIST_DIR}/../LICENSE ${share}/doc/${name}/copyright)
+    file(CHMOD ${share}/doc/${name}/copyright
+         PERMISSIONS OWNER_READ OWNER_WRITE GROUP_READ WORLD_READ)
+    if(EXISTS ${share}/zsh/site-functions)
+        file(RENAME ${share}/zsh/site-functions ${share}/zsh/vendor-completions)
+    endif()
+    file(GLOB pages ${share}/man/man1/*.1)
+    if(pages)
+        execute_process(COMMAND gzip -9 -n ${pages} COMMAND_ERROR_IS_FATAL ANY)
+    endif()
+endforeach()

@@ -1,0 +1,49 @@
+#!/bin/sh
+# check_packages.sh CPACK BUILD VERSION
+#
+# cpack makes Debian packages of BUILD: each has its files, its licence and what it depends on, and
+# the program runs from where the package is unpacked.
+set -eu
+cpack=$1
+build=$2
+version=$3
+folder=$(mktemp -d)
+trap 'rm -rf "$folder"' EXIT
+cd "$folder"
+
+fail() {
+    printf '%s\n' "$*"
+    exit 1
+}
+
+command -v dpkg-shlibdeps >/dev/null || fail "dpkg-dev is missing; type: sudo apt-get install dpkg-dev"
+"$cpack" --config "$build/CPackConfig.cmake" -B "$folder/made" >log 2>&1 || fail "$(cat log)"
+! grep -i warning log || fail "cpack warns: $(cat log)"
+
+# has PACKAGE FILE…: the package holds these files, below /usr.
+has() {
+    package=$folder/made/$1_${version}_$(dpkg --print-architecture).deb
+    [ -e "$package" ] || fail "no $package; made: $(ls made)"
+    name=$1
+    shift
+    dpkg-deb -c "$package" | sed 's/.* \.\/\(usr\/[^ ]*\).*/\1/' >files
+    for file in "$@"; do
+        grep -q -x -e "usr/$file" files || fail "$name lacks usr/$file: $(cat files)"
+    done
+    dpkg-deb -x "$package" root
+}
+has packtrace bin/packtrace 'lib.*/libpacktrace\.so\.[0-9.]*' share/man/man1/packtrace-render.1.gz \
+    share/packtrace/scenes/four_spheres.scene share/bash-completion/completions/packtrace \
+    share/zsh/vendor-completions/_packtrace share/doc/packtrace/copyright
+dpkg-deb -f "$package" Depends | grep -q 'libtbb.*libpng\|libpng.*libtbb' ||
+    fail "packtrace does not depend on its libraries: $(dpkg-deb -f "$package")"
+has libpacktrace-dev include/packtrace/render.hpp include/packtrace/version.hpp \
+    'lib.*/libpacktrace\.a' 'lib.*/libpacktrace\.so' 'lib.*/pkgconfig/packtrace.pc' \
+    'lib.*/cmake/packtrace/packtraceConfig.cmake' share/doc/libpacktrace-dev/copyright
+dpkg-deb -f "$package" Depends | grep -q "packtrace (= $version).*libtbb-dev" ||
+    fail "libpacktrace-dev does not depend on packtrace: $(dpkg-deb -f "$package")"
+
+root/usr/bin/packtrace render root/usr/share/packtrace/scenes/four_spheres.scene --size 16x16 \
+    -o picture.png >log 2>&1 || fail "the packaged program fails: $(cat log)"
+[ -s picture.png ] || fail "the packaged program writes no picture"
+echo "packages: $(ls made/*.deb)"
