@@ -4,7 +4,7 @@
 function(packtrace_script_test name label script)
     set(command sh ${CMAKE_CURRENT_SOURCE_DIR}/${script} ${ARGN})
     if(PACKTRACE_SANITIZE)
-        set(command sh -c "echo 'skipped: built with -fsanitize=${PACKTRACE_SANITIZE}'; exit 77")
+        set(command sh -c "exit 77")
     endif()
     add_test(NAME ${name} COMMAND ${command} COMMAND_EXPAND_LISTS)
     set_tests_properties(${name} PROPERTIES LABELS ${label} SKIP_RETURN_CODE 77)
