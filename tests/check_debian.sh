@@ -49,6 +49,8 @@ fresh() {
     cp /etc/resolv.conf /etc/hosts "$system/etc/"
     apt-config dump Acquire::http Acquire::https >"$system/etc/apt/apt.conf.d/90machine"
     echo 'Dpkg::Use-Pty "0";' >>"$system/etc/apt/apt.conf.d/90machine"
+    # It need not outlive a power cut; dpkg is ten times as quick.
+    echo force-unsafe-io >"$system/etc/dpkg/dpkg.cfg.d/unsafe-io"
     mount -t proc proc "$system/proc"
     inside "$1" apt-get update -qq
 }

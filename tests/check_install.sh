@@ -55,8 +55,8 @@ install_prefix() {
 configure() {
     name=$1
     shift
-    quietly "$cmake" -G Ninja -S "$consumer" -B "$folder/$name" -DCMAKE_CXX_COMPILER="$cxx" \
-        -DWAY="$way" "$@"
+    quietly "$cmake" --no-warn-unused-cli -G Ninja -S "$consumer" -B "$folder/$name" \
+        -DCMAKE_CXX_COMPILER="$cxx" -DWAY="$way" "$@"
     ! grep -i warning "$folder/log" || fail "cmake $* warns: $(cat "$folder/log")"
 }
 
@@ -71,7 +71,10 @@ find_package() {
     for kind in default shared static; do
         components=$kind
         [ $kind != default ] || components=
-        configure $kind -DCMAKE_PREFIX_PATH="$prefix" -DCOMPONENTS=$components
+        # What the library is built with is needed to link the static one alone.
+        disabled=
+        [ $kind = static ] || disabled=-DCMAKE_DISABLE_FIND_PACKAGE_TBB=ON
+        configure $kind -DCMAKE_PREFIX_PATH="$prefix" -DCOMPONENTS=$components $disabled
         quietly "$cmake" --build "$folder/$kind"
         runs "$folder/$kind/consumer" "$([ $kind = static ] && echo 0 || echo 1)"
     done
