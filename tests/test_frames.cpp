@@ -127,6 +127,7 @@ TEST_CASE("--frames renders again what another scene or other options made", "[f
         {"more samples", {"--spp", "4"}, s, 2},
         {"fewer again", {}, s, 2},
         {"another depth", {"--depth", "0"}, s, 2},
+        {"rays of little weight cut", {"--min-weight", "0.1"}, s, 2},
         {"another precision", {"--precision", "double"}, s, 2},
         {"another kernel", {"--kernel", "scalar", "--precision", "double"}, s, 2},
         {"starts as the notes have them", {"--self-hits", "note"}, s, 2},

@@ -19,6 +19,7 @@ struct FrameCounts {
     std::uint64_t reflected = 0;
     std::uint64_t refracted = 0;
     std::uint64_t unsure = 0;  ///< of all these, traced again in double (Accuracy::exact)
+    CutRays cut = {};          ///< besides
 
     [[nodiscard]] std::uint64_t total() const
     {

@@ -24,7 +24,7 @@ constexpr int confirmations = 2;
 
 struct BenchArguments {
     std::vector<std::string> scenes;
-    PictureArguments picture{.size = "256x256", .depth = {}};
+    PictureArguments picture{.size = "256x256", .depth = {}, .min_weight = {}};
     std::optional<std::string> isa;
     int repetitions = 9;
     std::string output;

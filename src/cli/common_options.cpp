@@ -107,6 +107,13 @@ void add_picture_options(CLI::App& command, PictureArguments& arguments)
                     "Reflections after the camera ray (default the scene's)")
         ->check(whole_number(0, deepest))
         ->type_name("N");
+    command
+        .add_option("--min-weight", arguments.min_weight,
+                    "Do not trace mirrored and refracted rays whose colour counts less than W of "
+                    "its pixel's in every channel (default the scene's, which is 0 unless it says "
+                    "otherwise: all are traced)")
+        ->check(share())
+        ->type_name("W");
 }
 
 void add_sampling_options(CLI::App& command, SamplingArguments& arguments)
@@ -187,6 +194,8 @@ void apply(const PictureArguments& arguments, Scene& scene)
         std::tie(scene.width, scene.height) = parse_size(*arguments.size);
     if (arguments.depth)
         scene.max_depth = *arguments.depth;
+    if (arguments.min_weight)
+        scene.min_weight = *arguments.min_weight;
 }
 
 void apply(const SamplingArguments& arguments, RenderOptions& options)

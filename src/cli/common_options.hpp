@@ -17,10 +17,11 @@ struct IsaArguments {
     std::optional<int> width;
 };
 
-/// What picture to render of a scene: `--size` and `--depth`.
+/// What picture to render of a scene: `--size`, `--depth` and `--min-weight`.
 struct PictureArguments {
     std::optional<std::string> size;
     std::optional<int> depth;
+    std::optional<double> min_weight;
 };
 
 /// How exact hits are: `--accuracy` and `--self-hits`.
@@ -61,7 +62,7 @@ void add_threads_option(CLI::App& command, int& threads);
 /// The instruction set asked for. Throws CLI::ValidationError when there is no such one here.
 [[nodiscard]] IsaInfo chosen_isa(const IsaArguments& arguments);
 
-/// Puts the size and depth asked for into the scene.
+/// Puts the size, depth and least weight asked for into the scene.
 void apply(const PictureArguments& arguments, Scene& scene);
 
 /// Puts the sampling asked for into the options. Throws CLI::ValidationError for `--adaptive` with

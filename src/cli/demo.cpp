@@ -27,7 +27,7 @@ namespace {
 struct DemoArguments {
     std::string scene = "scenes/four_spheres.scene";
     std::filesystem::path folder = "demo";
-    PictureArguments picture{.size = "1024x1024", .depth = {}};
+    PictureArguments picture{.size = "1024x1024", .depth = {}, .min_weight = {}};
     int threads = tbb::info::default_concurrency();
     int rounds = 5;
 };

@@ -17,7 +17,7 @@ namespace {
 /// What every generator's command takes.
 struct Common {
     std::string output;
-    PictureArguments picture{.size = "1024x1024", .depth = {}};
+    PictureArguments picture{.size = "1024x1024", .depth = {}, .min_weight = {}};
 };
 
 template <class Options>

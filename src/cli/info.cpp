@@ -20,6 +20,7 @@
 #include "cli/validators.hpp"
 #include "core/json_text.hpp"
 #include "scene/key_tables.hpp"
+#include "scene/values.hpp"
 #include "scene/words.hpp"
 
 namespace packtrace::cli {
@@ -98,8 +99,10 @@ void print_scene(const std::string& file, const Scene& scene, const SceneFeature
     std::cout << "\nscene    " << file << "\nsize     " << scene.width << " x " << scene.height
               << "\nobjects  " << listed(count_objects(scene)) << "\nlights   "
               << listed(count_lights(scene)) << "\nmodel    " << word_of(scene.illumination)
-              << "\ndepth    " << scene.max_depth << "\nshadows  " << word_of(scene.shadows)
-              << '\n';
+              << "\ndepth    " << scene.max_depth << "\nweights  "
+              << (scene.min_weight > 0.0 ? "from " + language::to_text(scene.min_weight) + " on"
+                                         : "all")
+              << "\nshadows  " << word_of(scene.shadows) << '\n';
     print_memory(features.bytes, scene.objects.size());
 }
 
@@ -175,6 +178,7 @@ nlohmann::ordered_json scene_json(const std::string& file, const Scene& scene,
             {"lights", counted(count_lights(scene))},
             {"model", word_of(scene.illumination)},
             {"depth", scene.max_depth},
+            {"min_weight", scene.min_weight},
             {"shadows", word_of(scene.shadows)},
             {"memory_bytes", features.bytes}};
 }

@@ -10,6 +10,7 @@
 
 #include "cli/certainty.hpp"
 #include "cli/command.hpp"
+#include "cli/cut_rays.hpp"
 #include "cli/progress_bar.hpp"
 #include "cli/render_animation.hpp"
 #include "cli/render_picture.hpp"
@@ -21,16 +22,23 @@
 namespace packtrace::cli {
 namespace {
 
+double seconds_between(std::chrono::steady_clock::time_point from,
+                       std::chrono::steady_clock::time_point to)
+{
+    return std::chrono::duration<double>(to - from).count();
+}
+
 void print_summary(const RenderArguments& arguments, const RenderOptions& options,
-                   const Scene& scene, double seconds)
+                   const Scene& scene, double seconds, double writing)
 {
     const std::string kernel =
         options.kernel == Kernel::scalar ? "scalar" : "packet, " + options.isa;
     const double pixels = static_cast<double>(scene.width) * scene.height;
-    char text[160];
-    std::snprintf(text, sizeof text, ": %d x %d, %s, %s, %.1f ms, %.1f Mpixel/s\n", scene.width,
+    char text[192];
+    std::snprintf(text, sizeof text,
+                  ": %d x %d, %s, %s, %.1f ms, %.1f Mpixel/s; written in %.1f ms\n", scene.width,
                   scene.height, kernel.c_str(), arguments.kernel.precision.c_str(), 1e3 * seconds,
-                  1e-6 * pixels / seconds);
+                  1e-6 * pixels / seconds, 1e3 * writing);
     std::cerr << arguments.output << text;
 }
 
@@ -45,15 +53,20 @@ void render_one(const RenderArguments& arguments, const Scene& scene, RenderOpti
 {
     const auto start = std::chrono::steady_clock::now();
     AnyImage picture;
+    CutRays cut;
     {
         ProgressBar bar(arguments.quiet ? Verbosity::quiet : Verbosity::normal);
         options.progress = [&bar](double share) { bar.update(share); };
-        picture = render_picture(scene, arguments.kernel.precision, options);
+        picture = render_picture(scene, arguments.kernel.precision, options, &cut);
     }
-    const std::chrono::duration<double> time = std::chrono::steady_clock::now() - start;
+    const auto rendered = std::chrono::steady_clock::now();
     write_picture(arguments.output, picture, arguments.write);
-    if (!arguments.quiet)
-        print_summary(arguments, options, scene, time.count());
+    const auto written = std::chrono::steady_clock::now();
+    if (!arguments.quiet) {
+        print_summary(arguments, options, scene, seconds_between(start, rendered),
+                      seconds_between(rendered, written));
+        print_cut_rays(arguments.output, scene, options, cut);
+    }
     if (!arguments.certainty)
         return;
     options.progress = {};

@@ -13,9 +13,9 @@ namespace packtrace::cli {
 /// A picture in the precision it was rendered in.
 using AnyImage = std::variant<Image<float>, Image<double>, Image<long double>>;
 
-/// A picture in the precision that `--precision` names.
+/// A picture in the precision that `--precision` names; `cut` as for render().
 [[nodiscard]] AnyImage render_picture(const Scene& scene, const std::string& precision,
-                                      const RenderOptions& options);
+                                      const RenderOptions& options, CutRays* cut = nullptr);
 
 /// write_image() in whatever precision.
 void write_picture(const std::filesystem::path& file, const AnyImage& picture,

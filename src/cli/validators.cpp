@@ -53,6 +53,15 @@ CLI::Validator positive_number()
     return validator(accepts, "a number above 0");
 }
 
+CLI::Validator share()
+{
+    const auto accepts = [](const std::string& text) {
+        const std::optional<double> value = parse<double>(text);
+        return value && *value >= 0.0 && *value <= 1.0;
+    };
+    return validator(accepts, "a number from 0 to 1");
+}
+
 CLI::Validator whole_number(int least, int most)
 {
     const auto accepts = [least, most](const std::string& text) {

@@ -13,6 +13,8 @@ namespace packtrace::cli {
 [[nodiscard]] CLI::Validator non_negative_number();
 /// A finite number > 0.
 [[nodiscard]] CLI::Validator positive_number();
+/// A number from 0 to 1.
+[[nodiscard]] CLI::Validator share();
 /// A whole number from `least` to `most`.
 [[nodiscard]] CLI::Validator whole_number(int least, int most);
 /// One of a few words.

@@ -58,6 +58,9 @@ struct TileHits {
     lane_int<Real> surface[tile_pixels];  ///< -1 for a miss
 };
 
+/// What pixels lack for rays that are not traced counts in whole ones of these.
+inline constexpr double lack_unit = 0x1p-40;
+
 /// How many rays of each kind were traced, and what was done for them.
 struct RayCounts {
     std::uint64_t camera = 0;
@@ -65,6 +68,8 @@ struct RayCounts {
     std::uint64_t reflected = 0;
     std::uint64_t refracted = 0;
     std::uint64_t unsure = 0;  ///< traced again in double
+    std::uint64_t cut = 0;     ///< not traced, as their weight is below SceneView::min_weight
+    double lacks = 0.0;        ///< the most that any one pixel may lack for those
     std::uint32_t stages = 0;  ///< of Stage
 
     RayCounts& operator+=(const RayCounts& more)
@@ -74,6 +79,8 @@ struct RayCounts {
         reflected += more.reflected;
         refracted += more.refracted;
         unsure += more.unsure;
+        cut += more.cut;
+        lacks = more.lacks > lacks ? more.lacks : lacks;
         stages |= more.stages;
         return *this;
     }

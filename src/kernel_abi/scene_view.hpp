@@ -51,6 +51,12 @@ struct SceneView : GeometryView<Real> {
     Real background[3] = {};
     Real limit_color[3] = {};  ///< what rays beyond the depth limit bring
     int max_depth = 0;
+    /// A mirrored or refracted ray is not traced where its weight is below this in every channel;
+    /// 0: all are.
+    Real min_weight = 0;
+    /// By generation, the most light that a ray can bring in each channel; null where all rays are
+    /// traced.
+    const MostLight* most_light = nullptr;
     /// No light reaches anything and nothing is mirrored or refracted: hits show their ambient
     /// light, and need no normals.
     bool flat = false;

@@ -37,6 +37,11 @@ struct CheckerRecord {
     Real v[3];
 };
 
+/// The most light that a ray can bring.
+struct MostLight {
+    double channel[3];
+};
+
 enum class LightKind : std::int32_t { point, directional };
 
 template <class Real>

@@ -64,9 +64,17 @@ void check_lights(const Scene& scene)
     }
 }
 
+void check_min_weight(const Scene& scene)
+{
+    if (!(scene.min_weight >= 0.0 && scene.min_weight <= 1.0))
+        throw std::invalid_argument("min_weight is " + std::to_string(scene.min_weight) +
+                                    "; use a number from 0 to 1");
+}
+
 void check_scene(const Scene& scene)
 {
     check_lights(scene);
+    check_min_weight(scene);
     const Object* const first = scene.objects.data();
     for_each_in_parallel(scene.objects, [&](const Object& object) {
         check_object(scene, static_cast<std::size_t>(&object - first));

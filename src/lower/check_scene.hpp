@@ -16,8 +16,11 @@ void check_object(const Scene& scene, std::size_t number);
 /// Throws std::invalid_argument for a light that shines from nowhere.
 void check_lights(const Scene& scene);
 
-/// Lights and all objects, on the threads of the TBB arena the call runs in. lower() checks what
-/// it lowers by itself; this is for the scalar kernel.
+/// Throws std::invalid_argument for a Scene::min_weight that is none.
+void check_min_weight(const Scene& scene);
+
+/// Lights, weight and all objects, on the threads of the TBB arena the call runs in. lower() checks
+/// what it lowers by itself; this is for the scalar kernel.
 void check_scene(const Scene& scene);
 
 }  // namespace packtrace

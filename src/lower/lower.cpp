@@ -90,6 +90,7 @@ void lower_objects(const Scene& scene, LoweredScene& lowered)
 LoweredScene lower(const Scene& scene, Accuracy accuracy, SelfHits self_hits)
 {
     check_lights(scene);
+    check_min_weight(scene);
     LoweredScene lowered;
     lower_model_rules(scene, lowered);
     lower_objects(scene, lowered);

@@ -35,6 +35,7 @@ void lower_model_rules(const Scene& scene, LoweredScene& lowered)
     lowered.background = scene.background;
     lowered.limit_color = limit_color(scene);
     lowered.max_depth = scene.max_depth;
+    lowered.min_weight = scene.min_weight;
     lowered.shadows = scene.shadows != ShadowKind::none;
     lowered.visible_lights = scene.illumination == Illumination::sketch;
     lowered.units = scratch ? abi::RayUnits::as_given : abi::RayUnits::unit;

@@ -5,6 +5,7 @@
 
 #include "geometry/round_to.hpp"
 #include "lower/in_parallel.hpp"
+#include "lower/most_light.hpp"
 #include "lower/pack_material.hpp"
 
 namespace packtrace {
@@ -82,6 +83,7 @@ PackedScene<Real>::PackedScene(const LoweredScene& lowered, Traversal traversal)
     round_to(view_.background, lowered.background);
     round_to(view_.limit_color, lowered.limit_color);
     view_.max_depth = lowered.max_depth;
+    pack_min_weight(lowered);
     view_.flat = lowered.flat;
     view_.transparent_shadows = lowered.transparent_shadows;
     view_.visible_lights = lowered.visible_lights;
@@ -127,6 +129,19 @@ void PackedScene<Real>::pack_materials(const LoweredScene& lowered)
     view_.surfaces_are_objects = are_objects(surfaces);
     view_.materials = materials_.data();
     view_.checkers = lowered.checkers.empty() ? nullptr : checkers_.data();
+}
+
+template <class Real>
+void PackedScene<Real>::pack_min_weight(const LoweredScene& lowered)
+{
+    if (lowered.min_weight <= 0.0)
+        return;
+    const std::vector<Rgb> light = most_light(lowered);
+    most_light_ = AlignedArray<abi::MostLight>(light.size());
+    for (std::size_t i = 0; i < light.size(); ++i)
+        most_light_[i] = {{light[i].x, light[i].y, light[i].z}};
+    view_.min_weight = static_cast<Real>(lowered.min_weight);
+    view_.most_light = most_light_.data();
 }
 
 /// By object where rays enter any; else there is the world alone.

@@ -40,13 +40,14 @@ public:
         return sizeof *this + tree_.bytes() + lists_.bytes() + shapes_.bytes() +
                (wide_lists_ ? wide_lists_->bytes() : 0) + material_index_.bytes() +
                materials_.bytes() + checkers_.bytes() + ior_.bytes() + lights_.bytes() +
-               (casters_ ? casters_->bytes() : 0);
+               most_light_.bytes() + (casters_ ? casters_->bytes() : 0);
     }
 
 private:
     void pack_wide(const LoweredScene& lowered);
     void pack_materials(const LoweredScene& lowered);
     void pack_ior(const LoweredScene& lowered);
+    void pack_min_weight(const LoweredScene& lowered);
     void pack_lights(const LoweredScene& lowered);
     void pack_casters(const LoweredScene& lowered);
 
@@ -60,7 +61,8 @@ private:
     AlignedArray<abi::CheckerRecord<Real>> checkers_;
     AlignedArray<Real> ior_;
     AlignedArray<abi::LightRecord<Real>> lights_;
-    std::unique_ptr<PackedScene> casters_;  // where some objects cast no shadow, the others
+    AlignedArray<abi::MostLight> most_light_;  // where some rays are not traced
+    std::unique_ptr<PackedScene> casters_;     // where some objects cast no shadow, the others
     abi::SceneView<Real> view_;
 };
 

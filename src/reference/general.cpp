@@ -25,7 +25,8 @@ General<Real, Recorder>::General(const Scene& scene, const World<Real>& world, R
 }
 
 template <class Real, class Recorder>
-Color<Real> General<Real, Recorder>::intensity(const Ray<Real>& ray, int depth) const
+Color<Real> General<Real, Recorder>::intensity(const Ray<Real>& ray, int depth,
+                                               const RayWeight<Real>& weight) const
 {
     const auto traced = record_.ray(ray.org, ray.dir);
     const auto at = closest_surface(world_, ray);
@@ -40,19 +41,24 @@ Color<Real> General<Real, Recorder>::intensity(const Ray<Real>& ray, int depth) 
     const Color<Real> kr = refracted ? k.kr : k.kr + k.kt;
     if (any_positive(kr)) {
         record_.mirrored(kr);
-        sum += kr * child(reflection_ray(ray, *at), depth);
+        sum += kr * child(reflection_ray(ray, *at), depth, weight.of_child(kr));
     }
     if (refracted) {
         record_.refracted(k.kt);
-        sum += k.kt * child(*refracted, depth);
+        sum += k.kt * child(*refracted, depth, weight.of_child(k.kt));
     }
     return sum;
 }
 
+// A ray below Scene::min_weight brings nothing. Beyond the depth limit there is none to leave out.
 template <class Real, class Recorder>
-Color<Real> General<Real, Recorder>::child(const Ray<Real>& ray, int depth) const
+Color<Real> General<Real, Recorder>::child(const Ray<Real>& ray, int depth,
+                                           const RayWeight<Real>& weight) const
 {
-    return depth <= 0 ? record_.limit(at_limit_) : intensity(ray, depth - 1);
+    if (depth <= 0)
+        return record_.limit(at_limit_);
+    return is_cut(world_, weight, world_.max_depth - depth + 1) ? Color<Real>()
+                                                                : intensity(ray, depth - 1, weight);
 }
 
 template <class Real, class Recorder>
@@ -79,9 +85,10 @@ Color<Real> General<Real, Recorder>::local(const Coefficients& k, const SurfaceP
 }
 
 template <class Real, class Recorder>
-Color<Real> General<Real, Recorder>::trace_ray(const Vec3<Real>& org, const Vec3<Real>& dir) const
+Color<Real> General<Real, Recorder>::trace_ray(const Vec3<Real>& org, const Vec3<Real>& dir,
+                                               const RayWeight<Real>& weight) const
 {
-    return intensity({org, normalize(dir), around_eye_}, world_.max_depth);
+    return intensity({org, normalize(dir), around_eye_}, world_.max_depth, weight);
 }
 
 template class General<float>;

@@ -24,7 +24,8 @@ Note000<Real, Recorder>::Note000(const Scene& scene, const World<Real>& world, R
 }
 
 template <class Real, class Recorder>
-Color<Real> Note000<Real, Recorder>::intensity(const Ray<Real>& r, int depth) const
+Color<Real> Note000<Real, Recorder>::intensity(const Ray<Real>& r, int depth,
+                                               const RayWeight<Real>& weight) const
 {
     // `depth` is this call's own copy, so nothing needs to take the one off again.
     depth = depth + 1;
@@ -49,17 +50,27 @@ Color<Real> Note000<Real, Recorder>::intensity(const Ray<Real>& r, int depth) co
     Color<Real> spec;
     if (any_positive(mirrored)) {
         record_.mirrored(mirrored);
-        spec = mirrored * intensity(flec, depth);
+        spec = mirrored * child(flec, depth, weight.of_child(mirrored));
     }
 
     Color<Real> refr;
     if (frac) {
         record_.refracted(k.Kr);
-        refr = k.Kr * intensity(*frac, depth);
+        refr = k.Kr * child(*frac, depth, weight.of_child(k.Kr));
     }
 
     const Color<Real> color = color_at(world_.paints[j], world_.bodies, at->object, at->P);
     return spec + refr + record_.local(dull(k, color, *at, flec));
+}
+
+// A ray below Scene::min_weight brings nothing. Beyond the depth limit there is none to leave out.
+template <class Real, class Recorder>
+Color<Real> Note000<Real, Recorder>::child(const Ray<Real>& ray, int depth,
+                                           const RayWeight<Real>& weight) const
+{
+    if (depth < deepest_ && is_cut(world_, weight, depth))
+        return {};
+    return intensity(ray, depth, weight);
 }
 
 // "If r parallel to L": L points from the ray's start to the light source, and parallel means
@@ -105,9 +116,10 @@ Color<Real> Note000<Real, Recorder>::dull(const Factors& k, const Color<Real>& c
 }
 
 template <class Real, class Recorder>
-Color<Real> Note000<Real, Recorder>::trace_ray(const Vec3<Real>& org, const Vec3<Real>& dir) const
+Color<Real> Note000<Real, Recorder>::trace_ray(const Vec3<Real>& org, const Vec3<Real>& dir,
+                                               const RayWeight<Real>& weight) const
 {
-    return intensity({org, normalize(dir), around_eye_}, 0);
+    return intensity({org, normalize(dir), around_eye_}, 0, weight);
 }
 
 template class Note000<float>;

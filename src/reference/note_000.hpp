@@ -2,6 +2,7 @@
 
 #include "reference/glass.hpp"
 #include "reference/no_recorder.hpp"
+#include "reference/ray_weight.hpp"
 #include "reference/world.hpp"
 
 #include <vector>
@@ -26,10 +27,14 @@ public:
     Note000(const Scene& scene, const World<Real>& world, Recorder record = {});
 
     /// The light along a ray from the eye at `org`; `dir` need not be unit.
-    [[nodiscard]] Color<Real> trace_ray(const Vec3<Real>& org, const Vec3<Real>& dir) const;
+    [[nodiscard]] Color<Real> trace_ray(const Vec3<Real>& org, const Vec3<Real>& dir,
+                                        const RayWeight<Real>& weight = {}) const;
 
 private:
-    [[nodiscard]] Color<Real> intensity(const Ray<Real>& r, int depth) const;
+    [[nodiscard]] Color<Real> intensity(const Ray<Real>& r, int depth,
+                                        const RayWeight<Real>& weight) const;
+    [[nodiscard]] Color<Real> child(const Ray<Real>& ray, int depth,
+                                    const RayWeight<Real>& weight) const;
     [[nodiscard]] Color<Real> escaped(const Ray<Real>& r) const;
     [[nodiscard]] Color<Real> dull(const Factors& k, const Color<Real>& color,
                                    const SurfacePoint<Real>& at, const Ray<Real>& flec) const;

@@ -75,14 +75,16 @@ const Vec3<Real>& Note001<Real, Recorder>::normal(const SurfacePoint<Real>& at) 
 
 template <class Real, class Recorder>
 Color<Real> Note001<Real, Recorder>::trace_ray(const Vec3<Real>& O, const Vec3<Real>& D, Real t_min,
-                                               Real t_max, int depth) const
+                                               Real t_max, int depth,
+                                               const RayWeight<Real>& weight) const
 {
-    return trace_ray(Start<Real>{O, O, t_min}, D, t_max, depth);
+    return trace_ray(Start<Real>{O, O, t_min}, D, t_max, depth, weight);
 }
 
 template <class Real, class Recorder>
 Color<Real> Note001<Real, Recorder>::trace_ray(const Start<Real>& start, const Vec3<Real>& D,
-                                               Real t_max, int depth) const
+                                               Real t_max, int depth,
+                                               const RayWeight<Real>& weight) const
 {
     const auto traced = record_.ray(start.on, D);
     const auto closest = closest_surface(world_, start, D, t_max);
@@ -104,19 +106,23 @@ Color<Real> Note001<Real, Recorder>::trace_ray(const Start<Real>& start, const V
     if (depth <= 0 || r <= 0)
         return record_.local(local_color);
 
-    // Compute the reflected color
+    // Compute the reflected color, none below Scene::min_weight
+    const RayWeight<Real> reflected = weight.of_child(Color<Real>(r, r, r));
+    if (is_cut(world_, reflected, world_.max_depth - depth + 1))
+        return record_.local(local_color * (1 - r));
     const Vec3<Real> R = reflect_ray(-D, N);
     record_.mirrored(Color<Real>(r, r, r));
     const Color<Real> reflected_color =
-        trace_ray(start_at(world_, closest->back(), P), R, infinity<Real>, depth - 1);
+        trace_ray(start_at(world_, closest->back(), P), R, infinity<Real>, depth - 1, reflected);
 
     return record_.local(local_color * (1 - r)) + reflected_color * r;
 }
 
 template <class Real, class Recorder>
-Color<Real> Note001<Real, Recorder>::trace_ray(const Vec3<Real>& O, const Vec3<Real>& D) const
+Color<Real> Note001<Real, Recorder>::trace_ray(const Vec3<Real>& O, const Vec3<Real>& D,
+                                               const RayWeight<Real>& weight) const
 {
-    return trace_ray(O, D, 1, infinity<Real>, world_.max_depth);
+    return trace_ray(O, D, 1, infinity<Real>, world_.max_depth, weight);
 }
 
 template class Note001<float>;

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "reference/no_recorder.hpp"
+#include "reference/ray_weight.hpp"
 #include "reference/surface_point.hpp"
 
 #include <vector>
@@ -23,14 +24,16 @@ public:
     Note001(const Scene& scene, const World<Real>& world, Recorder record = {});
 
     /// The colour along a camera ray, from the projection plane on.
-    [[nodiscard]] Color<Real> trace_ray(const Vec3<Real>& O, const Vec3<Real>& D) const;
+    [[nodiscard]] Color<Real> trace_ray(const Vec3<Real>& O, const Vec3<Real>& D,
+                                        const RayWeight<Real>& weight = {}) const;
 
     [[nodiscard]] Color<Real> trace_ray(const Vec3<Real>& O, const Vec3<Real>& D, Real t_min,
-                                        Real t_max, int depth) const;
+                                        Real t_max, int depth,
+                                        const RayWeight<Real>& weight = {}) const;
 
     /// The same from where a ray starts by the scene's rule.
     [[nodiscard]] Color<Real> trace_ray(const Start<Real>& start, const Vec3<Real>& D, Real t_max,
-                                        int depth) const;
+                                        int depth, const RayWeight<Real>& weight) const;
 
     /// The light that reaches `P`, per channel. `V` points to where the ray came from; `on` is the
     /// surface there, which only SelfHits::exact looks at.

@@ -23,7 +23,8 @@ Note002<Real, Recorder>::Note002(const Scene& scene, const World<Real>& world, R
 }
 
 template <class Real, class Recorder>
-Color<Real> Note002<Real, Recorder>::intensity(const Ray<Real>& ray, int depth) const
+Color<Real> Note002<Real, Recorder>::intensity(const Ray<Real>& ray, int depth,
+                                               const RayWeight<Real>& weight) const
 {
     const auto traced = record_.ray(ray.org, ray.dir);
     const auto at = closest_surface(world_, ray);
@@ -46,15 +47,24 @@ Color<Real> Note002<Real, Recorder>::intensity(const Ray<Real>& ray, int depth) 
     Color<Real> sum = local;
     if (any_positive(mirrored)) {
         record_.mirrored(mirrored);
-        const Color<Real> R = intensity(reflection_ray(ray, *at), depth - 1);
+        const Color<Real> R = child(reflection_ray(ray, *at), depth - 1, weight.of_child(mirrored));
         sum += mirrored * R;
     }
     if (refracted) {
         record_.refracted(k.kt);
-        const Color<Real> T = intensity(*refracted, depth - 1);
+        const Color<Real> T = child(*refracted, depth - 1, weight.of_child(k.kt));
         sum += k.kt * T;
     }
     return sum;
+}
+
+// A ray below Scene::min_weight brings nothing.
+template <class Real, class Recorder>
+Color<Real> Note002<Real, Recorder>::child(const Ray<Real>& ray, int depth,
+                                           const RayWeight<Real>& weight) const
+{
+    return is_cut(world_, weight, world_.max_depth - depth) ? Color<Real>()
+                                                            : intensity(ray, depth, weight);
 }
 
 // Ia + kd sum(N.Lj) + ks sum((Rj.V)^ns), each light by its intensity and the share of it that
@@ -85,9 +95,10 @@ Color<Real> Note002<Real, Recorder>::lights(const Constants& k, const Color<Real
 }
 
 template <class Real, class Recorder>
-Color<Real> Note002<Real, Recorder>::trace_ray(const Vec3<Real>& org, const Vec3<Real>& dir) const
+Color<Real> Note002<Real, Recorder>::trace_ray(const Vec3<Real>& org, const Vec3<Real>& dir,
+                                               const RayWeight<Real>& weight) const
 {
-    return intensity({org, normalize(dir), around_eye_}, world_.max_depth);
+    return intensity({org, normalize(dir), around_eye_}, world_.max_depth, weight);
 }
 
 template class Note002<float>;

@@ -157,7 +157,8 @@ bool Note004<Real, Recorder>::shadowed_exactly(const PlacedBody<Real>& shaded,
 
 // The note has one light source; here the colours of all are summed.
 template <class Real, class Recorder>
-Color<Real> Note004<Real, Recorder>::trace_ray(const Vec3<Real>& e, const Vec3<Real>& d) const
+Color<Real> Note004<Real, Recorder>::trace_ray(const Vec3<Real>& e, const Vec3<Real>& d,
+                                               const RayWeight<Real>&) const
 {
     thread_local std::vector<Tuple> list;  // kept, so that no ray allocates
     const Vec3<Real> direction = normalize(d);

@@ -2,6 +2,7 @@
 
 #include "reference/bodies.hpp"
 #include "reference/no_recorder.hpp"
+#include "reference/ray_weight.hpp"
 #include "reference/start.hpp"
 
 #include <vector>
@@ -26,7 +27,9 @@ public:
     Note004(const Scene& scene, const World<Real>& world, Recorder record = {});
 
     /// The light along a ray from the camera at `e`; `d` need not be unit.
-    [[nodiscard]] Color<Real> trace_ray(const Vec3<Real>& e, const Vec3<Real>& d) const;
+    /// Camera rays have no children, whose weights would count.
+    [[nodiscard]] Color<Real> trace_ray(const Vec3<Real>& e, const Vec3<Real>& d,
+                                        const RayWeight<Real>& weight = {}) const;
 
     /// Fills `list` with one tuple for each object that the ray meets, by increasing t0; among
     /// equal t0 the lower object first. `d` is unit.

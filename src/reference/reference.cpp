@@ -30,9 +30,13 @@ Reference<Real, Recorder>::Reference(const Scene& scene, Recorder record, SelfHi
 }
 
 template <class Real, class Recorder>
-Color<Real> Reference<Real, Recorder>::trace_ray(const Vec3<Real>& org, const Vec3<Real>& dir) const
+Color<Real> Reference<Real, Recorder>::trace_ray(const Vec3<Real>& org, const Vec3<Real>& dir,
+                                                 CutCounter* cuts) const
 {
-    return std::visit([&](const auto& note) { return note.trace_ray(org, dir); }, note_);
+    if (cuts != nullptr)
+        cuts->begin_camera_ray();
+    const RayWeight<Real> weight{{1, 1, 1}, cuts};
+    return std::visit([&](const auto& note) { return note.trace_ray(org, dir, weight); }, note_);
 }
 
 template <class Real, class Recorder>
@@ -43,25 +47,23 @@ Color<Real> Reference<Real, Recorder>::trace_pixel(int i, int j) const
 
 // The last lines of note 001, one row of them.
 template <class Real, class Recorder>
-void Reference<Real, Recorder>::trace_row(int j, Image<Real>& image) const
+void Reference<Real, Recorder>::trace_row(int j, Image<Real>& image, CutCounter* cuts) const
 {
-    const auto trace_with = [&](const auto& note) {
-        for (int i = 0; i < image.width; ++i) {
-            const Vec3<Real> D = world_.canvas.canvas_to_viewport(i, j);
-            const Color<Real> color = note.trace_ray(world_.canvas.position, D);
-            put_pixel(image, i, j, color);
-        }
-    };
-    std::visit(trace_with, note_);
+    for (int i = 0; i < image.width; ++i) {
+        const Vec3<Real> D = world_.canvas.canvas_to_viewport(i, j);
+        const Color<Real> color = trace_ray(world_.canvas.position, D, cuts);
+        put_pixel(image, i, j, color);
+    }
 }
 
 template <class Real, class Recorder>
-Color<Real> Reference<Real, Recorder>::trace_samples(int i, int j,
-                                                     const std::vector<Vec2>& places) const
+Color<Real> Reference<Real, Recorder>::trace_samples(int i, int j, const std::vector<Vec2>& places,
+                                                     CutCounter* cuts) const
 {
     Color<Real> sum(0, 0, 0);
     for (const Vec2& place : places)
-        sum += trace_ray(world_.canvas.position, world_.canvas.canvas_to_viewport(i, j, place));
+        sum +=
+            trace_ray(world_.canvas.position, world_.canvas.canvas_to_viewport(i, j, place), cuts);
     return sum * (Real(1) / static_cast<Real>(places.size()));
 }
 

@@ -2,6 +2,7 @@
 
 #include <packtrace/image.hpp>
 #include <packtrace/scene.hpp>
+#include "reference/cut_rays.hpp"
 #include "reference/general.hpp"
 #include "reference/note_000.hpp"
 #include "reference/note_001.hpp"
@@ -16,7 +17,8 @@ namespace packtrace::reference {
 
 /// A scene made ready for the scalar reference in one precision. Tracing changes nothing, so
 /// that pixels may be traced from several threads.
-/// `Recorder` is told what the note does; see NoRecorder.
+/// `Recorder` is told what the note does; see NoRecorder. `cuts`, if any, counts the rays that
+/// Scene::min_weight leaves out.
 template <class Real, class Recorder = NoRecorder>
 class Reference {
 public:
@@ -31,13 +33,15 @@ public:
 
     /// The colour along a camera ray; `dir` as the camera makes it, which for `scratch` counts:
     /// t begins at 1.
-    [[nodiscard]] Color<Real> trace_ray(const Vec3<Real>& org, const Vec3<Real>& dir) const;
+    [[nodiscard]] Color<Real> trace_ray(const Vec3<Real>& org, const Vec3<Real>& dir,
+                                        CutCounter* cuts = nullptr) const;
 
     /// Fills row `j` of `image`, which has the scene's size.
-    void trace_row(int j, Image<Real>& image) const;
+    void trace_row(int j, Image<Real>& image, CutCounter* cuts = nullptr) const;
 
     /// The mean colour of the pixel over samples at `places`, as Camera::pixel_sample has them.
-    [[nodiscard]] Color<Real> trace_samples(int i, int j, const std::vector<Vec2>& places) const;
+    [[nodiscard]] Color<Real> trace_samples(int i, int j, const std::vector<Vec2>& places,
+                                            CutCounter* cuts = nullptr) const;
 
     [[nodiscard]] const World<Real>& world() const
     {

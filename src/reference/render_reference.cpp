@@ -60,35 +60,48 @@ void trace_samples(const reference::Reference<Real>& reference, const RenderOpti
                    Image<Real>& image, const EachRow& each_row)
 {
     const std::vector<Vec2> pattern = sample_pattern(options.samples);
-    const auto trace_pixels = [&](int j, const std::vector<Vec2>& places, const auto& wanted) {
+    const auto trace_pixels = [&](int j, reference::CutCounter* cuts,
+                                  const std::vector<Vec2>& places, const auto& wanted) {
         for (int i = 0; i < image.width; ++i)
             if (wanted(i, j))
-                put_pixel(image, i, j, reference.trace_samples(i, j, places));
+                put_pixel(image, i, j, reference.trace_samples(i, j, places, cuts));
     };
     const auto all = [](int, int) { return true; };
+    using Cuts = reference::CutCounter;
     if (!options.adaptive)
-        return each_row([&](int j) { trace_pixels(j, pattern, all); });
-    each_row([&](int j) { trace_pixels(j, {Vec2(0.5)}, all); });
+        return each_row([&](int j, Cuts* cuts) { trace_pixels(j, cuts, pattern, all); });
+    each_row([&](int j, Cuts* cuts) { trace_pixels(j, cuts, {Vec2(0.5)}, all); });
     ContrastMap<Real> contrast(image, *options.adaptive);
     for (int j = 0; j < image.height; ++j)
         contrast.mark_row(j);
-    each_row([&](int j) { trace_pixels(j, pattern, contrast); });
+    each_row([&](int j, Cuts* cuts) { trace_pixels(j, cuts, pattern, contrast); });
 }
 
 }  // namespace
 
 template <class Real>
-Image<Real> render_reference(const Scene& scene, const RenderOptions& options)
+Image<Real> render_reference(const Scene& scene, const RenderOptions& options,
+                             reference::CutCounter* cuts)
 {
     Image<Real> image(scene.width, scene.height);
     const reference::Reference<Real> reference(scene, {}, options.self_hits);
     RowCounter counter(options.adaptive ? 2 * image.height : image.height, options.progress);
+    std::mutex adding;
+    // Rows count by themselves: their sums do not depend on threads.
+    const auto work_on = [&](int j, const auto& work) {
+        if (cuts == nullptr)
+            return work(j, cuts);
+        reference::CutCounter row = cuts->fresh();
+        work(j, &row);
+        const std::lock_guard lock(adding);
+        cuts->add(row);
+    };
     const auto each_row = [&](const auto& work) {
         tbb::parallel_for(
             tbb::blocked_range<int>(0, image.height, 1),
             [&](const tbb::blocked_range<int>& rows) {
                 for (int j = rows.begin(); j != rows.end(); ++j) {
-                    work(j);
+                    work_on(j, work);
                     counter.row_done();
                 }
             },
@@ -96,15 +109,17 @@ Image<Real> render_reference(const Scene& scene, const RenderOptions& options)
     };
     run_on_threads(options.threads, [&] {
         if (options.samples == 1)
-            each_row([&](int j) { reference.trace_row(j, image); });
+            each_row(
+                [&](int j, reference::CutCounter* row) { reference.trace_row(j, image, row); });
         else
             trace_samples(reference, options, image, each_row);
     });
     return image;
 }
 
-template Image<float> render_reference(const Scene&, const RenderOptions&);
-template Image<double> render_reference(const Scene&, const RenderOptions&);
-template Image<long double> render_reference(const Scene&, const RenderOptions&);
+template Image<float> render_reference(const Scene&, const RenderOptions&, reference::CutCounter*);
+template Image<double> render_reference(const Scene&, const RenderOptions&, reference::CutCounter*);
+template Image<long double> render_reference(const Scene&, const RenderOptions&,
+                                             reference::CutCounter*);
 
 }  // namespace packtrace

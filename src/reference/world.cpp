@@ -9,6 +9,7 @@ World<Real>::World(const Scene& scene, SelfHits rule)
       background(scene.background),
       shadows(scene.shadows),
       max_depth(scene.max_depth),
+      min_weight(static_cast<Real>(scene.min_weight)),
       canvas(scene),
       self_hits(rule)
 {

@@ -35,6 +35,7 @@ struct World {
     Color<Real> background;
     ShadowKind shadows;
     int max_depth;
+    Real min_weight;
     Canvas<Real> canvas;
     SelfHits self_hits;
 

@@ -1,5 +1,6 @@
 #include "render/frame_renderer.hpp"
 
+#include <algorithm>
 #include <utility>
 
 #include <tbb/task_arena.h>
@@ -11,8 +12,10 @@ namespace {
 
 FrameCounts operator+(const FrameCounts& a, const FrameCounts& b)
 {
-    return {a.camera + b.camera, a.shadow + b.shadow, a.reflected + b.reflected,
-            a.refracted + b.refracted, a.unsure + b.unsure};
+    return {
+        a.camera + b.camera,       a.shadow + b.shadow,
+        a.reflected + b.reflected, a.refracted + b.refracted,
+        a.unsure + b.unsure,       {a.cut.rays + b.cut.rays, std::max(a.cut.bound, b.cut.bound)}};
 }
 
 }  // namespace

@@ -43,7 +43,7 @@ template <class Work>
         tbb::simple_partitioner());
     const abi::RayCounts sum =
         counts.combine([](abi::RayCounts a, const abi::RayCounts& b) { return a += b; });
-    return {sum.camera, sum.shadow, sum.reflected, sum.refracted, sum.unsure};
+    return {sum.camera, sum.shadow, sum.reflected, sum.refracted, sum.unsure, {sum.cut, sum.lacks}};
 }
 
 }  // namespace packtrace

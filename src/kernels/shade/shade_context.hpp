@@ -77,6 +77,9 @@ struct ShadeContext {
     const LightShadows<F, Real>* shadows;
     int depth;  ///< reflections and refractions before these hits
     abi::RayCounts* counts;
+    /// By pixel of the tile, the most light it may lack for rays that are not traced, in
+    /// abi::lack_unit; null where all are.
+    double* lacks;
 
     bool spawns() const
     {

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "kernels/shade/shadow.hpp"
+#include "kernels/stream/min_weight.hpp"
 #include "kernels/stream/spawn.hpp"
 
 // Shading of a tile's hit points: light by light into the pixels, children into the next
@@ -72,12 +73,13 @@ inline void spawn_children(const ShadeContext<F, Real>& context, const Children<
             // Total internal reflection: the transmitted share is mirrored too.
             reflect =
                 select(from_bits<Real>(refracted.total), reflect + material.transmit, reflect);
-            spawn_refracted(*children.refracted, *context.scene, surface, path, material.transmit,
-                            refracted, glass & ~refracted.total);
+            spawn_refracted(
+                *children.refracted, *context.scene, surface, path, material.transmit, refracted,
+                heavy_enough(context, path, material.transmit, glass & ~refracted.total));
         }
     }
     spawn_mirrored(*children.mirrored, *context.scene, surface, path, reflect, inside,
-                   active & any_channel(reflect));
+                   heavy_enough(context, path, reflect, active & any_channel(reflect)));
 }
 
 template <PixelWrite Write, abi::Features F, class Real>

@@ -92,7 +92,8 @@ template <PixelWrite Write, abi::Features F, class Real>
 inline RayStream<F, Real>* shade_chunk(const TileRun<F, Real>& run, int depth)
 {
     const ShadeContext<F, Real> context{
-        &run.scene, run.work.occluders, run.work.surfaces, run.work.shadows, depth, &run.counts};
+        &run.scene, run.work.occluders, run.work.surfaces, run.work.shadows,
+        depth,      &run.counts,        run.work.lacks};
     const HitStream<F, Real>& hits = run.work.memory->hits;
     if (hits.count == 0)
         return nullptr;
@@ -198,6 +199,8 @@ inline abi::RayCounts render_tile(const abi::TileJob<Real>& job)
     begin_span(abi::Span::film, 0, abi::Part::film);
     fill_pixels(memory.color, scene.background);
     memory.hits.count = 0;
+    for (int pixel = 0; work.lacks != nullptr && pixel < abi::tile_pixels; ++pixel)
+        work.lacks[pixel] = 0.0;
     if constexpr (F.probe)
         memory.hits.probe = job.probe;
     begin_span(abi::Span::trace, 0, abi::Part::ray_generation);
@@ -213,6 +216,8 @@ inline abi::RayCounts render_tile(const abi::TileJob<Real>& job)
     shade_camera(TileRun<F, Real>{scene, work, counts});
     begin_span(abi::Span::film, 0, abi::Part::film);
     write_tile(job, memory.color);
+    if (work.lacks != nullptr)
+        counts.lacks = most_lacking(work.lacks);
     end_observation();
     return counts;
 }

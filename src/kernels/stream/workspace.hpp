@@ -66,6 +66,7 @@ struct Workspace {
     FromPoint<F, Real> visible;                  ///< from the camera
     FromAnywhere<F, Real> nearby;                ///< from a chunk's rays
     LightObjects<F, Real>* occluders = nullptr;  ///< from each light
+    double* lacks = nullptr;                     ///< ShadeContext::lacks
     std::size_t bytes = 0;
 
     /// With no `scratch`, only `bytes` is of use.
@@ -78,6 +79,8 @@ struct Workspace {
             streams = take_streams<F>(arena, scene, static_cast<std::size_t>(scene.max_depth));
         if constexpr (F.glass)
             refracted = take_streams<F>(arena, scene, 1);
+        if (F.bounces && scene.min_weight > 0)
+            lacks = arena.take<double>(abi::tile_pixels);
         const std::size_t shadowed = count_shadowed(scene);
         if (!scene.tree.empty())
             bundle = arena.take<RayBundle<Real>>(1);

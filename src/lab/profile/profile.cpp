@@ -55,6 +55,7 @@ std::vector<ProfileStage> stages_once(const std::string& text, const Scene& scen
     read.width = scene.width;
     read.height = scene.height;
     read.max_depth = scene.max_depth;
+    read.min_weight = scene.min_weight;
     read.camera = scene.camera;
     const LoweredScene lowered = clock.time("lowering", [&] {
         return lower(read, accuracy_in<Real>(render_options(options)), options.self_hits);
