@@ -101,8 +101,8 @@ std::string pov_scene(const Scene& scene)
 {
     const double ambient = checked_ambient(scene);
     return "#version 3.7;\nglobal_settings { assumed_gamma 1 max_trace_level " +
-           std::to_string(scene.max_depth + 1) + " }\nbackground { color rgb " +
-           vector(scene.background) + " }\n" + camera(scene) +
+           std::to_string(scene.max_depth + 1) + " adc_bailout " + number(scene.min_weight) +
+           " }\nbackground { color rgb " + vector(scene.background) + " }\n" + camera(scene) +
            (scene.objects.size() <= few ? objects_with_own_lights(scene, ambient)
                                         : many_objects(scene, ambient));
 }

@@ -16,7 +16,7 @@ expect() {
 }
 
 "$frames" export "$scenes/four_spheres.scene" -o "$folder/a.pov"
-expect a.pov "max_trace_level 4"
+expect a.pov "max_trace_level 4 adc_bailout 0"
 expect a.pov "location <0,0,0> right <1,0,0> up <0,1,0> direction <0,0,1>"
 # The first sphere's own light: 0.6 of red at (2, 1, 0).
 expect a.pov "light_source { <2,1,0> color rgb <0.6,0,0> }"
