@@ -31,6 +31,7 @@ ReportOptions short_options()
     ReportOptions options;
     options.threads = {1};
     options.isas = {choose_isa().name};
+    options.min_weights = {0.1, 0.0};
     options.samples = {1, 4};
     options.adaptive = {{4, 0.1}};
     options.repetitions = 2;
@@ -78,6 +79,7 @@ Subject constant_error(const Image<double>& truth, double error)
     subject.variant.name = "off by " + brief(error);
     subject.render = [] {};
     subject.rays = [] { return std::uint64_t{7}; };
+    subject.cut = [] { return CutRays{}; };
     subject.picture = [truth, error] {
         Image<double> picture = truth;
         for (double& value : picture.rgb)
@@ -119,7 +121,7 @@ TEST_CASE("a report's errors are those of the pictures against the truth", "[rep
     // direction to single precision decides.
     set_size(scene.scene, 47, 41);
     const SceneReport whole = report(scene, short_options());
-    REQUIRE(whole.studies.size() == 3);
+    REQUIRE(whole.studies.size() == 4);
     const StudyReport& arithmetic = whole.studies.front();
     RenderOptions scalar;
     scalar.kernel = Kernel::scalar;
@@ -450,7 +452,7 @@ TEST_CASE("the CSV has a row a run, each of the head's length", "[report]")
         return count;
     };
     for (std::size_t at = 0; at < csv.size(); at = csv.find('\n', at) + 1)
-        CHECK(fields(csv.substr(at, csv.find('\n', at) - at)) == 24);
+        CHECK(fields(csv.substr(at, csv.find('\n', at) - at)) == 27);
 }
 
 TEST_CASE("the JSON says what was run, how, and what came of it", "[report]")

@@ -29,7 +29,7 @@ TEST_CASE("report writes its files and prints a judgement of each scene", "[repo
     REQUIRE(result.exit_code == 0);
     CHECK(result.err.empty());
     for (const char* scene : {"four_spheres, ", "four_spheres_2, "})
-        for (const char* study : {"arithmetic: ", "depth: ", "sampling: "})
+        for (const char* study : {"arithmetic: ", "depth: ", "weight: ", "sampling: "})
             CHECK_THAT(result.out, ContainsSubstring(std::string(scene) + study + "Cheapest"));
     const auto json = nlohmann::json::parse(read_text(folder / "out" / "report.json"));
     CHECK(json["repetitions"] == 2);
@@ -49,7 +49,7 @@ TEST_CASE("a second report takes the truth from the cache", "[report_cli]")
         REQUIRE(run_report(folder, {four_spheres_file, "-o", (folder / name).string()}).exit_code ==
                 0);
         const auto json = nlohmann::json::parse(read_text(folder / name / "report.json"));
-        return json["scenes"][0]["studies"][2]["truth"]["cached"].get<bool>();
+        return json["scenes"][0]["studies"][3]["truth"]["cached"].get<bool>();
     };
     CHECK_FALSE(cached("first"));
     CHECK(cached("second"));

@@ -18,6 +18,7 @@ std::string write_page(const TempFolder& folder)
     ReportOptions options;
     options.threads = {1};
     options.isas = {choose_isa().name};
+    options.min_weights = {0.1, 0.0};
     options.samples = {1, 4};
     options.adaptive = {{4, 0.1}};
     options.repetitions = 1;
@@ -176,7 +177,7 @@ TEST_CASE("the page opens in a browser without an error, and its slider and plot
     CHECK(seen["most"] > 0.0);
     CHECK(seen["narrow"] == true);
     CHECK(seen["labelsOnLabels"] == 0);
-    CHECK(seen["plots"] == 3);
+    CHECK(seen["plots"] == 4);
     CHECK(seen["drawn"] == true);
     CHECK(seen["marks"] >= 1);
     CHECK(seen["colors"].size() >= 3);

@@ -21,7 +21,7 @@ namespace packtrace {
 
 /// What a set of runs varies, and so what its truth is: for `sampling` the mean over each pixel,
 /// for the others the colour at each pixel's one sample.
-enum class Study { arithmetic, depth, sampling };
+enum class Study { arithmetic, depth, weight, sampling };
 
 /// One way to render a scene.
 struct Variant {
@@ -35,8 +35,9 @@ struct Variant {
     bool general = false;  ///< RenderOptions::force_general
     int lanes = 1;         ///< rays in a packet
     int threads = 1;
-    int depth = 0;    ///< Scene::max_depth
-    int samples = 1;  ///< as RenderOptions has them
+    int depth = 0;            ///< Scene::max_depth
+    double min_weight = 0.0;  ///< Scene::min_weight
+    int samples = 1;          ///< as RenderOptions has them
     std::optional<double> adaptive = {};
 };
 
@@ -54,6 +55,7 @@ struct ReportScene {
 struct ReportOptions {
     std::vector<int> threads{1, 2};
     std::vector<std::string> isas;  ///< none: all this machine runs
+    std::vector<double> min_weights{0.1, 0.03, 0.01, 1.0 / 255.0, 0.002, 0.0005, 0.0};
     std::vector<int> samples{1, 4, 16, 64};
     /// Samples and contrast of adaptive sampling.
     std::vector<std::pair<int, double>> adaptive{{16, 0.05}, {16, 0.01}, {20, 0.01}, {64, 0.01}};
@@ -91,6 +93,7 @@ struct ReportRun {
     double median = 0.0;          ///< seconds
     double spread = 0.0;          ///< of the middle half of the repetitions, over the median
     std::uint64_t rays = 0;       ///< of a frame; 0 for the reference, which does not count
+    CutRays cut = {};             ///< of a frame
     Comparison error;
     int looked_at = 0;  ///< pixels whose rays were compared
     /// Whether these are among those that are off, rather than the worst of a picture without.

@@ -55,6 +55,7 @@ ReportOptions report_options(const ReportArguments& arguments)
     if (arguments.quick) {
         options.repetitions = 3;
         options.truth_samples = 64;
+        options.min_weights = {0.03, 0.002, 0.0};
         options.samples = {1, 4, 16};
         options.adaptive = {{16, 0.02}};
         options.isas = {choose_isa().name};

@@ -28,6 +28,7 @@ RenderOptions options_of(const Variant& variant)
 Scene scene_of(Scene scene, const Variant& variant)
 {
     scene.max_depth = variant.depth;
+    scene.min_weight = variant.min_weight;
     if (variant.study == Study::sampling)
         scene.camera.pixel_sample = Vec2(0.5);
     return scene;
@@ -36,13 +37,18 @@ Scene scene_of(Scene scene, const Variant& variant)
 template <class Real>
 Subject scalar_subject(const Scene& scene, const Variant& variant)
 {
-    const auto image = std::make_shared<Image<Real>>();
+    struct Frame {
+        Image<Real> image;
+        CutRays cut;
+    };
+    const auto frame = std::make_shared<Frame>();
     Subject subject;
     subject.variant = variant;
-    subject.render = [image, scene, options = options_of(variant)] {
-        *image = render<Real>(scene, options);
+    subject.render = [frame, scene, options = options_of(variant)] {
+        frame->image = render<Real>(scene, options, &frame->cut);
     };
-    subject.picture = [image] { return convert<double>(*image); };
+    subject.picture = [frame] { return convert<double>(frame->image); };
+    subject.cut = [frame] { return frame->cut; };
     subject.rays = [] { return std::uint64_t{0}; };
     if (variant.samples == 1)
         subject.tree = reference_trees<Real>(scene);
@@ -83,6 +89,7 @@ Subject packet_subject(const Scene& scene, const LoweredScene& lowered,
     subject.render = [frame] { frame->counts = frame->renderer.render(frame->image); };
     subject.picture = [frame] { return convert<double>(frame->image); };
     subject.rays = [frame] { return frame->counts.total(); };
+    subject.cut = [frame] { return frame->counts.cut; };
     if (variant.samples == 1 && scene.max_depth <= abi::longest_path<Real>)
         subject.tree = packet_trees<Real>(scene, lowered, table);
     return subject;

@@ -18,6 +18,7 @@ struct Subject {
     std::function<void()> render;
     std::function<Image<double>()> picture;  ///< of the last frame
     std::function<std::uint64_t()> rays;     ///< of the last frame
+    std::function<CutRays()> cut;            ///< of the last frame
     /// For a pixel of one sample; empty where there is none.
     TreeOfPixel tree;
 };

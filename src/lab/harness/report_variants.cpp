@@ -24,13 +24,14 @@ std::string threads_text(int threads)
     return std::to_string(threads) + (threads == 1 ? " thread" : " threads");
 }
 
-Variant packets(const IsaInfo& isa, const std::string& precision, int depth)
+Variant packets(const IsaInfo& isa, const std::string& precision, const Scene& scene)
 {
     Variant variant;
     variant.precision = precision;
     variant.isa = isa.name;
     variant.lanes = precision == "single" ? isa.lanes_single : isa.lanes_double;
-    variant.depth = depth;
+    variant.depth = scene.max_depth;
+    variant.min_weight = scene.min_weight;
     return variant;
 }
 
@@ -68,12 +69,13 @@ Variant by_general(const Variant& usual, const ReportOptions& options)
     return variant;
 }
 
-Variant scalar(const std::string& precision, int depth)
+Variant scalar(const std::string& precision, const Scene& scene)
 {
     Variant variant;
     variant.kernel = Kernel::scalar;
     variant.precision = precision;
-    variant.depth = depth;
+    variant.depth = scene.max_depth;
+    variant.min_weight = scene.min_weight;
     return variant;
 }
 
@@ -96,11 +98,11 @@ std::vector<Variant> report_variants(const Scene& scene, const ReportOptions& op
     std::vector<Variant> variants;
     const std::vector<IsaInfo> isas = wanted_isas(options);
     for (const char* precision : {"single", "double"}) {
-        add_arithmetic(variants, scalar(precision, scene.max_depth), options);
+        add_arithmetic(variants, scalar(precision, scene), options);
         for (const IsaInfo& isa : isas)
-            add_arithmetic(variants, packets(isa, precision, scene.max_depth), options);
+            add_arithmetic(variants, packets(isa, precision, scene), options);
     }
-    Variant widest = packets(isas.back(), "single", scene.max_depth);
+    Variant widest = packets(isas.back(), "single", scene);
     variants.push_back(in_mode(widest, Accuracy::fast, options));
     variants.push_back(by_note(widest, options));
     variants.push_back(by_general(widest, options));
@@ -110,6 +112,13 @@ std::vector<Variant> report_variants(const Scene& scene, const ReportOptions& op
         widest.name = "depth " + std::to_string(depth);
         variants.push_back(widest);
     }
+    widest.study = Study::weight;
+    for (const double weight : options.min_weights) {
+        widest.min_weight = weight;
+        widest.name = weight == 0.0 ? "all weights" : "weights from " + brief(weight, 3);
+        variants.push_back(widest);
+    }
+    widest.min_weight = scene.min_weight;
     widest.study = Study::sampling;
     for (const int samples : options.samples) {
         widest.samples = samples;

@@ -8,14 +8,14 @@
 namespace packtrace {
 namespace {
 
-Truth truth_of(const ReportScene& scene, Study study, const ReportOptions& options)
+Truth truth_of(const Scene& scene, int samples, const ReportOptions& options)
 {
     TruthRequest request;
-    request.samples = study == Study::sampling ? options.truth_samples : 1;
+    request.samples = samples;
     request.cache = options.cache;
     if (options.progress)
         request.progress = [&](double share) { options.progress("truth", share); };
-    return find_truth(scene.scene, request);
+    return find_truth(scene, request);
 }
 
 // A run with the samples of the truth would seem to have no error.
@@ -42,13 +42,18 @@ SceneReport report(const ReportScene& scene, const ReportOptions& options)
     result.width = scene.scene.width;
     result.height = scene.scene.height;
     const std::vector<Variant> variants = report_variants(scene.scene, options);
-    for (const Study study : {Study::arithmetic, Study::depth, Study::sampling}) {
+    // A truth traces all rays.
+    Scene whole = scene.scene;
+    whole.min_weight = 0.0;
+    const Truth one = truth_of(whole, 1, options);
+    const Truth many = truth_of(whole, options.truth_samples, options);
+    for (const Study study : {Study::arithmetic, Study::depth, Study::weight, Study::sampling}) {
         std::vector<Subject> subjects;
         for (const Variant& variant : variants)
             if (variant.study == study)
                 subjects.push_back(subject_of(scene.scene, variant));
-        const Truth truth = truth_of(scene, study, options);
-        result.studies.push_back(run_study(scene.scene, study, truth, subjects, options));
+        const Truth& truth = study == Study::sampling ? many : one;
+        result.studies.push_back(run_study(whole, study, truth, subjects, options));
     }
     return result;
 }

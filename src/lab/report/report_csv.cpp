@@ -29,11 +29,12 @@ void write_row(std::ostream& to, const SceneReport& scene, const StudyReport& st
        << (variant.kernel == Kernel::scalar ? "scalar" : "packet") << ',' << variant.precision
        << ',' << variant.isa << ',' << (has_accuracy(variant) ? name_of(variant.accuracy) : "")
        << ',' << variant.lanes << ',' << variant.threads << ',' << variant.depth << ','
-       << variant.samples << ',' << (variant.adaptive ? exact(*variant.adaptive) : "") << ','
-       << exact(run.median) << ',' << exact(run.spread) << ',' << run.rays << ','
-       << exact(run.error.rmse) << ',' << exact(run.error.max_abs) << ',' << exact(run.error.psnr)
-       << ',' << run.error.pixels << ',' << run.error.pixels_off << ',' << name_of(run.pareto)
-       << ',' << csv_text(shares_text(run)) << '\n';
+       << exact(variant.min_weight) << ',' << variant.samples << ','
+       << (variant.adaptive ? exact(*variant.adaptive) : "") << ',' << exact(run.median) << ','
+       << exact(run.spread) << ',' << run.rays << ',' << run.cut.rays << ',' << exact(run.cut.bound)
+       << ',' << exact(run.error.rmse) << ',' << exact(run.error.max_abs) << ','
+       << exact(run.error.psnr) << ',' << run.error.pixels << ',' << run.error.pixels_off << ','
+       << name_of(run.pareto) << ',' << csv_text(shares_text(run)) << '\n';
 }
 
 }  // namespace
@@ -41,9 +42,10 @@ void write_row(std::ostream& to, const SceneReport& scene, const StudyReport& st
 std::string report_csv(const std::vector<SceneReport>& scenes)
 {
     std::ostringstream csv;
-    csv << "scene,width,height,study,run,kernel,precision,isa,accuracy,lanes,threads,depth,samples,"
-           "adaptive,"
-           "median_s,spread,rays,rmse,max_abs,psnr,pixels,pixels_off,pareto,errors\n";
+    csv << "scene,width,height,study,run,kernel,precision,isa,accuracy,lanes,threads,depth,min_"
+           "weight,"
+           "samples,adaptive,median_s,spread,rays,cut_rays,cut_bound,rmse,max_abs,psnr,pixels,"
+           "pixels_off,pareto,errors\n";
     for (const SceneReport& scene : scenes)
         for (const StudyReport& study : scene.studies)
             for (const ReportRun& run : study.runs)

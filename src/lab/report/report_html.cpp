@@ -215,6 +215,8 @@ const char* title_of(Study study)
             return "Arithmetic: kernels, precisions, instruction sets, threads";
         case Study::depth:
             return "Depth: how many reflections and refractions";
+        case Study::weight:
+            return "Weights: how little a ray may count to be traced";
         case Study::sampling:
             break;
     }

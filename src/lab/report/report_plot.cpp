@@ -13,8 +13,8 @@ std::string series_name(const Variant& variant)
 {
     if (variant.study == Study::sampling)
         return variant.adaptive ? "adaptive" : "uniform";
-    if (variant.study == Study::depth)
-        return "depth";
+    if (variant.study != Study::arithmetic)
+        return name_of(variant.study);
     return (variant.kernel == Kernel::scalar ? "scalar " : "packets ") + variant.precision;
 }
 

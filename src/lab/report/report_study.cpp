@@ -139,6 +139,7 @@ StudyReport run_study(const Scene& scene, Study study, const Truth& truth,
         runs[i].variant = subjects[i].variant;
         subjects[i].render();
         runs[i].rays = subjects[i].rays();
+        runs[i].cut = subjects[i].cut();
         measure_error(report, runs[i], subjects[i], classifier, options);
         report.runs.push_back(runs[i]);
         if (options.progress)

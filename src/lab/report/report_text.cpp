@@ -99,6 +99,17 @@ std::string adaptive_line(const StudyReport& study)
            (decided ? "." : ", though the spreads of their times overlap.");
 }
 
+/// What cutting rays did at most, beside what it can do at most.
+std::string bounds_line(const StudyReport& study)
+{
+    std::string text;
+    for (const ReportRun& run : study.runs)
+        if (run.cut.rays > 0)
+            text += (text.empty() ? "" : ", ") + run.variant.name + " " + brief(run.error.max_abs) +
+                    " of " + brief(run.cut.bound);
+    return text.empty() ? text : "Largest error of a pixel, of its proven bound: " + text + ".";
+}
+
 }  // namespace
 
 const char* name_of(Study study)
@@ -108,6 +119,8 @@ const char* name_of(Study study)
             return "arithmetic";
         case Study::depth:
             return "depth";
+        case Study::weight:
+            return "weight";
         case Study::sampling:
             break;
     }
@@ -198,6 +211,9 @@ std::vector<std::string> judgement(const StudyReport& study, const ReportOptions
                                    most_exact_line(study, options.max_time)};
     if (study.study == Study::sampling)
         if (const std::string line = adaptive_line(study); !line.empty())
+            lines.push_back(line);
+    if (study.study == Study::weight)
+        if (const std::string line = bounds_line(study); !line.empty())
             lines.push_back(line);
     return lines;
 }
