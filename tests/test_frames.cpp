@@ -75,6 +75,7 @@ TEST_CASE("--frames writes each frame as its camera sees it", "[frames]")
     const ProgramResult result = studio.render("f%02d.pfm", {"--frames", "1..3"});
     CHECK(result.exit_code == 0);
     CHECK_THAT(result.err, ContainsSubstring("3 frames rendered in "));
+    CHECK_THAT(result.err, ContainsSubstring("; written in "));
     CHECK((studio.folder.names() == Words{"f01.pfm", "f01.pfm.recipe", "f02.pfm", "f02.pfm.recipe",
                                           "f03.pfm", "f03.pfm.recipe", "still.scene",
                                           "turning.scene"}));

@@ -21,6 +21,7 @@ public:
         other,  ///< a picture made of another scene, by other options or another version
         same    ///< the frame
     };
+    /// May be called while another thread writes another frame.
     [[nodiscard]] virtual Found find(int frame, const Camera& camera) const = 0;
     virtual void write(int frame, const Camera& camera, const AnyImage& image) = 0;
     /// After the last frame.

@@ -88,7 +88,8 @@ void run_render(const RenderArguments& arguments)
         check_image_writable(arguments.output);
     Scene scene = read_scene_input(arguments.scene).scene;
     apply(arguments.picture, scene);
-    const ThreadLimit limit(options.threads);
+    // Frames of an animation are written by one more.
+    const ThreadLimit limit(options.threads, arguments.animation.many() ? 1 : 0);
     if (arguments.animation.many())
         return render_animation(arguments, scene, options);
     if (arguments.animation.frame)

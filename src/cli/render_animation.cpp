@@ -1,16 +1,19 @@
 #include "cli/render_animation.hpp"
 
+#include <algorithm>
 #include <chrono>
 #include <iostream>
 #include <stdexcept>
 
 #include <packtrace/animate.hpp>
 
+#include "cli/cut_rays.hpp"
 #include "cli/frame_output.hpp"
 #include "cli/progress_bar.hpp"
 #include "cli/render_picture.hpp"
 #include "cli/text_table.hpp"
 #include "cli/validators.hpp"
+#include "core/job_queue.hpp"
 #include "render/frame_pattern.hpp"
 #include "render/frame_range.hpp"
 
@@ -46,17 +49,27 @@ FrameRange frames_of(const AnimationArguments& arguments, const Scene& scene)
 
 struct Tally {
     int rendered = 0;
-    int skipped = 0;   ///< there already
-    int replaced = 0;  ///< rendered in place of another picture
-    double seconds = 0.0;
+    int skipped = 0;         ///< there already
+    int replaced = 0;        ///< rendered in place of another picture
+    CutRays cut;             ///< of all frames; the largest bound
+    double rendering = 0.0;  ///< seconds, waiting for the writer apart
+    double writing = 0.0;    ///< seconds, mostly while the next frame renders
+    double seconds = 0.0;    ///< all in all
 };
+
+/// "1.2 s, 40.0 ms each"
+std::string seconds_text(double seconds, int frames)
+{
+    return fixed(seconds, 1) + " s, " + fixed(1e3 * seconds / frames, 1) + " ms each";
+}
 
 void print_tally(const std::string& output, const Tally& tally)
 {
     std::string text = output + ": " + std::to_string(tally.rendered) + " frames rendered";
     if (tally.rendered > 0)
-        text += " in " + fixed(tally.seconds, 1) + " s, " +
-                fixed(1e3 * tally.seconds / tally.rendered, 1) + " ms each";
+        text += " in " + seconds_text(tally.rendering, tally.rendered) + "; written in " +
+                seconds_text(tally.writing, tally.rendered) + "; both in " +
+                fixed(tally.seconds, 1) + " s";
     if (tally.replaced > 0)
         text += ", " + std::to_string(tally.replaced) +
                 " in place of pictures of another scene, other options or another version";
@@ -66,7 +79,26 @@ void print_tally(const std::string& output, const Tally& tally)
     std::cerr << text << '\n';
 }
 
-/// The bar shows the share of the whole animation.
+double seconds_since(std::chrono::steady_clock::time_point start)
+{
+    return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+}
+
+/// Renders a frame and adds to the tally what it took.
+AnyImage render_frame(const Scene& scene, const std::string& precision,
+                      const RenderOptions& options, Tally& tally)
+{
+    const auto start = std::chrono::steady_clock::now();
+    CutRays cut;
+    AnyImage image = render_picture(scene, precision, options, &cut);
+    tally.cut.rays += cut.rays;
+    tally.cut.bound = std::max(tally.cut.bound, cut.bound);
+    tally.rendering += seconds_since(start);
+    ++tally.rendered;
+    return image;
+}
+
+/// A frame is written while the next ones render. The bar shows the share of the whole animation.
 Tally render_frames(const RenderArguments& arguments, const Scene& scene, RenderOptions options,
                     const FrameRange& range, FrameOutput& output)
 {
@@ -74,6 +106,7 @@ Tally render_frames(const RenderArguments& arguments, const Scene& scene, Render
     Tally tally;
     Scene posed = scene;
     ProgressBar bar(arguments.quiet ? Verbosity::quiet : Verbosity::normal);
+    JobQueue writer;
     for (int frame = range.first; frame <= range.last; ++frame) {
         posed.camera = camera_at(scene, frame);
         const FrameOutput::Found found = output.find(frame, posed.camera);
@@ -85,12 +118,15 @@ Tally render_frames(const RenderArguments& arguments, const Scene& scene, Render
         options.progress = [&](double share) {
             bar.update((frame - range.first + share) / range.count());
         };
-        output.write(frame, posed.camera,
-                     render_picture(posed, arguments.kernel.precision, options));
-        ++tally.rendered;
+        writer.add([&output, frame, camera = posed.camera,
+                    image = render_frame(posed, arguments.kernel.precision, options, tally)] {
+            output.write(frame, camera, image);
+        });
     }
+    writer.finish();
     output.finish();
-    tally.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+    tally.writing = writer.seconds();
+    tally.seconds = seconds_since(start);
     return tally;
 }
 
@@ -142,8 +178,12 @@ void render_animation(const RenderArguments& arguments, const Scene& scene,
     const auto output =
         arguments.animation.y4m ? frame_stream(arguments) : frame_files(arguments, scene, options);
     const Tally tally = render_frames(arguments, scene, options, range, *output);
-    if (!arguments.quiet)
-        print_tally(arguments.output == "-" ? "standard output" : arguments.output, tally);
+    if (arguments.quiet)
+        return;
+    const std::string name = arguments.output == "-" ? "standard output" : arguments.output;
+    print_tally(name, tally);
+    if (tally.rendered > 0)
+        print_cut_rays(name, scene, options, tally.cut);
 }
 
 }  // namespace packtrace::cli

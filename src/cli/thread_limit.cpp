@@ -47,10 +47,10 @@ int useful_threads()
 }
 
 /// `threads`, or fewer where that is of no use or not allowed; says so in one line.
-int possible_threads(int threads)
+int possible_threads(int threads, int others)
 {
     const int useful = std::min(threads, useful_threads());
-    const int startable = 1 + startable_threads(useful - 1);
+    const int startable = std::max(1, 1 + startable_threads(useful - 1 + others) - others);
     if (startable < useful)
         std::fprintf(stderr, "packtrace: --threads %d: the system starts %d, which is used\n",
                      threads, startable);
@@ -62,11 +62,11 @@ int possible_threads(int threads)
 
 }  // namespace
 
-ThreadLimit::ThreadLimit(int threads)
+ThreadLimit::ThreadLimit(int threads, int others)
 {
     if (threads > 0)
         control_.emplace(tbb::global_control::max_allowed_parallelism,
-                         static_cast<std::size_t>(possible_threads(threads)));
+                         static_cast<std::size_t>(possible_threads(threads, others)));
 }
 
 }  // namespace packtrace::cli

@@ -120,6 +120,9 @@ struct TemporarySlot {
 };
 std::array<TemporarySlot, 64> temporaries;
 
+/// A signal ends the program: no temporary file may appear any more.
+std::atomic<bool> interrupted{false};
+
 /// The number of the slot; -1 if all are taken or the name is too long.
 int note_temporary(const std::filesystem::path& file)
 {
@@ -178,6 +181,11 @@ void AtomicFile::open_temporary()
             throw FileError(target_, "can't write", errno);
     }
     slot_ = note_temporary(temporary_);
+    // The handler has either read the slot, or set this before.
+    while (interrupted.load()) {
+        unlink(temporary_.c_str());
+        pause();
+    }
     flock(fileno(file_.get()), LOCK_EX | LOCK_NB);
 }
 
@@ -232,6 +240,7 @@ void check_writable(const std::filesystem::path& target)
 
 int remove_all_temporaries()
 {
+    interrupted.store(true);
     int removed = 0;
     for (TemporarySlot& slot : temporaries)
         if (slot.complete.load())
