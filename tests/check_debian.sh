@@ -9,7 +9,7 @@
 #      builds and runs a user's there. With --packages FOLDER, packages that are there already, and
 #      no step 1.
 # Options go to CMake, such as -DPACKTRACE_ISAS=avx2. Objects are taken from CCACHE_DIR, where it is
-# set. Not a part of ctest: it takes as long as all of packtrace takes to build, twice.
+# set; CMAKE_BUILD_PARALLEL_LEVEL says how many are made at a time. Not a part of ctest: it takes as long as all of packtrace takes to build, twice.
 set -euo pipefail
 [ "$(id -u)" = 0 ] || { echo "check_debian.sh: needs root, for chroot" >&2; exit 2; }
 # Mounts of its own, which end with it.
@@ -63,7 +63,8 @@ inside() {
         CMAKE_CXX_COMPILER_LAUNCHER=ccache
         CCACHE_SLOPPINESS=pch_defines,time_macros,include_file_mtime,include_file_ctime)
     chroot "$system" env -i PATH=/usr/sbin:/usr/bin:/sbin:/bin HOME=/root LANG=C.UTF-8 \
-        DEBIAN_FRONTEND=noninteractive "${cache[@]}" "$@"
+        DEBIAN_FRONTEND=noninteractive \
+        CMAKE_BUILD_PARALLEL_LEVEL="${CMAKE_BUILD_PARALLEL_LEVEL:-$(nproc)}" "${cache[@]}" "$@"
 }
 
 step() {
