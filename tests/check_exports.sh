@@ -21,6 +21,14 @@ grep -v '^\(typeinfo\|typeinfo name\|vtable\) for packtrace::[A-Za-z]*Error$' "$
     sort -u >"$folder/exported"
 
 failed=0
+# A declaration at the start of a line that is neither marked nor defined in the header.
+unmarked=$(grep -nE '^(\[\[nodiscard\]\]|void|bool|int|double) .*\(' "$headers"/*.hpp |
+    grep -v -e PACKTRACE_API -e ' inline ' -e ' Image<To> convert(')
+if [ -n "$unmarked" ]; then
+    echo "functions without PACKTRACE_API:"
+    echo "$unmarked"
+    failed=1
+fi
 [ "$(wc -l <"$folder/offered")" -ge 20 ] || { echo "few functions are offered"; failed=1; }
 if ! diff "$folder/offered" "$folder/exported" >"$folder/difference"; then
     echo "offered by headers (<) and exported (>) differ:"

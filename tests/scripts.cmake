@@ -52,15 +52,21 @@ endif()
 packtrace_script_test(run_script fast check_run.sh ${PROJECT_SOURCE_DIR}/run)
 
 # Users of the library: programs that find it installed, or take it in as a part of their project.
-foreach(way IN ITEMS prefix find_package pkg_config add_subdirectory fetch_content)
-    packtrace_script_test(install.${way} fast check_install.sh ${way} ${CMAKE_COMMAND}
-                          ${CMAKE_CXX_COMPILER} ${PROJECT_BINARY_DIR} ${PROJECT_SOURCE_DIR}
-                          ${PACKTRACE_ISAS})
-endforeach()
-set_tests_properties(install.prefix PROPERTIES FIXTURES_SETUP installed)
-set_tests_properties(install.find_package install.pkg_config PROPERTIES FIXTURES_REQUIRED installed)
-packtrace_script_test(exports fast check_exports.sh ${CMAKE_NM} ${CMAKE_OBJDUMP}
-                      $<TARGET_FILE:packtrace_shared> ${PROJECT_SOURCE_DIR}/include/packtrace)
+# A project that took it in installs nothing of it.
+if(PACKTRACE_INSTALL AND PROJECT_IS_TOP_LEVEL)
+    foreach(way IN ITEMS prefix find_package pkg_config add_subdirectory fetch_content)
+        packtrace_script_test(install.${way} fast check_install.sh ${way} ${CMAKE_COMMAND}
+                              ${CMAKE_CXX_COMPILER} ${PROJECT_BINARY_DIR} ${PROJECT_SOURCE_DIR}
+                              ${PACKTRACE_ISAS})
+    endforeach()
+    set_tests_properties(install.prefix PROPERTIES FIXTURES_SETUP installed)
+    set_tests_properties(install.find_package install.pkg_config
+                         PROPERTIES FIXTURES_REQUIRED installed)
+    packtrace_script_test(packages fast check_packages.sh ${CMAKE_CPACK_COMMAND}
+                          ${PROJECT_BINARY_DIR} ${PROJECT_VERSION})
+endif()
+if(TARGET packtrace_shared)
+    packtrace_script_test(exports fast check_exports.sh ${CMAKE_NM} ${CMAKE_OBJDUMP}
+                          $<TARGET_FILE:packtrace_shared> ${PROJECT_SOURCE_DIR}/include/packtrace)
+endif()
 packtrace_script_test(completion fast check_completion.sh $<TARGET_FILE:packtrace_cli>)
-packtrace_script_test(packages fast check_packages.sh ${CMAKE_CPACK_COMMAND} ${PROJECT_BINARY_DIR}
-                      ${PROJECT_VERSION})
