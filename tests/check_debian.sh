@@ -62,7 +62,8 @@ inside() {
     [ ! -d "$system/ccache" ] || cache=(CCACHE_DIR=/ccache CCACHE_BASEDIR=/packtrace CCACHE_NOHASHDIR=1
         CMAKE_CXX_COMPILER_LAUNCHER=ccache
         CCACHE_SLOPPINESS=pch_defines,time_macros,include_file_mtime,include_file_ctime)
-    chroot "$system" env -i PATH=/usr/sbin:/usr/bin:/sbin:/bin HOME=/root LANG=C.UTF-8 \
+    chroot "$system" env -i HOME=/root \
+        PATH=/usr/local/sbin:/usr/local/bin:/usr/sbin:/usr/bin:/sbin:/bin LANG=C.UTF-8 \
         DEBIAN_FRONTEND=noninteractive \
         CMAKE_BUILD_PARALLEL_LEVEL="${CMAKE_BUILD_PARALLEL_LEVEL:-$(nproc)}" "${cache[@]}" "$@"
 }
