@@ -1,5 +1,6 @@
 #include <packtrace/intersect.hpp>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <functional>
@@ -8,6 +9,7 @@
 #include <vector>
 
 #include <packtrace/explain.hpp>
+#include <packtrace/generate.hpp>
 #include <packtrace/isa.hpp>
 #include <packtrace/render.hpp>
 
@@ -196,6 +198,66 @@ TEST_CASE("a ray from just above a sphere meets it at once, not on its way out",
             {&t, &object, {}, {}, {}});
         CHECK(object == 0);
         CHECK(t == Approx(1.2321839e-7f));
+    }
+}
+
+namespace {
+
+/// Segments from a point to places on spheres of a scene, of which some end before and some behind
+/// where they arrive, by as little as single precision can say.
+template <class Real>
+std::array<std::vector<Real>, 8> segments_to_surfaces(const Scene& scene, int count)
+{
+    std::mt19937 random(11);
+    std::uniform_real_distribution<double> value(-1.0, 1.0);
+    const Vec3 from(4, 6, -4);
+    std::array<std::vector<Real>, 8> columns;
+    for (int i = 0; i < count; ++i) {
+        const Object& object = scene.objects[static_cast<std::size_t>(i) % scene.objects.size()];
+        const auto& ball = std::get<Sphere>(object.surface);
+        const Vec3 out = glm::normalize(Vec3(value(random), value(random), value(random)));
+        const Vec3 way = ball.center + ball.radius * out - from;
+        const double beyond = i % 7 == 0 ? 0.0 : value(random) * std::pow(10.0, -4 - i % 4);
+        for (int axis = 0; axis < 3; ++axis) {
+            columns[static_cast<std::size_t>(axis)].push_back(static_cast<Real>(from[axis]));
+            columns[static_cast<std::size_t>(axis) + 3].push_back(
+                static_cast<Real>(static_cast<float>(way[axis])));
+        }
+        columns[6].push_back(0);
+        columns[7].push_back(static_cast<Real>(static_cast<float>(1.0 + beyond)));
+    }
+    return columns;
+}
+
+template <class Real>
+std::vector<std::uint8_t> blocked_segments(const Scene& scene, const RenderOptions& options)
+{
+    const auto columns = segments_to_surfaces<Real>(scene, 6000);
+    const auto at = [&](std::size_t column) { return columns[column].data(); };
+    std::vector<std::uint8_t> blocked(columns[0].size());
+    RayScene<Real>(scene, options)
+        .occluded({at(0), at(1), at(2), at(3), at(4), at(5), at(6), at(7), blocked.size()},
+                  blocked.data());
+    return blocked;
+}
+
+}  // namespace
+
+TEST_CASE("segments that end at surfaces are blocked as in double precision", "[ray_scene]")
+{
+    const Scene scene = generate_random_spheres({.count = 1500, .radius = 0.05});
+    for (const IsaInfo& isa : list_isas()) {
+        if (!isa.supported)
+            continue;
+        for (const Traversal traversal : {Traversal::list, Traversal::tree}) {
+            CAPTURE(isa.name, static_cast<int>(traversal));
+            RenderOptions options;
+            options.isa = isa.name;
+            options.traversal = traversal;
+            const std::vector<std::uint8_t> expected = blocked_segments<double>(scene, options);
+            CHECK(std::count(expected.begin(), expected.end(), std::uint8_t{0}) > 100);
+            CHECK(blocked_segments<float>(scene, options) == expected);
+        }
     }
 }
 

@@ -133,16 +133,15 @@ inline AnchoredLine line_of(const AnchoredFilter& filter, const RayPacket<float>
 
 /// Lanes that start outside, and go away from the surface or still towards it at t_end, outside
 /// there, too: F is convex.
-inline std::uint32_t stays_above(const AnchoredLine& line, const vreal<float>& t_end)
+inline vmask<float> stays_above(const AnchoredLine& line, const vreal<float>& t_end)
 {
     const vreal<float> last_slope = madd(line.bend, t_end, line.b);
     const vreal<float> climb = t_end * (line.b + last_slope);
     const vreal<float> rounding = vreal<float>(roundoffs(8.0f)) * (line.value - climb);
     const vreal<float> error = madd(t_end + t_end, line.slope_error, line.value_error + rounding);
-    const std::uint32_t outside = bits(line.value > line.value_error);
-    const std::uint32_t towards = bits(last_slope < negated(line.slope_error + line.slope_error));
-    return outside &
-           (bits(line.b > line.slope_error) | (towards & bits(line.value + climb > error)));
+    const vmask<float> outside = line.value > line.value_error;
+    const vmask<float> towards = last_slope < negated(line.slope_error + line.slope_error);
+    return outside & ((line.b > line.slope_error) | (towards & (line.value + climb > error)));
 }
 
 /// Where a line crosses an anchored sphere for sure: its one root ahead from inside, the first of
@@ -150,24 +149,24 @@ inline std::uint32_t stays_above(const AnchoredLine& line, const vreal<float>& t
 struct AnchoredHit {
     vreal<float> t;
     vreal<float> error;
-    std::uint32_t sure;     ///< lanes with a first root ahead
-    std::uint32_t nothing;  ///< lanes with none
+    vmask<float> sure;     ///< lanes with a first root ahead
+    vmask<float> nothing;  ///< lanes with none
 };
 
 inline AnchoredHit first_root(const AnchoredLine& line)
 {
     const vreal<float> zero(0.0f);
-    const std::uint32_t outside = bits(line.value > line.value_error);
-    const std::uint32_t inside = bits(line.value < negated(line.value_error));
-    const std::uint32_t towards = bits(line.b < negated(line.slope_error));
-    const std::uint32_t away = bits(line.b > line.slope_error);
-    const std::uint32_t crosses =
-        bits(line.discriminant > line.discriminant_error + line.discriminant_error);
-    const std::uint32_t misses = bits(line.discriminant < negated(line.discriminant_error));
+    const vmask<float> outside = line.value > line.value_error;
+    const vmask<float> inside = line.value < negated(line.value_error);
+    const vmask<float> towards = line.b < negated(line.slope_error);
+    const vmask<float> away = line.b > line.slope_error;
+    const vmask<float> crosses =
+        line.discriminant > line.discriminant_error + line.discriminant_error;
+    const vmask<float> misses = line.discriminant < negated(line.discriminant_error);
     AnchoredHit hit;
     hit.sure = crosses & ((outside & towards) | inside);
     hit.nothing = misses | (outside & away);
-    if (hit.nothing == all_lanes<float>)
+    if (bits(hit.nothing) == all_lanes<float>)
         return hit;
 
     const vreal<float> inverse_root =
@@ -178,19 +177,18 @@ inline AnchoredHit first_root(const AnchoredLine& line)
         madd(vreal<float>(0.6f) * inverse_root, line.discriminant_error, line.slope_error);
     const vreal<float> per_t(roundoffs(20.0f));
     // From outside, or from inside along the gradient: F(0) over what does not cancel.
-    const std::uint32_t by_sum = hit.sure & inside & bits(line.b < zero);
+    const vmask<float> by_sum = hit.sure & inside & (line.b < zero);
     const vreal<float> inverse = vreal<float>(1.0f) / sum;
     hit.t = abs(line.value) * inverse;
     hit.error =
         madd(madd(hit.t, sum_error, line.value_error), inverse * vreal<float>(1.5f), hit.t * per_t);
-    if (by_sum == 0)
+    if (none(by_sum))
         return hit;
     // From inside against it the other root.
-    const vmask<float> of_sum = from_bits<float>(by_sum);
     const vreal<float> inverse_bend = vreal<float>(1.0f) / line.bend;
     const vreal<float> other = sum * inverse_bend;
-    hit.t = select(of_sum, other, hit.t);
-    hit.error = select(of_sum, madd(sum_error, inverse_bend * vreal<float>(1.5f), other * per_t),
+    hit.t = select(by_sum, other, hit.t);
+    hit.error = select(by_sum, madd(sum_error, inverse_bend * vreal<float>(1.5f), other * per_t),
                        hit.error);
     return hit;
 }
@@ -201,18 +199,17 @@ inline void keep_certain(HitPacket<float>& hit, const AnchoredFilter& filter,
 {
     const std::uint32_t not_own = own.template lanes_on_others<float>(filter.surface);
     const AnchoredHit at = first_root(line_of<Shared>(filter, rays, scale));
-    const std::uint32_t open = ~at.nothing & not_own;
+    const std::uint32_t open = ~bits(at.nothing) & not_own;
     if (open == 0)
         return;
     const vreal<float> low = at.t - at.error;
     const vreal<float> high = at.t + at.error;
-    const std::uint32_t ahead = bits(low > rays.t_min);
-    keep_sure(hit, from_bits<float>(open & at.sure & ahead), low, high, filter.surface);
-    const std::uint32_t rest = open & ~(at.sure & ahead);
+    const vmask<float> ahead = at.sure & (low > rays.t_min);
+    keep_sure(hit, ahead & from_bits<float>(not_own), low, high, filter.surface);
+    const std::uint32_t rest = open & ~bits(ahead);
     if (rest != 0)
         keep_doubt(hit, from_bits<float>(rest),
-                   select(from_bits<float>(at.sure), low, vreal<float>(-__builtin_inff())),
-                   at.sure);
+                   select(at.sure, low, vreal<float>(-__builtin_inff())), bits(at.sure));
 }
 
 template <bool Shared, class Own>
@@ -220,22 +217,22 @@ inline Occlusion occludes(const AnchoredFilter& filter, const RayPacket<float>& 
                           const RayScale& scale, const vreal<float>& t_end, const Own&)
 {
     const AnchoredLine line = line_of<Shared>(filter, rays, scale);
-    const std::uint32_t above = stays_above(line, t_end);
-    if (above == all_lanes<float>)
+    const vmask<float> above = stays_above(line, t_end);
+    if (bits(above) == all_lanes<float>)
         return {};
     const AnchoredHit at = first_root(line);
-    const std::uint32_t open = ~at.nothing & ~above & all_lanes<float>;
+    const std::uint32_t open = ~bits(at.nothing | above) & all_lanes<float>;
     if (open == 0)
         return {};
     const vreal<float> low = at.t - at.error;
     const vreal<float> high = at.t + at.error;
     // What comes first beyond t_min can be told only where the first root does.
-    const std::uint32_t first = at.sure & bits(low > rays.t_min);
-    const std::uint32_t blocked = open & first & bits(high < t_end);
-    const std::uint32_t behind = first & bits(low > t_end);
+    const vmask<float> first = at.sure & (low > rays.t_min);
+    const std::uint32_t blocked = open & bits(first & (high < t_end));
+    const std::uint32_t behind = bits(first & (low > t_end));
     const std::uint32_t unsure = open & ~blocked & ~behind;
-    note_in_the_way(unsure & at.sure, abi::Cause::range);
-    note_in_the_way(unsure & ~at.sure, abi::Cause::tangent);
+    note_in_the_way(unsure & bits(at.sure), abi::Cause::range);
+    note_in_the_way(unsure & ~bits(at.sure), abi::Cause::tangent);
     return {blocked, unsure};
 }
 

@@ -43,7 +43,7 @@ inline std::uint32_t may_hit_ball(const BallFilter& ball, const RayPacket<float>
                                   const RayScale& scale, const vreal<float>& t_end)
 {
     const Vec3v<float> w = Shared ? broadcast(ball.center) : rays.org - broadcast(ball.center);
-    const std::uint32_t near = bits(approach(w, vreal<float>(ball.outer2), rays).near);
+    const std::uint32_t near = approach(w, vreal<float>(ball.outer2), rays).near;
     if (near == 0)
         return 0;
     const vreal<float> middle = negated(dot(w, rays.dir)) * scale.inverse2;

@@ -193,7 +193,7 @@ template <bool Shared>
 /// Where a plane is along the rays.
 struct PlaneCrossing {
     vreal<float> low, high;
-    std::uint32_t sure;  ///< lanes whose crossing is in [low, high]
+    vmask<float> sure;  ///< lanes whose crossing is in [low, high]
     vreal<float> height, slope, slope_error;
 };
 
@@ -222,9 +222,8 @@ inline PlaneCrossing crossing(const PlaneFilter& filter, const RayPacket<float>&
     const vreal<float> error =
         madd(madd(size, slope_error, height_error), vreal<float>(2.0f * inflation) * abs(inverse),
              size * vreal<float>(roundoffs(4.0f)));
-    PlaneCrossing result{t - error, t + error, 0, height, slope, slope_error};
-    result.sure = bits(abs(slope) > slope_error + slope_error);
-    return result;
+    return {t - error, t + error, abs(slope) > slope_error + slope_error,
+            height,    slope,     slope_error};
 }
 
 template <bool Shared, class Own>
@@ -233,13 +232,13 @@ inline void keep_certain(HitPacket<float>& hit, const PlaneFilter& filter,
 {
     const std::uint32_t not_own = own.template lanes_on_others<float>(filter.surface);
     const PlaneCrossing at = crossing<Shared>(filter, rays, scale);
-    const std::uint32_t ahead = at.sure & bits(at.low > rays.t_min);
-    const std::uint32_t behind = at.sure & bits(at.high < rays.t_min);
-    keep_sure(hit, from_bits<float>(ahead & not_own), at.low, at.high, filter.surface);
-    const std::uint32_t rest = ~ahead & ~behind & not_own;
+    const vmask<float> ahead = at.sure & (at.low > rays.t_min);
+    const vmask<float> behind = at.sure & (at.high < rays.t_min);
+    keep_sure(hit, ahead & from_bits<float>(not_own), at.low, at.high, filter.surface);
+    const std::uint32_t rest = ~bits(ahead | behind) & not_own;
     if (rest != 0)
-        keep_doubt(hit, from_bits<float>(rest),
-                   select(from_bits<float>(at.sure), at.low, not_before(filter, at)), at.sure);
+        keep_doubt(hit, from_bits<float>(rest), select(at.sure, at.low, not_before(filter, at)),
+                   bits(at.sure));
 }
 
 template <bool Shared, class Own>
@@ -247,8 +246,9 @@ inline Occlusion occludes(const PlaneFilter& filter, const RayPacket<float>& ray
                           const RayScale& scale, const vreal<float>& t_end, const Own&)
 {
     const PlaneCrossing at = crossing<Shared>(filter, rays, scale);
-    Occlusion result = root_between(at.low, at.high, at.sure, rays.t_min, t_end);
-    const std::uint32_t flat = ~at.sure & all_lanes<float>;
+    const std::uint32_t sure = bits(at.sure);
+    Occlusion result = root_between(at.low, at.high, sure, rays.t_min, t_end);
+    const std::uint32_t flat = ~sure & all_lanes<float>;
     if (flat != 0) {
         const std::uint32_t unsure = flat & ~bits(not_before(filter, at) > t_end);
         note_in_the_way(unsure, abi::Cause::tangent);

@@ -75,7 +75,7 @@ struct SphereTest {
 /// Lanes that don't surely miss, and |m|².
 struct SphereApproach {
     vreal<float> moment2;
-    vmask<float> near;
+    std::uint32_t near;
 };
 
 inline SphereApproach approach(const Vec3v<float>& w, const vreal<float>& outer2,
@@ -84,7 +84,7 @@ inline SphereApproach approach(const Vec3v<float>& w, const vreal<float>& outer2
     const Vec3v<float> moment = cross(w, rays.dir);
     const vreal<float> moment2 = dot(moment, moment);
     const std::uint32_t misses = bits(moment2 > outer2 * rays.dir2);
-    return {moment2, from_bits<float>(~misses & all_lanes<float>)};
+    return {moment2, ~misses & all_lanes<float>};
 }
 
 /// Both roots in the lanes that cross the sphere for sure.
@@ -109,7 +109,7 @@ inline SphereCrossing crossing(const SphereTest& test, const SphereApproach& nea
     result.roots.near = result.middle - half;
     result.roots.far = result.middle + half;
     result.roots.error = madd(root_error(test.bounds, reach), inverse_root, result.along);
-    result.sure = near.near & (near.moment2 < test.bounds.inner2 * rays.dir2);
+    result.sure = from_bits<float>(near.near) & (near.moment2 < test.bounds.inner2 * rays.dir2);
     return result;
 }
 
@@ -127,7 +127,7 @@ inline void keep_near_sphere(HitPacket<float>& hit, const SphereTest& test,
 {
     const SphereCrossing at = crossing(test, near, rays, scale);
     keep_first_of(hit, at.roots, at.sure, rays.t_min, surface);
-    const std::uint32_t band = bits(near.near) & ~bits(at.sure);
+    const std::uint32_t band = near.near & ~bits(at.sure);
     if (band == 0)
         return;
     const vreal<float> error = band_error(test, at, scale);
@@ -155,13 +155,13 @@ inline PlainOcclusion plainly_occludes(const SphereTest& test, const SphereAppro
     const vreal<float> distance2 = madd(rays.t_min + rays.t_min, b - slack,
                                         dot(test.w, test.w) * vreal<float>(1.0f - roundoffs(8.0f)));
     const vreal<float> outer2 = test.bounds.outer2 * vreal<float>(1.0f + roundoffs(8.0f));
-    const std::uint32_t outside = bits(distance2 > outer2) & bits(near.near);
+    const std::uint32_t outside = bits(distance2 > outer2) & near.near;
     const std::uint32_t through = bits((near.moment2 < test.bounds.inner2 * rays.dir2) &
                                        (first_slope < negated(slack)) & (last_slope > slack));
     const vreal<float> beyond = negated(last_slope) - slack;
     const std::uint32_t clear = bits(b > slack) | bits((beyond > vreal<float>(0.0f)) &
                                                        (beyond * beyond > outer2 * rays.dir2));
-    return {outside & through, bits(near.near) & ~(outside & (through | clear))};
+    return {outside & through, near.near & ~(outside & (through | clear))};
 }
 
 /// Whether the sphere is between t_min and t_end of the lanes that are near it.
@@ -172,7 +172,7 @@ inline Occlusion occludes(const SphereTest& test, const SphereApproach& near,
     const PlainOcclusion plain = plainly_occludes(test, near, rays, scale, t_end);
     if (plain.left == 0)
         return {plain.blocked, 0};
-    const SphereApproach left{near.moment2, from_bits<float>(plain.left)};
+    const SphereApproach left{near.moment2, plain.left};
     const SphereCrossing at = crossing(test, left, rays, scale);
     Occlusion result = root_between(at.roots, at.sure, rays.t_min, t_end);
     result.blocked |= plain.blocked;
@@ -193,9 +193,9 @@ inline void keep_sphere(HitPacket<float>& hit, const SphereTest& test, const Sph
                         const RayPacket<float>& rays, const RayScale& scale, std::int32_t surface,
                         const Own& own)
 {
-    const std::uint32_t others = bits(near.near) & own.template lanes_on_others<float>(surface);
+    const std::uint32_t others = near.near & own.template lanes_on_others<float>(surface);
     if (others != 0)
-        keep_near_sphere(hit, test, {near.moment2, from_bits<float>(others)}, rays, scale, surface);
+        keep_near_sphere(hit, test, {near.moment2, others}, rays, scale, surface);
 }
 
 /// Spheres with their bounds, in rising order. `x, y, z` is a shared origin relative to the centre,
@@ -288,7 +288,7 @@ inline void keep_certain(HitPacket<float>& hit, const ListedSphere<SphereFilters
     const auto& [list, i] = sphere;
     const Vec3v<float> w = origin_from<Shared>(list, i, rays);
     const SphereApproach near = approach(w, vreal<float>(list.bounds.outer2[i]), rays);
-    if (any(near.near))
+    if (near.near != 0)
         keep_sphere(hit, test_of(list, i, w), near, rays, scale, list.surface[i], own);
 }
 
@@ -299,7 +299,7 @@ inline Occlusion occludes(const ListedSphere<SphereFilters>& sphere, const RayPa
     const auto& [list, i] = sphere;
     const Vec3v<float> w = origin_from<Shared>(list, i, rays);
     const SphereApproach near = approach(w, vreal<float>(list.bounds.outer2[i]), rays);
-    if (none(near.near))
+    if (near.near == 0)
         return {};
     return occludes(test_of(list, i, w), near, rays, scale, t_end);
 }

@@ -69,10 +69,10 @@ public:
         for (int first = 0; first < abi::node_width; first += lanes<Real>) {
             const Vec3v<Real> center{load(block.center[0] + first), load(block.center[1] + first),
                                      load(block.center[2] + first)};
-            near |= bits(approach(rays_.org - center,
-                                  leaf_outer2(bundle, load(block.radius + first)), rays_)
-                             .near)
-                    << first;
+            near |=
+                approach(rays_.org - center, leaf_outer2(bundle, load(block.radius + first)), rays_)
+                    .near
+                << first;
         }
         return near;
     }

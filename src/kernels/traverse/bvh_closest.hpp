@@ -80,7 +80,7 @@ private:
             const vreal<float> radius(leaf.block.radius[slot]);
             const Vec3v<float> w = rays.org - center;
             const SphereApproach near = approach(w, leaf_outer2(bundle_, radius), rays);
-            if (none(near.near))
+            if (near.near == 0)
                 return false;
             HitPacket<float> hit = load_hits(bundle_, first);
             keep_sphere(hit, {w, radius * radius, leaf_bounds(bundle_, radius)}, near, rays,

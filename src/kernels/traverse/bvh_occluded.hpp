@@ -78,19 +78,35 @@ private:
             const vreal<float> radius(leaf.block.radius[slot]);
             const Vec3v<float> w = rays.org - center;
             const SphereApproach near = approach(w, leaf_outer2(bundle_, radius), rays);
-            if (none(near.near))
+            if (near.near == 0)
                 return {};
             const Occlusion occlusion =
                 occludes({w, radius * radius, leaf_bounds(bundle_, radius)}, near, rays,
                          scale_of(bundle_, first, rays), load(bundle_.t + first));
-            return {but_own<Real>(occlusion.blocked, own, surface),
-                    but_own<Real>(occlusion.unsure, own, surface)};
+            return decided_alone(but_own<Real>(occlusion.blocked, own, surface),
+                                 but_own<Real>(occlusion.unsure, own, surface), surface, first);
         } else {
             const RayEnd<Real> end{load(bundle_.t + first), closed_};
             return {but_own<Real>(bits(end.blocked_by(quadratic_of(leaf.block, slot, rays), rays)),
                                   own, surface),
                     0};
         }
+    }
+
+    /// Asks double of the lanes of `unsure`, one by one.
+    Occlusion decided_alone(std::uint32_t blocked, std::uint32_t unsure, std::int32_t surface,
+                            int first) const
+    {
+        std::uint32_t left = unsure & active_lanes(bundle_, first);
+        Occlusion result{blocked, 0};
+        for (; left != 0; left &= left - 1) {
+            const std::uint32_t lane = left & -left;
+            const InTheWay in_double =
+                is_in_the_way(*tree_.shapes, surface, bundle_, first + __builtin_ctz(left));
+            result.blocked |= in_double == InTheWay::yes ? lane : 0;
+            result.unsure |= in_double == InTheWay::undecided ? lane : 0;
+        }
+        return result;
     }
 
     void run(std::uint32_t child, std::uint32_t cells) const

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "kernels/traverse/block_ray.hpp"
+#include "kernels/traverse/lone_sphere.hpp"
 
 // One ray against those spheres of a block that it does not miss for sure.
 namespace packtrace::PACKTRACE_ISA {
@@ -114,6 +115,7 @@ inline void keep_doubt(RayBundle<float>& bundle, int ray, float low, std::int32_
 /// others may be in the way of are marked.
 [[gnu::noinline]] inline std::uint32_t blocking_spheres(RayBundle<float>& bundle, int ray,
                                                         const SphereLeaf<float>& leaf,
+                                                        const abi::ShapesView& shapes,
                                                         std::uint32_t near)
 {
     const LoneRay lone(bundle, ray);
@@ -130,9 +132,16 @@ inline void keep_doubt(RayBundle<float>& bundle, int ray, float low, std::int32_
         const auto inside = [&](float root) {
             return root - at.error > lone.t_min && root + at.error < end;
         };
-        if (at.sure && (inside(at.near) || inside(at.far)))
+        if (at.sure && (inside(at.near) || inside(at.far))) {
             blocking |= 1u << slot;
-        else if (!outside(at.near) || !outside(at.far)) {
+            continue;
+        }
+        if (outside(at.near) && outside(at.far))
+            continue;
+        const InTheWay in_double = is_in_the_way(shapes, leaf.surface_of(slot), bundle, ray);
+        if (in_double == InTheWay::yes) {
+            blocking |= 1u << slot;
+        } else if (in_double == InTheWay::undecided) {
             note_in_the_way(1u, at.sure ? abi::Cause::range : abi::Cause::tangent);
             keep_noted_of_ray(ray, 1u);
             bundle.unsure[ray / cell_rays] |= static_cast<std::uint16_t>(1u << ray % cell_rays);

@@ -81,11 +81,11 @@ inline bool goes_behind_run(const abi::BvhView<Real>& tree, RayBundle<Real>& bun
 template <abi::Features F, class Real>
 inline std::uint32_t blocking_spheres_of(RayBundle<Real>& bundle, int ray,
                                          const BlockRay<Real>& alone, const SphereLeaf<Real>& leaf,
-                                         bool closed)
+                                         const abi::ShapesView& shapes, bool closed)
 {
     if constexpr (F.exact) {
         const std::uint32_t near = alone.near(leaf.block, bundle);
-        return near == 0 ? 0 : blocking_spheres(bundle, ray, leaf, near);
+        return near == 0 ? 0 : blocking_spheres(bundle, ray, leaf, shapes, near);
     } else {
         return alone.blocked_by(leaf.block, bundle.t[ray], closed);
     }
@@ -103,7 +103,7 @@ inline bool goes_behind_leaf(const abi::BvhView<Real>& tree, RayBundle<Real>& bu
     abi::SphereBlock<Real> room;
     const SphereLeaf<Real> leaf = sphere_leaf(tree, child, room);
     count_block_tests(leaf.block);
-    std::uint32_t blocking = blocking_spheres_of<F>(bundle, ray, alone, leaf, closed);
+    std::uint32_t blocking = blocking_spheres_of<F>(bundle, ray, alone, leaf, *tree.shapes, closed);
     for (; blocking != 0; blocking &= blocking - 1) {
         const std::int32_t surface = leaf.surface_of(__builtin_ctz(blocking));
         if (surface != bundle.own[ray] && !goes_behind(bundle, ray, surface, occluder))
