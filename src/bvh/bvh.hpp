@@ -4,7 +4,7 @@
 #include <span>
 #include <vector>
 
-#include "kernel_abi/bvh.hpp"
+#include "kernel_abi/bvh_view.hpp"
 
 namespace packtrace {
 

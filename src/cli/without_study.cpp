@@ -1,8 +1,8 @@
 #include <stdexcept>
 #include <string>
 
-#include "cli/certainty.hpp"
 #include "cli/command.hpp"
+#include "cli/study/certainty_option.hpp"
 
 // Stands in for the commands of src/lab in programs built without it (PACKTRACE_BUILD_STUDY).
 namespace packtrace::cli {

@@ -6,7 +6,7 @@
 
 #include <glm/common.hpp>
 
-#include "kernel_abi/bvh.hpp"
+#include "kernel_abi/bvh_view.hpp"
 
 namespace packtrace {
 namespace {

@@ -5,7 +5,7 @@
 
 #include "kernel_abi/features.hpp"
 #include "kernel_abi/observation.hpp"
-#include "kernel_abi/onedim.hpp"
+#include "kernel_abi/onedim_table.hpp"
 #include "kernel_abi/probe.hpp"
 #include "kernel_abi/ray_streams.hpp"
 #include "kernel_abi/scene_view.hpp"

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "kernel_abi/bvh.hpp"
+#include "kernel_abi/bvh_view.hpp"
 #include "kernel_abi/lists.hpp"
 #include "kernel_abi/shading.hpp"
 

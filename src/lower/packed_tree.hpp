@@ -2,7 +2,7 @@
 
 #include "bvh/bvh.hpp"
 #include "core/aligned_array.hpp"
-#include "kernel_abi/bvh.hpp"
+#include "kernel_abi/bvh_view.hpp"
 #include "lower/lowered_scene.hpp"
 
 namespace packtrace {

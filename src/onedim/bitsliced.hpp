@@ -4,7 +4,7 @@
 
 #include <span>
 
-#include "kernel_abi/onedim.hpp"
+#include "kernel_abi/onedim_table.hpp"
 
 namespace packtrace::onedim {
 

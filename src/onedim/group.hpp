@@ -7,7 +7,7 @@
 #include <cstdint>
 #include <span>
 
-#include "kernel_abi/onedim.hpp"
+#include "kernel_abi/onedim_table.hpp"
 
 namespace packtrace::onedim {
 

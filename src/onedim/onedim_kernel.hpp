@@ -3,7 +3,7 @@
 #include <cstddef>
 #include <cstdint>
 
-#include "kernel_abi/onedim.hpp"
+#include "kernel_abi/onedim_table.hpp"
 #include "onedim/bit_transpose.hpp"
 
 // The one-dimensional note on bit planes. From the far end to the eye, every surface turns the

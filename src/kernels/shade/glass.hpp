@@ -1,6 +1,6 @@
 #pragma once
 
-#include "kernels/shade/surface.hpp"
+#include "kernels/shade/hit_points.hpp"
 
 // Refraction through nested and overlapping glass bodies.
 namespace packtrace::PACKTRACE_ISA {

@@ -1,8 +1,8 @@
 #pragma once
 
 #include "kernel_abi/kernel_table.hpp"
+#include "kernels/shade/hit_points.hpp"
 #include "kernels/shade/power.hpp"
-#include "kernels/shade/surface.hpp"
 #include "kernels/stats/observe.hpp"
 #include "kernels/traverse/occluded.hpp"
 

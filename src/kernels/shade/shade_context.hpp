@@ -1,7 +1,7 @@
 #pragma once
 
 #include "kernel_abi/kernel_table.hpp"
-#include "kernels/shade/surface.hpp"
+#include "kernels/shade/hit_points.hpp"
 #include "kernels/traverse/bundle.hpp"
 #include "kernels/traverse/object_sets.hpp"
 

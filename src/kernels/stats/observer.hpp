@@ -1,6 +1,6 @@
 #pragma once
 
-#include "kernel_abi/bvh.hpp"
+#include "kernel_abi/bvh_view.hpp"
 #include "kernel_abi/kernel_table.hpp"
 #include "kernel_abi/observation.hpp"
 #include "kernels/simd/simd.hpp"

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "kernels/stream/camera.hpp"
+#include "kernels/stream/camera_rays.hpp"
 #include "kernels/stream/trace_stream.hpp"
 #include "kernels/stream/workspace.hpp"
 

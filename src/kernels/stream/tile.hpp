@@ -2,7 +2,7 @@
 
 #include "kernels/geometry/cone.hpp"
 #include "kernels/stream/bundle_shadow.hpp"
-#include "kernels/stream/camera.hpp"
+#include "kernels/stream/camera_rays.hpp"
 #include "kernels/stream/shade_stream.hpp"
 #include "kernels/stream/trace_stream.hpp"
 #include "kernels/stream/workspace.hpp"

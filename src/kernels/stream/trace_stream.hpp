@@ -1,7 +1,7 @@
 #pragma once
 
 #include "kernels/precision/refine.hpp"
-#include "kernels/stream/camera.hpp"
+#include "kernels/stream/camera_rays.hpp"
 #include "kernels/stream/shade_stream.hpp"
 #include "kernels/traverse/object_sets.hpp"
 #include "kernels/traverse/retrace_closest.hpp"

@@ -4,7 +4,7 @@
 #include <immintrin.h>
 #endif
 
-#include "kernel_abi/bvh.hpp"
+#include "kernel_abi/bvh_view.hpp"
 #include "kernels/simd/vfloat8.hpp"
 
 // The children of a node that are met, in their order. AVX2 sorts them in a register: six rounds of

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "kernel_abi/bvh.hpp"
+#include "kernel_abi/bvh_view.hpp"
 #include "kernels/simd/vfloat8.hpp"
 #include "kernels/traverse/bundle.hpp"
 

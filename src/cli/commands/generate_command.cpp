@@ -1,0 +1,119 @@
+#include <limits>
+#include <memory>
+#include <stdexcept>
+#include <string>
+
+#include <packtrace/generate.hpp>
+#include <packtrace/write_scene.hpp>
+
+#include "cli/command.hpp"
+#include "cli/options/common_options.hpp"
+#include "cli/options/validators.hpp"
+#include "cli/output/text_output.hpp"
+
+namespace packtrace::cli {
+namespace {
+
+/// What every generator's command takes.
+struct Common {
+    std::string output;
+    PictureArguments picture{.size = "1024x1024", .depth = {}, .min_weight = {}};
+};
+
+template <class Options>
+struct Arguments : Common {
+    Options options;
+};
+
+template <class Options>
+void run_generator(const Arguments<Options>& arguments, Scene (*generate)(const Options&))
+{
+    TextOutput output(arguments.output);
+    Scene scene = generate(arguments.options);
+    apply(arguments.picture, scene);
+    output.write(scene_text(scene));
+    output.finish();
+}
+
+/// The generator's command with the options all have; the caller adds its own.
+template <class Options>
+CLI::App* add_generator(CLI::App& generate, const std::string& name, const std::string& help,
+                        const std::shared_ptr<Arguments<Options>>& arguments,
+                        Scene (*generator)(const Options&))
+{
+    CLI::App* command = generate.add_subcommand(name, help);
+    command->add_option("-o,--output", arguments->output, "Scene file (default standard output)")
+        ->type_name("FILE");
+    command
+        ->add_option("--reflective", arguments->options.reflective,
+                     "Mirrored light of the spheres, 0 to 1 (default 0)")
+        ->check(non_negative_number())
+        ->type_name("R");
+    add_size_option(*command, arguments->picture);
+    command->callback([arguments, generator] { run_generator(*arguments, generator); });
+    return command;
+}
+
+void add_radius(CLI::App& command, double& radius, const std::string& help)
+{
+    command.add_option("--radius", radius, help)->check(positive_number())->type_name("R");
+}
+
+void add_sphereflake(CLI::App& generate)
+{
+    const auto arguments = std::make_shared<Arguments<SphereflakeOptions>>();
+    CLI::App* command =
+        add_generator(generate, "sphereflake", "Spheres that bear nine smaller ones, and so on",
+                      arguments, generate_sphereflake);
+    command
+        ->add_option("--depth", arguments->options.depth,
+                     "Generations, 0 to 7 (default 4: 7381 spheres; 6: 597871)")
+        ->check(whole_number(0, 7))
+        ->type_name("N");
+    command->add_flag("--ground", arguments->options.ground,
+                      "Add a plane to stand on, and two more lights");
+}
+
+void add_random(CLI::App& generate)
+{
+    const auto arguments = std::make_shared<Arguments<RandomSpheresOptions>>();
+    CLI::App* command =
+        add_generator(generate, "random", "Spheres spread evenly over the unit cube", arguments,
+                      generate_random_spheres);
+    command
+        ->add_option("--count", arguments->options.count,
+                     "How many, up to 10000000 (default 1000000)")
+        ->check(whole_number(1, 10'000'000))
+        ->type_name("N");
+    add_radius(*command, arguments->options.radius, "Radius of each (default 0.001)");
+    command->add_option("--seed", arguments->options.seed, "Another spread for each (default 1)")
+        ->check(whole_number(0, std::numeric_limits<int>::max()))
+        ->type_name("N");
+}
+
+void add_lattice(CLI::App& generate)
+{
+    const auto arguments = std::make_shared<Arguments<LatticeOptions>>();
+    CLI::App* command = add_generator(generate, "lattice", "Spheres in rows, columns and layers",
+                                      arguments, generate_lattice);
+    command
+        ->add_option("--edge", arguments->options.edge,
+                     "Spheres along each edge, 1 to 215 (default 10)")
+        ->check(whole_number(1, 215))
+        ->type_name("N");
+    add_radius(*command, arguments->options.radius,
+               "Radius of each, in cells: neighbours touch at 0.5 (default 0.3)");
+}
+
+}  // namespace
+
+void add_generate(CLI::App& app)
+{
+    CLI::App* generate = app.add_subcommand("generate", "Write a procedural scene");
+    generate->require_subcommand(1);
+    add_sphereflake(*generate);
+    add_random(*generate);
+    add_lattice(*generate);
+}
+
+}  // namespace packtrace::cli

@@ -1,0 +1,54 @@
+#include "cli/commands/scene_features.hpp"
+
+#include <algorithm>
+
+#include "dispatch/kernels.hpp"
+#include "lower/packed_scene.hpp"
+
+namespace packtrace::cli {
+namespace {
+
+std::vector<std::string> used_features(const LoweredScene& lowered, Traversal traversal)
+{
+    std::vector<std::string> uses;
+    const auto add = [&](bool used, const char* what) {
+        if (used)
+            uses.emplace_back(what);
+    };
+    add(traversal == Traversal::tree, "hierarchy");
+    add(!lowered.spheres.empty(), "spheres");
+    add(!lowered.anchored_spheres.empty(), "anchored spheres");
+    add(!lowered.planes.empty(), "planes");
+    add(!lowered.quadrics.empty(), "quadrics");
+    add(!lowered.polygons.empty(), "polygons");
+    add(std::any_of(lowered.quadrics.begin(), lowered.quadrics.end(),
+                    [](const LoweredQuadric& quadric) { return quadric.clipped(); }),
+        "clipping");
+    add(!lowered.checkers.empty(), "checkers");
+    add(!lowered.lights.empty(), lowered.lights.size() > 1 ? "several lights" : "one light");
+    add(lowered.features.highlights, "highlights");
+    add(lowered.shadows && !lowered.transparent_shadows, "opaque shadows");
+    add(lowered.transparent_shadows, "transparent shadows");
+    add(lowered.features.bounces, "mirrored rays");
+    add(lowered.features.glass, "refracted rays");
+    return uses;
+}
+
+}  // namespace
+
+SceneFeatures scene_features(const Scene& scene, const IsaInfo& isa)
+{
+    LoweredScene lowered = lower(scene);
+    SceneFeatures features;
+    features.left_out = leave_out(lowered);
+    const Traversal traversal = frame_traversal(lowered, Traversal::automatic, isa.lanes_single);
+    for (LeftOut& unused : unused_features(lowered, traversal))
+        features.left_out.push_back(std::move(unused));
+    features.uses = used_features(lowered, traversal);
+    features.kernel =
+        kernels_for(precision<float>(kernels_of(isa.name)), lowered.features).set.name;
+    features.bytes = PackedScene<float>(lowered, traversal).bytes();
+    return features;
+}
+
+}  // namespace packtrace::cli

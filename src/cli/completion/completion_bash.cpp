@@ -1,0 +1,109 @@
+#include <sstream>
+
+#include "cli/completion/command_words.hpp"
+
+namespace packtrace::cli {
+namespace {
+
+// The words of the line lead to a command, whose path is "packtrace render". An option that takes
+// an argument then decides what may come, or else the command does. "--option=value" comes as three
+// words.
+constexpr const char* bash_start =
+    R"(# Completion of packtrace for bash, made by: packtrace completion bash
+_packtrace()
+{
+    local word=${COMP_WORDS[COMP_CWORD]} before=${COMP_WORDS[COMP_CWORD - 1]}
+    local path=packtrace options= words= paths= i
+    if [[ $word == = ]]; then
+        word=
+    elif [[ $before == = ]]; then
+        before=${COMP_WORDS[COMP_CWORD - 2]}
+    fi
+    for ((i = 1; i < COMP_CWORD; ++i)); do
+        case "$path ${COMP_WORDS[i]}" in
+)";
+constexpr const char* bash_before_options = R"(        esac
+    done
+    case "$path:$before" in
+)";
+constexpr const char* bash_before_arguments = R"(    *)
+        case $path in
+)";
+constexpr const char* bash_end = R"(        esac
+        if [[ $word == -* || -z $words$paths ]]; then
+            words=$options paths=
+        fi
+        ;;
+    esac
+    COMPREPLY=()
+    [[ -z $words ]] || mapfile -t COMPREPLY < <(compgen -W "$words" -- "$word")
+    if [[ -n $paths ]]; then
+        compopt -o filenames 2>/dev/null
+        mapfile -t COMPREPLY < <(compgen -f -- "$word")
+    fi
+}
+complete -F _packtrace packtrace
+)";
+
+std::string bash_words(const std::vector<std::string>& words, const std::string& between)
+{
+    std::string text;
+    for (const std::string& word : words)
+        text += (text.empty() ? "" : between) + word;
+    return text;
+}
+
+void write_bash_paths(std::ostream& out, const CommandWords& command, const std::string& path)
+{
+    for (const CommandWords& inner : command.commands) {
+        const std::string inner_path = path + ' ' + inner.name;
+        out << "        '" << inner_path << "') path='" << inner_path << "' ;;\n";
+        write_bash_paths(out, inner, inner_path);
+    }
+}
+
+void write_bash_options(std::ostream& out, const CommandWords& command, const std::string& path)
+{
+    for (const OptionWords& option : command.options) {
+        if (option.argument == Argument::none)
+            continue;
+        out << "    '" << path << ':' << bash_words(option.names, "' | '" + path + ':') << "') ";
+        if (option.argument == Argument::words)
+            out << "words='" << bash_words(option.words, " ") << "' ;;\n";
+        else
+            out << (option.argument == Argument::path ? "paths=1 ;;\n" : ";;\n");
+    }
+    for (const CommandWords& inner : command.commands)
+        write_bash_options(out, inner, path + ' ' + inner.name);
+}
+
+void write_bash_arguments(std::ostream& out, const CommandWords& command, const std::string& path)
+{
+    std::string options;
+    for (const OptionWords& option : command.options)
+        options += (options.empty() ? "" : " ") + bash_words(option.names, " ");
+    std::string words;
+    for (const CommandWords& inner : command.commands)
+        words += (words.empty() ? "" : " ") + inner.name;
+    out << "        '" << path << "')\n            options='" << options << "'\n            words='"
+        << words << "' paths=" << (command.takes_paths ? "1" : "") << "\n            ;;\n";
+    for (const CommandWords& inner : command.commands)
+        write_bash_arguments(out, inner, path + ' ' + inner.name);
+}
+
+}  // namespace
+
+std::string bash_completion(const CommandWords& program)
+{
+    std::ostringstream out;
+    out << bash_start;
+    write_bash_paths(out, program, "packtrace");
+    out << bash_before_options;
+    write_bash_options(out, program, "packtrace");
+    out << bash_before_arguments;
+    write_bash_arguments(out, program, "packtrace");
+    out << bash_end;
+    return out.str();
+}
+
+}  // namespace packtrace::cli

@@ -1,0 +1,124 @@
+#include "cli/intersect/hit_rows.hpp"
+
+#include <charconv>
+#include <cstddef>
+
+namespace packtrace::cli {
+namespace {
+
+// RFC 4180: quotes around what would be read as several fields or lines.
+std::string csv_field(const std::string& text)
+{
+    if (text.find_first_of(",\"\r\n") == std::string::npos)
+        return text;
+    std::string quoted = "\"";
+    for (const char c : text)
+        quoted += c == '"' ? std::string("\"\"") : std::string(1, c);
+    return quoted + '"';
+}
+
+void append_number(std::string& rows, double value)
+{
+    char digits[32];  // at most 24 are needed: -1.2345678901234567e-308
+    // Adding +0 rids a zero of its sign, which kernels needn't agree about.
+    const auto end =
+        std::to_chars(digits, digits + sizeof digits, value + 0.0, std::chars_format::general, 17);
+    rows.append(digits, end.ptr);
+}
+
+/// Two more columns for the row that ends the text.
+void append_bounds(std::string& rows, const HitBounds& bounds)
+{
+    rows.back() = ',';
+    if (!bounds.empty())
+        append_number(rows, bounds.low);
+    rows += ',';
+    if (!bounds.empty())
+        append_number(rows, bounds.high);
+    rows += '\n';
+}
+
+}  // namespace
+
+HitRows::HitRows(const Scene& scene)
+{
+    for (const Object& object : scene.objects)
+        names_.push_back(csv_field(object.name));
+}
+
+template <class Real>
+void HitRows::append_hit(std::string& rows, const SurfaceHit<Real>& hit) const
+{
+    append_number(rows, hit.t);
+    rows += ',';
+    rows += names_[static_cast<std::size_t>(hit.object)];
+    for (const Real component : hit.normal) {
+        rows += ',';
+        append_number(rows, component);
+    }
+}
+
+template <class Real>
+void HitRows::append_closest(std::string& rows, const SurfaceHit<Real>& hit) const
+{
+    if (hit.object < 0) {
+        rows += "0,,,,,\n";
+        return;
+    }
+    rows += "1,";
+    append_hit(rows, hit);
+    rows += '\n';
+}
+
+template <class Real>
+void HitRows::append_closest(std::string& rows, const SurfaceHit<Real>& hit,
+                             const HitBounds& bounds) const
+{
+    append_closest(rows, hit);
+    append_bounds(rows, bounds);
+}
+
+template <class Real>
+void HitRows::append_all(std::string& rows, std::uint64_t ray,
+                         std::span<const SurfaceHit<Real>> hits) const
+{
+    for (const SurfaceHit<Real>& hit : hits) {
+        rows += std::to_string(ray);
+        rows += ',';
+        append_hit(rows, hit);
+        rows += '\n';
+    }
+}
+
+template <class Real>
+void HitRows::append_all(std::string& rows, std::uint64_t ray,
+                         std::span<const SurfaceHit<Real>> hits,
+                         std::span<const HitBounds> bounds) const
+{
+    for (std::size_t i = 0; i < hits.size(); ++i) {
+        append_all(rows, ray, hits.subspan(i, 1));
+        append_bounds(rows, bounds[i]);
+    }
+}
+
+void HitRows::append_any(std::string& rows, std::uint8_t hit)
+{
+    rows += hit != 0 ? "1\n" : "0\n";
+}
+
+template void HitRows::append_closest(std::string&, const SurfaceHit<float>&) const;
+template void HitRows::append_closest(std::string&, const SurfaceHit<float>&,
+                                      const HitBounds&) const;
+template void HitRows::append_closest(std::string&, const SurfaceHit<double>&) const;
+template void HitRows::append_closest(std::string&, const SurfaceHit<double>&,
+                                      const HitBounds&) const;
+template void HitRows::append_all(std::string&, std::uint64_t,
+                                  std::span<const SurfaceHit<float>>) const;
+template void HitRows::append_all(std::string&, std::uint64_t, std::span<const SurfaceHit<float>>,
+                                  std::span<const HitBounds>) const;
+template void HitRows::append_all(std::string&, std::uint64_t,
+                                  std::span<const SurfaceHit<double>>) const;
+template void HitRows::append_all(std::string&, std::uint64_t, std::span<const SurfaceHit<double>>,
+                                  std::span<const HitBounds>) const;
+
+}  // namespace packtrace::cli

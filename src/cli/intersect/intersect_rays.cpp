@@ -1,0 +1,83 @@
+#include "cli/intersect/intersect_rays.hpp"
+
+#include <cstddef>
+#include <exception>
+#include <string>
+#include <utility>
+
+#include <tbb/global_control.h>
+#include <tbb/parallel_pipeline.h>
+
+#include "cli/intersect/block_tracer.hpp"
+
+namespace packtrace::cli {
+namespace {
+
+// A block between two stages. Errors wait in it for their turn, so that the first wrong line
+// is the one reported, whichever block was worked on first.
+struct Task {
+    RayBlock block;
+    std::string rows;
+    std::exception_ptr error;
+};
+
+// Runs a stage's step unless an earlier one failed.
+template <class Step>
+void attempt(Task& task, const Step& step)
+{
+    if (task.error)
+        return;
+    try {
+        step(task);
+    } catch (...) {
+        task.error = std::current_exception();
+    }
+}
+
+Task read_block(RayBlocks& rays, tbb::flow_control& control, bool& ended)
+{
+    Task task;
+    if (!ended)
+        attempt(task, [&](Task& reading) { reading.block = rays.next(); });
+    if (ended || (!task.error && task.block.text.empty()))
+        control.stop();
+    ended = static_cast<bool>(task.error);
+    return task;
+}
+
+}  // namespace
+
+template <class Real>
+void intersect_rays(const Scene& scene, const RenderOptions& options, RayQuery query,
+                    RayBounds bounds, RayBlocks& rays, TextOutput& output)
+{
+    BlockTracer<Real> tracer(scene, options, query, bounds);
+    output.write(tracer.header());
+
+    bool ended = false;
+    const auto read = [&](tbb::flow_control& control) { return read_block(rays, control, ended); };
+    const auto trace = [&](Task task) {
+        attempt(task, [&](Task& reading) { reading.rows = tracer.rows_of(reading.block); });
+        return task;
+    };
+    const auto write = [&](const Task& task) {
+        if (task.error)
+            std::rethrow_exception(task.error);
+        output.write(task.rows);
+    };
+    // Two blocks a thread: one to work on, one that waits.
+    const std::size_t blocks =
+        2 * tbb::global_control::active_value(tbb::global_control::max_allowed_parallelism);
+    tbb::parallel_pipeline(
+        blocks, tbb::make_filter<void, Task>(tbb::filter_mode::serial_in_order, read) &
+                    tbb::make_filter<Task, Task>(tbb::filter_mode::parallel, trace) &
+                    tbb::make_filter<Task, void>(tbb::filter_mode::serial_in_order, write));
+    output.finish();
+}
+
+template void intersect_rays<float>(const Scene&, const RenderOptions&, RayQuery, RayBounds,
+                                    RayBlocks&, TextOutput&);
+template void intersect_rays<double>(const Scene&, const RenderOptions&, RayQuery, RayBounds,
+                                     RayBlocks&, TextOutput&);
+
+}  // namespace packtrace::cli

@@ -1,0 +1,246 @@
+#include "cli/options/common_options.hpp"
+
+#include <charconv>
+#include <stdexcept>
+#include <utility>
+
+#include "cli/options/validators.hpp"
+
+namespace packtrace::cli {
+namespace {
+
+// As the scene language has them.
+constexpr int largest_side = 65536;
+constexpr int deepest = 64;
+constexpr int most_threads = 1024;
+// As RenderOptions::samples has them.
+constexpr int most_samples = 1024;
+constexpr int adaptive_samples = 16;
+
+// The two numbers of "640x480"; zeros when it is something else.
+std::pair<int, int> parse_size(const std::string& text)
+{
+    int width = 0;
+    int height = 0;
+    const char* end = text.data() + text.size();
+    const auto [x, first_error] = std::from_chars(text.data(), end, width);
+    if (first_error != std::errc{} || x == end || *x != 'x')
+        return {};
+    const auto [stop, second_error] = std::from_chars(x + 1, end, height);
+    if (second_error != std::errc{} || stop != end)
+        return {};
+    return {width, height};
+}
+
+std::string check_size(const std::string& text)
+{
+    const auto [width, height] = parse_size(text);
+    if (width >= 1 && width <= largest_side && height >= 1 && height <= largest_side)
+        return {};
+    return "'" + text + "' is not a size such as 640x480, of sides from 1 to " +
+           std::to_string(largest_side);
+}
+
+Accuracy accuracy_of(const std::string& name)
+{
+    return name == "fast" ? Accuracy::fast : Accuracy::exact;
+}
+
+}  // namespace
+
+void add_accuracy_options(CLI::App& command, AccuracyArguments& arguments)
+{
+    command
+        .add_option("--accuracy", arguments.accuracy,
+                    "How single-precision packets find hits. fast: in single precision alone. "
+                    "exact (default): uncertain decisions are made in double, every hit is "
+                    "refined in double")
+        ->check(one_of({"fast", "exact"}))
+        ->type_name("fast|exact");
+    command
+        .add_option("--self-hits", arguments.self_hits,
+                    "How rays keep off the place they start at: 0.001 along their way, as the "
+                    "notes have it (note), or (exact) by solving their own surface as one they are "
+                    "on, and others from as far off as rounding can do (default " +
+                        std::string(default_self_hits == SelfHits::note ? "note" : "exact") + ")")
+        ->check(one_of({"note", "exact"}))
+        ->type_name("note|exact");
+}
+
+void add_traversal_option(CLI::App& command, std::optional<std::string>& traversal)
+{
+    command
+        .add_option("--traversal", traversal,
+                    "How packets find objects: one by one, through a hierarchy of boxes, or "
+                    "(default) as their number suggests")
+        ->check(one_of({"auto", "list", "tree"}))
+        ->type_name("auto|list|tree");
+}
+
+void add_isa_options(CLI::App& command, IsaArguments& arguments)
+{
+    command
+        .add_option("--isa", arguments.isa,
+                    "Instruction set (default PACKTRACE_ISA, else the widest; see info)")
+        ->type_name("NAME");
+    command
+        .add_option("--width", arguments.width,
+                    "Lanes of a packet of floats: 4, 8 or 16 (default any)")
+        ->check(one_of({"4", "8", "16"}))
+        ->type_name("N");
+}
+
+void add_size_option(CLI::App& command, PictureArguments& arguments)
+{
+    command
+        .add_option("--size", arguments.size,
+                    "Size of the picture (default " + arguments.size.value_or("the scene's") + ")")
+        ->check(CLI::Validator(check_size, ""))
+        ->type_name("WxH");
+}
+
+void add_picture_options(CLI::App& command, PictureArguments& arguments)
+{
+    add_size_option(command, arguments);
+    command
+        .add_option("--depth", arguments.depth,
+                    "Reflections after the camera ray (default the scene's)")
+        ->check(whole_number(0, deepest))
+        ->type_name("N");
+    command
+        .add_option("--min-weight", arguments.min_weight,
+                    "Do not trace mirrored and refracted rays whose colour counts less than W of "
+                    "its pixel's in every channel (default the scene's, which is 0 unless it says "
+                    "otherwise: all are traced)")
+        ->check(share())
+        ->type_name("W");
+}
+
+void add_sampling_options(CLI::App& command, SamplingArguments& arguments)
+{
+    command
+        .add_option("--spp", arguments.samples,
+                    "Samples a pixel (default 1, where the scene says; 16 with --adaptive)")
+        ->check(whole_number(1, most_samples))
+        ->type_name("N");
+    command
+        .add_option("--adaptive", arguments.adaptive,
+                    "Take N samples only in pixels that differ by more than T from a neighbour")
+        ->check(non_negative_number())
+        ->type_name("T");
+}
+
+void add_threads_option(CLI::App& command, int& threads)
+{
+    command.add_option("--threads", threads, "Threads (default one a processor)")
+        ->check(whole_number(1, most_threads))
+        ->type_name("N");
+}
+
+void add_kernel_options(CLI::App& command, KernelArguments& arguments)
+{
+    command.add_option("--kernel", arguments.kernel, "packet (default), or the scalar reference")
+        ->check(one_of({"packet", "scalar"}))
+        ->type_name("packet|scalar");
+    command
+        .add_option("--precision", arguments.precision,
+                    "single (default), double, or extended (scalar only)")
+        ->check(one_of({"single", "double", "extended"}))
+        ->type_name("single|double|extended");
+    add_traversal_option(command, arguments.traversal);
+    add_accuracy_options(command, arguments.accuracy);
+    command.add_flag("--force-general", arguments.force_general,
+                     "Run the packet kernel that knows everything, and leave nothing of the scene "
+                     "out; the picture is the same");
+    add_isa_options(command, arguments.isa);
+    add_threads_option(command, arguments.threads);
+}
+
+Traversal traversal_named(const std::string& name)
+{
+    return name == "list"   ? Traversal::list
+           : name == "tree" ? Traversal::tree
+                            : Traversal::automatic;
+}
+
+namespace {
+
+/// The option given that only packets have, or nothing.
+std::string packet_option(const KernelArguments& arguments)
+{
+    return arguments.isa.isa         ? "--isa"
+           : arguments.isa.width     ? "--width"
+           : arguments.traversal     ? "--traversal"
+           : arguments.force_general ? "--force-general"
+                                     : "";
+}
+
+}  // namespace
+
+IsaInfo chosen_isa(const IsaArguments& arguments)
+{
+    try {
+        return choose_isa(arguments.isa.value_or("auto"), arguments.width.value_or(0));
+    } catch (const std::invalid_argument& error) {
+        // It names the option, or the environment variable.
+        const std::string what = error.what();
+        throw CLI::ValidationError(what.starts_with("PACKTRACE_ISA") ? what : "--" + what);
+    }
+}
+
+void apply(const PictureArguments& arguments, Scene& scene)
+{
+    if (arguments.size)
+        std::tie(scene.width, scene.height) = parse_size(*arguments.size);
+    if (arguments.depth)
+        scene.max_depth = *arguments.depth;
+    if (arguments.min_weight)
+        scene.min_weight = *arguments.min_weight;
+}
+
+void apply(const SamplingArguments& arguments, RenderOptions& options)
+{
+    options.adaptive = arguments.adaptive;
+    options.samples = arguments.samples.value_or(arguments.adaptive ? adaptive_samples : 1);
+    if (options.adaptive && options.samples == 1)
+        throw CLI::ValidationError(
+            "--adaptive: needs more than one sample a pixel; leave out "
+            "--spp or give it more");
+}
+
+void apply(const AccuracyArguments& arguments, const std::string& kernel,
+           const std::string& precision, RenderOptions& options)
+{
+    if (arguments.accuracy && (kernel == "scalar" || precision != "single"))
+        throw CLI::ValidationError(
+            "--accuracy: only packets of floats have a choice; leave it out or use "
+            "--kernel packet --precision single");
+    if (arguments.accuracy)
+        options.accuracy = accuracy_of(*arguments.accuracy);
+    if (arguments.self_hits)
+        options.self_hits = arguments.self_hits == "exact" ? SelfHits::exact : SelfHits::note;
+}
+
+RenderOptions render_options(const KernelArguments& arguments)
+{
+    RenderOptions options;
+    options.threads = arguments.threads;
+    apply(arguments.accuracy, arguments.kernel, arguments.precision, options);
+    if (arguments.kernel == "scalar") {
+        options.kernel = Kernel::scalar;
+        if (const std::string option = packet_option(arguments); !option.empty())
+            throw CLI::ValidationError(option +
+                                       ": only packets have one; leave it out or use "
+                                       "--kernel packet");
+        return options;
+    }
+    if (arguments.precision == "extended")
+        throw CLI::ValidationError(
+            "--precision: packets are single or double; extended needs --kernel scalar");
+    options.isa = chosen_isa(arguments.isa).name;
+    options.traversal = traversal_named(arguments.traversal.value_or("auto"));
+    options.force_general = arguments.force_general;
+    return options;
+}
+
+}  // namespace packtrace::cli

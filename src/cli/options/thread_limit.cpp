@@ -1,0 +1,72 @@
+#include "cli/options/thread_limit.hpp"
+
+#include <algorithm>
+#include <condition_variable>
+#include <cstdio>
+#include <mutex>
+#include <system_error>
+#include <thread>
+#include <vector>
+
+namespace packtrace::cli {
+namespace {
+
+/// How many threads can run at once besides this one, of `wanted`: the system may allow fewer, and
+/// oneTBB ends the program where one can't be started.
+int startable_threads(int wanted)
+{
+    std::mutex mutex;
+    std::condition_variable changed;
+    bool end = false;
+    std::vector<std::thread> threads;
+    threads.reserve(static_cast<std::size_t>(wanted));
+    try {
+        while (static_cast<int>(threads.size()) < wanted)
+            threads.emplace_back([&] {
+                std::unique_lock lock(mutex);
+                changed.wait(lock, [&] { return end; });
+            });
+    } catch (const std::system_error&) {
+        // As many as there are.
+    }
+    {
+        const std::scoped_lock lock(mutex);
+        end = true;
+    }
+    changed.notify_all();
+    for (std::thread& thread : threads)
+        thread.join();
+    return static_cast<int>(threads.size());
+}
+
+/// More of them than processors only wait for each other.
+int useful_threads()
+{
+    constexpr int per_processor = 8;
+    return per_processor * static_cast<int>(std::max(1u, std::thread::hardware_concurrency()));
+}
+
+/// `threads`, or fewer where that is of no use or not allowed; says so in one line.
+int possible_threads(int threads, int others)
+{
+    const int useful = std::min(threads, useful_threads());
+    const int startable = std::max(1, 1 + startable_threads(useful - 1 + others) - others);
+    if (startable < useful)
+        std::fprintf(stderr, "packtrace: --threads %d: the system starts %d, which is used\n",
+                     threads, startable);
+    else if (useful < threads)
+        std::fprintf(stderr, "packtrace: --threads %d: %d are used, 8 a processor\n", threads,
+                     useful);
+    return startable;
+}
+
+}  // namespace
+
+ThreadLimit::ThreadLimit(int threads, int others)
+{
+    if (threads > 0)
+        control_.emplace(tbb::global_control::max_allowed_parallelism,
+                         static_cast<std::size_t>(possible_threads(threads, others)));
+}
+
+}  // namespace packtrace::cli

@@ -1,0 +1,86 @@
+#include "cli/options/validators.hpp"
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+#include <optional>
+#include <utility>
+
+namespace packtrace::cli {
+namespace {
+
+// The number that all of `text` is, if it is one.
+template <class Number>
+std::optional<Number> parse(const std::string& text)
+{
+    Number value{};
+    const char* end = text.data() + text.size();
+    const auto [stop, error] = std::from_chars(text.data(), end, value);
+    if (error != std::errc{} || stop != end)
+        return std::nullopt;
+    return value;
+}
+
+// `accepts` tells whether a text is good, `wanted` what it should be. The help shows no more
+// than the option's own words.
+template <class Accepts>
+CLI::Validator validator(Accepts accepts, std::string wanted)
+{
+    return CLI::Validator(
+        [accepts, wanted = std::move(wanted)](std::string& text) -> std::string {
+            return accepts(text) ? std::string() : "'" + text + "' is not " + wanted;
+        },
+        "");
+}
+
+}  // namespace
+
+CLI::Validator non_negative_number()
+{
+    const auto accepts = [](const std::string& text) {
+        const std::optional<double> value = parse<double>(text);
+        return value && std::isfinite(*value) && *value >= 0.0;
+    };
+    return validator(accepts, "a number from 0 up");
+}
+
+CLI::Validator positive_number()
+{
+    const auto accepts = [](const std::string& text) {
+        const std::optional<double> value = parse<double>(text);
+        return value && std::isfinite(*value) && *value > 0.0;
+    };
+    return validator(accepts, "a number above 0");
+}
+
+CLI::Validator share()
+{
+    const auto accepts = [](const std::string& text) {
+        const std::optional<double> value = parse<double>(text);
+        return value && *value >= 0.0 && *value <= 1.0;
+    };
+    return validator(accepts, "a number from 0 to 1");
+}
+
+CLI::Validator whole_number(int least, int most)
+{
+    const auto accepts = [least, most](const std::string& text) {
+        const std::optional<int> value = parse<int>(text);
+        return value && *value >= least && *value <= most;
+    };
+    return validator(
+        accepts, "a whole number from " + std::to_string(least) + " to " + std::to_string(most));
+}
+
+CLI::Validator one_of(std::vector<std::string> words)
+{
+    std::string wanted = words.front();
+    for (std::size_t i = 1; i < words.size(); ++i)
+        wanted += (i + 1 < words.size() ? ", " : " or ") + words[i];
+    const auto accepts = [words = std::move(words)](const std::string& text) {
+        return std::find(words.begin(), words.end(), text) != words.end();
+    };
+    return validator(accepts, wanted);
+}
+
+}  // namespace packtrace::cli

@@ -1,0 +1,67 @@
+#include "cli/output/text_table.hpp"
+
+#include <algorithm>
+#include <cstdio>
+#include <ostream>
+#include <utility>
+
+namespace packtrace::cli {
+namespace {
+
+std::string printed(const char* format, int digits, double value)
+{
+    char text[64];
+    std::snprintf(text, sizeof text, format, digits, value);
+    return text;
+}
+
+}  // namespace
+
+TextTable::TextTable(std::size_t left, std::vector<std::string> head) : left_(left)
+{
+    rows_.push_back(std::move(head));
+}
+
+void TextTable::add(std::vector<std::string> row)
+{
+    rows_.push_back(std::move(row));
+}
+
+void TextTable::print(std::ostream& to) const
+{
+    std::vector<std::size_t> widths(rows_.front().size());
+    for (const auto& row : rows_)
+        for (std::size_t c = 0; c < widths.size(); ++c)
+            widths[c] = std::max(widths[c], row[c].size());
+    for (const auto& row : rows_) {
+        std::string line;
+        for (std::size_t c = 0; c < widths.size(); ++c) {
+            const std::string pad(widths[c] - row[c].size(), ' ');
+            line += (c > 0 ? "  " : "") + (c < left_ ? row[c] + pad : pad + row[c]);
+        }
+        line.erase(line.find_last_not_of(' ') + 1);
+        to << line << '\n';
+    }
+}
+
+std::string fixed(double value, int decimals)
+{
+    return printed("%.*f", decimals, value);
+}
+
+std::string milliseconds(double seconds)
+{
+    return fixed(1e3 * seconds, 3);
+}
+
+std::string percent(double part, double whole)
+{
+    return fixed(100.0 * part / whole, 1) + " %";
+}
+
+std::string brief(double value)
+{
+    return printed("%.*g", 2, value);
+}
+
+}  // namespace packtrace::cli

@@ -1,0 +1,40 @@
+#include "cli/render/cut_rays.hpp"
+
+#include <cmath>
+#include <cstdio>
+#include <iostream>
+
+#include "scene/values.hpp"
+
+namespace packtrace::cli {
+namespace {
+
+/// Three digits, never less than the number.
+std::string rounded_up(double number)
+{
+    if (number == 0.0 || !std::isfinite(number))
+        return number == 0.0 ? "0" : "infinity";
+    const double unit = std::pow(10.0, std::floor(std::log10(number)) - 2.0);
+    char text[32];
+    std::snprintf(text, sizeof text, "%.3g", unit * std::ceil(number / unit));
+    return text;
+}
+
+}  // namespace
+
+void print_cut_rays(const std::string& output, const Scene& scene, const RenderOptions& options,
+                    const CutRays& cut)
+{
+    if (scene.min_weight <= 0.0)
+        return;
+    std::cerr << output << ": " << cut.rays << " rays of a weight below "
+              << language::to_text(scene.min_weight) << " not traced";
+    if (std::isinf(cut.bound))
+        std::cerr << "; the scene's light has no bound, so neither has the error";
+    else
+        std::cerr << "; no pixel is off by more than " << rounded_up(cut.bound)
+                  << (options.adaptive ? " where the same samples are taken" : "");
+    std::cerr << '\n';
+}
+
+}  // namespace packtrace::cli

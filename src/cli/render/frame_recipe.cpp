@@ -1,0 +1,68 @@
+#include "cli/render/frame_recipe.hpp"
+
+#include <charconv>
+#include <cstdio>
+
+#include <packtrace/version.hpp>
+#include <packtrace/write_scene.hpp>
+
+#include "core/text_hash.hpp"
+
+namespace packtrace::cli {
+namespace {
+
+std::string hash_of(const Scene& scene)
+{
+    char text[17];
+    std::snprintf(text, sizeof text, "%016llx",
+                  static_cast<unsigned long long>(text_hash(scene_text(scene))));
+    return text;
+}
+
+/// The shortest that reads back as the same number.
+std::string exactly(double number)
+{
+    char text[32];
+    const auto end = std::to_chars(text, text + sizeof text, number).ptr;
+    return {text, end};
+}
+
+/// Width, threads, traversal and --force-general are not among them: no pixel depends on those.
+std::string text_of(const RenderArguments& arguments, const RenderOptions& options)
+{
+    const bool packets = options.kernel == Kernel::packet;
+    // The one instruction set without fused multiply-add rounds otherwise than all others.
+    std::string text = !packets                 ? "scalar"
+                       : options.isa == "sse42" ? "packet without FMA"
+                                                : "packet";
+    text += ", " + arguments.kernel.precision;
+    text += ", accuracy " + std::to_string(static_cast<int>(options.accuracy));
+    text += ", self hits " + std::to_string(static_cast<int>(options.self_hits));
+    text += ", samples " + std::to_string(options.samples);
+    if (options.adaptive)
+        text += ", adaptive " + exactly(*options.adaptive);
+    return text + ", gamma " + exactly(arguments.write.gamma);
+}
+
+}  // namespace
+
+FrameRecipe::FrameRecipe(const RenderArguments& arguments, const Scene& scene,
+                         const RenderOptions& options)
+    : options_(text_of(arguments, options))
+{
+    // The camera of each frame is named by itself, so that a longer animation keeps its frames.
+    Scene still = scene;
+    still.animation.reset();
+    still.camera = {};
+    scene_ = hash_of(still);
+}
+
+std::string FrameRecipe::of(const Camera& camera) const
+{
+    Scene camera_alone;
+    camera_alone.camera = camera;
+    return "packtrace " PACKTRACE_VERSION_STRING ", scene " + scene_ + ", camera " +
+           hash_of(camera_alone) + ", " + options_;
+}
+
+}  // namespace packtrace::cli

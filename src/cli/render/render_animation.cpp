@@ -1,0 +1,189 @@
+#include "cli/render/render_animation.hpp"
+
+#include <algorithm>
+#include <chrono>
+#include <iostream>
+#include <stdexcept>
+
+#include <packtrace/animate.hpp>
+
+#include "cli/options/validators.hpp"
+#include "cli/output/progress_bar.hpp"
+#include "cli/output/text_table.hpp"
+#include "cli/render/cut_rays.hpp"
+#include "cli/render/frame_output.hpp"
+#include "cli/render/render_picture.hpp"
+#include "core/job_queue.hpp"
+#include "render/frame_pattern.hpp"
+#include "render/frame_range.hpp"
+
+namespace packtrace::cli {
+namespace {
+
+/// What `call` returns; an argument it finds wrong becomes a wrong use of `option`.
+template <class Call>
+auto checked(const std::string& option, const Call& call)
+{
+    try {
+        return call();
+    } catch (const std::invalid_argument& error) {
+        throw CLI::ValidationError(option + ": " + error.what());
+    }
+}
+
+/// All frames when none are named.
+FrameRange frames_of(const AnimationArguments& arguments, const Scene& scene)
+{
+    const std::string option = arguments.frames ? "--frames" : "--y4m";
+    return checked(option, [&] {
+        if (!scene.animation)
+            throw std::invalid_argument("the scene has no animation");
+        const int frames = scene.animation->frames;
+        if (!arguments.frames)
+            return FrameRange{0, frames - 1};
+        const FrameRange range = parse_frame_range(*arguments.frames);
+        check_frame_range(range, frames);
+        return range;
+    });
+}
+
+struct Tally {
+    int rendered = 0;
+    int skipped = 0;         ///< there already
+    int replaced = 0;        ///< rendered in place of another picture
+    CutRays cut;             ///< of all frames; the largest bound
+    double rendering = 0.0;  ///< seconds, waiting for the writer apart
+    double writing = 0.0;    ///< seconds, mostly while the next frame renders
+    double seconds = 0.0;    ///< all in all
+};
+
+/// "1.2 s, 40.0 ms each"
+std::string seconds_text(double seconds, int frames)
+{
+    return fixed(seconds, 1) + " s, " + fixed(1e3 * seconds / frames, 1) + " ms each";
+}
+
+void print_tally(const std::string& output, const Tally& tally)
+{
+    std::string text = output + ": " + std::to_string(tally.rendered) + " frames rendered";
+    if (tally.rendered > 0)
+        text += " in " + seconds_text(tally.rendering, tally.rendered) + "; written in " +
+                seconds_text(tally.writing, tally.rendered) + "; both in " +
+                fixed(tally.seconds, 1) + " s";
+    if (tally.replaced > 0)
+        text += ", " + std::to_string(tally.replaced) +
+                " in place of pictures of another scene, other options or another version";
+    if (tally.skipped > 0)
+        text += ", " + std::to_string(tally.skipped) +
+                " were there already (--overwrite renders them again)";
+    std::cerr << text << '\n';
+}
+
+double seconds_since(std::chrono::steady_clock::time_point start)
+{
+    return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+}
+
+/// Renders a frame and adds to the tally what it took.
+AnyImage render_frame(const Scene& scene, const std::string& precision,
+                      const RenderOptions& options, Tally& tally)
+{
+    const auto start = std::chrono::steady_clock::now();
+    CutRays cut;
+    AnyImage image = render_picture(scene, precision, options, &cut);
+    tally.cut.rays += cut.rays;
+    tally.cut.bound = std::max(tally.cut.bound, cut.bound);
+    tally.rendering += seconds_since(start);
+    ++tally.rendered;
+    return image;
+}
+
+/// A frame is written while the next ones render. The bar shows the share of the whole animation.
+Tally render_frames(const RenderArguments& arguments, const Scene& scene, RenderOptions options,
+                    const FrameRange& range, FrameOutput& output)
+{
+    const auto start = std::chrono::steady_clock::now();
+    Tally tally;
+    Scene posed = scene;
+    ProgressBar bar(arguments.quiet ? Verbosity::quiet : Verbosity::normal);
+    JobQueue writer;
+    for (int frame = range.first; frame <= range.last; ++frame) {
+        posed.camera = camera_at(scene, frame);
+        const FrameOutput::Found found = output.find(frame, posed.camera);
+        if (found == FrameOutput::Found::same && !arguments.animation.overwrite) {
+            ++tally.skipped;
+            continue;
+        }
+        tally.replaced += found == FrameOutput::Found::other ? 1 : 0;
+        options.progress = [&](double share) {
+            bar.update((frame - range.first + share) / range.count());
+        };
+        writer.add([&output, frame, camera = posed.camera,
+                    image = render_frame(posed, arguments.kernel.precision, options, tally)] {
+            output.write(frame, camera, image);
+        });
+    }
+    writer.finish();
+    output.finish();
+    tally.writing = writer.seconds();
+    tally.seconds = seconds_since(start);
+    return tally;
+}
+
+}  // namespace
+
+void add_animation_options(CLI::App& command, AnimationArguments& arguments)
+{
+    command.add_option("--frame", arguments.frame, "Render one frame of the scene's animation")
+        ->check(whole_number(0, 999999))
+        ->type_name("N");
+    command
+        .add_option(
+            "--frames", arguments.frames,
+            "Render these frames, both ends included; IMAGE has a %d or %04d for the "
+            "number; frames that are there already, of the same scene, options and version, are "
+            "skipped")
+        ->type_name("A..B");
+    command.add_flag("--overwrite", arguments.overwrite,
+                     "Render frames that are there already, too");
+    command.add_flag("--y4m", arguments.y4m,
+                     "Write the frames (default all) as one YUV4MPEG2 video; IMAGE is a file or -");
+    command.add_option("--fps", arguments.fps, "Frames per second of --y4m (default 30)")
+        ->check(whole_number(1, 1000))
+        ->type_name("N");
+}
+
+void check_animation_options(const RenderArguments& arguments)
+{
+    const AnimationArguments& animation = arguments.animation;
+    if (animation.frame && animation.many())
+        throw CLI::ValidationError("--frame: one frame only; leave out --frames and --y4m");
+    if (animation.overwrite && (!animation.frames || animation.y4m))
+        throw CLI::ValidationError("--overwrite: only --frames into picture files skips any");
+    if (animation.frames)
+        (void)checked("--frames", [&] { return parse_frame_range(*animation.frames); });
+    if (animation.frames && !animation.y4m)
+        (void)checked("--output", [&] { return FramePattern(arguments.output); });
+}
+
+void go_to_frame(Scene& scene, int frame)
+{
+    scene.camera = checked("--frame", [&] { return camera_at(scene, frame); });
+}
+
+void render_animation(const RenderArguments& arguments, const Scene& scene,
+                      const RenderOptions& options)
+{
+    const FrameRange range = frames_of(arguments.animation, scene);
+    const auto output =
+        arguments.animation.y4m ? frame_stream(arguments) : frame_files(arguments, scene, options);
+    const Tally tally = render_frames(arguments, scene, options, range, *output);
+    if (arguments.quiet)
+        return;
+    const std::string name = arguments.output == "-" ? "standard output" : arguments.output;
+    print_tally(name, tally);
+    if (tally.rendered > 0)
+        print_cut_rays(name, scene, options, tally.cut);
+}
+
+}  // namespace packtrace::cli

@@ -1,0 +1,90 @@
+#include "cli/study/bench_programs.hpp"
+
+#include <stdlib.h>
+
+#include <filesystem>
+#include <stdexcept>
+#include <system_error>
+
+#include "core/run_filter.hpp"
+
+namespace packtrace::cli {
+namespace {
+
+// Of so many in a row the median is one sample.
+constexpr const char* repetitions_of_a_run = "3";
+
+// A folder for what the programs write, gone with its owner.
+class ScratchFolder {
+public:
+    ScratchFolder()
+    {
+        std::string name =
+            (std::filesystem::temp_directory_path() / "packtrace-bench-XXXXXX").string();
+        if (mkdtemp(name.data()) == nullptr)
+            throw std::runtime_error(name + ": can't make a folder for figures; set TMPDIR");
+        path_ = name;
+    }
+    ~ScratchFolder()
+    {
+        std::error_code ignored;
+        std::filesystem::remove_all(path_, ignored);
+    }
+    ScratchFolder(const ScratchFolder&) = delete;
+    ScratchFolder& operator=(const ScratchFolder&) = delete;
+
+    [[nodiscard]] std::filesystem::path file() const
+    {
+        return path_ / "figures.json";
+    }
+
+private:
+    std::filesystem::path path_;
+};
+
+BenchFigures run_once(const std::string& program, const std::vector<std::string>& words)
+{
+    const ScratchFolder folder;
+    std::vector<std::string> command{program, "bench"};
+    command.insert(command.end(), words.begin(), words.end());
+    command.insert(command.end(),
+                   {"--repetitions", repetitions_of_a_run, "-o", folder.file().string()});
+    const FilterResult result = run_filter(command, "");
+    if (!result.started)
+        throw std::runtime_error(program + ": can't be run; give a packtrace program");
+    if (result.exit_code != 0 || !std::filesystem::exists(folder.file()))
+        throw std::runtime_error(program + ": its 'bench' fails; run it by hand to see why");
+    BenchFigures figures = read_bench_file(folder.file());
+    for (BenchLine& line : figures.lines)
+        line.ratios = {line.ratio()};
+    return figures;
+}
+
+// Lines that both programs have.
+BenchFigures shared(BenchFigures figures, const BenchFigures& other)
+{
+    std::erase_if(figures.lines,
+                  [&](const BenchLine& line) { return other.find(line.name) == nullptr; });
+    return figures;
+}
+
+}  // namespace
+
+BenchPairs run_in_pairs(const std::string& other, const std::vector<std::string>& words,
+                        int repetitions)
+{
+    const std::string own = std::filesystem::read_symlink("/proc/self/exe").string();
+    BenchPairs pairs;
+    for (int i = 0; i < repetitions; ++i) {
+        // Whoever begins a pair ends the next, so that neither gains by a machine that warms up.
+        BenchFigures first = run_once(i % 2 == 0 ? other : own, words);
+        BenchFigures second = run_once(i % 2 == 0 ? own : other, words);
+        if (i % 2 != 0)
+            std::swap(first, second);
+        pairs.before.add(shared(first, second));
+        pairs.now.add(shared(second, first));
+    }
+    return pairs;
+}
+
+}  // namespace packtrace::cli

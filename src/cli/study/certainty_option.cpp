@@ -1,0 +1,90 @@
+#include "cli/study/certainty_option.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+
+#include <packtrace/certainty.hpp>
+
+#include <CLI/CLI.hpp>
+
+#include "image/format.hpp"
+
+namespace packtrace::cli {
+namespace {
+
+/// Longest edge of the picture that `info` takes rays from.
+constexpr int sample_edge = 128;
+
+std::uint64_t unsure_total(const UnsureCounts& counts)
+{
+    std::uint64_t sum = 0;
+    for (const std::uint64_t count : counts)
+        sum += count;
+    return sum;
+}
+
+/// "3 of 1000 rays (0.3 %)"
+std::string share_text(std::uint64_t part, std::uint64_t rays)
+{
+    char text[96];
+    std::snprintf(text, sizeof text, "%llu of %llu rays (%.2g %%)",
+                  static_cast<unsigned long long>(part), static_cast<unsigned long long>(rays),
+                  rays > 0 ? 100.0 * static_cast<double>(part) / static_cast<double>(rays) : 0.0);
+    return text;
+}
+
+}  // namespace
+
+void check_certainty(const RenderArguments& arguments, const RenderOptions& options)
+{
+    const auto fail = [](const std::string& why) {
+        throw CLI::ValidationError("--certainty: " + why);
+    };
+    if (options.kernel == Kernel::scalar)
+        fail("the scalar kernel traces no ray again in double; leave out --kernel scalar");
+    if (arguments.kernel.precision != "single")
+        fail("--precision " + arguments.kernel.precision +
+             " decides nothing in single precision; leave it out");
+    if (options.accuracy != Accuracy::exact)
+        fail("--accuracy fast traces no ray again in double; leave it out");
+    if (options.adaptive)
+        fail("with --adaptive pixels have different numbers of rays; give --spp alone");
+    if (arguments.animation.many())
+        fail("it is of one picture; give --frame N in place of --frames or --y4m");
+    if (*arguments.certainty == arguments.output)
+        fail("'" + arguments.output + "' is where the picture goes; give another file");
+    check_image_writable(*arguments.certainty);
+}
+
+std::string write_certainty(const RenderArguments& arguments, const Scene& scene,
+                            const RenderOptions& options)
+{
+    const Certainty certainty = find_certainty(scene, options);
+    ImageWriteOptions write = arguments.write;
+    if (image_format(*arguments.certainty) != ImageFormat::png)
+        write.gamma = 1.0;
+    write_image(*arguments.certainty, certainty_picture(certainty), write);
+    return *arguments.certainty + ": red, traced again in double: " +
+           share_text(unsure_total(certainty.unsure), certainty.rays.total()) +
+           "; blue, undecided by double, too: " +
+           share_text(certainty.undecided, certainty.rays.total());
+}
+
+std::optional<UnsureSample> sample_unsure(const Scene& scene, const std::string& isa)
+{
+    Scene small = scene;
+    const double shrink =
+        std::min(1.0, static_cast<double>(sample_edge) / std::max(scene.width, scene.height));
+    small.width = std::max(1, static_cast<int>(std::lround(shrink * scene.width)));
+    small.height = std::max(1, static_cast<int>(std::lround(shrink * scene.height)));
+    RenderOptions options;
+    options.isa = isa;
+    const Certainty certainty = find_certainty(small, options);
+    UnsureSample sample{small.width, small.height, certainty.rays.total(), {}};
+    for (std::size_t cause = 0; cause < certainty.unsure.size(); ++cause)
+        sample.causes.emplace_back(unsure_causes()[cause], certainty.unsure[cause]);
+    return sample;
+}
+
+}  // namespace packtrace::cli

@@ -1,0 +1,127 @@
+#include <packtrace/explain.hpp>
+
+#include <charconv>
+#include <iostream>
+#include <memory>
+#include <string>
+#include <utility>
+
+#include "cli/command.hpp"
+#include "cli/options/common_options.hpp"
+#include "cli/options/scene_input.hpp"
+#include "cli/options/validators.hpp"
+#include "cli/study/explain_print.hpp"
+#include "core/json_text.hpp"
+
+namespace packtrace::cli {
+namespace {
+
+struct ExplainArguments {
+    std::string scene;
+    std::string pixel;
+    std::string precision = "single";
+    AccuracyArguments accuracy;
+    IsaArguments isa;
+    PictureArguments picture;
+    bool json = false;
+};
+
+// The two numbers of "320,240"; negative ones when it is something else.
+std::pair<int, int> parse_pixel(const std::string& text)
+{
+    int x = -1;
+    int y = -1;
+    const char* const end = text.data() + text.size();
+    const auto [comma, first_error] = std::from_chars(text.data(), end, x);
+    if (first_error != std::errc{} || comma == end || *comma != ',')
+        return {-1, -1};
+    const auto [stop, second_error] = std::from_chars(comma + 1, end, y);
+    if (second_error != std::errc{} || stop != end)
+        return {-1, -1};
+    return {x, y};
+}
+
+std::string check_pixel(const std::string& text)
+{
+    const auto [x, y] = parse_pixel(text);
+    if (x >= 0 && y >= 0)
+        return {};
+    return "'" + text + "' is not a pixel such as 320,240: column and row, counted from 0";
+}
+
+void check_inside(const ExplainArguments& arguments, const Scene& scene)
+{
+    const auto [x, y] = parse_pixel(arguments.pixel);
+    if (x >= scene.width || y >= scene.height)
+        throw CLI::ValidationError("--pixel: " + arguments.pixel + " lies outside the picture of " +
+                                   std::to_string(scene.width) + " x " +
+                                   std::to_string(scene.height) + " pixels, columns 0 to " +
+                                   std::to_string(scene.width - 1) + " and rows 0 to " +
+                                   std::to_string(scene.height - 1));
+}
+
+RenderOptions packet_options(const ExplainArguments& arguments)
+{
+    RenderOptions options;
+    options.isa = chosen_isa(arguments.isa).name;
+    apply(arguments.accuracy, "packet", arguments.precision, options);
+    return options;
+}
+
+Explanation explain(const ExplainArguments& arguments, const std::string& name, const Scene& scene)
+{
+    RenderOptions options = packet_options(arguments);
+    Explanation result;
+    result.file = name;
+    std::tie(result.x, result.y) = parse_pixel(arguments.pixel);
+    result.precision = arguments.precision;
+    result.isa = options.isa;
+    const bool single = arguments.precision == "single";
+    result.tolerance = single ? single_tree_tolerance : double_tree_tolerance;
+    result.packets = single ? explain_pixel<float>(scene, result.x, result.y, options)
+                            : explain_pixel<double>(scene, result.x, result.y, options);
+    options.kernel = Kernel::scalar;
+    result.reference = explain_pixel<double>(scene, result.x, result.y, options);
+    result.rows = side_by_side(result.reference, result.packets, result.tolerance);
+    return result;
+}
+
+void run_explain(const ExplainArguments& arguments)
+{
+    (void)packet_options(arguments);
+    SceneInput input = read_scene_input(arguments.scene);
+    Scene& scene = input.scene;
+    apply(arguments.picture, scene);
+    check_inside(arguments, scene);
+    const Explanation explanation = explain(arguments, input.name, scene);
+    if (arguments.json)
+        std::cout << json_text(explanation_json(scene, explanation));
+    else
+        print_explanation(std::cout, scene, explanation);
+}
+
+}  // namespace
+
+void add_explain(CLI::App& app)
+{
+    CLI::App* command = app.add_subcommand(
+        "explain", "Show the rays of one pixel, of the reference and of packets");
+    const auto arguments = std::make_shared<ExplainArguments>();
+    add_scene_option(*command, arguments->scene);
+    command->add_option("--pixel", arguments->pixel, "Column and row, from 0 at the top left")
+        ->required()
+        ->check(CLI::Validator(check_pixel, ""))
+        ->type_name("X,Y");
+    command
+        ->add_option("--precision", arguments->precision,
+                     "Of the packets: single (default) or double")
+        ->check(one_of({"single", "double"}))
+        ->type_name("single|double");
+    add_accuracy_options(*command, arguments->accuracy);
+    add_isa_options(*command, arguments->isa);
+    add_picture_options(*command, arguments->picture);
+    command->add_flag("--json", arguments->json, "Print both trees as JSON");
+    command->callback([arguments] { run_explain(*arguments); });
+}
+
+}  // namespace packtrace::cli

@@ -1,0 +1,126 @@
+#include <packtrace/profile.hpp>
+
+#include <iostream>
+#include <memory>
+
+#include <packtrace/image_io.hpp>
+
+#include "cli/command.hpp"
+#include "cli/options/common_options.hpp"
+#include "cli/options/scene_input.hpp"
+#include "cli/options/thread_limit.hpp"
+#include "cli/options/validators.hpp"
+#include "cli/output/text_output.hpp"
+#include "cli/study/profile_print.hpp"
+#include "core/atomic_file.hpp"
+#include "core/json_text.hpp"
+
+namespace packtrace::cli {
+namespace {
+
+struct ProfileArguments {
+    std::string scene;
+    std::string precision = "single";
+    AccuracyArguments accuracy;
+    IsaArguments isa;
+    PictureArguments picture;
+    SamplingArguments sampling;
+    int threads = 1;
+    int repetitions = 9;
+    std::string heatmap;
+    std::string trace;
+    bool json = false;
+};
+
+ProfileOptions profile_options(const ProfileArguments& arguments)
+{
+    RenderOptions sampling;
+    apply(arguments.sampling, sampling);
+    apply(arguments.accuracy, "packet", arguments.precision, sampling);
+    ProfileOptions options;
+    options.isa = chosen_isa(arguments.isa).name;
+    options.threads = arguments.threads;
+    options.samples = sampling.samples;
+    options.adaptive = sampling.adaptive;
+    options.accuracy = sampling.accuracy;
+    options.self_hits = sampling.self_hits;
+    options.repetitions = arguments.repetitions;
+    return options;
+}
+
+template <class Real>
+void write_extras(const ProfileArguments& arguments, const Scene& scene,
+                  const ProfileOptions& options)
+{
+    if (!arguments.heatmap.empty())
+        write_image(arguments.heatmap,
+                    cost_picture(pixel_costs<Real>(scene, options), scene.width, scene.height));
+    if (!arguments.trace.empty()) {
+        TextOutput output(arguments.trace);
+        output.write(trace_json(trace_tiles<Real>(scene, options)).dump() + "\n");
+        output.finish();
+    }
+}
+
+template <class Real>
+void profile_as(const ProfileArguments& arguments, const SceneInput& input)
+{
+    const Scene& scene = input.scene;
+    const ProfileOptions options = profile_options(arguments);
+    const ThreadLimit limit(options.threads);
+    const Profile result = profile<Real>(input.text, scene, options);
+    write_extras<Real>(arguments, scene, options);
+    if (arguments.json)
+        std::cout << json_text(profile_json(input.name, result));
+    else
+        print_profile(std::cout, input.name, result);
+}
+
+void run_profile(const ProfileArguments& arguments)
+{
+    (void)profile_options(arguments);
+    // Before the work, so that a wrong name doesn't cost it.
+    if (!arguments.heatmap.empty())
+        check_image_writable(arguments.heatmap);
+    if (!arguments.trace.empty())
+        check_writable(arguments.trace);
+    SceneInput input = read_scene_input(arguments.scene);
+    apply(arguments.picture, input.scene);
+    if (arguments.precision == "double")
+        profile_as<double>(arguments, input);
+    else
+        profile_as<float>(arguments, input);
+}
+
+}  // namespace
+
+void add_profile(CLI::App& app)
+{
+    CLI::App* command = app.add_subcommand("profile", "Show where the time of a frame goes");
+    const auto arguments = std::make_shared<ProfileArguments>();
+    add_scene_option(*command, arguments->scene);
+    command->add_option("--precision", arguments->precision, "single (default) or double")
+        ->check(one_of({"single", "double"}))
+        ->type_name("single|double");
+    add_accuracy_options(*command, arguments->accuracy);
+    add_isa_options(*command, arguments->isa);
+    add_picture_options(*command, arguments->picture);
+    add_sampling_options(*command, arguments->sampling);
+    command->add_option("--threads", arguments->threads, "Threads (default 1)")
+        ->check(whole_number(1, 1024))
+        ->type_name("N");
+    command->add_option("--repetitions", arguments->repetitions, "Frames of each kind (default 9)")
+        ->check(whole_number(1, 1000))
+        ->type_name("N");
+    command
+        ->add_option("--heatmap", arguments->heatmap, "Write a picture of the cost of each pixel")
+        ->type_name("IMAGE");
+    command
+        ->add_option("--trace", arguments->trace,
+                     "Write the tiles of a frame over threads, for Perfetto or chrome://tracing")
+        ->type_name("FILE");
+    command->add_flag("--json", arguments->json, "Print JSON");
+    command->callback([arguments] { run_profile(*arguments); });
+}
+
+}  // namespace packtrace::cli
