@@ -31,7 +31,7 @@ struct ProbedRay {
 template <class Real>
 struct ProbedLight {
     PathId path;
-    std::int32_t light;    ///< index in SceneView::lights
+    std::int32_t light;    ///< index in LightingView::lights
     std::int32_t can_add;  ///< 0: it shines from behind, and `share` is nothing
     Real share[3];
     Real color[3];

@@ -26,6 +26,53 @@ struct GeometryView {
     BvhView<Real> tree;  ///< holds what the lists do not
 };
 
+/// What hits are made of.
+template <class Real>
+struct MaterialsView {
+    const MaterialIndex* of_surface = nullptr;
+    bool surfaces_are_objects = false;  ///< each surface has the number of its object
+    const MaterialRecord<Real>* records = nullptr;
+    const CheckerRecord<Real>* checkers = nullptr;  ///< null without any
+    /// Refractive index by object; [-1] is outside everything.
+    const Real* ior = nullptr;
+};
+
+/// What light does at hits.
+template <class Real>
+struct LightingView {
+    RecordList<LightRecord<Real>> lights;  ///< ambient light is in the materials
+    /// No light reaches anything and nothing is mirrored or refracted: hits show their ambient
+    /// light, and need no normals.
+    bool flat = false;
+    bool transparent_shadows = false;  ///< occluders pass on their transmitted share
+    /// How near to parallel a ray that escapes runs to a light that it sees (note 000); 0: lights
+    /// are not seen.
+    Real seen_within = 0;
+    /// A light makes a highlight where its N·L is larger: 0, or -infinity where lights behind the
+    /// surface make one too.
+    Real highlight_above = 0;
+};
+
+/// Where rays start, what they count in and what those that end bring.
+template <class Real>
+struct RayRules {
+    RayUnits units = RayUnits::as_given;
+    int max_depth = 0;
+    Real background[3] = {};
+    Real limit_color[3] = {};  ///< what rays beyond the depth limit bring
+    /// A mirrored or refracted ray is not traced where its weight is below this in every channel;
+    /// 0: all are.
+    Real min_weight = 0;
+    /// By generation, the most light that a ray can bring in each channel; null where all rays are
+    /// traced.
+    const MostLight* most_light = nullptr;
+    /// Secondary and shadow rays start this far along their direction.
+    Real secondary_t_min = 0;
+    /// Share of the coordinates there by which they start off the surface; 0 for none. If any,
+    /// their own surface is solved as one they are on.
+    Real start_error = 0;
+};
+
 /// A lowered scene in one precision, as the kernels see it.
 template <class Real>
 struct SceneView : GeometryView<Real> {
@@ -40,40 +87,9 @@ struct SceneView : GeometryView<Real> {
     bool certifiable = false;
     ShapesView shapes;
 
-    const MaterialIndex* material_index = nullptr;  ///< by surface
-    bool surfaces_are_objects = false;              ///< each surface has the number of its object
-    const MaterialRecord<Real>* materials = nullptr;
-    const CheckerRecord<Real>* checkers = nullptr;
-    /// Refractive index by object; [-1] is outside everything.
-    const Real* ior = nullptr;
-    RecordList<LightRecord<Real>> lights;  ///< ambient light is in the materials
-
-    Real background[3] = {};
-    Real limit_color[3] = {};  ///< what rays beyond the depth limit bring
-    int max_depth = 0;
-    /// A mirrored or refracted ray is not traced where its weight is below this in every channel;
-    /// 0: all are.
-    Real min_weight = 0;
-    /// By generation, the most light that a ray can bring in each channel; null where all rays are
-    /// traced.
-    const MostLight* most_light = nullptr;
-    /// No light reaches anything and nothing is mirrored or refracted: hits show their ambient
-    /// light, and need no normals.
-    bool flat = false;
-    bool transparent_shadows = false;  ///< blockers pass on their transmitted share
-    bool visible_lights = false;       ///< a ray that escapes towards a light sees it (note 000)
-    RayUnits units = RayUnits::as_given;
-    /// A light makes a highlight where its N·L is larger: 0, or -infinity where lights behind the
-    /// surface make one too.
-    Real highlight_above = 0;
-    /// How near to parallel a ray runs to a light that it sees, and what the notes start
-    /// secondary and shadow rays at.
-    Real epsilon = 0;
-    /// Secondary and shadow rays start this far along their direction.
-    Real secondary_t_min = 0;
-    /// Share of the coordinates there by which they start off the surface; 0 for none. If any,
-    /// their own surface is solved as one they are on.
-    Real start_error = 0;
+    MaterialsView<Real> materials;
+    LightingView<Real> lighting;
+    RayRules<Real> rules;
 };
 
 /// The camera over the canvas: the direction of the pixel in column i, row j is

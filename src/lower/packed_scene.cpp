@@ -80,21 +80,21 @@ PackedScene<Real>::PackedScene(const LoweredScene& lowered, Traversal traversal)
     pack_ior(lowered);
     pack_lights(lowered);
     pack_casters(lowered);
-    round_to(view_.background, lowered.background);
-    round_to(view_.limit_color, lowered.limit_color);
-    view_.max_depth = lowered.max_depth;
+    round_to(view_.rules.background, lowered.background);
+    round_to(view_.rules.limit_color, lowered.limit_color);
+    view_.rules.max_depth = lowered.max_depth;
     pack_min_weight(lowered);
-    view_.flat = lowered.flat;
-    view_.transparent_shadows = lowered.transparent_shadows;
-    view_.visible_lights = lowered.visible_lights;
-    view_.units = lowered.units;
-    view_.highlight_above =
+    view_.lighting.flat = lowered.flat;
+    view_.lighting.transparent_shadows = lowered.transparent_shadows;
+    if (lowered.visible_lights)
+        view_.lighting.seen_within = static_cast<Real>(lowered.epsilon);
+    view_.rules.units = lowered.units;
+    view_.lighting.highlight_above =
         lowered.highlights_behind ? -std::numeric_limits<Real>::infinity() : Real(0);
-    view_.epsilon = static_cast<Real>(lowered.epsilon);
     if (lowered.self_hits == SelfHits::note)
-        view_.secondary_t_min = view_.epsilon;
+        view_.rules.secondary_t_min = static_cast<Real>(lowered.epsilon);
     else
-        view_.start_error = start_roundoffs<Real> * std::numeric_limits<Real>::epsilon() / 2;
+        view_.rules.start_error = start_roundoffs<Real> * std::numeric_limits<Real>::epsilon() / 2;
 }
 
 template <class Real>
@@ -125,10 +125,10 @@ void PackedScene<Real>::pack_materials(const LoweredScene& lowered)
         round_to(checkers_[i].u, lowered.checkers[i].u);
         round_to(checkers_[i].v, lowered.checkers[i].v);
     }
-    view_.material_index = material_index_.data();
-    view_.surfaces_are_objects = are_objects(surfaces);
-    view_.materials = materials_.data();
-    view_.checkers = lowered.checkers.empty() ? nullptr : checkers_.data();
+    view_.materials.of_surface = material_index_.data();
+    view_.materials.surfaces_are_objects = are_objects(surfaces);
+    view_.materials.records = materials_.data();
+    view_.materials.checkers = lowered.checkers.empty() ? nullptr : checkers_.data();
 }
 
 template <class Real>
@@ -140,8 +140,8 @@ void PackedScene<Real>::pack_min_weight(const LoweredScene& lowered)
     most_light_ = AlignedArray<abi::MostLight>(light.size());
     for (std::size_t i = 0; i < light.size(); ++i)
         most_light_[i] = {{light[i].x, light[i].y, light[i].z}};
-    view_.min_weight = static_cast<Real>(lowered.min_weight);
-    view_.most_light = most_light_.data();
+    view_.rules.min_weight = static_cast<Real>(lowered.min_weight);
+    view_.rules.most_light = most_light_.data();
 }
 
 /// By object where rays enter any; else there is the world alone.
@@ -152,7 +152,7 @@ void PackedScene<Real>::pack_ior(const LoweredScene& lowered)
     const bool objects = lowered.features.glass && !surfaces.empty();
     ior_ = AlignedArray<Real>(objects ? static_cast<std::size_t>(surfaces.back().object) + 2 : 1);
     ior_[0] = 1;
-    view_.ior = ior_.data() + 1;
+    view_.materials.ior = ior_.data() + 1;
     if (!objects)
         return;
     for (const abi::MaterialIndex& index : surfaces)
@@ -172,7 +172,7 @@ void PackedScene<Real>::pack_lights(const LoweredScene& lowered)
             light.type == LightType::point ? abi::LightKind::point : abi::LightKind::directional;
         lights_[i].casts_shadow = lowered.shadows && light.casts_shadow;
     }
-    view_.lights = {lights_.data(), static_cast<int>(lowered.lights.size())};
+    view_.lighting.lights = {lights_.data(), static_cast<int>(lowered.lights.size())};
 }
 
 template <class Real>

@@ -74,8 +74,9 @@ template <class Real>
 inline vreal<Real> iors_of(const abi::SceneView<Real>& scene, const vint<Real>& body,
                            std::uint32_t active)
 {
-    const auto ior = find_records<1, Real>(
-        body, active, [&](lane_int<Real> number) -> const Real& { return scene.ior[number]; });
+    const auto ior = find_records<1, Real>(body, active, [&](lane_int<Real> number) -> const Real& {
+        return scene.materials.ior[number];
+    });
     return ior.field[0];
 }
 

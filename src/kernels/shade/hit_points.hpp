@@ -21,8 +21,9 @@ inline MaterialPacket<Real> fetch_materials(const abi::SceneView<Real>& scene,
                                             const vint<Real>& material, std::uint32_t active)
 {
     const auto record = find_records<20, Real>(
-        material,
-        active, [&](lane_int<Real> number) -> const auto& { return scene.materials[number]; });
+        material, active, [&](lane_int<Real> number) -> const auto& {
+            return scene.materials.records[number];
+        });
     return {record.vector(0),  record.vector(3),  record.vector(6), record.vector(9),
             record.vector(12), record.vector(15), record.field[18], record.field[19]};
 }
@@ -48,9 +49,9 @@ template <class Real>
 inline vreal<Real> grazing(const abi::SceneView<Real>& scene, const Vec3v<Real>& outward,
                            const Vec3v<Real>& dir)
 {
-    if (sizeof(Real) != sizeof(float) || !(scene.start_error > 0))
+    if (sizeof(Real) != sizeof(float) || !(scene.rules.start_error > 0))
         return vreal<Real>(Real(0));
-    return vreal<Real>(Real(4) * scene.start_error) * magnitude_dot(outward, dir);
+    return vreal<Real>(Real(4) * scene.rules.start_error) * magnitude_dot(outward, dir);
 }
 
 /// Fills `normal`, `lift` and `leaving` from the outward unit normal; the lanes of `faces_viewer`
@@ -62,8 +63,8 @@ inline void set_normal(SurfacePacket<Real>& surface, const abi::SceneView<Real>&
     const vreal<Real> zero(Real(0));
     surface.leaving = bits(dot(outward, surface.dir) > grazing(scene, outward, surface.dir));
     surface.lift = {zero, zero, zero};
-    if (scene.start_error > 0)
-        surface.lift = origin_offset<Real>(scene.start_error, surface.point, outward);
+    if (scene.rules.start_error > 0)
+        surface.lift = origin_offset<Real>(scene.rules.start_error, surface.point, outward);
     const auto turn = from_bits<Real>(faces_viewer & surface.leaving);
     surface.normal = select(turn, scale<Real>(vreal<Real>(Real(-1)), outward), outward);
 }
@@ -89,16 +90,16 @@ inline void set_material(SurfacePacket<Real>& surface, const abi::SceneView<Real
         const vint<Real> first(static_cast<lane_int<Real>>(index.first));
         return index.checker < 0
                    ? first
-                   : first + checker_parity(scene.checkers[index.checker], surface.point);
+                   : first + checker_parity(scene.materials.checkers[index.checker], surface.point);
     };
     const auto object_of = [](const abi::MaterialIndex& index) {
         return vint<Real>(static_cast<lane_int<Real>>(index.object));
     };
     DistinctNumbers<Real> distinct(number, active);
-    surface.material = material_of(scene.material_index[distinct.value()]);
-    surface.object = object_of(scene.material_index[distinct.value()]);
+    surface.material = material_of(scene.materials.of_surface[distinct.value()]);
+    surface.object = object_of(scene.materials.of_surface[distinct.value()]);
     while (distinct.next()) {
-        const abi::MaterialIndex& index = scene.material_index[distinct.value()];
+        const abi::MaterialIndex& index = scene.materials.of_surface[distinct.value()];
         surface.material = select(distinct.lanes_of(), material_of(index), surface.material);
         surface.object = select(distinct.lanes_of(), object_of(index), surface.object);
     }

@@ -45,7 +45,7 @@ inline LightPacket<Real> light_at(const abi::SceneView<Real>& scene,
         const vreal<Real> mirror =
             nmadd(normal_light + normal_light, normal_dir, dot(result.to_light, surface.dir));
         result.highlight = mirror * inverse_length * surface.inverse_length;
-        const vmask<Real> in_front = normal_light > vreal<Real>(scene.highlight_above);
+        const vmask<Real> in_front = normal_light > vreal<Real>(scene.lighting.highlight_above);
         result.has_highlight = bits(in_front & (result.highlight > zero) &
                                     (result.highlight >= material.highlight_floor)) &
                                active;

@@ -32,7 +32,7 @@ struct alignas(64) LightShadows : LightShares<F.glass, Real> {
     std::uint32_t dim(const abi::SceneView<Real>& scene, std::int32_t surface, int first,
                       std::uint32_t blocked)
     {
-        const auto& material = scene.materials[scene.material_index[surface].first];
+        const auto& material = scene.materials.records[scene.materials.of_surface[surface].first];
         std::uint32_t bright = 0;
         for (int channel = 0; channel < 3; ++channel) {
             Real* const at = this->share[channel] + first;
@@ -83,7 +83,7 @@ struct ShadeContext {
 
     bool spawns() const
     {
-        return depth < scene->max_depth;
+        return depth < scene->rules.max_depth;
     }
 };
 

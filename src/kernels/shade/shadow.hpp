@@ -16,9 +16,9 @@ template <class Real>
 inline vreal<Real> segment_end(const abi::SceneView<Real>& scene, const LightPacket<Real>& packet)
 {
     const vreal<Real> one(Real(1));
-    const vreal<Real> epsilon(scene.secondary_t_min);
-    return scene.units == abi::RayUnits::unit ? nmadd(epsilon, packet.inverse_length, one)
-                                              : one - epsilon;
+    const vreal<Real> epsilon(scene.rules.secondary_t_min);
+    return scene.rules.units == abi::RayUnits::unit ? nmadd(epsilon, packet.inverse_length, one)
+                                                    : one - epsilon;
 }
 
 /// Where the way between a hit and a light ends at the hit: on the light's side of the surface,
@@ -27,13 +27,13 @@ template <class Real>
 inline Vec3v<Real> lit_point(const abi::SceneView<Real>& scene, const SurfacePacket<Real>& surface,
                              const Vec3v<Real>& to_light, bool segment)
 {
-    if (!(scene.start_error > 0))
+    if (!(scene.rules.start_error > 0))
         return surface.point;
     const auto inside = dot(surface.lift, to_light) < vreal<Real>(Real(0));
     Vec3v<Real> lift = surface.lift;
     if (segment) {
         const vreal<Real> more =
-            vreal<Real>(scene.start_error) * magnitude_dot(surface.normal, to_light);
+            vreal<Real>(scene.rules.start_error) * magnitude_dot(surface.normal, to_light);
         const auto turned = dot(surface.lift, surface.normal) < vreal<Real>(Real(0));
         lift = madd<Real>(select(turned, negated(more), more), surface.normal, lift);
     }
@@ -45,7 +45,7 @@ inline Vec3v<Real> lit_point(const abi::SceneView<Real>& scene, const SurfacePac
 template <class Real>
 inline vint<Real> own_of(const abi::SceneView<Real>& scene, const SurfacePacket<Real>& surface)
 {
-    return scene.start_error > 0 ? surface.number : no_surface<Real>();
+    return scene.rules.start_error > 0 ? surface.number : no_surface<Real>();
 }
 
 /// The same for a packet against all objects of a list; any lane is `active`.
@@ -54,7 +54,7 @@ inline OwnSurface<vint<Real>> common_own_of(const abi::SceneView<Real>& scene,
                                             const SurfacePacket<Real>& surface,
                                             std::uint32_t active)
 {
-    if (!(scene.start_error > 0))
+    if (!(scene.rules.start_error > 0))
         return {no_surface<Real>()};
     const DistinctNumbers<Real> distinct(surface.number, active);
     return own_with_common<Real>(surface.number, distinct.value(), active);
@@ -67,7 +67,7 @@ inline std::uint32_t own_shadow(const abi::SceneView<Real>& scene,
                                 const LightPacket<Real>& packet, const SurfacePacket<Real>& surface,
                                 std::uint32_t wanted)
 {
-    if (!(scene.start_error > 0))
+    if (!(scene.rules.start_error > 0))
         return 0;
     const std::uint32_t outside = ~bits(dot(surface.lift, packet.to_light) < vreal<Real>(Real(0)));
     const vreal<Real> again =
@@ -87,11 +87,11 @@ inline auto with_shadow_ray(const ShadeContext<F, Real>& context, int light,
                             const Trace& trace)
 {
     const abi::SceneView<Real>& scene = *context.scene;
-    const abi::LightRecord<Real>& record = scene.lights.data[light];
+    const abi::LightRecord<Real>& record = scene.lighting.lights.data[light];
     if (record.kind == abi::LightKind::directional)
         return trace(vreal<Real>(static_cast<Real>(__builtin_inf())),
                      make_rays<Real>(lit_point(scene, surface, packet.to_light, false),
-                                     packet.to_light, scene.secondary_t_min));
+                                     packet.to_light, scene.rules.secondary_t_min));
     const Vec3v<Real> away =
         lit_point(scene, surface, packet.to_light, true) - broadcast(record.vector);
     return trace(segment_end(scene, packet),
@@ -102,7 +102,8 @@ inline auto with_shadow_ray(const ShadeContext<F, Real>& context, int light,
 template <class Real>
 inline bool has_closed_reach(const abi::SceneView<Real>& scene, int light)
 {
-    return scene.lights.data[light].kind == abi::LightKind::directional || !(scene.start_error > 0);
+    return scene.lighting.lights.data[light].kind == abi::LightKind::directional ||
+           !(scene.rules.start_error > 0);
 }
 
 /// Calls `visit(objects)` with what may be in the way of a light.
@@ -110,7 +111,7 @@ template <abi::Features F, class Real, class Visit>
 inline auto with_light_objects(const ShadeContext<F, Real>& context, int light, const Visit& visit)
 {
     const LightObjects<F, Real>& objects = context.occluders[light];
-    if (context.scene->lights.data[light].kind == abi::LightKind::point)
+    if (context.scene->lighting.lights.data[light].kind == abi::LightKind::point)
         return visit(objects.from_point);
     if constexpr (F.exact)
         return visit(objects.along);
@@ -225,7 +226,7 @@ inline std::uint32_t unshadowed(const ShadeContext<F, Real>& context, int light,
                                 const LightPacket<Real>& packet, const SurfacePacket<Real>& surface,
                                 std::uint32_t wanted, int first)
 {
-    if (!context.scene->lights.data[light].casts_shadow || wanted == 0)
+    if (!context.scene->lighting.lights.data[light].casts_shadow || wanted == 0)
         return wanted;
     count_shadow_rays(*context.counts, first, wanted);
     if (context.shadows != nullptr)
@@ -235,7 +236,7 @@ inline std::uint32_t unshadowed(const ShadeContext<F, Real>& context, int light,
     tell_first(first);
     const abi::SceneView<Real>& scene = *context.scene;
     const std::uint32_t open =
-        wanted & ~own_shadow(scene, scene.lights.data[light], packet, surface, wanted);
+        wanted & ~own_shadow(scene, scene.lighting.lights.data[light], packet, surface, wanted);
     if (open == 0 || nothing_between(context, light, packet, surface, open))
         return count_lit<Real>(wanted, open);
     return count_lit<Real>(
@@ -274,12 +275,12 @@ inline Vec3v<Real> transmitted(const ShadeContext<F, Real>& context, int light,
     const auto pass_on = [&](std::int32_t occluder, std::uint32_t blocked) {
         if ((blocked & wanted) == 0)
             return true;
-        const auto& material = scene.materials[scene.material_index[occluder].first];
+        const auto& material = scene.materials.records[scene.materials.of_surface[occluder].first];
         share = select(from_bits<Real>(blocked), share * broadcast(material.transmit), share);
         return (any_channel(share) & wanted) != 0;
     };
     const std::uint32_t by_own =
-        own_shadow(scene, scene.lights.data[light], packet, surface, wanted);
+        own_shadow(scene, scene.lighting.lights.data[light], packet, surface, wanted);
     const auto pass_on_own = [&](std::uint32_t lanes_of) {
         for_each_distinct<Real>(
             surface.number, lanes_of, [&](lane_int<Real> number, vmask<Real> same) {
@@ -289,7 +290,7 @@ inline Vec3v<Real> transmitted(const ShadeContext<F, Real>& context, int light,
     pass_on_own(by_own);
     // An object takes its share once, also where its other pieces are in the way.
     const auto pass_on_once = [&](std::int32_t occluder, std::uint32_t blocked) {
-        const vint<Real> object(lane_int<Real>{scene.material_index[occluder].object});
+        const vint<Real> object(lane_int<Real>{scene.materials.of_surface[occluder].object});
         return pass_on(occluder, blocked & ~(by_own & bits(int_equal(surface.object, object))));
     };
     const auto start_again = [&](std::uint32_t lanes_of) {

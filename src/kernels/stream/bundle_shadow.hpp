@@ -17,7 +17,7 @@ inline void gather_shadow_rays(const ShadeContext<F, Real>& context, const HitSt
                                int light, RayBundle<Real>& bundle, const KeepsOwn& keeps_own)
 {
     const abi::SceneView<Real>& scene = *context.scene;
-    const abi::LightRecord<Real>& record = scene.lights.data[light];
+    const abi::LightRecord<Real>& record = scene.lighting.lights.data[light];
     for (int first = 0; first < hits.count; first += lanes<Real>) {
         const std::uint32_t active = first_lanes<Real>(hits.count - first);
         const SurfacePacket<Real>& surface = context.surfaces[first / lanes<Real>];
@@ -74,7 +74,7 @@ inline void settle_shadow_bundle(const ShadeContext<F, Real>& context, int light
             count_unsure_shadow(wide.from[i]);
         block_wide<F>(*casters_of(*context.scene).wide, wide,
                       has_closed_reach(*context.scene, light),
-                      context.scene->transparent_shadows ? Occluders::all : Occluders::any,
+                      context.scene->lighting.transparent_shadows ? Occluders::all : Occluders::any,
                       [&](int ray, std::int32_t surface) {
                           const int first = ray / lanes<Real> * lanes<Real>;
                           const std::uint32_t lane = 1u << (ray - first);
@@ -134,7 +134,7 @@ inline void find_shadows(const ShadeContext<F, Real>& context, const HitStream<F
 {
     const ShadowScope shadow(abi::Part::ray_generation);
     if constexpr (F.glass)
-        if (context.scene->transparent_shadows)
+        if (context.scene->lighting.transparent_shadows)
             return find_shares(context, hits, light, bundle, shadows);
     gather_shadow_rays(context, hits, light, bundle, [](int, std::uint32_t own) { return own; });
     visit_shadow_occluders<F>(context, light, bundle, EndsRays{});

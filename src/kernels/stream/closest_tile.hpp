@@ -58,7 +58,7 @@ inline void closest_tile(const abi::TileJob<Real>& job, abi::TileHits<Real>& hit
     }
     const TileCamera<Real> camera(job);
     for (int first = 0; first < abi::tile_pixels; first += lanes<Real>) {
-        const RayPacket<Real> rays = camera_rays(camera, first, scene.units);
+        const RayPacket<Real> rays = camera_rays(camera, first, scene.rules.units);
         HitPacket<Real> hit = no_hit<Real>(static_cast<Real>(__builtin_inf()));
         closest_hit<F>(hit, visible, rays, NoOwn{});
         settle_packet<F>(scene, rays, hit, no_start<Real>(),

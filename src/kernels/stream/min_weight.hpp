@@ -39,10 +39,11 @@ inline std::uint32_t heavy_enough(const ShadeContext<F, Real>& context,
         return active;
     const Vec3v<Real> weight = path.weight * share;
     const vreal<Real> largest = max(max(weight.x, weight.y), weight.z);
-    const std::uint32_t traced = active & bits(largest >= vreal<Real>(context.scene->min_weight));
+    const std::uint32_t traced =
+        active & bits(largest >= vreal<Real>(context.scene->rules.min_weight));
     if (traced != active) {
         context.counts->cut += static_cast<unsigned>(__builtin_popcount(active & ~traced));
-        record_cut(context.scene->most_light[context.depth + 1], context.lacks, path, weight,
+        record_cut(context.scene->rules.most_light[context.depth + 1], context.lacks, path, weight,
                    active & ~traced);
     }
     return traced;

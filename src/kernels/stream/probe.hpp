@@ -104,7 +104,7 @@ struct PacketProbe<true, Real> {
             weight.copy(lane, told.weight);
             told.t = t.axis[0][lane];
             const auto number = surface.value[lane];
-            told.object = number < 0 ? -1 : scene.material_index[number].object;
+            told.object = number < 0 ? -1 : scene.materials.of_surface[number].object;
             if (number < 0)
                 missed.copy(lane, told.seen);
             probe->ray(probe->context, told);

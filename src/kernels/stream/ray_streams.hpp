@@ -37,13 +37,13 @@ template <class Real>
 inline vint<Real> objects_of(const abi::SceneView<Real>& scene, const vint<Real>& surface,
                              std::uint32_t active)
 {
-    if (scene.surfaces_are_objects)
+    if (scene.materials.surfaces_are_objects)
         return surface;
     alignas(64) lane_int<Real> number[lanes<Real>];
     store(number, surface);
     for (; active != 0; active &= active - 1) {
         const int lane = __builtin_ctz(active);
-        number[lane] = scene.material_index[number[lane]].object;
+        number[lane] = scene.materials.of_surface[number[lane]].object;
     }
     return load(number);
 }
@@ -65,7 +65,7 @@ inline StartPacket<Real> start_of(const abi::SceneView<Real>& scene,
                                   const abi::RaysView<Real>& view, int first,
                                   const RayPacket<Real>& rays)
 {
-    if (view.start_surface == nullptr || !(scene.start_error > 0))
+    if (view.start_surface == nullptr || !(scene.rules.start_error > 0))
         return no_start<Real>();
     const int count = view.count - first;
     const vint<Real> none(lane_int<Real>(-1));
@@ -153,8 +153,8 @@ inline void store_packet_hits(const abi::SceneView<Real>& scene, const RayPacket
         places = refined<F, Refine::place>(scene.shapes, rays, hit, start, found);
         places.t = select(missed, t_max, places.t);
         places.normal = select(missed, nothing, places.normal);
-        if (scene.start_error > 0)
-            offset = origin_offset<Real>(scene.start_error, places.point, places.normal);
+        if (scene.rules.start_error > 0)
+            offset = origin_offset<Real>(scene.rules.start_error, places.point, places.normal);
     }
     if (hits.t != nullptr)
         store_some(hits.t + at, places.t, live);
@@ -392,7 +392,7 @@ inline void report_hits(const abi::SceneView<Real>& scene, const RayBundle<Searc
     store(normals[0], normal.x);
     store(normals[1], normal.y);
     store(normals[2], normal.z);
-    const std::int32_t object = scene.material_index[surface].object;
+    const std::int32_t object = scene.materials.of_surface[surface].object;
     for (; active != 0; active &= active - 1) {
         const int lane = __builtin_ctz(active);
         const Real unit_normal[3] = {static_cast<Real>(normals[0][lane]),

@@ -16,11 +16,12 @@ inline Vec3v<Real> light_color(const ShadeContext<F, Real>& context, int number,
                                const PacketProbe<F.probe, Real>& probe, std::uint32_t active,
                                int first)
 {
-    const abi::LightRecord<Real>& light = context.scene->lights.data[number];
+    const abi::LightRecord<Real>& light = context.scene->lighting.lights.data[number];
     const PartScope part(abi::Part::diffuse);
     const LightPacket<Real> packet = light_at<F>(*context.scene, light, surface, material, active);
     if constexpr (F.glass) {
-        if (context.scene->transparent_shadows && light.casts_shadow && packet.wanted != 0) {
+        if (context.scene->lighting.transparent_shadows && light.casts_shadow &&
+            packet.wanted != 0) {
             const Vec3v<Real> share =
                 transmitted<F>(context, number, packet, surface, packet.wanted, first);
             const std::uint32_t lit =
@@ -45,7 +46,7 @@ inline Vec3v<Real> local_color(const ShadeContext<F, Real>& context,
                                int first)
 {
     Vec3v<Real> color = material.ambient;
-    for (int i = 0; i < context.scene->lights.count; ++i)
+    for (int i = 0; i < context.scene->lighting.lights.count; ++i)
         color = color + light_color<F>(context, i, surface, material, probe, active, first);
     return color;
 }
@@ -106,7 +107,7 @@ inline void shade_packet(const ShadeContext<F, Real>& context, const HitStream<F
                            active);
         } else {
             const Vec3v<Real> share = material.reflect + material.transmit;
-            const Vec3v<Real> limit = broadcast(context.scene->limit_color);
+            const Vec3v<Real> limit = broadcast(context.scene->rules.limit_color);
             probe.last_hit(surface, color, share, limit);
             color = madd<Real>(share, limit, color);
         }

@@ -57,7 +57,7 @@ inline void append_start(RayStream<F, Real>& next, const abi::SceneView<Real>& s
     compress_store(next.starts->surface + next.count, active, surface.number);
     const SecondHit<Real> second =
         second_hit<Real>(scene.shapes, surface.number, surface.point, dir,
-                         vreal<Real>(scene.secondary_t_min), outside, active);
+                         vreal<Real>(scene.rules.secondary_t_min), outside, active);
     compress_store(next.starts->second + next.count, active, second.t);
     compress_store(next.starts->met_again + next.count, active, second.surface);
 }

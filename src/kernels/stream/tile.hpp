@@ -29,8 +29,8 @@ inline void find_occluders(const TileRun<F, Real>& run)
     const abi::SceneView<Real>& scene = run.scene;
     const HitStream<F, Real>& hits = run.work.memory->hits;
     const Box<Real> box = box_of(hits.point, hits.count);
-    for (int i = 0; i < scene.lights.count; ++i) {
-        const abi::LightRecord<Real>& light = scene.lights.data[i];
+    for (int i = 0; i < scene.lighting.lights.count; ++i) {
+        const abi::LightRecord<Real>& light = scene.lighting.lights.data[i];
         if (!light.casts_shadow)
             continue;
         run.counts.stages |= abi::stage_blockers;
@@ -61,8 +61,8 @@ inline void find_surfaces(const TileRun<F, Real>& run)
 template <abi::Features F, class Real>
 inline void find_shadows(const TileRun<F, Real>& run, const ShadeContext<F, Real>& context)
 {
-    for (int light = 0; light < run.scene.lights.count; ++light)
-        if (run.scene.lights.data[light].casts_shadow)
+    for (int light = 0; light < run.scene.lighting.lights.count; ++light)
+        if (run.scene.lighting.lights.data[light].casts_shadow)
             find_shadows(context, run.work.memory->hits, light, *run.work.bundle,
                          run.work.shadows[light]);
 }
@@ -161,7 +161,7 @@ inline void shade_camera(const TileRun<F, Real>& run)
 {
     const HitStream<F, Real>& hits = run.work.memory->hits;
     run.counts.stages |= hits.count > 0 ? abi::stage_hits : 0u;
-    if (!F.probe && run.scene.flat)
+    if (!F.probe && run.scene.lighting.flat)
         return shade_flat(run.scene, hits, run.work.memory->color);
     const RayStream<F, Real>* next = shade_chunk<PixelWrite::set>(run, 0);
     if constexpr (F.bounces)
@@ -197,7 +197,7 @@ inline abi::RayCounts render_tile(const abi::TileJob<Real>& job)
     // background.
     find_objects<F>(work.visible, camera_cone(job), scene);
     begin_span(abi::Span::film, 0, abi::Part::film);
-    fill_pixels(memory.color, scene.background);
+    fill_pixels(memory.color, scene.rules.background);
     memory.hits.count = 0;
     for (int pixel = 0; work.lacks != nullptr && pixel < abi::tile_pixels; ++pixel)
         work.lacks[pixel] = 0.0;
@@ -207,7 +207,7 @@ inline abi::RayCounts render_tile(const abi::TileJob<Real>& job)
     if (!scene.tree.empty()) {
         counts.stages |= abi::stage_hierarchy;
         trace_camera_bundle(job, work.visible, *work.bundle, memory, counts);
-    } else if (is_probed<F>(job) || !work.visible.empty() || scene.visible_lights) {
+    } else if (is_probed<F>(job) || !work.visible.empty() || scene.lighting.seen_within > 0) {
         trace_camera(job, work.visible, memory, counts);
     } else {
         tell_untraced(counts.camera);

@@ -25,7 +25,7 @@ inline void append_places(const abi::SceneView<Real>& scene, HitStream<F, Real>&
                           const TracedRays<Real>& from, const HitPacket<Real>& hit,
                           std::uint32_t active)
 {
-    if (!F.probe && scene.flat && scene.checkers == nullptr)
+    if (!F.probe && scene.lighting.flat && scene.materials.checkers == nullptr)
         return;
     const RefinedHits<Real> places =
         refined<F, Refine::place>(scene.shapes, from.rays, hit, from.start, active);
@@ -73,15 +73,15 @@ inline GlassPacket<Real> glass_around_eye(const abi::CameraView<Real>& camera)
 template <class Real>
 inline Vec3v<Real> escaped(const abi::SceneView<Real>& scene, const RayPacket<Real>& rays)
 {
-    const Vec3v<Real> background = broadcast(scene.background);
-    if (!scene.visible_lights)
+    const Vec3v<Real> background = broadcast(scene.rules.background);
+    if (scene.lighting.seen_within == 0)
         return background;
     const vreal<Real> zero(Real(0));
-    const vreal<Real> parallel(scene.epsilon * scene.epsilon);
+    const vreal<Real> parallel(scene.lighting.seen_within * scene.lighting.seen_within);
     Vec3v<Real> seen{zero, zero, zero};
     std::uint32_t any_seen = 0;
-    for (int i = 0; i < scene.lights.count; ++i) {
-        const abi::LightRecord<Real>& light = scene.lights.data[i];
+    for (int i = 0; i < scene.lighting.lights.count; ++i) {
+        const abi::LightRecord<Real>& light = scene.lighting.lights.data[i];
         Vec3v<Real> way = broadcast(light.vector);
         if (light.kind == abi::LightKind::point)
             way = way - rays.org;
@@ -124,7 +124,7 @@ inline void take_camera_hits(const abi::SceneView<Real>& scene, TileMemory<F, Re
     append_hits(scene, memory.hits, from, hit, hits);
     report_rays(memory.hits, scene, from, hit, pixels);
     const PartScope part(abi::Part::film);
-    if (scene.visible_lights)
+    if (scene.lighting.seen_within > 0)
         write_colors<PixelWrite::set>(memory.color, from.path.pixel, escaped(scene, from.rays),
                                       pixels & ~hits);
 }
@@ -149,7 +149,7 @@ inline void trace_camera(const abi::TileJob<Real>& job, const FromPoint<F, Real>
         const std::uint32_t pixels = lanes_inside(job, first);
         if (pixels == 0)
             continue;
-        const RayPacket<Real> rays = camera_rays(camera, first, job.scene->units);
+        const RayPacket<Real> rays = camera_rays(camera, first, job.scene->rules.units);
         HitPacket<Real> hit = no_hit<Real>(static_cast<Real>(__builtin_inf()));
         tell_live(pixels);
         tell_first(first);
@@ -168,7 +168,7 @@ inline void gather_camera(const abi::TileJob<Real>& job, RayBundle<Real>& bundle
     const TileCamera<Real> camera(job);
     const HitPacket<Real> none = no_hit<Real>(static_cast<Real>(__builtin_inf()));
     for (int first = 0; first < bundle_rays; first += lanes<Real>) {
-        store_rays(bundle, first, camera_rays(camera, first, job.scene->units));
+        store_rays(bundle, first, camera_rays(camera, first, job.scene->rules.units));
         start_rays<F>(bundle, first, none, no_surface<Real>(), lanes_inside(job, first));
     }
 }
@@ -205,11 +205,11 @@ template <abi::Features F, class Real>
 inline TracedRays<Real> load_stream(const abi::SceneView<Real>& scene,
                                     const RayStream<F, Real>& stream, int first)
 {
-    return {
-        make_rays<Real>(load3(stream.org, first), load3(stream.dir, first), scene.secondary_t_min),
-        {load_weight(stream, first), load(stream.pixel + first), load_path(stream, first)},
-        load_glass(stream, first),
-        load_start(stream, first)};
+    return {make_rays<Real>(load3(stream.org, first), load3(stream.dir, first),
+                            scene.rules.secondary_t_min),
+            {load_weight(stream, first), load(stream.pixel + first), load_path(stream, first)},
+            load_glass(stream, first),
+            load_start(stream, first)};
 }
 
 /// A packet of secondary rays and what it hit; what those that miss bring goes into the pixels.

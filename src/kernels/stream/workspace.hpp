@@ -37,8 +37,8 @@ template <class Real>
 inline std::size_t count_shadowed(const abi::SceneView<Real>& scene)
 {
     std::size_t count = 0;
-    for (int i = 0; i < scene.lights.count; ++i)
-        count += scene.lights.data[i].casts_shadow ? 1 : 0;
+    for (int i = 0; i < scene.lighting.lights.count; ++i)
+        count += scene.lighting.lights.data[i].casts_shadow ? 1 : 0;
     return count;
 }
 
@@ -48,9 +48,9 @@ inline RayStream<F, Real>* take_streams(Arena& arena, const abi::SceneView<Real>
                                         std::size_t count)
 {
     RayStream<F, Real>* const streams = arena.take<RayStream<F, Real>>(count);
-    auto* const starts = arena.take<StartArrays<F, Real>>(scene.start_error > 0 ? count : 0);
+    auto* const starts = arena.take<StartArrays<F, Real>>(scene.rules.start_error > 0 ? count : 0);
     for (std::size_t i = 0; streams != nullptr && i < count; ++i)
-        streams[i].starts = scene.start_error > 0 ? starts + i : nullptr;
+        streams[i].starts = scene.rules.start_error > 0 ? starts + i : nullptr;
     return streams;
 }
 
@@ -72,14 +72,15 @@ struct Workspace {
     /// With no `scratch`, only `bytes` is of use.
     Workspace(void* scratch, const abi::SceneView<Real>& scene)
     {
-        const std::size_t lights = static_cast<std::size_t>(scene.lights.count);
+        const std::size_t lights = static_cast<std::size_t>(scene.lighting.lights.count);
         Arena arena(scratch);
         memory = arena.take<TileMemory<F, Real>>(1);
         if constexpr (F.bounces)
-            streams = take_streams<F>(arena, scene, static_cast<std::size_t>(scene.max_depth));
+            streams =
+                take_streams<F>(arena, scene, static_cast<std::size_t>(scene.rules.max_depth));
         if constexpr (F.glass)
             refracted = take_streams<F>(arena, scene, 1);
-        if (F.bounces && scene.min_weight > 0)
+        if (F.bounces && scene.rules.min_weight > 0)
             lacks = arena.take<double>(abi::tile_pixels);
         const std::size_t shadowed = count_shadowed(scene);
         if (!scene.tree.empty())

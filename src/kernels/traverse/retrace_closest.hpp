@@ -38,8 +38,9 @@ template <abi::Features F>
     alignas(64) std::int32_t surface[lanes<float>];
     store(t, hit.t);
     store(surface, hit.surface);
-    count_unsure_lanes(unsure, surface,
-                       [&](std::int32_t number) { return scene.material_index[number].object; });
+    count_unsure_lanes(unsure, surface, [&](std::int32_t number) {
+        return scene.materials.of_surface[number].object;
+    });
     WideBundle bundle;
     add_lanes(bundle, 0, rays, start, t_max, unsure);
     find_wide<F>(*scene.wide, bundle, [&](int lane, float closest, std::int32_t number) {
@@ -81,8 +82,9 @@ template <abi::Features F, class StartOf, class EndOf>
                       lanes_of);
     }
     for (int i = 0; i < again.count; ++i)
-        count_unsure_ray(again.from[i], bundle.surface[again.from[i]],
-                         [&](std::int32_t number) { return scene.material_index[number].object; });
+        count_unsure_ray(again.from[i], bundle.surface[again.from[i]], [&](std::int32_t number) {
+            return scene.materials.of_surface[number].object;
+        });
     find_wide<F>(*scene.wide, again, [&](int ray, float t, std::int32_t surface) {
         bundle.t[ray] = t;
         bundle.surface[ray] = surface;

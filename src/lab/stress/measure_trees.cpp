@@ -119,7 +119,7 @@ bool bounce(const Scene& scene, Path& path, double roundoff)
     const double cosine = std::abs(static_cast<double>(slope));
     const WideVec P = path.org + nearest * path.dir;
     // The own places of the mirrors, and of the ray's start, are each off by a rounding, and the
-    // ray begins off its mirror by what SceneView::start_error says.
+    // ray begins off its mirror by what RayRules::start_error says.
     const double lift = path.left < 0 ? 0.0 : 64.0 * size_of(path.org);
     const double places = size_of(path.org) + size_of(P) + t + 10.0 + lift;
     path.place_error = (path.place_error + path.turn_error * t + places) / cosine;
