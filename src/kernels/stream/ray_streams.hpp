@@ -425,7 +425,8 @@ inline void all_hits(const abi::SceneView<Real>& scene, const abi::RaysView<Real
                         report(first, bits(valid), t, surface);
                     });
         if (!geometry.tree.empty())
-            visit_crossings_in_tree<search>(geometry.tree, bundle, report);
+            visit_crossings_in_tree<abi::tree_features(search)>(geometry.tree, bundle,
+                                                                CrossingVisitor<Search>(report));
     }
 }
 

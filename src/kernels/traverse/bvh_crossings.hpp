@@ -1,5 +1,6 @@
 #pragma once
 
+#include "kernels/traverse/callback.hpp"
 #include "kernels/traverse/coherent_cells.hpp"
 #include "kernels/traverse/walk_lists.hpp"
 
@@ -7,12 +8,17 @@
 namespace packtrace::PACKTRACE_ISA {
 namespace {
 
+/// Takes rays of the packet at `first`, a bit each, their t, and the surface that they cross.
+template <class Real>
+using CrossingVisitor =
+    Callback<void(int first, std::uint32_t crosses, const vreal<Real>& t, std::int32_t surface)>;
+
 /// Takes every crossing of leaves, with the packets of cells or with single rays.
-template <abi::Features F, class Real, class Visit>
+template <abi::Features F, class Real>
 class CrossingsInTree {
 public:
     CrossingsInTree(const abi::BvhView<Real>& tree, const RayBundle<Real>& bundle,
-                    const CellBounds& bounds, SlabRays& slabs, const Visit& visit)
+                    const CellBounds& bounds, SlabRays& slabs, const CrossingVisitor<Real>& visit)
         : tree_(tree), bundle_(bundle), bounds_(bounds), slabs_(slabs), visit_(visit)
     {
     }
@@ -111,20 +117,20 @@ private:
     const RayBundle<Real>& bundle_;
     const CellBounds& bounds_;
     SlabRays& slabs_;
-    const Visit& visit_;
+    const CrossingVisitor<Real>& visit_;
 };
 
-/// Calls `visit(first, valid, t, surface)` for every crossing of the objects of the hierarchy with
-/// the packets of a bundle, which has a bit of `valid` each; only those with a t before the ray's
-/// are one.
-template <abi::Features F, class Real, class Visit>
-inline void visit_crossings_in_tree(const abi::BvhView<Real>& tree, const RayBundle<Real>& bundle,
-                                    const Visit& visit)
+/// Calls `visit` for every crossing of the objects of the hierarchy with the packets of a bundle;
+/// only those with a t before the ray's are one.
+template <abi::Features F, class Real>
+[[gnu::noinline]] void visit_crossings_in_tree(const abi::BvhView<Real>& tree,
+                                               const RayBundle<Real>& bundle,
+                                               const CrossingVisitor<Real>& visit)
 {
     SlabRays slabs;
     CellBounds bounds;
     bound_cells(bounds, bundle, tree, tree.spread);
-    const CrossingsInTree<F, Real, Visit> crossings(tree, bundle, bounds, slabs, visit);
+    const CrossingsInTree<F, Real> crossings(tree, bundle, bounds, slabs, visit);
     if (bounds.coherent != 0) {
         start_coherent(bounds, bundle);
         walk_cells(tree, bounds, bounds.coherent, crossings);

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "kernels/traverse/bvh_occluded.hpp"
+#include "kernels/traverse/callback.hpp"
 #include "kernels/traverse/retrace.hpp"
 
 // Unsure occlusion, decided in double.
@@ -10,6 +11,19 @@ namespace {
 /// Whether it matters what is in the way of a ray, or only that something is.
 enum class Occluders { any, all };
 
+/// What an object does to the rays of a packet (bvh_occluded.hpp).
+using WideOccluder = Callback<std::uint32_t(std::int32_t surface, int first, std::uint32_t lanes)>;
+
+/// What is in the way of rays in double. One function serves all that ask: one for each made a
+/// quarter of all code. `F` is wide_features.
+template <abi::Features F>
+[[gnu::noinline]] void visit_wide_occluders(const abi::GeometryView<double>& wide,
+                                            RayBundle<double>& rays, bool closed,
+                                            const WideOccluder& occluder)
+{
+    visit_occluders_of_bundle<F>(wide, wide, rays, closed, occluder);
+}
+
 /// Counts the rays of which double does not tell what is in their way.
 template <abi::Features F>
 inline void count_undecided_shadows(const abi::GeometryView<double>& wide, const WideBundle& bundle,
@@ -18,15 +32,15 @@ inline void count_undecided_shadows(const abi::GeometryView<double>& wide, const
     count_undecided_of(bundle.rays, bundle, [&](RayBundle<double>& rays, std::uint64_t* found) {
         for (int i = 0; i < bundle.count; ++i)
             found[i] = 0;
-        visit_occluders_of_bundle<wide_features<F>>(
-            wide, wide, rays, closed, [&](std::int32_t surface, int first, std::uint32_t lanes_of) {
-                // A sum that hardly any two sets of surfaces share.
-                const std::uint64_t of_surface =
-                    (static_cast<std::uint64_t>(surface) + 1) * 0x9e3779b97f4a7c15u;
-                for (std::uint32_t left = lanes_of; left != 0; left &= left - 1)
-                    found[first + __builtin_ctz(left)] += which == Occluders::all ? of_surface : 1;
-                return which == Occluders::all ? 0 : lanes_of;
-            });
+        const auto occluder = [&](std::int32_t surface, int first, std::uint32_t lanes_of) {
+            // A sum that hardly any two sets of surfaces share.
+            const std::uint64_t of_surface =
+                (static_cast<std::uint64_t>(surface) + 1) * 0x9e3779b97f4a7c15u;
+            for (std::uint32_t left = lanes_of; left != 0; left &= left - 1)
+                found[first + __builtin_ctz(left)] += which == Occluders::all ? of_surface : 1;
+            return which == Occluders::all ? 0 : lanes_of;
+        };
+        visit_wide_occluders<wide_features<F>>(wide, rays, closed, WideOccluder(occluder));
     });
 }
 
@@ -41,16 +55,15 @@ inline void block_wide(const abi::GeometryView<double>& wide, WideBundle& bundle
     if constexpr (F.probe)
         if (asks_for_undecided())
             count_undecided_shadows<F>(wide, bundle, closed, which);
-    visit_occluders_of_bundle<wide_features<F>>(
-        wide, wide, bundle.rays, closed,
-        [&](std::int32_t surface, int first, std::uint32_t lanes_of) {
-            std::uint32_t done = 0;
-            for (; lanes_of != 0; lanes_of &= lanes_of - 1) {
-                const int lane = __builtin_ctz(lanes_of);
-                done |= blocked(int{bundle.from[first + lane]}, surface) ? 1u << lane : 0;
-            }
-            return done;
-        });
+    const auto occluder = [&](std::int32_t surface, int first, std::uint32_t lanes_of) {
+        std::uint32_t done = 0;
+        for (; lanes_of != 0; lanes_of &= lanes_of - 1) {
+            const int lane = __builtin_ctz(lanes_of);
+            done |= blocked(int{bundle.from[first + lane]}, surface) ? 1u << lane : 0;
+        }
+        return done;
+    };
+    visit_wide_occluders<wide_features<F>>(wide, bundle.rays, closed, WideOccluder(occluder));
 }
 
 /// Adds the lanes of `unsure` of a packet of rays that end at t_end.
