@@ -164,11 +164,15 @@ inline void store_packet_hits(const abi::SceneView<Real>& scene, const RayPacket
     store_some3(hits.point, at, places.point, live);
 }
 
+// What passes over a chunk is a function of its own: in one with the code around it, the compiler
+// spills so much that rays took a quarter longer.
+
 /// Where the scene has no hierarchy: packet by packet, without a bundle in between.
 template <abi::Features F, class Real>
-inline void closest_chunk_in_lists(const abi::SceneView<Real>& scene,
-                                   const StreamWork<F, Real>& work, const abi::RaysView<Real>& view,
-                                   int begin, int end, const abi::HitsView<Real>& hits)
+[[gnu::noinline]] void closest_chunk_in_lists(const abi::SceneView<Real>& scene,
+                                              const StreamWork<F, Real>& work,
+                                              const abi::RaysView<Real>& view, int begin, int end,
+                                              const abi::HitsView<Real>& hits)
 {
     for (int first = begin; first < end; first += lanes<Real>) {
         const StreamPacket<Real> packet(view, first);
@@ -188,9 +192,10 @@ inline void closest_chunk_in_lists(const abi::SceneView<Real>& scene,
 }
 
 template <abi::Features F, class Real>
-inline void closest_chunk_in_tree(const abi::SceneView<Real>& scene,
-                                  const StreamWork<F, Real>& work, const abi::RaysView<Real>& view,
-                                  int begin, int end, const abi::HitsView<Real>& hits)
+[[gnu::noinline]] void closest_chunk_in_tree(const abi::SceneView<Real>& scene,
+                                             const StreamWork<F, Real>& work,
+                                             const abi::RaysView<Real>& view, int begin, int end,
+                                             const abi::HitsView<Real>& hits)
 {
     RayBundle<Real>& bundle = *work.bundle;
     const int count = end - begin;
@@ -245,10 +250,10 @@ inline void closest_hits(const abi::SceneView<Real>& scene, const abi::RaysView<
 }
 
 template <abi::Features F, class Real>
-inline void occluded_chunk_in_lists(const abi::SceneView<Real>& scene,
-                                    const StreamWork<F, Real>& work,
-                                    const abi::RaysView<Real>& view, int begin, int end,
-                                    std::uint8_t* mask)
+[[gnu::noinline]] void occluded_chunk_in_lists(const abi::SceneView<Real>& scene,
+                                               const StreamWork<F, Real>& work,
+                                               const abi::RaysView<Real>& view, int begin, int end,
+                                               std::uint8_t* mask)
 {
     for (int first = begin; first < end; first += lanes<Real>) {
         const StreamPacket<Real> packet(view, first);
@@ -291,9 +296,10 @@ template <abi::Features F>
 }
 
 template <abi::Features F, class Real>
-inline void occluded_chunk_in_tree(const abi::SceneView<Real>& scene,
-                                   const StreamWork<F, Real>& work, const abi::RaysView<Real>& view,
-                                   int begin, int end, std::uint8_t* mask)
+[[gnu::noinline]] void occluded_chunk_in_tree(const abi::SceneView<Real>& scene,
+                                              const StreamWork<F, Real>& work,
+                                              const abi::RaysView<Real>& view, int begin, int end,
+                                              std::uint8_t* mask)
 {
     RayBundle<Real>& bundle = *work.bundle;
     const int count = end - begin;
