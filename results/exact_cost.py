@@ -18,7 +18,7 @@ import subprocess
 import sys
 import tempfile
 
-from provenance import commit, machine, write
+from provenance import commit, commit_of_build, machine, write
 
 ROOT = pathlib.Path(__file__).resolve().parents[1]
 RAYS = [("four_spheres", 512, ("avx512", "avx2")), ("spheres32", 512, ("avx512", "avx2")),
@@ -104,10 +104,12 @@ def main():
     if sys.argv[1] == "--tables":
         return write_tables()
     built_of = commit()
+    before = None
     builds = {"exact": (sys.argv[1], DEFAULT), "fast": (sys.argv[1], FAST),
               "double": (sys.argv[1], DOUBLE), "note": (sys.argv[1], NOTE)}
     if len(sys.argv) > 2:
         builds["before"] = (sys.argv[2], DEFAULT)
+        before = f"{commit_of_build(sys.argv[2])} in its default mode"
     repetitions = int(sys.argv[3]) if len(sys.argv) > 3 else 9
     rows = []
     load = machine()
@@ -134,7 +136,7 @@ def main():
                 rows.append(row_of({"scene": scene, "isa": isa, "rays": "frame 512x512",
                                     "unit": "milliseconds"}, times, lambda x: 1 / x))
     write({"command": "results/exact_cost.py build/release BEFORE", "commit": built_of,
-           "before": "c1d3f58 in its default mode" if "before" in builds else None,
+           "before": before,
            "machine": load, "machine_after": machine(), "repetitions": repetitions, "rows": rows},
           "exact_cost.json")
     write_tables()

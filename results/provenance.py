@@ -2,20 +2,27 @@
 import json
 import os
 import pathlib
+import re
 import subprocess
 import sys
 
 FOLDER = pathlib.Path(__file__).resolve().parent
 
 
-def commit():
+def commit(folder=FOLDER):
     """The commit that is checked out; ends the script where files differ from it."""
-    described = subprocess.run(["git", "describe", "--always", "--dirty"], cwd=FOLDER,
+    described = subprocess.run(["git", "describe", "--always", "--dirty"], cwd=folder,
                                capture_output=True, text=True, check=True).stdout.strip()
     if described.endswith("-dirty"):
         sys.exit(f"{pathlib.Path(sys.argv[0]).name}: the tree has changes that are not committed; "
                  "commit them first")
     return described
+
+
+def commit_of_build(build):
+    """The same of the sources that a build folder was made of."""
+    cache = (pathlib.Path(build) / "CMakeCache.txt").read_text()
+    return commit(re.search(r"^CMAKE_HOME_DIRECTORY:INTERNAL=(.*)$", cache, re.MULTILINE).group(1))
 
 
 def machine():

@@ -67,4 +67,20 @@ CommandWords command_words(const CLI::App& app)
     return words;
 }
 
+std::string join_words(const std::vector<std::string>& words, const std::string& between)
+{
+    std::string text;
+    for (const std::string& word : words)
+        text += (text.empty() ? "" : between) + word;
+    return text;
+}
+
+std::string inner_names(const CommandWords& command)
+{
+    std::vector<std::string> names;
+    for (const CommandWords& inner : command.commands)
+        names.push_back(inner.name);
+    return join_words(names);
+}
+
 }  // namespace packtrace::cli

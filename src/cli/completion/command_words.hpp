@@ -34,6 +34,13 @@ struct CommandWords {
 /// The words of `app`; commands without a group are hidden, here as in the help.
 [[nodiscard]] CommandWords command_words(const CLI::App& app);
 
+/// With `between` between each two.
+[[nodiscard]] std::string join_words(const std::vector<std::string>& words,
+                                     const std::string& between = " ");
+
+/// The names of a command's own commands, joined.
+[[nodiscard]] std::string inner_names(const CommandWords& command);
+
 // Scripts that teach a shell to complete the program's words.
 [[nodiscard]] std::string bash_completion(const CommandWords& program);
 [[nodiscard]] std::string zsh_completion(const CommandWords& program);

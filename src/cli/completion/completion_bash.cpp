@@ -45,14 +45,6 @@ constexpr const char* bash_end = R"(        esac
 complete -F _packtrace packtrace
 )";
 
-std::string bash_words(const std::vector<std::string>& words, const std::string& between)
-{
-    std::string text;
-    for (const std::string& word : words)
-        text += (text.empty() ? "" : between) + word;
-    return text;
-}
-
 void write_bash_paths(std::ostream& out, const CommandWords& command, const std::string& path)
 {
     for (const CommandWords& inner : command.commands) {
@@ -67,9 +59,9 @@ void write_bash_options(std::ostream& out, const CommandWords& command, const st
     for (const OptionWords& option : command.options) {
         if (option.argument == Argument::none)
             continue;
-        out << "    '" << path << ':' << bash_words(option.names, "' | '" + path + ':') << "') ";
+        out << "    '" << path << ':' << join_words(option.names, "' | '" + path + ':') << "') ";
         if (option.argument == Argument::words)
-            out << "words='" << bash_words(option.words, " ") << "' ;;\n";
+            out << "words='" << join_words(option.words) << "' ;;\n";
         else
             out << (option.argument == Argument::path ? "paths=1 ;;\n" : ";;\n");
     }
@@ -81,12 +73,10 @@ void write_bash_arguments(std::ostream& out, const CommandWords& command, const 
 {
     std::string options;
     for (const OptionWords& option : command.options)
-        options += (options.empty() ? "" : " ") + bash_words(option.names, " ");
-    std::string words;
-    for (const CommandWords& inner : command.commands)
-        words += (words.empty() ? "" : " ") + inner.name;
+        options += (options.empty() ? "" : " ") + join_words(option.names);
     out << "        '" << path << "')\n            options='" << options << "'\n            words='"
-        << words << "' paths=" << (command.takes_paths ? "1" : "") << "\n            ;;\n";
+        << inner_names(command) << "' paths=" << (command.takes_paths ? "1" : "")
+        << "\n            ;;\n";
     for (const CommandWords& inner : command.commands)
         write_bash_arguments(out, inner, path + ' ' + inner.name);
 }

@@ -22,12 +22,8 @@ void write_fish_option(std::ostream& out, const OptionWords& option, const std::
         out << " -r -F";
     else if (option.argument == Argument::other)
         out << " -x";
-    else if (option.argument == Argument::words) {
-        std::string words;
-        for (const std::string& word : option.words)
-            words += (words.empty() ? "" : " ") + word;
-        out << " -x -a " << fish_quoted(words);
-    }
+    else if (option.argument == Argument::words)
+        out << " -x -a " << fish_quoted(join_words(option.words));
     out << " -d " << fish_quoted(option.description) << '\n';
 }
 
@@ -35,12 +31,10 @@ void write_fish_option(std::ostream& out, const OptionWords& option, const std::
 void write_fish_command(std::ostream& out, const CommandWords& command,
                         const std::string& condition)
 {
-    std::string inner_names;
-    for (const CommandWords& inner : command.commands)
-        inner_names += (inner_names.empty() ? "" : " ") + inner.name;
     std::string here = condition;
-    if (!inner_names.empty())
-        here += (here.empty() ? "" : "; and ") + ("not __fish_seen_subcommand_from " + inner_names);
+    if (!command.commands.empty())
+        here += (here.empty() ? "" : "; and ") +
+                ("not __fish_seen_subcommand_from " + inner_names(command));
     const std::string start = "complete -c packtrace -n " + fish_quoted(here);
     for (const CommandWords& inner : command.commands)
         out << start << " -a " << inner.name << " -d " << fish_quoted(inner.description) << '\n';

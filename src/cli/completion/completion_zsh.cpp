@@ -22,7 +22,6 @@ std::string zsh_quoted(const std::string& text)
 
 std::string zsh_action(const OptionWords& option)
 {
-    std::string words;
     switch (option.argument) {
         case Argument::none:
             return {};
@@ -31,9 +30,7 @@ std::string zsh_action(const OptionWords& option)
         case Argument::path:
             return ":file:_files";
         case Argument::words:
-            for (const std::string& word : option.words)
-                words += (words.empty() ? "" : " ") + word;
-            return ":word:(" + words + ")";
+            return ":word:(" + join_words(option.words) + ")";
     }
     return {};
 }
@@ -41,9 +38,7 @@ std::string zsh_action(const OptionWords& option)
 /// Each name as a specification of its own; either name excludes the other.
 void write_zsh_option(std::ostream& out, const OptionWords& option)
 {
-    std::string names;
-    for (const std::string& name : option.names)
-        names += (names.empty() ? "" : " ") + name;
+    const std::string names = join_words(option.names);
     for (const std::string& name : option.names) {
         const bool takes_equals = name.starts_with("--") && option.argument != Argument::none;
         out << " \\\n                '(" << names << ")" << name << (takes_equals ? "=" : "") << '['
