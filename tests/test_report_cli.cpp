@@ -1,4 +1,6 @@
 // The program's `report`.
+#include <packtrace/write_report.hpp>
+
 #include <nlohmann/json.hpp>
 
 #include "catch.hpp"
@@ -53,6 +55,89 @@ TEST_CASE("a second report takes the truth from the cache", "[report_cli]")
     };
     CHECK_FALSE(cached("first"));
     CHECK(cached("second"));
+}
+
+TEST_CASE("a scene file's name can't lead a report astray", "[report_cli]")
+{
+    const TempFolder folder;
+    const std::string text = "image_size = 8 x 8\nsphere { center = (0, 0, 3)  radius = 1 }\n";
+    const std::filesystem::path touched = folder / "touched";
+    const std::vector<std::string> names = {
+        "...scene",           "report.html.scene", "a'\nsystem \"touch touched\"\n.scene",
+        "<!--<script>.scene", "\xff.scene",        "\xfe.scene"};
+    std::vector<std::string> words{"-o", (folder / "out").string()};
+    for (const std::string& name : names) {
+        write_text(folder / name, text);
+        words.push_back((folder / name).string());
+    }
+    const ProgramResult result = run_report(folder, words);
+    CAPTURE(result.err);
+    REQUIRE(result.exit_code == 0);
+    CHECK_FALSE(std::filesystem::exists(touched));
+    CHECK_FALSE(std::filesystem::exists("touched"));
+    CHECK(folder.names().size() == names.size() + 2);
+    const auto json = nlohmann::json::parse(read_text(folder / "out" / "report.json"));
+    CHECK(json["scenes"].size() == names.size());
+    for (const auto& scene : json["scenes"]) {
+        const std::string name = scene["name"];
+        INFO(name);
+        CHECK(name == report_folder_name(name));
+        CHECK(std::filesystem::is_regular_file(folder / "out" / name / "depth.svg"));
+    }
+    CHECK(read_text(folder / "out" / "report.html").find("<!--<script>") == std::string::npos);
+}
+
+TEST_CASE("names of scenes become names of folders", "[report_cli]")
+{
+    CHECK(report_folder_name("four spheres") == "four spheres");
+    CHECK(report_folder_name("gr\xc3\xb6\xc3\x9f"
+                             "e") ==
+          "gr\xc3\xb6\xc3\x9f"
+          "e");
+    CHECK(report_folder_name("") == "_");
+    CHECK(report_folder_name("..") == "_..");
+    CHECK(report_folder_name("a/b\nc") == "a_b_x0ac");
+    CHECK(report_folder_name("\xff") == "_xff");
+    CHECK(report_folder_name("report.html") == "report.html_");
+    CHECK(report_folder_name(std::string(300, 'x')) == std::string(200, 'x'));
+    for (const char* name : {"..", "\xff", "a\nb", "report.md"})
+        CHECK(report_folder_name(report_folder_name(name)) == report_folder_name(name));
+    SceneReport scene;
+    scene.name = "../elsewhere";
+    const TempFolder folder;
+    CHECK_THROWS_WITH(write_report({scene}, {}, {}, folder / "out"),
+                      ContainsSubstring("can't be its folder"));
+    CHECK(folder.names().empty());
+}
+
+TEST_CASE("messages have one line whatever a file is called", "[report_cli]")
+{
+    const TempFolder folder;
+    for (const char* command : {"render", "report", "demo", "bench"}) {
+        const ProgramResult result = run_packtrace(
+            {command, (folder / "a\nb\x1b[31m.scene").string(), "-o", (folder / "x.png").string()});
+        INFO(command << ": " << result.err);
+        CHECK(result.exit_code != 0);
+        CHECK(result.err.find('\n') == result.err.size() - 1);
+        CHECK(result.err.find('\x1b') == std::string::npos);
+    }
+    const ProgramResult result =
+        run_packtrace({"compare", (folder / "a\nb.png").string(), "c\nd.png"});
+    CHECK(result.exit_code != 0);
+    CHECK(result.err.find('\n') == result.err.size() - 1);
+}
+
+TEST_CASE("a folder that can't be made is named with the reason", "[report_cli]")
+{
+    const TempFolder folder;
+    write_text(folder / "file", "");
+    for (const char* command : {"report", "demo"}) {
+        const ProgramResult result =
+            run_packtrace({command, four_spheres_file, "-o", (folder / "file" / "out").string()});
+        CHECK(result.exit_code == 1);
+        CHECK(result.err ==
+              (folder / "file" / "out").string() + ": can't make this folder: Not a directory\n");
+    }
 }
 
 TEST_CASE("report refuses wrong use in one line", "[report_cli]")

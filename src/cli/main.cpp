@@ -10,6 +10,7 @@
 #include "cli/interrupts.hpp"
 #include "cli/usage_error.hpp"
 #include "core/file_error.hpp"
+#include "scene/quote.hpp"
 
 namespace packtrace::cli {
 namespace {
@@ -31,7 +32,7 @@ int report_parse_end(const CLI::App& app, const CLI::ParseError& end, int argc, 
         check_standard_output();
         return code;
     }
-    std::cerr << usage_error(app, end, argc, argv) << '\n';
+    std::cerr << language::escape(usage_error(app, end, argc, argv)) << '\n';
     return exit_usage;
 }
 
@@ -77,7 +78,8 @@ int run(int argc, char** argv)
         std::cerr << "packtrace: not enough memory\n";
         return exit_failed;
     } catch (const std::exception& error) {
-        std::cerr << error.what() << '\n';
+        // One line, whatever is in the names of files.
+        std::cerr << language::escape(error.what()) << '\n';
         return exit_failed;
     }
 }

@@ -229,6 +229,14 @@ void AtomicFile::commit()
     forget_temporary(std::exchange(slot_, -1));
 }
 
+void make_folders(const std::filesystem::path& folder)
+{
+    std::error_code error;
+    std::filesystem::create_directories(folder, error);
+    if (error)
+        throw FileError(folder, "can't make this folder", error.value());
+}
+
 void check_writable(const std::filesystem::path& target)
 {
     std::error_code ignored;

@@ -2,7 +2,6 @@
 #include <iostream>
 #include <memory>
 #include <string>
-#include <system_error>
 #include <utility>
 #include <vector>
 
@@ -18,6 +17,7 @@
 #include "cli/options/thread_limit.hpp"
 #include "cli/options/validators.hpp"
 #include "cli/output/text_table.hpp"
+#include "core/atomic_file.hpp"
 #include "lab/harness/statistics.hpp"
 #include "lab/harness/stopwatch.hpp"
 
@@ -95,9 +95,7 @@ void run_demo(const DemoArguments& arguments)
     SceneInput input = read_scene_input(arguments.scene);
     Scene& scene = input.scene;
     apply(arguments.picture, scene);
-    // A folder that can't be made shows when the picture is written into it.
-    std::error_code ignored;
-    std::filesystem::create_directories(arguments.folder, ignored);
+    make_folders(arguments.folder);
     check_image_writable(arguments.folder / (input.stem + ".png"));
 
     const ThreadLimit limit(arguments.threads);

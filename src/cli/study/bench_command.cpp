@@ -15,6 +15,7 @@
 #include "cli/study/bench_programs.hpp"
 #include "lab/bench/paired_bench.hpp"
 #include "lab/bench/slowdown.hpp"
+#include "scene/quote.hpp"
 
 namespace packtrace::cli {
 namespace {
@@ -233,7 +234,7 @@ void run_bench_command(const BenchArguments& arguments)
     std::vector<ReportScene> scenes;
     for (const std::string& file : arguments.scenes) {
         SceneInput input = read_scene_input(file);
-        scenes.push_back({input.stem, std::move(input.scene)});
+        scenes.push_back({language::escape(input.stem), std::move(input.scene)});
         apply(arguments.picture, scenes.back().scene);
     }
     if (arguments.against.empty())

@@ -82,7 +82,7 @@ std::vector<ReportScene> read_scenes(const ReportArguments& arguments)
     std::set<std::string> taken;
     for (const std::string& file : arguments.scenes) {
         SceneInput input = read_scene_input(file);
-        ReportScene scene{free_name(input.stem, taken), std::move(input.scene)};
+        ReportScene scene{free_name(report_folder_name(input.stem), taken), std::move(input.scene)};
         apply(arguments.picture, scene.scene);
         scenes.push_back(std::move(scene));
     }
@@ -134,8 +134,7 @@ void run_report(const ReportArguments& arguments)
     check_plots();
     const std::vector<ReportScene> scenes = read_scenes(arguments);
     // Before the work, so that a wrong name doesn't cost it.
-    std::error_code ignored;
-    std::filesystem::create_directories(arguments.folder, ignored);
+    make_folders(arguments.folder);
     check_writable(arguments.folder / "report.md");
     // The runs have arenas of their own sizes.
     const ThreadLimit limit(

@@ -10,6 +10,7 @@
 #include "core/run_filter.hpp"
 #include "lab/report/label_places.hpp"
 #include "lab/report/plot_axis.hpp"
+#include "scene/quote.hpp"
 
 namespace packtrace {
 namespace {
@@ -22,11 +23,11 @@ constexpr PixelBox inside_axes{78.0, 46.0, 690.0, 494.0};
 constexpr double label_letter = 6.4;
 constexpr double label_line = 14.0;
 
-// As a string of gnuplot's between single quotes.
+// As a string of gnuplot's between single quotes. A line end would begin another command.
 std::string quoted(const std::string& text)
 {
     std::string result = "'";
-    for (const char c : text)
+    for (const char c : language::escape(text))
         result += c == '\'' ? std::string("''") : std::string(1, c);
     return result + "'";
 }

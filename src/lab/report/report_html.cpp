@@ -33,6 +33,17 @@ std::string escaped(const std::string& text)
     return result;
 }
 
+// JSON as a script element can hold it: what begins a tag there ends it, or the page.
+std::string json_in_page(const nlohmann::ordered_json& json)
+{
+    const std::string text =
+        json.dump(-1, ' ', false, nlohmann::ordered_json::error_handler_t::replace);
+    std::string result;
+    for (const char c : text)
+        result += c == '<' ? std::string("\\u003c") : std::string(1, c);
+    return result;
+}
+
 std::string png_uri(const Image<float>& image)
 {
     return "data:image/png;base64," + base64(encode_png(image));
@@ -311,8 +322,9 @@ std::string report_html(const std::vector<SceneReport>& scenes, const ReportOpti
             write_study_section(page, scene, study, options);
         page << "</section>\n";
     }
-    page << "<script type=\"application/json\" id=\"pictures\">" << pictures_json(scenes).dump()
-         << "</script>\n<script>" << page_script << "</script></body></html>\n";
+    page << "<script type=\"application/json\" id=\"pictures\">"
+         << json_in_page(pictures_json(scenes)) << "</script>\n<script>" << page_script
+         << "</script></body></html>\n";
     return page.str();
 }
 

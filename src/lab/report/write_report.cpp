@@ -1,12 +1,15 @@
 #include <packtrace/write_report.hpp>
 
-#include <system_error>
+#include <algorithm>
+#include <set>
+#include <stdexcept>
 
 #include <packtrace/image_io.hpp>
 
 #include "core/atomic_file.hpp"
 #include "lab/report/report_pictures.hpp"
 #include "lab/report/report_text.hpp"
+#include "scene/quote.hpp"
 
 namespace packtrace {
 namespace {
@@ -29,24 +32,59 @@ void write_pictures(const SceneReport& scene, const StudyReport& study,
     }
 }
 
+// The report's own files.
+constexpr const char* csv_file = "report.csv";
+constexpr const char* json_file = "report.json";
+constexpr const char* html_file = "report.html";
+constexpr const char* markdown_file = "report.md";
+
+/// Each scene has a folder beside the report's own files.
+void check_names(const std::vector<SceneReport>& scenes)
+{
+    std::set<std::string> taken;
+    for (const SceneReport& scene : scenes)
+        if (scene.name != report_folder_name(scene.name) || !taken.insert(scene.name).second)
+            throw std::invalid_argument("report: a scene is called '" + scene.name +
+                                        "', which can't be its folder; see report_folder_name()");
+}
+
 }  // namespace
+
+std::string report_folder_name(const std::string& name)
+{
+    constexpr std::size_t longest = 200;  // with room for a number
+    std::string result = language::escape(name);
+    for (char& c : result)
+        if (c == '/' || c == '\\')
+            c = '_';
+    std::size_t end = std::min(result.size(), longest);
+    // Not in the middle of a character.
+    while (end < result.size() && (static_cast<unsigned char>(result[end]) & 0xC0u) == 0x80u)
+        --end;
+    result.resize(end);
+    if (result.empty() || result[0] == '.')
+        result.insert(0, "_");
+    for (const char* own : {csv_file, json_file, html_file, markdown_file})
+        if (result == own)
+            result += '_';
+    return result;
+}
 
 void write_report(const std::vector<SceneReport>& scenes, const ReportOptions& options,
                   const ReportConditions& conditions, const std::filesystem::path& folder)
 {
+    check_names(scenes);
     for (const SceneReport& scene : scenes) {
-        // A folder that can't be made shows when a file is written into it.
-        std::error_code ignored;
-        std::filesystem::create_directories(folder / scene.name, ignored);
+        make_folders(folder / scene.name);
         for (const StudyReport& study : scene.studies) {
             write_pictures(scene, study, folder);
             write_text(folder / plot_file(scene, study), report_plot(scene, study));
         }
     }
-    write_text(folder / "report.csv", report_csv(scenes));
-    write_text(folder / "report.json", report_json(scenes, options, conditions));
-    write_text(folder / "report.html", report_html(scenes, options, conditions));
-    write_text(folder / "report.md", report_markdown(scenes, options, conditions));
+    write_text(folder / csv_file, report_csv(scenes));
+    write_text(folder / json_file, report_json(scenes, options, conditions));
+    write_text(folder / html_file, report_html(scenes, options, conditions));
+    write_text(folder / markdown_file, report_markdown(scenes, options, conditions));
 }
 
 }  // namespace packtrace
