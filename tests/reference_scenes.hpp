@@ -1,5 +1,6 @@
 #pragma once
 
+#include <glm/geometric.hpp>
 #include <packtrace/scene.hpp>
 #include "catch.hpp"
 #include "reference/reference.hpp"
@@ -22,7 +23,7 @@ inline Object plane(const Vec3& point, const Vec3& normal, const Material& mater
 {
     Plane surface;
     surface.point = point;
-    surface.normal = normal;
+    surface.normal = glm::normalize(normal);
     plane_axes(surface);
     Object object;
     object.surface = surface;

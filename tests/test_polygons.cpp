@@ -14,13 +14,13 @@
 #include <packtrace/isa.hpp>
 #include <packtrace/read_scene.hpp>
 #include <packtrace/render.hpp>
+#include <packtrace/validate.hpp>
 #include <packtrace/write_scene.hpp>
 
 #include "catch.hpp"
 #include "lab/stress/ray_columns.hpp"
 #include "lab/truth/textbook.hpp"
 #include "lab/truth/wide_truth.hpp"
-#include "lower/check_scene.hpp"
 #include "lower/duplicates.hpp"
 #include "lower/packed_lists.hpp"
 #include "reference/all_hits.hpp"
@@ -197,14 +197,17 @@ TEST_CASE("polygons that are none are refused with what is wrong", "[polygons]")
         error_of("polygon { }") ==
         "x.scene:1:1: polygon has no 'vertices'; add for example vertices = (0, 0, 3), (1, 0, 3), "
         "(0, 1, 3)");
-    CHECK(error_of("polygon { vertices = (0, 0, 3), (1, 0, 3) }") ==
-          "x.scene:1:11: the polygon has a contour of 2 vertices; give it three or more");
+    CHECK(
+        error_of("polygon { vertices = (0, 0, 3), (1, 0, 3) }") ==
+        "x.scene:1:11: polygon 1: the polygon has a contour of 2 vertices; give it three or more");
     CHECK(error_of("polygon { vertices = (0, 0, 3), (1, 0, 3), (5, 0, 3) }") ==
-          "x.scene:1:11: the polygon's first contour encloses no area: its vertices are on one "
+          "x.scene:1:11: polygon 1: the polygon's first contour encloses no area: its vertices are "
+          "on one "
           "line, or it crosses itself into halves that cancel; move one, or begin with another "
           "contour");
     CHECK(error_of("polygon { vertices = (0, 0, 3), (2, 0, 3), (2, 2, 3), (0, 2, 3.01) }") ==
-          "x.scene:1:11: the polygon is not flat: vertex 2 is 0.005 off its plane, and 2.83e-06 is "
+          "x.scene:1:11: polygon 1: the polygon is not flat: vertex 2 is 0.005 off its plane, and "
+          "2.83e-06 is "
           "allowed; move it, or split the polygon into flat ones");
     CHECK(error_of("polygon { vertices = (0, 0), (1, 0), (0, 1) }") ==
           "x.scene:1:22: 'vertices' wants 3 numbers, not 2; write vertices = (0, 0, 3), (1, 0, 3), "
@@ -213,13 +216,13 @@ TEST_CASE("polygons that are none are refused with what is wrong", "[polygons]")
           "x.scene:1:22: 'vertices' wants points in brackets; write vertices = (0, 0, 3), (1, 0, "
           "3), (0, 1, 3)");
     CHECK(error_of(triangle + " checker = (0, 0, 0), (255, 255, 255), 1 }") ==
-          "x.scene:1:54: only a plane can have a checker; remove it and use color");
+          "x.scene:1:54: polygon 1: only a plane can have a checker; remove it and use color");
 
     Object unreal = cube_faces()[0];
     std::get<Polygon>(unreal.surface).contours[0][1].y = std::numeric_limits<double>::quiet_NaN();
-    CHECK_THROWS_WITH(check_scene(scene_of({unreal})),
-                      ContainsSubstring("a vertex of the polygon is not finite"));
-    CHECK_THROWS_WITH(check_scene(scene_of({polygon({})})),
+    CHECK_THROWS_WITH(validate(scene_of({unreal})),
+                      ContainsSubstring("polygon 1: 'vertices' wants a finite number, not 'nan'"));
+    CHECK_THROWS_WITH(validate(scene_of({polygon({})})),
                       ContainsSubstring("the polygon has no vertices"));
 }
 
@@ -368,7 +371,7 @@ TEST_CASE("a sphere of polygons is closed, and the nearer the finer it is", "[po
                 faces.push_back(polygon({corners}));
             }
         const Scene scene = scene_of(faces);
-        check_scene(scene);
+        validate(scene);
         const reference::Bodies<double> bodies(scene);
         Random random(31);
         double worst = 0.0;

@@ -112,8 +112,8 @@ TEST_CASE("an angle of view is read in degrees", "[read_camera]")
 TEST_CASE("nine numbers that are no rotation are refused", "[read_camera]")
 {
     const std::string message =
-        "x.scene:3:1: 'rotation' is not a rotation: its rows have to be perpendicular, of length 1 "
-        "and unmirrored within 1e-3; correct its numbers or use look_at";
+        "x.scene:3:1: camera: 'rotation' is not a rotation: its rows have to be perpendicular, of "
+        "length 1 and unmirrored; correct its numbers or use look_at";
     CHECK(camera_error("rotation = (1, 0, 0,  0, 1, 0,  0, 0, 1.001)") == message);
     CHECK(camera_error("rotation = (1, 0.0011, 0,  0, 1, 0,  0, 0, 1)") == message);
     CHECK(camera_error("rotation = (1, 0, 0,  0, 1, 0,  0, 0, -1)") == message);
@@ -136,22 +136,24 @@ TEST_CASE("a camera is turned in one way", "[read_camera]")
 TEST_CASE("a camera without a direction is refused", "[read_camera]")
 {
     const std::string message =
-        "x.scene:3:1: 'look_at' is the camera's own position or straight along 'up'; move one of "
+        "x.scene:3:1: camera: 'look_at' is the camera's own position or straight along 'up'; move "
+        "one of "
         "them or give another up";
     CHECK(camera_error("look_at = (0, 0, 0)") == message);
     CHECK(camera_error("look_at = (0, -5, 0)") == message);
     CHECK(camera_error("look_at = (0, 0, 1) up = (0, 0, 2)") == message);
-    CHECK(camera_error("look_at = (0, 0, 1) up = (0, 0, 0)") ==
-          "x.scene:3:26: 'up' is (0, 0, 0), which points nowhere; use a vector of any other "
-          "length");
+    CHECK(
+        camera_error("look_at = (0, 0, 1) up = (0, 0, 0)") ==
+        "x.scene:3:26: camera: 'up' is (0, 0, 0), which points nowhere; use a vector of any other "
+        "length");
 }
 
 TEST_CASE("an angle of view lies between 0 and 180 degrees", "[read_camera]")
 {
     CHECK(camera_error("fov = 0") ==
-          "x.scene:3:7: 'fov' is 0 degrees; use an angle above 0 and below 180");
+          "x.scene:3:7: camera: 'fov' is 0 degrees; use an angle above 0 and below 180");
     CHECK(camera_error("fov = 180") ==
-          "x.scene:3:7: 'fov' is 180 degrees; use an angle above 0 and below 180");
+          "x.scene:3:7: camera: 'fov' is 180 degrees; use an angle above 0 and below 180");
 }
 
 TEST_CASE("an orbit has a center, an axis and an angle", "[read_camera]")
@@ -195,12 +197,12 @@ TEST_CASE("keys give the camera's pose at frames", "[read_camera]")
 TEST_CASE("an animation moves the camera in one way", "[read_camera]")
 {
     CHECK(animation_error("frames = 10") ==
-          "x.scene:2:1: the animation moves nothing; add orbit { ... } or two or more key { ... }");
+          "x.scene:2:1: animation: it moves nothing; add orbit { ... } or two or more key { ... }");
     CHECK(animation_error("frames = 10 key { frame = 0 position = (0,0,0) look_at = (0,0,1) }") ==
-          "x.scene:2:1: the animation moves nothing; add orbit { ... } or two or more key { ... }");
+          "x.scene:2:1: animation: it moves nothing; add orbit { ... } or two or more key { ... }");
     CHECK(animation_error("frames = 10 orbit { center = (0, 0, 3) }\n"
                           "key { frame = 0 position = (0,0,0) look_at = (0,0,1) }") ==
-          "x.scene:2:1: the animation has an orbit and keys, both of which move the camera; remove "
+          "x.scene:2:1: animation: it has an orbit and keys, both of which move the camera; remove "
           "one of them");
 }
 
@@ -210,21 +212,24 @@ TEST_CASE("an animation's frames are counted from 0 in rising order", "[read_cam
     CHECK(animation_error("orbit { center = (0, 0, 3) }") ==
           "x.scene:2:1: animation has no 'frames'; add for example frames = 120");
     CHECK(animation_error("frames = 0 orbit { center = (0, 0, 3) }") ==
-          "x.scene:3:10: 'frames' is 0; use a whole number from 1 to 1000000");
+          "x.scene:3:10: animation: 'frames' is 0; use a whole number from 1 to 1000000");
     CHECK(animation_error("frames = 10 key { frame = 10 " + pose) ==
-          "x.scene:3:27: 'frame' is 10; use a whole number from 0 to 9");
-    CHECK(animation_error("frames = 10 key { frame = 5 " + pose + "key { frame = 5 " + pose) ==
-          "x.scene:4:1: frame 5 does not come after frame 5 of the key before; write keys in "
-          "rising order");
+          "x.scene:3:27: key 1: 'frame' is 10; use a whole number from 0 to 9");
+    CHECK(
+        animation_error("frames = 10 key { frame = 5 " + pose + "key { frame = 5 " + pose) ==
+        "x.scene:4:1: key 2: frame 5 does not come after frame 5 of the key before; write keys in "
+        "rising order");
 }
 
 TEST_CASE("a pose without a direction and an orbit without a radius are refused", "[read_camera]")
 {
     CHECK(animation_error("frames = 10 key { frame = 0 position = (0,0,0) look_at = (0,1,0) }") ==
-          "x.scene:3:48: 'look_at' is the camera's own position or straight along 'up'; move one "
+          "x.scene:3:48: key 1: 'look_at' is the camera's own position or straight along 'up'; "
+          "move one "
           "of them or give another up");
     const std::string message =
-        "x.scene:3:13: the camera stands on the orbit's axis, where it would not move; give the "
+        "x.scene:3:13: orbit: the camera stands on the orbit's axis, where it would not move; give "
+        "the "
         "camera another position or the orbit another center";
     CHECK(animation_error("frames = 10 orbit { center = (0, 0, 0) }") == message);
     CHECK(animation_error("frames = 10 orbit { center = (0, 7, 0) }") == message);

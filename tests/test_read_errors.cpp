@@ -52,16 +52,22 @@ TEST_CASE("the grammar has no rule that can loop without progress", "[read_error
     CHECK(tao::pegtl::analyze<language::grammar::file>(-1) == 0);
 }
 
-TEST_CASE("a file without objects is refused", "[read_errors]")
+TEST_CASE("an empty file is refused, and a scene without objects read with a warning",
+          "[read_errors]")
 {
     CHECK(error_of("") ==
           "x.scene:1:1: the file is empty; a scene needs an object, e.g. sphere { center = (0, 0, "
           "3) radius = 1 }");
-    const std::string message =
-        "x.scene:1:1: the scene has no object; add one, e.g. sphere { center = (0, 0, 3) radius = "
-        "1 }";
-    CHECK(error_of("\n# nothing\n") == message);
-    CHECK(error_of("light { type = ambient intensity = 1 }") == message);
+    for (const char* text : {"\n# nothing\n", "light { type = ambient intensity = 1 }"}) {
+        std::vector<std::string> warnings;
+        const Scene scene = parse_scene(text, "x.scene",
+                                        [&](const std::string& line) { warnings.push_back(line); });
+        CHECK(scene.objects.empty());
+        CHECK(warnings ==
+              std::vector<std::string>{
+                  "x.scene:1:1: the scene has no object, its picture is all background; add one, "
+                  "e.g. sphere { center = (0, 0, 3) radius = 1 }"});
+    }
 }
 
 TEST_CASE("a missing brace is reported where its block begins", "[read_errors]")
@@ -127,10 +133,12 @@ TEST_CASE("a number that is none, or not finite, is refused where it stands", "[
         return error_of("sphere { radius = " + value + " center = (0, 0, 3) }");
     };
     const std::string form = "; write it like 2, -0.5 or 1e3";
-    CHECK(radius("nan") == "x.scene:1:19: 'radius' wants a finite number, not 'nan'" + form);
-    CHECK(radius("-inf") == "x.scene:1:19: 'radius' wants a finite number, not '-inf'" + form);
+    CHECK(radius("nan") ==
+          "x.scene:1:19: sphere 1: 'radius' wants a finite number, not 'nan'" + form);
+    CHECK(radius("-inf") ==
+          "x.scene:1:19: sphere 1: 'radius' wants a finite number, not '-inf'" + form);
     CHECK(radius("+INFINITY") ==
-          "x.scene:1:19: 'radius' wants a finite number, not '+INFINITY'" + form);
+          "x.scene:1:19: sphere 1: 'radius' wants a finite number, not '+INFINITY'" + form);
     CHECK(radius("1abc") == "x.scene:1:19: 'radius' wants a number, not '1abc'" + form);
     CHECK(radius("0x1p3") == "x.scene:1:19: 'radius' wants a number, not '0x1p3'" + form);
     CHECK(radius("+-1") == "x.scene:1:19: 'radius' wants a number, not '+-1'" + form);
@@ -138,7 +146,7 @@ TEST_CASE("a number that is none, or not finite, is refused where it stands", "[
     CHECK(radius("1e999") ==
           "x.scene:1:19: '1e999' is beyond double precision; stay within 1e-307 and 1e308");
     CHECK(error_of("sphere { center = (0, nan, 3) radius = 1 }") ==
-          "x.scene:1:23: 'center' wants a finite number, not 'nan'" + form);
+          "x.scene:1:23: sphere 1: 'center' wants a finite number, not 'nan'" + form);
 }
 
 TEST_CASE("a value of another kind is refused with the right form", "[read_errors]")
@@ -250,7 +258,8 @@ TEST_CASE("a light that shines from nowhere is refused", "[read_errors]")
     CHECK(error_of_line("light { type = directional intensity = 1 }") ==
           "x.scene:2:1: light has no 'direction'; add for example direction = (1, 4, 4)");
     CHECK(error_of_line("light { type = directional intensity = 1 direction = (0, 0, 0) }") ==
-          "x.scene:2:54: 'direction' is (0, 0, 0), which points nowhere; use a vector of any other "
+          "x.scene:2:54: light 1: 'direction' is (0, 0, 0), which points nowhere; use a vector of "
+          "any other "
           "length");
     CHECK(error_of_line("light { intensity = 1 }") ==
           "x.scene:2:1: light has no 'type'; add for example type = point");
@@ -261,12 +270,12 @@ TEST_CASE("a light that shines from nowhere is refused", "[read_errors]")
 TEST_CASE("a light's keys belong to its type", "[read_errors]")
 {
     CHECK(error_of_line("light { type = ambient intensity = 1 position = (0, 0, 0) }") ==
-          "x.scene:2:38: only a point light has a position; remove it");
+          "x.scene:2:38: light 1: only a point light has a position; remove it");
     CHECK(error_of_line("light { type = point intensity = 1 position = (0, 0, 0)\n"
                         "direction = (0, 0, 1) }") ==
           "x.scene:3:1: only a directional light has a direction; remove it");
     CHECK(error_of_line("light { type = ambient intensity = -0.5 }") ==
-          "x.scene:2:36: 'intensity' is -0.5; use a number of 0 or more");
+          "x.scene:2:36: light 1: 'intensity' is -0.5; use a number of 0 or more");
     CHECK(error_of_line("light { type = spot intensity = 1 }") ==
           "x.scene:2:16: unknown type 'spot'; use one of: ambient, point, directional");
 }

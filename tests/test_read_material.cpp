@@ -178,12 +178,34 @@ TEST_CASE("a material needs a name of its own", "[read_material]")
           "x.scene:2:1: 'material' is a block, not a value; write material gold { ... }");
 }
 
-TEST_CASE("a named material does not mix with keys beside it", "[read_material]")
+TEST_CASE("keys beside a named material count instead of its own", "[read_material]")
 {
-    CHECK(error_of("material red { }\nsphere { center = (0, 0, 3) radius = 1 material = red\n"
-                   "specular = 10 }") ==
-          "x.scene:3:1: 'specular' stands beside a named material; move it into the material or "
-          "remove 'material'");
+    const Scene scene = parse(
+        "material red { color = (255, 0, 0) reflective = 0.25 }\n"
+        "sphere { center = (0, 0, 3) radius = 1 material = red  specular = 10 }\n"
+        "sphere { center = (0, 0, 3) radius = 1 material = red  color = (0, 0, 255) }\n"
+        "sphere { center = (0, 0, 3) radius = 1 material = red }");
+    const auto model = [&](std::size_t i) {
+        return std::get<ScratchMaterial>(scene.objects[i].material.model);
+    };
+    CHECK(scene.objects[0].material.color == Rgb(1.0, 0.0, 0.0));
+    CHECK(model(0).specular == 10.0);
+    CHECK(model(0).reflective == 0.25);
+    CHECK(scene.objects[1].material.color == Rgb(0.0, 0.0, 1.0));
+    CHECK(model(1).specular == -1.0);
+    CHECK(scene.objects[2].material.color == Rgb(1.0, 0.0, 0.0));
+    CHECK(model(2).specular == -1.0);
+    for (const Object& object : scene.objects)
+        CHECK(object.material.name == "red");
+}
+
+TEST_CASE("a material's fault stands where the material does, used or not", "[read_material]")
+{
+    const std::string bad = "material bad { reflective = 2 }\n";
+    const std::string message =
+        "x.scene:1:29: material 'bad': 'reflective' is 2; use a number from 0 to 1";
+    CHECK(error_of(bad + test::any_sphere) == message);
+    CHECK(error_of(bad + "sphere { center = (0, 0, 3) radius = 1 material = bad }") == message);
 }
 
 TEST_CASE("a key of another model is told from an unknown one", "[read_material]")
@@ -205,29 +227,31 @@ TEST_CASE("a key of another model is told from an unknown one", "[read_material]
 TEST_CASE("coefficients out of range are refused at the number", "[read_material]")
 {
     CHECK(sphere_error("scratch", "reflective = 1.5") ==
-          "x.scene:3:14: 'reflective' is 1.5; use a number from 0 to 1");
+          "x.scene:3:14: sphere 1: 'reflective' is 1.5; use a number from 0 to 1");
     CHECK(sphere_error("scratch", "specular = -2") ==
-          "x.scene:3:12: 'specular' is -2; use an exponent of 0 or more, or -1 for no highlight");
+          "x.scene:3:12: sphere 1: 'specular' is -2; use an exponent of 0 or more, or -1 for no "
+          "highlight");
     CHECK(sphere_error("sketch", "ior = -1.5") ==
-          "x.scene:3:7: 'ior' is -1.5; use a number above 0");
-    CHECK(sphere_error("whitted", "ior = 0") == "x.scene:3:7: 'ior' is 0; use a number above 0");
+          "x.scene:3:7: sphere 1: 'ior' is -1.5; use a number above 0");
+    CHECK(sphere_error("whitted", "ior = 0") ==
+          "x.scene:3:7: sphere 1: 'ior' is 0; use a number above 0");
     CHECK(sphere_error("whitted", "diffuse = (0.5, -0.5, 0)") ==
-          "x.scene:3:17: 'diffuse' is -0.5; use a number of 0 or more");
+          "x.scene:3:17: sphere 1: 'diffuse' is -0.5; use a number of 0 or more");
     CHECK(sphere_error("shader", "reflectance = (0, 1, -2, 3)") ==
-          "x.scene:3:22: 'reflectance' is -2; use a number of 0 or more");
+          "x.scene:3:22: sphere 1: 'reflectance' is -2; use a number of 0 or more");
     CHECK(sphere_error("shader", "reflectance = (0, 1, 2)") ==
           "x.scene:3:15: 'reflectance' wants 4 numbers, not 3; write reflectance = (0.2, 0.6, 0.2, "
           "16)");
     CHECK(sphere_error("general", "shininess = -1") ==
-          "x.scene:3:13: 'shininess' is -1; use a number of 0 or more");
+          "x.scene:3:13: sphere 1: 'shininess' is -1; use a number of 0 or more");
 }
 
 TEST_CASE("colours out of range or of another form are refused", "[read_material]")
 {
     CHECK(sphere_error("scratch", "color = (0, 256, 0)") ==
-          "x.scene:3:13: 'color' is 256; use a number from 0 to 255");
+          "x.scene:3:13: sphere 1: 'color' is 256; use a number from 0 to 255");
     CHECK(sphere_error("scratch", "color = rgb(0, 0, 1.5)") ==
-          "x.scene:3:19: 'color' is 1.5; use a number from 0 to 1");
+          "x.scene:3:19: sphere 1: 'color' is 1.5; use a number from 0 to 1");
     CHECK(sphere_error("scratch", "color = hsv(0, 0, 1)") ==
           "x.scene:3:9: 'color' wants a colour; write color = (255, 128, 0) or rgb(1, 0.5, 0)");
     CHECK(sphere_error("scratch", "color = red") ==
@@ -241,7 +265,7 @@ TEST_CASE("a checker that makes no sense is refused", "[read_material]")
 {
     const std::string plane = "plane { point = (0, 0, 0) normal = (0, 1, 0)\n";
     CHECK(error_of(plane + "checker = (0, 0, 0), (1, 1, 1), 0 }") ==
-          "x.scene:2:33: the checker's size is not above 0; use a longer edge");
+          "x.scene:2:33: plane 1: 'checker' is 0; use a number above 0");
     CHECK(error_of(plane + "checker = (0, 0, 0), (1, 1, 1) }") ==
           "x.scene:2:1: 'checker' wants two colours and a size; write checker = (255, 255, 255), "
           "(0, 0, 0), 1");
@@ -250,9 +274,10 @@ TEST_CASE("a checker that makes no sense is refused", "[read_material]")
     CHECK(error_of(plane + "color = (1, 1, 1) checker = (0, 0, 0), (1, 1, 1), 1 }") ==
           "x.scene:2:1: 'checker' gives both colours; remove 'color'");
     CHECK(error_of_line("cone { checker = (0, 0, 0), (1, 1, 1), 1 }") ==
-          "x.scene:2:8: only a plane can have a checker; remove it and use color");
+          "x.scene:2:8: cone 1: only a plane can have a checker; remove it and use color");
     CHECK(error_of("illumination = general\n" + plane + "checker = (0, 0, 0), (1, 1, 1), 1 }") ==
-          "x.scene:3:1: 'checker' has no effect under illumination = general, whose coefficients "
+          "x.scene:3:1: plane 1: 'checker' has no effect under illumination = general, whose "
+          "coefficients "
           "know no colour; remove it");
 }
 

@@ -1,4 +1,5 @@
 #include <packtrace/read_scene.hpp>
+#include <packtrace/write_scene.hpp>
 
 #include "catch.hpp"
 #include "scene_text.hpp"
@@ -104,14 +105,22 @@ TEST_CASE("objects without a name are counted by their kind", "[read_surface]")
     CHECK(scene.objects[4].name == "hat");
 }
 
-TEST_CASE("a name belongs to one object", "[read_surface]")
+TEST_CASE("a name that two objects have is warned of", "[read_surface]")
 {
-    CHECK(error_of("cone { name = hat }\ncylinder { name = \"hat\" }") ==
-          "x.scene:2:19: duplicate name 'hat', in use since line 1; give this object another "
-          "name");
-    CHECK(error_of("cone { name = \"cone 1\" }\ncone { }") ==
-          "x.scene:2:1: duplicate name 'cone 1', in use since line 1; give this object another "
-          "name");
+    const auto warning = [](const std::string& text) {
+        std::string lines;
+        const Scene scene =
+            parse_scene(text, "x.scene", [&](const std::string& line) { lines += line; });
+        CHECK(test::parse(scene_text(scene)).objects[1].name == scene.objects[1].name);
+        return lines;
+    };
+    CHECK(warning("cone { name = hat }\ncylinder { name = \"hat\" }") ==
+          "x.scene:2:19: duplicate name 'hat', that of the object on line 1 too; give one of them "
+          "another name");
+    CHECK(warning("cone { name = \"cone 1\" }\ncone { }") ==
+          "x.scene:2:1: duplicate name 'cone 1', that of the object on line 1 too; give one of "
+          "them another name");
+    CHECK(warning("cone { name = hat }\ncone { }\ncone { }") == "");
     CHECK(error_of("cone { name = \"\" }") ==
           "x.scene:1:15: the name is empty; write one or remove the key");
 }
@@ -134,28 +143,32 @@ TEST_CASE("a surface without its keys is refused with an example", "[read_surfac
 TEST_CASE("a radius is above 0", "[read_surface]")
 {
     CHECK(error_of("sphere { center = (0, 0, 3) radius = -1 }") ==
-          "x.scene:1:38: 'radius' is -1; use a number above 0");
+          "x.scene:1:38: sphere 1: 'radius' is -1; use a number above 0");
     CHECK(error_of("sphere { center = (0, 0, 3) radius = 0 }") ==
-          "x.scene:1:38: 'radius' is 0; use a number above 0");
+          "x.scene:1:38: sphere 1: 'radius' is 0; use a number above 0");
 }
 
 TEST_CASE("a normal points somewhere", "[read_surface]")
 {
     CHECK(error_of("plane { point = (0, 0, 0) normal = (0, -0, 0) }") ==
-          "x.scene:1:36: 'normal' is (0, 0, 0), which points nowhere; use a vector of any other "
+          "x.scene:1:36: plane 1: 'normal' is (0, 0, 0), which points nowhere; use a vector of any "
+          "other "
           "length");
 }
 
 TEST_CASE("a z_range that is no range, and a cap without one, are refused", "[read_surface]")
 {
     CHECK(error_of("cone { z_range = (1, -0.5) }") ==
-          "x.scene:1:18: 'z_range' is (1, -0.5), upside down or empty; write the lower end first, "
+          "x.scene:1:18: cone 1: 'z_range' is (1, -0.5), upside down or empty; write the lower end "
+          "first, "
           "then a higher one");
     CHECK(error_of("cone { z_range = (1, 1) }") ==
-          "x.scene:1:18: 'z_range' is (1, 1), upside down or empty; write the lower end first, "
+          "x.scene:1:18: cone 1: 'z_range' is (1, 1), upside down or empty; write the lower end "
+          "first, "
           "then a higher one");
     CHECK(error_of("cone { capped = true }") ==
-          "x.scene:1:8: 'capped' closes the ends of a z_range, and there is none; add for example "
+          "x.scene:1:8: cone 1: 'capped' closes the ends of a z_range, and there is none; add for "
+          "example "
           "z_range = (-1, 1) or remove it");
     CHECK(error_of("cone { capped = maybe z_range = (0, 1) }") ==
           "x.scene:1:17: unknown capped 'maybe'; use one of: no, yes, false, true");

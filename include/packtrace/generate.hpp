@@ -7,7 +7,8 @@
 
 // Procedural scenes. The same options give the same scene on every machine; pictures are
 // 1024 x 1024 pixels, lit after note 001, each object named as the reader would name it.
-// All throw std::invalid_argument, in one line, for options out of the range given here.
+// All throw std::invalid_argument, in one line, for options out of the range given here. A scene
+// file holds two million spheres; scene_text() refuses more.
 namespace packtrace {
 
 /// The "balls" of Haines, A Proposal for Standard Graphics Environments, 1987: a sphere of

@@ -2,24 +2,20 @@
 
 #include <filesystem>
 #include <functional>
-#include <stdexcept>
 #include <string>
 #include <string_view>
 
 #include <packtrace/export.hpp>
 #include <packtrace/scene.hpp>
+#include <packtrace/validate.hpp>
 
 namespace packtrace {
-
-/// A scene that can't be used. `what()` is one line: `file:line:column: what, why, what to do`.
-struct PACKTRACE_API SceneError : std::runtime_error {
-    using std::runtime_error::runtime_error;
-};
 
 /// Is called with one line, `file:line:column: what`, for what a reader had to mend.
 using TakeWarning = std::function<void(const std::string& line)>;
 
-/// Reads a scene file (docs/scene.md). Throws SceneError for unreadable or wrong input.
+/// Reads a scene file (docs/scene.md). Throws SceneError, `file:line:column: what, why, what to
+/// do`, for unreadable or wrong input. Values are checked as validate() checks them.
 [[nodiscard]] PACKTRACE_API Scene read_scene(const std::filesystem::path& file,
                                              const TakeWarning& warn = {});
 

@@ -60,16 +60,15 @@ struct RenderOptions {
 struct CutRays {
     std::uint64_t rays = 0;
     /// No channel of any pixel differs by more from the picture in which all rays are traced, but
-    /// for the rounding of the pixels' sums (docs/numerics_derivations.md). Infinite where the
-    /// scene's light has no bound. Adaptive sampling: of pixels with the same samples.
+    /// for the rounding of the pixels' sums (docs/numerics_derivations.md). Adaptive sampling: of
+    /// pixels with the same samples.
     double bound = 0.0;
 };
 
 /// Renders a scene in the precision of `Real` (float or double; the scalar kernel also long
 /// double). The picture is the same, bit for bit, whatever the width and number of threads on
-/// a machine with fused multiply-add. Throws std::invalid_argument for impossible options and for
-/// a scene whose numbers mean nothing (a radius of -1, coefficients that are not those of the
-/// quadric's kind), SceneError for a quadric without a surface; every kernel refuses the same.
+/// a machine with fused multiply-add. Throws std::invalid_argument for impossible options, and
+/// SceneError as validate() does; every kernel refuses the same scenes with the same words.
 /// `cut`, if any, is set.
 template <class Real>
 [[nodiscard]] PACKTRACE_API Image<Real> render(const Scene& scene,

@@ -13,13 +13,14 @@ namespace packtrace {
 
 struct Sphere {
     Vec3 center{0.0};
-    double radius = 1.0;  ///< > 0
+    double radius = 1.0;  ///< scene units, > 0
 };
 
 struct Plane {
     Vec3 point{0.0};
-    Vec3 normal{0.0, 1.0, 0.0};  ///< unit
-    /// Unit axes in the plane that a checker is laid along, see `plane_axes`.
+    Vec3 normal{0.0, 1.0, 0.0};  ///< unit, within 1e-6
+    /// Unit axes in the plane that a checker is laid along, those of `plane_axes`; without a
+    /// checker they don't count.
     Vec3 u{1.0, 0.0, 0.0};
     Vec3 v{0.0, 0.0, 1.0};
 };
@@ -49,7 +50,7 @@ struct ZRange {
 struct Quadric {
     QuadricKind kind = QuadricKind::general;
     /// A … J in the order of the equation above; filled in for every kind, with those of its
-    /// equation.
+    /// equation: see ellipsoid() and the others in build.hpp.
     std::array<double, 10> coefficients{};
     /// Keeps only the part with z in this range, in the quadric's own space.
     std::optional<ZRange> z_range;
@@ -70,6 +71,11 @@ struct Polygon {
 
 /// What is wrong with a polygon, to be read behind its name: too few corners, no area, not flat.
 [[nodiscard]] PACKTRACE_API std::optional<std::string> polygon_fault(const Polygon& polygon);
+
+/// What is wrong with a quadric of kind `general` under its object's transform: its equation has no
+/// surface, or its center or axes are beyond single precision.
+[[nodiscard]] PACKTRACE_API std::optional<std::string> quadric_fault(const Quadric& quadric,
+                                                                     const Mat4& transform);
 
 using Surface = std::variant<Sphere, Plane, Quadric, Polygon>;
 

@@ -16,11 +16,6 @@ constexpr double smallest_certain = 1e-9;
 
 }  // namespace
 
-bool is_finite(const Vec3& v)
-{
-    return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z);
-}
-
 double first_positive_root(double a, double b, double c)
 {
     constexpr double never = std::numeric_limits<double>::infinity();

@@ -2,16 +2,12 @@
 
 #include <cstdint>
 #include <optional>
-#include <string>
 #include <tuple>
 
 #include <packtrace/vec.hpp>
 
 // What every kind of surface answers with, and what they share in finding it.
 namespace packtrace {
-
-/// Why an object can't be rendered; reads well with its name before it.
-using Fault = std::optional<std::string>;
 
 /// Where a line from inside leaves again, as a t; nothing from outside.
 using Exit = std::optional<double>;
@@ -21,8 +17,6 @@ struct CenteredBox {
     Vec3 center{0.0};
     Vec3 half{0.0};  ///< of its sizes
 };
-
-[[nodiscard]] bool is_finite(const Vec3& v);
 
 /// The first root above 0 of a t² + 2 b t + c; infinite where there is none.
 [[nodiscard]] double first_positive_root(double a, double b, double c);

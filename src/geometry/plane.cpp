@@ -10,15 +10,6 @@
 
 namespace packtrace {
 
-Fault fault_of(const Plane& plane)
-{
-    if (!is_finite(plane.point))
-        return "the plane's point is not finite; give it three finite numbers";
-    if (!is_finite(plane.normal) || plane.normal == Vec3(0.0))
-        return "the plane's normal points nowhere; give it a finite one other than (0, 0, 0)";
-    return std::nullopt;
-}
-
 int lower_kind(const Object& object, const Plane& plane, std::int32_t surface, SurfaceLists& lists)
 {
     LoweredPlane result;

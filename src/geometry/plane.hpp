@@ -19,8 +19,6 @@ struct LoweredPlane {
     std::int32_t surface = 0;
 };
 
-[[nodiscard]] Fault fault_of(const Plane& plane);
-
 /// Appends the plane in world space; returns how many surface numbers it takes.
 int lower_kind(const Object& object, const Plane& plane, std::int32_t surface, SurfaceLists& lists);
 

@@ -27,11 +27,6 @@ struct LoweredPolygon {
     std::int32_t surface = 0;
 };
 
-[[nodiscard]] inline Fault fault_of(const Polygon& polygon)
-{
-    return polygon_fault(polygon);
-}
-
 /// Appends the polygon in world space; returns how many surface numbers it takes.
 int lower_kind(const Object& object, const Polygon& polygon, std::int32_t surface,
                SurfaceLists& lists);

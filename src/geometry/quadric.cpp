@@ -7,11 +7,11 @@
 #include <glm/gtc/matrix_access.hpp>
 #include <glm/matrix.hpp>
 
+#include "core/number_ranges.hpp"
 #include "geometry/canonical_form.hpp"
 #include "geometry/exact_inverse.hpp"
 #include "geometry/kinds.hpp"
 #include "geometry/round_to.hpp"
-#include "scene/quadric_kinds.hpp"
 
 namespace packtrace {
 namespace {
@@ -25,6 +25,11 @@ struct Bound {
     double radius = std::numeric_limits<double>::infinity();
     Vec3 half{0.0};  ///< of the sizes of a box
 };
+
+double largest_of(const Vec3& v)
+{
+    return std::max({std::abs(v.x), std::abs(v.y), std::abs(v.z)});
+}
 
 /// No less than the length of `m * u` for any unit u.
 double ellipsoid_radius(const Mat3& m)
@@ -127,31 +132,23 @@ Bound bound_of(const Quadric& quadric, const CanonicalForm& form, const Mat4& tr
 
 }  // namespace
 
-Fault fault_of(const Quadric& quadric)
-{
-    const QuadricKindInfo* const kind = find_quadric_kind(quadric.kind);
-    if (kind != nullptr && quadric.coefficients != kind->coefficients)
-        return "the coefficients are not those of its kind, " + std::string(kind->name) +
-               "; fill them in, or make the kind general";
-    for (const double coefficient : quadric.coefficients)
-        if (!std::isfinite(coefficient))
-            return "a coefficient of the quadric is not finite; use finite ones";
-    const auto& range = quadric.z_range;
-    if (range &&
-        !(std::isfinite(range->low) && std::isfinite(range->high) && range->low < range->high))
-        return "the z_range is empty or not finite; give it a low end and a higher one";
-    if (quadric.capped && !range)
-        return "capped closes the ends of a z_range, and there is none; add one";
-    return std::nullopt;
-}
-
-Fault why_no_surface(const Quadric& quadric)
+std::optional<std::string> quadric_fault(const Quadric& quadric, const Mat4& transform)
 {
     if (quadric.kind != QuadricKind::general)
         return std::nullopt;
-    const Fault reason = why_no_surface(canonical_form(quadric.coefficients));
-    return reason ? Fault("the quadric has no surface: " + *reason + "; change its coefficients")
-                  : std::nullopt;
+    if (const auto reason = why_no_surface(canonical_form(quadric.coefficients)))
+        return "the quadric has no surface: " + *reason + "; change its coefficients";
+    Object object;
+    object.transform = transform;
+    const LoweredQuadric placed = lower_quadric(object, quadric, 0);
+    const Vec3 weights(largest_of(placed.square), std::abs(placed.linear),
+                       std::abs(placed.constant));
+    if (!(std::max(largest_of(placed.center), largest_of(weights)) <= largest_number))
+        return "the quadric's center or axes are beyond single precision; use coefficients nearer "
+               "to each other";
+    if (!(std::max(weights.x, weights.y) >= smallest_length))
+        return "the quadric's coefficients are too small for single precision; multiply them all";
+    return std::nullopt;
 }
 
 int lower_kind(const Object& object, const Quadric& quadric, std::int32_t surface,

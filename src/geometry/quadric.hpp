@@ -42,17 +42,12 @@ struct LoweredQuadric {
     }
 };
 
-[[nodiscard]] Fault fault_of(const Quadric& quadric);
-
-/// Why a quadric without a fault has no surface that a ray can hit; nothing where it has one.
-[[nodiscard]] Fault why_no_surface(const Quadric& quadric);
-
 /// Appends the quadric in world space; returns how many surface numbers it takes. A unit sphere
 /// under a similarity becomes a sphere.
 int lower_kind(const Object& object, const Quadric& quadric, std::int32_t surface,
                SurfaceLists& lists);
 
-/// A quadric in world space under its object's transform; `check_object` has let it pass.
+/// A quadric in world space under its object's transform; validate() has let it pass.
 [[nodiscard]] LoweredQuadric lower_quadric(const Object& object, const Quadric& quadric,
                                            std::int32_t surface);
 

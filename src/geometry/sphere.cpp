@@ -61,16 +61,6 @@ Exit exit_of_sphere(const Vec3& center, double radius, const Vec3& eye, const Ve
 
 }  // namespace
 
-Fault fault_of(const Sphere& sphere)
-{
-    if (!is_finite(sphere.center))
-        return "the sphere's center is not finite; give it three finite numbers";
-    if (!(sphere.radius > 0.0) || std::isinf(sphere.radius))
-        return "the sphere's radius is " + std::to_string(sphere.radius) +
-               "; use a finite one above 0";
-    return std::nullopt;
-}
-
 bool lower_sphere(const Sphere& sphere, const Mat4& transform, std::int32_t surface,
                   SurfaceLists& lists)
 {

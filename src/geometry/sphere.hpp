@@ -33,8 +33,6 @@ struct LoweredAnchoredSphere {
     std::int32_t surface = 0;
 };
 
-[[nodiscard]] Fault fault_of(const Sphere& sphere);
-
 /// Appends the sphere to the list of what it is in world space; returns how many surface numbers it
 /// takes. Under a similarity it stays a sphere, else it becomes a quadric.
 int lower_kind(const Object& object, const Sphere& sphere, std::int32_t surface,

@@ -1,12 +1,12 @@
 #include <algorithm>
 #include <array>
-#include <exception>
 #include <span>
 #include <variant>
 
+#include <packtrace/validate.hpp>
+
 #include <tbb/parallel_for.h>
 
-#include "lower/check_scene.hpp"
 #include "lower/eye_glass.hpp"
 #include "lower/join_parts.hpp"
 #include "lower/lower_material.hpp"
@@ -39,7 +39,6 @@ void lower_part(const Scene& scene, std::size_t begin, std::size_t end, LoweredS
     const LightSums lights = sum_lights(scene);
     RecentMaterials recent;
     for (std::size_t i = begin; i < end; ++i) {
-        check_object(scene, i);
         const Object& object = scene.objects[i];
         const auto number = static_cast<std::int32_t>(i);
         const auto index = lower_material(object, number, lights, recent, part);
@@ -57,19 +56,10 @@ void lower_part(const Scene& scene, std::size_t begin, std::size_t end, LoweredS
 void lower_parts(const Scene& scene, std::size_t begin, std::span<LoweredScene> parts)
 {
     const std::size_t objects = scene.objects.size();
-    std::vector<std::exception_ptr> errors(parts.size());
     tbb::parallel_for(std::size_t{0}, parts.size(), [&](std::size_t i) {
-        try {
-            lower_part(scene, std::min(objects, begin + i * part_objects),
-                       std::min(objects, begin + (i + 1) * part_objects), parts[i]);
-        } catch (...) {
-            errors[i] = std::current_exception();
-        }
+        lower_part(scene, std::min(objects, begin + i * part_objects),
+                   std::min(objects, begin + (i + 1) * part_objects), parts[i]);
     });
-    // Of several the first object's, whoever came first.
-    for (const std::exception_ptr& error : errors)
-        if (error)
-            std::rethrow_exception(error);
 }
 
 void lower_objects(const Scene& scene, LoweredScene& lowered)
@@ -89,8 +79,7 @@ void lower_objects(const Scene& scene, LoweredScene& lowered)
 
 LoweredScene lower(const Scene& scene, Accuracy accuracy, SelfHits self_hits)
 {
-    check_lights(scene);
-    check_min_weight(scene);
+    validate(scene);
     LoweredScene lowered;
     lower_model_rules(scene, lowered);
     lower_objects(scene, lowered);

@@ -60,7 +60,7 @@ struct LoweredScene : SurfaceLists {
 [[nodiscard]] abi::Features features_of(const LoweredScene& lowered);
 
 /// Lowers a scene on the threads of the TBB arena the call runs in; the result does not depend on
-/// their number. Throws as check_scene() does.
+/// their number. Throws as validate() does.
 [[nodiscard]] LoweredScene lower(const Scene& scene, Accuracy accuracy = Accuracy::exact,
                                  SelfHits self_hits = default_self_hits);
 

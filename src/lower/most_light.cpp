@@ -10,16 +10,6 @@ namespace {
 /// Roundoff of single precision, the coarsest that pictures are rendered in.
 constexpr double roundoff = 0x1p-24;
 
-/// Nothing times anything is nothing, however much light there is.
-Rgb times(const Rgb& a, const Rgb& b)
-{
-    Rgb product(0.0);
-    for (int channel = 0; channel < 3; ++channel)
-        if (a[channel] != 0.0 && b[channel] != 0.0)
-            product[channel] = a[channel] * b[channel];
-    return product;
-}
-
 /// What a light's share can grow to on its way through glass: each object multiplies it once, and
 /// a surface belongs to one object.
 Rgb largest_share(const LoweredScene& lowered)
@@ -54,15 +44,14 @@ Rgb most_local(const LoweredMaterial& material, const Rgb& lights)
 {
     const Rgb highlight(std::exp(32.0 * roundoff * material.shininess));
     return glm::abs(material.ambient) +
-           times(lights,
-                 glm::abs(material.diffuse) + times(highlight, glm::abs(material.highlight)));
+           lights * (glm::abs(material.diffuse) + highlight * glm::abs(material.highlight));
 }
 
 }  // namespace
 
 std::vector<Rgb> most_light(const LoweredScene& lowered)
 {
-    const Rgb lights = times(all_lights(lowered), largest_share(lowered));
+    const Rgb lights = all_lights(lowered) * largest_share(lowered);
     const double rounded =
         1.0 + (32.0 + 8.0 * static_cast<double>(lowered.lights.size())) * roundoff;
     const Rgb outside = most_outside(lowered);
@@ -73,9 +62,9 @@ std::vector<Rgb> most_light(const LoweredScene& lowered)
         for (const LoweredMaterial& material : lowered.materials) {
             const Rgb passed_on = glm::abs(material.reflect) + glm::abs(material.transmit);
             const Rgb local = most_local(material, lights);
-            const Rgb hit = left == 0 ? local + times(passed_on, glm::abs(lowered.limit_color))
-                                      : times(glm::abs(material.local), local) +
-                                            times(passed_on, most[most.size() - left]);
+            const Rgb hit =
+                left == 0 ? local + passed_on * glm::abs(lowered.limit_color)
+                          : glm::abs(material.local) * local + passed_on * most[most.size() - left];
             here = glm::max(here, rounded * hit);
         }
     }

@@ -28,10 +28,8 @@ public:
     {
         const Rgb& most = most_light_[static_cast<std::size_t>(generation)];
         double lacking = 0.0;
-        // Nothing of infinite light is no number, which is not above 0.
         for (int channel = 0; channel < 3; ++channel)
-            if (const double light = std::abs(weight[channel]) * most[channel]; light > lacking)
-                lacking = light;
+            lacking = std::max(lacking, std::abs(weight[channel]) * most[channel]);
         lacks_ += std::ceil(lacking / unit);
         ++total_.rays;
         total_.bound = std::max(total_.bound, lacks_ * unit);

@@ -4,8 +4,9 @@
 #include <numeric>
 #include <vector>
 
+#include <packtrace/validate.hpp>
+
 #include "bounds/bounded_scene.hpp"
-#include "lower/check_scene.hpp"
 #include "render/ray_backend.hpp"
 
 namespace packtrace {
@@ -25,7 +26,7 @@ RayScene<Real>::RayScene(const Scene& scene, const RenderOptions& options)
     : state_(std::make_unique<State>(scene))
 {
     if (options.kernel == Kernel::scalar) {
-        check_scene(scene);
+        validate(scene);
         state_->backend = scalar_backend<Real>(scene);
     } else {
         state_->backend = packet_backend<Real>(scene, options);

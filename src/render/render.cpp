@@ -4,8 +4,8 @@
 #include <type_traits>
 
 #include <packtrace/renderer.hpp>
+#include <packtrace/validate.hpp>
 
-#include "lower/check_scene.hpp"
 #include "lower/most_light.hpp"
 #include "reference/render_reference.hpp"
 #include "render/check_sampling.hpp"
@@ -18,7 +18,7 @@ namespace {
 template <class Real>
 Image<Real> render_scalar(const Scene& scene, const RenderOptions& options, CutRays* cut)
 {
-    check_scene(scene);
+    validate(scene);
     if (cut == nullptr || scene.min_weight <= 0.0) {
         if (cut != nullptr)
             *cut = {};

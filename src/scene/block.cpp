@@ -23,6 +23,11 @@ void Field::fail(const std::string& message) const
     language::fail(source, entry.key.at, message);
 }
 
+void Field::refuse(Position at, const std::string& message) const
+{
+    language::fail(source, at, subject.empty() ? message : std::string(subject) + ": " + message);
+}
+
 Block::Block(const Field& field, std::string_view title, const Keys& once, const Keys& repeatable)
     : field_(field), title_(title)
 {
@@ -69,7 +74,7 @@ std::optional<Field> Block::find(std::string_view key) const
 {
     for (const Entry& entry : field_.entry.entries)
         if (entry.key.text == key)
-            return Field{field_.source, entry};
+            return Field{field_.source, entry, field_.subject};
     return std::nullopt;
 }
 
@@ -84,7 +89,7 @@ std::vector<Field> Block::fields() const
 {
     std::vector<Field> result;
     for (const Entry& entry : field_.entry.entries)
-        result.push_back({field_.source, entry});
+        result.push_back({field_.source, entry, field_.subject});
     return result;
 }
 

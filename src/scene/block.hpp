@@ -14,8 +14,13 @@ namespace packtrace::language {
 struct Field {
     const Source& source;
     const Entry& entry;
+    std::string_view subject{};  ///< what a wrong value belongs to: "sphere 3"
 
+    /// Throws SceneError at the key.
     [[noreturn]] void fail(const std::string& message) const;
+    /// Throws SceneError for a value that a scene built in code can have as well, with the words
+    /// that validate() has for it.
+    [[noreturn]] void refuse(Position at, const std::string& message) const;
 };
 
 /// A list of keys; the literals behind them live for ever.
@@ -38,6 +43,12 @@ public:
     [[nodiscard]] const Field& field() const
     {
         return field_;
+    }
+
+    /// Names what the block is about, for messages; `subject` is kept.
+    void set_subject(std::string_view subject)
+    {
+        field_.subject = subject;
     }
 
 private:

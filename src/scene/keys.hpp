@@ -1,7 +1,7 @@
 #pragma once
 
+#include "scene/quadric_kinds.hpp"
 #include "scene/rows.hpp"
-#include "scene/unit_vector.hpp"
 
 // The scene language's keys.
 namespace packtrace::language {
@@ -51,14 +51,11 @@ inline Row<Scene> image_size_row()
                 [sides](std::string& out, const Scene& scene) {
                     sides.write(out, {scene.width, scene.height});
                 },
-            .is_set = [](const Scene&) { return true; }};
-}
-
-inline Type<Vec3> unit_direction()
-{
-    Type<Vec3> type = direction();
-    type.read = [read = type.read](const Field& field) { return unit_vector(read(field)); };
-    return type;
+            .is_set = [](const Scene&) { return true; },
+            .check =
+                [sides](const Scene& scene) {
+                    return sides.check("image_size", {scene.width, scene.height});
+                }};
 }
 
 /// The keys of note 000 and of note 002, which differ in the name of what goes through only.
@@ -70,17 +67,17 @@ Rows<Model> note_rows(std::string_view transmitted, Rgb Model::*member)
         row("diffuse", factor(), &Model::diffuse, "Kd, times the colour"),
         row("specular", factor(), &Model::specular, "Ks, mirror and highlight, white"),
         row(transmitted, factor(), member, "the share that goes through, white"),
-        row("shininess", number(not_negative), &Model::shininess, "the highlight's exponent"),
-        row("ior", number(above_0), &Model::ior, "index of refraction"),
+        row("shininess", number(any_exponent), &Model::shininess, "the highlight's exponent"),
+        row("ior", number(any_ior), &Model::ior, "index of refraction"),
     };
 }
 
 template <>
 inline const Rows<Scene> rows<Scene>{
     image_size_row(),
-    row<Scene>("viewport_size", size(above_0), of_camera(&Camera::viewport),
+    row<Scene>("viewport_size", size(any_length), of_camera(&Camera::viewport),
                "the window the canvas is laid over, see Camera; not used with `fov`"),
-    row<Scene>("projection_plane_d", number(above_0), of_camera(&Camera::distance),
+    row<Scene>("projection_plane_d", number(any_length), of_camera(&Camera::distance),
                "the window's distance from the eye"),
     row("background", color(), &Scene::background, "what a ray gets that hits nothing"),
     row("illumination", choice<Illumination>(), &Scene::illumination, "the model, see Materials"),
@@ -93,7 +90,8 @@ inline const Rows<Scene> rows<Scene>{
         "`general` only: what a ray adds that would have to go deeper")
         .only_if([](const Scene& scene) { return scene.illumination == Illumination::general; },
                  "'depth_limit' belongs to illumination = general, the other models "
-                 "have a rule of their own; remove it"),
+                 "have a rule of their own; remove it",
+                 [](const Scene& scene) { return scene.depth_limit == DepthLimit::local; }),
     row("shadows", choice<ShadowKind>(), &Scene::shadows,
         "with `none` they are not looked for, with `opaque` any occluder stops the "
         "light, with `transparent` each lets its transmitted share through (note 002)"),
@@ -115,7 +113,12 @@ inline const Rows<CameraKeys> rows<CameraKeys>{
         .only_if([](const CameraKeys& camera) { return !camera.look_at.has_value(); },
                  "'rotation' and 'look_at' both turn the camera; remove one of them"),
     row("fov",
-        number({.low = 0.0, .high = 180.0, .open = true, .noun = "angle", .unit = " degrees"}),
+        number({.low = 0.0,
+                .high = 180.0,
+                .smallest = 1e-9,
+                .open = true,
+                .noun = "angle",
+                .unit = " degrees"}),
         &CameraKeys::fov, "full vertical angle of view; the window then takes the picture's shape"),
 };
 
@@ -125,7 +128,7 @@ inline const Rows<Mat4> rows<Mat4> = transform_rows();
 template <>
 inline const Rows<Sphere> rows<Sphere>{
     row("center", point(), &Sphere::center, "").needed("(0, 0, 3)"),
-    row("radius", number(above_0), &Sphere::radius, "").needed("1"),
+    row("radius", number(any_length), &Sphere::radius, "").needed("1"),
 };
 
 template <>
@@ -134,13 +137,23 @@ inline const Rows<Plane> rows<Plane>{
     row("normal", unit_direction(), &Plane::normal, "").needed("(0, 1, 0)"),
 };
 
+/// Whether the coefficients of a quadric are those that its kind has.
+[[nodiscard]] inline bool has_own_coefficients(const Quadric& quadric)
+{
+    const QuadricKindInfo* const kind = find_quadric_kind(quadric.kind);
+    return kind == nullptr ? quadric.kind == QuadricKind::general
+                           : quadric.coefficients == kind->coefficients;
+}
+
 template <>
 inline const Rows<Quadric> rows<Quadric>{
     row("coefficients", numbers<10>("`(A, B, C, D, E, F, G, H, I, J)`", unit_sphere),
         &Quadric::coefficients, "in the order of the equation")
         .needed(unit_sphere)
         .only_if([](const Quadric& quadric) { return quadric.kind == QuadricKind::general; },
-                 "only a quadric has coefficients; remove them"),
+                 "the coefficients are not those of the quadric's kind; fill them in, as "
+                 "ellipsoid(), cone() and so on do, or make the kind general",
+                 has_own_coefficients),
     row("z_range", z_range(), &Quadric::z_range,
         "keeps the part between two heights in its own space, before the transform"),
     row("capped", choice<bool>(), &Quadric::capped,
@@ -150,7 +163,8 @@ inline const Rows<Quadric> rows<Quadric>{
         .only_if(
             [](const Quadric& quadric) { return !quadric.capped || quadric.z_range.has_value(); },
             "'capped' closes the ends of a z_range, and there is none; add for "
-            "example z_range = (-1, 1) or remove it"),
+            "example z_range = (-1, 1) or remove it",
+            [](const Quadric&) { return false; }),
 };
 
 /// Each time it stands there it adds a contour.
@@ -173,6 +187,12 @@ inline Row<Polygon> vertices_row()
                 }
             },
         .is_set = [](const Polygon& polygon) { return !polygon.contours.empty(); },
+        .check = [contour](const Polygon& polygon) -> Fault {
+            for (const std::vector<Vec3>& points : polygon.contours)
+                if (Fault fault = contour.check("vertices", points))
+                    return fault;
+            return std::nullopt;
+        },
         .example = "(0, 0, 3), (1, 0, 3), (0, 1, 3)",
         .repeatable = true};
 }
@@ -201,7 +221,11 @@ inline const Rows<Material> rows<Material>{
 
 template <>
 inline const Rows<ScratchMaterial> rows<ScratchMaterial>{
-    row("specular", number({.low = 0.0, .noun = "exponent", .except = "-1 for no highlight"}),
+    row("specular",
+        number({.low = 0.0,
+                .largest = largest_exponent,
+                .noun = "exponent",
+                .except = "-1 for no highlight"}),
         &ScratchMaterial::specular, "the highlight's exponent; the highlight has the colour too"),
     row("reflective", number(share), &ScratchMaterial::reflective,
         "share of the mirrored light, white; the rest is the object's own"),
@@ -218,7 +242,7 @@ inline const Rows<WhittedMaterial> rows<WhittedMaterial>{
 template <>
 inline const Rows<ShaderMaterial> rows<ShaderMaterial>{
     row("reflectance",
-        numbers<4>("`(r0, r1, r2, r3)`, each 0 or more", "(0.2, 0.6, 0.2, 16)", not_negative),
+        numbers<4>("`(r0, r1, r2, r3)`, each 0 or more", "(0.2, 0.6, 0.2, 16)", any_exponent),
         &ShaderMaterial::reflectance, "f = r0 + r1 Id + r2 Is^r3, times the colour and each light"),
 };
 
@@ -229,8 +253,8 @@ inline const Rows<GeneralMaterial> rows<GeneralMaterial>{
     row("highlight", factor(), &GeneralMaterial::highlight, ""),
     row("reflect", factor(), &GeneralMaterial::reflect, "share of the mirrored light"),
     row("transmit", factor(), &GeneralMaterial::transmit, "the share that goes through"),
-    row("shininess", number(not_negative), &GeneralMaterial::shininess, "the highlight's exponent"),
-    row("ior", number(above_0), &GeneralMaterial::ior, "index of refraction"),
+    row("shininess", number(any_exponent), &GeneralMaterial::shininess, "the highlight's exponent"),
+    row("ior", number(any_ior), &GeneralMaterial::ior, "index of refraction"),
 };
 
 template <>
@@ -242,7 +266,10 @@ inline const Rows<Light> rows<Light>{
     row("position", point(), &Light::vector, "`point` only")
         .needed("(2, 1, 0)")
         .only_if([](const Light& light) { return light.type == LightType::point; },
-                 "only a point light has a position; remove it"),
+                 "only a point light has a position; remove it",
+                 [](const Light& light) {
+                     return light.type != LightType::ambient || light.vector == Vec3(0.0);
+                 }),
     row("direction", direction(), &Light::vector,
         "`directional` only: from the scene *towards* the light")
         .needed("(1, 4, 4)")
@@ -252,7 +279,8 @@ inline const Rows<Light> rows<Light>{
         "with `no` it reaches all that turns to it, whatever is between; not for "
         "`ambient`")
         .only_if([](const Light& light) { return light.type != LightType::ambient; },
-                 "an ambient light casts no shadow anyway; remove it"),
+                 "an ambient light casts no shadow anyway; remove it",
+                 [](const Light& light) { return light.casts_shadow; }),
 };
 
 template <>

@@ -1,6 +1,7 @@
 #include "scene/rows.hpp"
 #include "scene/unit_vector.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <cstdio>
 #include <limits>
@@ -23,9 +24,8 @@ double spanned_volume(const Mat3& m)
         glm::determinant(Mat3(unit_vector(m[0]), unit_vector(m[1]), unit_vector(m[2]))));
 }
 
-bool is_singular(const Mat4& step)
+bool is_singular(const Mat3& linear)
 {
-    const Mat3 linear(step);
     // A strong but honest scale along one axis looks flat by its columns or by its rows only.
     return spanned_volume(linear) < flattest && spanned_volume(glm::transpose(linear)) < flattest;
 }
@@ -54,13 +54,16 @@ SineCosine sine_cosine(double degrees)
     }
 }
 
-/// Rodrigues' formula: x goes to y about z, y to z about x, z to x about y.
+}  // namespace
+
 Mat4 axis_rotation(const Vec3& axis, double degrees)
 {
     const auto [sine, cosine] = sine_cosine(degrees);
     const Mat3 cross{0.0, axis.z, -axis.y, -axis.z, 0.0, axis.x, axis.y, -axis.x, 0.0};
     return Mat4(cosine * Mat3(1.0) + sine * cross + (1.0 - cosine) * glm::outerProduct(axis, axis));
 }
+
+namespace {
 
 template <int columns, class Matrix>
 void set_rows(Matrix& matrix, const std::vector<double>& rows)
@@ -115,24 +118,34 @@ Mat4 read_matrix(const Field& field)
     return matrix;
 }
 
-bool is_finite(const Mat4& matrix)
+/// The twelve numbers of an affine map, row by row, as they are written.
+std::array<double, 12> numbers_of(const Mat4& matrix)
 {
-    for (int column = 0; column < 4; ++column)
+    std::array<double, 12> numbers{};
+    for (std::size_t i = 0; i < numbers.size(); ++i)
+        numbers[i] = matrix[static_cast<int>(i % 4)][static_cast<int>(i / 4)];
+    return numbers;
+}
+
+bool is_affine(const Mat4& matrix)
+{
+    return matrix[0][3] == 0.0 && matrix[1][3] == 0.0 && matrix[2][3] == 0.0 && matrix[3][3] == 1.0;
+}
+
+double largest_entry(const Mat3& matrix)
+{
+    double largest = 0.0;
+    for (int column = 0; column < 3; ++column)
         for (int row = 0; row < 3; ++row)
-            if (!std::isfinite(matrix[column][row]))
-                return false;
-    return true;
+            largest = std::max(largest, std::abs(matrix[column][row]));
+    return largest;
 }
 
 void apply(Mat4& transform, const Mat4& step, const Field& field)
 {
-    if (is_singular(step))
-        field.fail("'" + std::string(field.entry.key.text) +
-                   "' is singular, it flattens the object; use factors other than 0 and "
-                   "columns that are independent");
     transform = step * transform;
-    if (!is_finite(transform) || !std::isnormal(glm::determinant(Mat3(transform))))
-        field.fail("the transform's numbers leave double precision here; use factors nearer to 1");
+    if (const Fault fault = fault_of_transform(transform))
+        field.refuse(field.entry.key.at, *fault);
 }
 
 Row<Mat4> step(std::string_view key, std::string_view takes, Mat4 (*read)(const Field&),
@@ -146,6 +159,7 @@ Row<Mat4> step(std::string_view key, std::string_view takes, Mat4 (*read)(const 
             .write = append_rows<4, Mat4>,
             // All that is known of a transform is its matrix.
             .is_set = [key](const Mat4& m) { return key == "matrix" && m != Mat4(1.0); },
+            .check = {},
             .repeatable = true};
 }
 
@@ -177,6 +191,20 @@ Mat3 nearest_rotation(Mat3 m)
     return m;
 }
 
+const std::string not_a_rotation =
+    "'rotation' is not a rotation: its rows have to be perpendicular, of length 1 and unmirrored; "
+    "correct its numbers or use look_at";
+
+Fault fault_of_rotation(std::string_view key, const Mat3& rotation)
+{
+    const Mat3 rows = glm::transpose(rotation);
+    for (int row = 0; row < 3; ++row)
+        if (Fault fault = fault_of(key, rows[row], any_number))
+            return fault;
+    return distance_from_rotation(rotation) <= taken_as_given ? std::nullopt
+                                                              : Fault(not_a_rotation);
+}
+
 Mat3 read_rotation(const Field& field)
 {
     Mat3 rotation;
@@ -185,9 +213,7 @@ Mat3 read_rotation(const Field& field)
     if (distance <= taken_as_given)
         return rotation;
     if (!(distance <= taken_for_rotation))
-        field.fail(
-            "'rotation' is not a rotation: its rows have to be perpendicular, of length 1 and "
-            "unmirrored within 1e-3; correct its numbers or use look_at");
+        field.refuse(field.entry.key.at, not_a_rotation);
     char rounded[16];
     std::snprintf(rounded, sizeof rounded, "%.1g", distance);
     warn(field.source, field.entry.key.at,
@@ -197,6 +223,25 @@ Mat3 read_rotation(const Field& field)
 }
 
 }  // namespace
+
+Fault fault_of_transform(const Mat4& transform)
+{
+    if (transform == Mat4(1.0))
+        return std::nullopt;
+    if (Fault fault = fault_of("matrix", numbers_of(transform), any_number))
+        return fault;
+    if (!is_affine(transform))
+        return "the transform is not affine; make the last row of its matrix (0, 0, 0, 1)";
+    const Mat3 linear(transform);
+    if (is_singular(linear))
+        return "the transform is singular, it flattens the object; use factors other than 0 and "
+               "columns that are independent";
+    if (!std::isnormal(glm::determinant(linear)) ||
+        !(largest_entry(glm::inverse(linear)) <= 1.0 / smallest_length))
+        return "the transform shrinks the object to less than 1e-15 of its size; use factors "
+               "nearer to 1";
+    return std::nullopt;
+}
 
 Rows<Mat4> transform_rows()
 {
@@ -213,7 +258,7 @@ Rows<Mat4> transform_rows()
 
 Type<Mat3> rotation()
 {
-    return {"nine numbers, row by row", read_rotation, append_rows<3, Mat3>};
+    return {"nine numbers, row by row", read_rotation, append_rows<3, Mat3>, fault_of_rotation};
 }
 
 }  // namespace packtrace::language

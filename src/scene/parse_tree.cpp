@@ -1,6 +1,7 @@
 #include "scene/grammar.hpp"
 #include "scene/quote.hpp"
 #include "scene/syntax_tree.hpp"
+#include "scene/values.hpp"
 
 #include <tao/pegtl.hpp>
 
@@ -16,9 +17,8 @@ namespace {
 
 // A tree takes far more memory than its text. These bound it for a text that is no scene: no
 // key takes as many numbers, and no scene of the largest size has as many keys.
-constexpr std::size_t most_items = 65'536;
+constexpr std::size_t most_items = most_points;
 constexpr std::size_t most_numbers = 64;
-constexpr std::size_t most_entries = 8'000'000;
 
 /// Grows the syntax tree while the grammar matches; its calls follow the text from left to right.
 class TreeBuilder {
@@ -30,7 +30,7 @@ public:
 
     void begin_entry(Word key)
     {
-        check_room(entries_++, most_entries, key.at, "keys in a file");
+        check_room(entries_++, most_keys, key.at, "keys in a file");
         open_.emplace_back().key = key;
     }
 

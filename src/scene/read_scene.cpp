@@ -4,11 +4,10 @@
 #include <map>
 #include <stdexcept>
 
-#include <glm/geometric.hpp>
-
 #include "scene/keys.hpp"
+#include "scene/object_names.hpp"
 #include "scene/quote.hpp"
-#include "scene/unit_vector.hpp"
+#include "scene/scene_faults.hpp"
 
 // The steps from the blocks of the syntax tree to a scene. Each throws SceneError at the place that
 // is wrong.
@@ -20,64 +19,69 @@ void add(Keys& keys, const Keys& more)
     keys.insert(keys.end(), more.begin(), more.end());
 }
 
+/// `subject` is what messages about values call the block: "light 2".
 template <class Owner>
-Owner read_block(const Field& field, std::string_view title)
+Owner read_block(const Field& field, std::string_view title, std::string_view subject)
 {
     Owner owner;
-    read_rows(Block(field, title, keys<Owner>()), owner);
+    Block block(field, title, keys<Owner>());
+    block.set_subject(subject);
+    read_rows(block, owner);
     return owner;
 }
 
-/// Throws at `field`, the key look_at, when the view direction is zero or along `up`.
-Mat3 view_rotation(const Field& field, const Vec3& position, const Vec3& target, const Vec3& up)
+/// Throws at the fault's key where it stands in the block, else at the block.
+void refuse(const Block& block, const KeyFault& fault)
+{
+    if (const auto field = block.find(fault.key))
+        field->refuse(field->entry.key.at, fault.message);
+    block.field().refuse(block.field().entry.key.at, fault.message);
+}
+
+/// Throws at the key look_at when the view direction is zero or along `up`.
+Mat3 view_rotation(const Field& field, const CameraKeys& keys)
 {
     try {
-        return look_at(position, target, up);
+        return look_at(keys.position, *keys.look_at, keys.up);
     } catch (const std::invalid_argument&) {
-        field.fail(
-            "'look_at' is the camera's own position or straight along 'up'; move one of them "
-            "or give another up");
+        field.refuse(field.entry.key.at, std::string(looks_nowhere));
     }
 }
 
 void read_camera(const Field& field, Camera& camera)
 {
-    const auto keys = read_block<CameraKeys>(field, "camera");
+    const auto keys = read_block<CameraKeys>(field, "camera", "camera");
     camera.position = keys.position;
     camera.fov = keys.fov;
     if (keys.rotation)
         camera.rotation = *keys.rotation;
     for (const Entry& entry : field.entry.entries)
         if (entry.key.text == "look_at")
-            camera.rotation =
-                view_rotation({field.source, entry}, keys.position, *keys.look_at, keys.up);
+            camera.rotation = view_rotation({field.source, entry, "camera"}, keys);
 }
 
 Orbit read_orbit(const Field& field, const Camera& camera)
 {
-    const auto orbit = read_block<Orbit>(field, "orbit");
-    const Vec3 arm = camera.position - orbit.center;
-    if (arm == Vec3(0.0) ||
-        glm::length(glm::cross(unit_vector(orbit.axis), unit_vector(arm))) < 1e-12)
-        field.fail(
-            "the camera stands on the orbit's axis, where it would not move; give the camera "
-            "another position or the orbit another center");
+    const auto orbit = read_block<Orbit>(field, "orbit", "orbit");
+    if (const OwnerFault fault = fault_of_orbit(orbit, camera))
+        Field{field.source, field.entry, "orbit"}.refuse(field.entry.key.at, fault->message);
     return orbit;
 }
 
 /// The next key of an animation, which has `earlier` ones.
 CameraKey read_key(const Field& field, const Animation& earlier)
 {
-    const auto key = read_block<CameraKey>(field, "key");
-    const Block block(field, "key", keys<CameraKey>());
-    const Field frame = *block.find("frame");
-    check_range(frame, frame.entry.value[0].at, key.frame,
-                {.low = 0.0, .high = earlier.frames - 1.0, .whole = true});
-    (void)view_rotation(*block.find("look_at"), key.position, key.look_at, key.up);
-    if (!earlier.keys.empty() && key.frame <= earlier.keys.back().frame)
-        field.fail("frame " + std::to_string(key.frame) + " does not come after frame " +
-                   std::to_string(earlier.keys.back().frame) +
-                   " of the key before; write keys in rising order");
+    const std::string subject = "key " + std::to_string(earlier.keys.size() + 1);
+    const auto key = read_block<CameraKey>(field, "key", subject);
+    Block block(field, "key", keys<CameraKey>());
+    block.set_subject(subject);
+    const int last = earlier.keys.empty() ? -1 : earlier.keys.back().frame;
+    if (const OwnerFault fault = fault_of_key(key, earlier.frames, last)) {
+        // The frame is a number, which has a place of its own.
+        if (fault->key == "frame")
+            block.find("frame")->refuse(block.find("frame")->entry.value[0].at, fault->message);
+        refuse(block, *fault);
+    }
     return key;
 }
 
@@ -85,7 +89,8 @@ Animation read_animation(const Field& field, const Camera& camera)
 {
     Keys once = keys<Animation>();
     once.push_back("orbit");
-    const Block block(field, "animation", once, {"key"});
+    Block block(field, "animation", once, {"key"});
+    block.set_subject("animation");
     Animation animation;
     read_rows(block, animation);
     for (const Field& key : block.fields())
@@ -93,12 +98,8 @@ Animation read_animation(const Field& field, const Camera& camera)
             animation.keys.push_back(read_key(key, animation));
     if (const auto orbit = block.find("orbit"))
         animation.orbit = read_orbit(*orbit, camera);
-    if (animation.orbit && !animation.keys.empty())
-        field.fail(
-            "the animation has an orbit and keys, both of which move the camera; remove "
-            "one of them");
-    if (!animation.orbit && animation.keys.size() < 2)
-        field.fail("the animation moves nothing; add orbit { ... } or two or more key { ... }");
+    if (const OwnerFault fault = fault_of_animation(animation))
+        refuse(block, *fault);
     return animation;
 }
 
@@ -129,7 +130,7 @@ public:
             object_keys_.emplace(surface.word, keys_of_object(surface.blank));
         for (const Field& field : file.fields())
             if (field.entry.key.text == "material")
-                read_named_material(field);
+                add_named_material(field);
     }
 
     [[nodiscard]] Object read(const Field& field, const SurfaceWord& kind)
@@ -138,15 +139,19 @@ public:
         Keys repeatable = keys<Mat4>();
         add(repeatable, std::visit([](const auto& surface) { return repeatable_keys_of(surface); },
                                    kind.blank));
-        const Block block(field, kind.word, object_keys_.at(kind.word), repeatable);
+        Block block(field, kind.word, object_keys_.at(kind.word), repeatable);
+        const auto own_name = name_in(block);
+        const std::size_t number = own_name ? 0 : ++unnamed_[kind.word];
+        const std::string subject = label_of(kind.word, own_name, number);
+        block.set_subject(subject);
+
         Object object;
         object.surface = kind.blank;
         std::visit([&](auto& surface) { read_rows(block, surface); }, object.surface);
         if (auto* const plane = std::get_if<Plane>(&object.surface))
             plane_axes(*plane);
-        if (const auto* const polygon = std::get_if<Polygon>(&object.surface))
-            if (const auto fault = polygon_fault(*polygon))
-                block.find("vertices")->fail(*fault);
+        if (const OwnerFault fault = fault_of_surface(object.surface))
+            refuse(block, *fault);
         for (const Field& step : block.fields())
             for (const Row<Mat4>& row : rows<Mat4>)
                 if (row.key == step.entry.key.text)
@@ -155,8 +160,17 @@ public:
         read_rows(block, own);
         object.casts_shadow = own.casts_shadow;
         read_material(block, own, object);
-        object.name = claim_name(block, own.name);
+        object.name = own_name ? *own_name : label_of(kind.word, std::nullopt, number);
+        if (const OwnerFault fault = fault_of_object(object, illumination_))
+            refuse(block, *fault);
         return object;
+    }
+
+    /// Reads the materials that no object has used, for their faults.
+    void read_unused_materials()
+    {
+        for (auto& [name, material] : materials_)
+            (void)read_named_material(material);
     }
 
 private:
@@ -182,57 +196,71 @@ private:
                          ", or another illumination");
     }
 
-    void read_named_material(const Field& field)
+    /// Of a named block, which is read when it is first used, or last.
+    struct NamedMaterial {
+        Field field;
+        std::optional<Material> material{};
+    };
+
+    void add_named_material(const Field& field)
     {
         refuse_foreign_keys(field);
         const Block block(field, "material", material_keys_);
         if (!field.entry.name || field.entry.name->text.empty())
             field.fail("the material has no name; write material gold { ... }");
         const Word& name = *field.entry.name;
-        const auto [earlier, added] = material_lines_.emplace(name.text, name.at.line);
+        const auto [earlier, added] =
+            materials_.emplace(name.text, NamedMaterial{{field.source, field.entry}});
         if (!added)
             fail(field.source, name.at,
                  "material " + quote(name.text) + " is defined twice, first on line " +
-                     std::to_string(earlier->second) + "; give one of them another name");
-        Material material = default_material(illumination_);
-        material.name = name.text;
-        visit_parts(material, [&](auto& part) { read_rows(block, part); });
-        materials_.emplace(name.text, std::move(material));
+                     std::to_string(earlier->second.field.entry.name->at.line) +
+                     "; give one of them another name");
     }
 
-    void read_material(const Block& block, const ObjectKeys& own, Object& object) const
+    [[nodiscard]] const Material& read_named_material(NamedMaterial& named) const
+    {
+        if (!named.material) {
+            Block block(named.field, "material", material_keys_);
+            const std::string_view name = named.field.entry.name->text;
+            const std::string subject = "material " + quote(name);
+            block.set_subject(subject);
+            Material material = default_material(illumination_);
+            material.name = name;
+            visit_parts(material, [&](auto& part) { read_rows(block, part); });
+            named.material = std::move(material);
+        }
+        return *named.material;
+    }
+
+    /// The keys beside a named material count instead of its own.
+    void read_material(const Block& block, const ObjectKeys& own, Object& object)
     {
         Material& material = object.material;
+        const auto checker = block.find("checker");
+        if (checker)
+            check_checker(*checker, object.surface);
         material =
             own.material ? named_material(block, *own.material) : default_material(illumination_);
-        if (const auto field = block.find("checker")) {
-            check_checker(*field, object.surface);
+        if (checker) {
             material.color = own.checker->color;
             material.checker = own.checker->checker;
         }
-        if (!own.material)
-            visit_parts(material, [&](auto& part) { read_rows(block, part); });
+        visit_parts(material, [&](auto& part) { read_rows(block, part); });
     }
 
     void check_checker(const Field& field, const Surface& surface) const
     {
         if (!std::holds_alternative<Plane>(surface))
-            field.fail("only a plane can have a checker; remove it and use color");
+            field.refuse(field.entry.key.at, std::string(checker_of_no_plane));
         if (illumination_ == Illumination::general)
-            field.fail(
-                "'checker' has no effect under illumination = general, whose coefficients "
-                "know no colour; remove it");
+            field.refuse(field.entry.key.at, std::string(checker_without_color));
     }
 
-    [[nodiscard]] const Material& named_material(const Block& block, const std::string& name) const
+    [[nodiscard]] const Material& named_material(const Block& block, const std::string& name)
     {
-        for (const std::string_view key : material_keys_)
-            if (const auto field = block.find(key))
-                field->fail(quote(key) +
-                            " stands beside a named material; move it into the material "
-                            "or remove 'material'");
         if (const auto found = materials_.find(name); found != materials_.end())
-            return found->second;
+            return read_named_material(found->second);
         Keys names;
         for (const auto& [known, material] : materials_)
             names.push_back(known);
@@ -245,32 +273,19 @@ private:
                       : "; did you mean " + quote(nearest) + "?"));
     }
 
-    /// The object's own name, or the next "sphere 1" of its kind; throws if it is in use.
-    [[nodiscard]] std::string claim_name(const Block& block, std::optional<std::string> name)
+    /// The object's own name, if it has one.
+    [[nodiscard]] static std::optional<std::string> name_in(const Block& block)
     {
-        const Field& object = block.field();
-        Position at = object.entry.key.at;
-        const std::string kind(object.entry.key.text);
-        if (name)
-            at = block.find("name")->entry.value[0].at;
-        else
-            name = kind + ' ' + std::to_string(++unnamed_[kind]);
-        const auto [earlier, added] = name_lines_.emplace(*name, at.line);
-        if (!added)
-            fail(object.source, at,
-                 "duplicate name " + quote(*name) + ", in use since line " +
-                     std::to_string(earlier->second) + "; give this object another name");
-        return *std::move(name);
+        const auto field = block.find("name");
+        return field ? std::optional(language::name().read(*field)) : std::nullopt;
     }
 
     Illumination illumination_;
     Keys material_keys_;
     Keys foreign_keys_;
     std::map<std::string_view, Keys> object_keys_;
-    std::map<std::string, Material, std::less<>> materials_;
-    std::map<std::string_view, std::uint32_t> material_lines_;
-    std::map<std::string, std::size_t> unnamed_;
-    std::map<std::string, std::uint32_t> name_lines_;
+    std::map<std::string, NamedMaterial, std::less<>> materials_;
+    std::map<std::string_view, std::size_t> unnamed_;
 };
 
 void read_objects(const Block& file, Scene& scene)
@@ -281,8 +296,55 @@ void read_objects(const Block& file, Scene& scene)
             if (kind.word == field.entry.key.text)
                 scene.objects.push_back(reader.read(field, kind));
     if (scene.objects.empty())
-        fail(file.field().source, {},
-             "the scene has no object; add one, e.g. sphere { center = (0, 0, 3) radius = 1 }");
+        warn(file.field().source, {},
+             "the scene has no object, its picture is all background; add one, e.g. "
+             "sphere { center = (0, 0, 3) radius = 1 }");
+    reader.read_unused_materials();
+}
+
+void read_lights(const Block& file, Scene& scene)
+{
+    for (const Field& field : file.fields())
+        if (field.entry.key.text == "light")
+            scene.lights.push_back(read_block<Light>(
+                field, "light", "light " + std::to_string(scene.lights.size() + 1)));
+}
+
+/// The block of an object.
+Field object_field(const Block& file, std::size_t number)
+{
+    for (const Field& field : file.fields())
+        for (const SurfaceWord& kind : surface_words())
+            if (kind.word == field.entry.key.text && number-- == 0)
+                return field;
+    return file.field();
+}
+
+/// Throws for colours that may grow too far.
+void check_growth(const Block& file, const Scene& scene)
+{
+    if (const auto fault = fault_of_growth(scene)) {
+        const Field object = object_field(file, *fault->object);
+        fail(object.source, object.entry.key.at, fault->text());
+    }
+}
+
+/// Reports and messages tell objects apart by their names.
+void warn_of_duplicate_name(const Block& file, const Scene& scene)
+{
+    const auto repeated = find_duplicate_name(scene);
+    if (!repeated)
+        return;
+    const Field object = object_field(file, repeated->object);
+    Position at = object.entry.key.at;
+    for (const Entry& entry : object.entry.entries)
+        if (entry.key.text == "name")
+            at = entry.value[0].at;
+    const Position earlier = object_field(file, repeated->earlier).entry.key.at;
+    warn(object.source, at,
+         "duplicate name " + quote(scene.objects[repeated->object].name) +
+             ", that of the object on line " + std::to_string(earlier.line) +
+             " too; give one of them another name");
 }
 
 Scene build_scene(const Source& source, const Entry& tree)
@@ -302,11 +364,11 @@ Scene build_scene(const Source& source, const Entry& tree)
     if (const auto camera = file.find("camera"))
         read_camera(*camera, scene.camera);
     read_objects(file, scene);
-    for (const Field& field : file.fields())
-        if (field.entry.key.text == "light")
-            scene.lights.push_back(read_block<Light>(field, "light"));
+    read_lights(file, scene);
     if (const auto animation = file.find("animation"))
         scene.animation = read_animation(*animation, scene.camera);
+    check_growth(file, scene);
+    warn_of_duplicate_name(file, scene);
     return scene;
 }
 

@@ -23,10 +23,14 @@ struct Row {
     std::function<void(const Field&, Owner&)> read;
     std::function<void(std::string&, const Owner&)> write;
     std::function<bool(const Owner&)> is_set;
+    /// What is wrong with the owner's value, if it is set.
+    std::function<Fault(const Owner&)> check;
     std::string_view example{};  ///< of a key that is needed: a value for the message
     /// Whether an owner, as it is by now, can have the key, and what is wrong if not.
     bool (*condition)(const Owner&) = nullptr;
     std::string_view fault{};
+    /// Whether an owner that can't have the key says nothing by the value behind it either.
+    bool (*is_idle)(const Owner&) = nullptr;
     bool repeatable = false;
     bool omit_default = false;  ///< by the writer
 
@@ -36,11 +40,23 @@ struct Row {
         return std::move(*this);
     }
 
-    [[nodiscard]] Row only_if(bool (*allowed)(const Owner&), std::string_view message) &&
+    [[nodiscard]] Row only_if(bool (*allowed)(const Owner&), std::string_view message,
+                              bool (*idle)(const Owner&) = nullptr) &&
     {
         condition = allowed;
         fault = message;
+        is_idle = idle;
         return std::move(*this);
+    }
+
+    /// What is wrong with the owner at this key.
+    [[nodiscard]] Fault fault_in(const Owner& owner) const
+    {
+        if (is_allowed(owner))
+            return check ? check(owner) : std::nullopt;
+        if (is_idle != nullptr && !is_idle(owner))
+            return std::string(fault);
+        return std::nullopt;
     }
 
     [[nodiscard]] bool is_allowed(const Owner& owner) const
@@ -98,6 +114,13 @@ Row<Owner> row(std::string_view key, const Type<Value>& type, Access access,
                 else
                     return true;
             },
+        .check = [check = type.check, access, key](const Owner& owner) -> Fault {
+            const Member& member = std::invoke(access, owner);
+            if constexpr (is_optional<Member>)
+                return member ? check(key, *member) : std::nullopt;
+            else
+                return check(key, member);
+        },
         .omit_default = std::is_same_v<Member, bool>};
 }
 
@@ -111,6 +134,13 @@ Row<Owner> row(std::string_view key, const Type<Value>& type, Member Owner::*mem
 
 /// scale, rotate, translate, matrix: each is applied after what the matrix has done so far.
 [[nodiscard]] Rows<Mat4> transform_rows();
+
+/// What is wrong with an object's transform.
+[[nodiscard]] Fault fault_of_transform(const Mat4& transform);
+
+/// The rotation about a unit axis by Rodrigues' formula: x goes to y about z, y to z about x, z to
+/// x about y. Whole quarter turns are exact.
+[[nodiscard]] Mat4 axis_rotation(const Vec3& axis, double degrees);
 
 /// The keys of a block that becomes an `Owner`, in the order in which they are read and written.
 template <class Owner>
@@ -161,6 +191,8 @@ void read_rows(const Block& block, Owner& owner)
             row.read(*field, owner);
         }
         const bool allowed = row.is_allowed(owner);
+        if (field && !allowed && row.is_idle != nullptr)
+            field->refuse(field->entry.key.at, std::string(row.fault));
         if (field && !allowed)
             field->fail(std::string(row.fault));
         if (!field && allowed && !row.example.empty())
@@ -168,17 +200,37 @@ void read_rows(const Block& block, Owner& owner)
     }
 }
 
-/// Writes each key that says something, between `before` and `after`.
+/// The fault of an owner, and the key that it is about.
+struct KeyFault {
+    std::string_view key;
+    std::string message;
+};
+using OwnerFault = std::optional<KeyFault>;
+
+/// The first of the owner's keys with a fault.
 template <class Owner>
-void write_rows(std::string& out, const Owner& owner, std::string_view before = " ",
-                std::string_view equals = "=", std::string_view after = "")
+[[nodiscard]] OwnerFault fault_in_rows(const Owner& owner)
 {
+    for (const Row<Owner>& row : rows<Owner>)
+        if (Fault fault = row.fault_in(owner))
+            return KeyFault{row.key, *std::move(fault)};
+    return std::nullopt;
+}
+
+/// Writes each key that says something, between `before` and `after`; returns how many.
+template <class Owner>
+std::size_t write_rows(std::string& out, const Owner& owner, std::string_view before = " ",
+                       std::string_view equals = "=", std::string_view after = "")
+{
+    std::size_t written = 0;
     for (const Row<Owner>& row : rows<Owner>)
         if (row.is_written(owner)) {
             out.append(before).append(row.key).append(equals);
             row.write(out, owner);
             out += after;
+            ++written;
         }
+    return written;
 }
 
 }  // namespace packtrace::language

@@ -17,6 +17,9 @@ namespace packtrace::language {
 inline constexpr std::size_t longest_file = std::size_t{1} << 30u;
 inline constexpr std::size_t longest_line = std::size_t{1} << 20u;
 
+/// The most keys in a scene file. A tree takes far more memory than its text.
+inline constexpr std::size_t most_keys = 8'000'000;
+
 /// A place in a scene file; line and column count from 1, columns in bytes.
 struct Position {
     std::uint32_t line = 1;

@@ -9,6 +9,12 @@
 
 namespace packtrace::language {
 
+/// Whether a vector's length is 1 but for rounding to seven digits.
+[[nodiscard]] inline bool is_unit(const Vec3& v)
+{
+    return std::abs(glm::dot(v, v) - 1.0) <= 1e-6;
+}
+
 /// `v` at length 1, however long or short it is; (0, 0, 0) stays as it is.
 [[nodiscard]] inline Vec3 unit_vector(const Vec3& v)
 {

@@ -1,18 +1,20 @@
 #include "scene/values.hpp"
 
 #include "scene/quote.hpp"
+#include "scene/unit_vector.hpp"
 
 #include <charconv>
 #include <cmath>
-#include <stdexcept>
 #include <system_error>
 
 namespace packtrace::language {
 namespace {
 
+const std::string number_form = "write it like 2, -0.5 or 1e3";
 constexpr std::string_view color_form = "(255, 128, 0) or rgb(1, 0.5, 0)";
 constexpr std::string_view factor_form = "0.5 or (0.5, 0.4, 0.3)";
 constexpr Range byte_range{.low = 0.0, .high = 255.0};
+constexpr Range any_size{.largest = std::numeric_limits<double>::max()};
 
 /// Throws SceneError: the key wants another kind of value; `form` shows one.
 [[noreturn]] void fail_kind(const Field& field, Position at, std::string_view wanted,
@@ -58,10 +60,13 @@ double to_number(const Field& field, const Word& word)
         fail(field.source, word.at,
              quote(word.text) + " is beyond double precision; stay within 1e-307 and 1e308");
     const bool is_number = whole && error == std::errc{};
-    if (!is_number || !std::isfinite(number))
+    const std::string key = quote(field.entry.key.text);
+    if (!is_number)
         fail(field.source, word.at,
-             quote(field.entry.key.text) + " wants a " + (is_number ? "finite " : "") +
-                 "number, not " + quote(word.text) + "; write it like 2, -0.5 or 1e3");
+             key + " wants a number, not " + quote(word.text) + "; " + number_form);
+    if (!std::isfinite(number))
+        field.refuse(word.at,
+                     key + " wants a finite number, not " + quote(word.text) + "; " + number_form);
     return number;
 }
 
@@ -87,6 +92,11 @@ Vec3 to_vector(const std::vector<double>& numbers)
     return {numbers[0], numbers[1], numbers[2]};
 }
 
+std::span<const double> numbers_of(const Vec3& v)
+{
+    return {&v.x, 3};
+}
+
 Vec3 read_point(const Field& field)
 {
     return to_vector(read_numbers(field, 3, "(0, 1, 2)"));
@@ -94,7 +104,7 @@ Vec3 read_point(const Field& field)
 
 void append_vector(std::string& out, const Vec3& v)
 {
-    append(out, std::span<const double>(&v.x, 3));
+    append(out, numbers_of(v));
 }
 
 Rgb item_color(const Field& field, const Item& item, std::string_view form)
@@ -108,9 +118,6 @@ Rgb item_color(const Field& field, const Item& item, std::string_view form)
 
 void append_color(std::string& out, const Rgb& color)
 {
-    for (int channel = 0; channel < 3; ++channel)
-        if (!share.contains(color[channel]))
-            throw std::invalid_argument("a colour outside 0 to 1 can't be written as a scene");
     out += "rgb";
     append_vector(out, color);
 }
@@ -120,28 +127,99 @@ Rgb read_factor(const Field& field)
     constexpr std::string_view wanted = "a number or one for each channel";
     const Item& item = only_item(field, ItemKind::word, ItemKind::tuple, wanted, factor_form);
     if (item.kind == ItemKind::word)
-        return Rgb(read_number(field, not_negative));
+        return Rgb(read_number(field, any_factor));
     if (item.text != "rgb" && !item.text.empty())
         fail_kind(field, item.at, wanted, factor_form);
     return to_vector(
-        part_numbers(field, item, 3, factor_form, item.text.empty() ? not_negative : share));
+        part_numbers(field, item, 3, factor_form, item.text.empty() ? any_factor : share));
+}
+
+Fault fault_of_name(std::string_view key, std::string_view name)
+{
+    if (name.empty())
+        return "the name is empty; write one or remove the key";
+    const auto odd = [](char c) {
+        return c == '"' || (static_cast<unsigned char>(c) < 0x20u && c != '\t') || c == 0x7f;
+    };
+    if (std::any_of(name.begin(), name.end(), odd))
+        return quote(key) + " is " + quote(name) +
+               ", which no scene file can hold; leave out quotation marks and control characters";
+    if (name.size() > longest_name)
+        return quote(key) + " is " + quote(name) + ", of " + std::to_string(name.size()) +
+               " bytes; use at most " + std::to_string(longest_name);
+    return std::nullopt;
 }
 
 std::string read_name(const Field& field)
 {
     const Item& item = only_item(field, ItemKind::word, ItemKind::text, "a name", "\"the name\"");
-    if (item.text.empty())
-        fail(field.source, item.at, "the name is empty; write one or remove the key");
+    if (const Fault fault = fault_of_name(field.entry.key.text, item.text))
+        field.refuse(item.at, *fault);
     return std::string(item.text);
 }
 
 void append_name(std::string& out, std::string_view name)
 {
-    for (const char c : name)
-        if (c == '"' || static_cast<unsigned char>(c) < 0x20u || c == 0x7f)
-            throw std::invalid_argument(
-                "a name with quotes or control characters can't be written as a scene");
     (out += '"').append(name) += '"';
+}
+
+Fault fault_of_zero(std::string_view key, const Vec3& direction)
+{
+    if (direction == Vec3(0.0))
+        return quote(key) + " is (0, 0, 0), which points nowhere; use a vector of any other length";
+    return std::nullopt;
+}
+
+Fault fault_of_direction(std::string_view key, const Vec3& direction)
+{
+    if (Fault fault = fault_of_zero(key, direction))
+        return fault;
+    if (Fault fault = fault_of(key, direction, any_number))
+        return fault;
+    const double largest =
+        std::max({std::abs(direction.x), std::abs(direction.y), std::abs(direction.z)});
+    return fault_of(key, largest, any_length);
+}
+
+Fault fault_of_unit(std::string_view key, const Vec3& direction)
+{
+    if (Fault fault = fault_of_zero(key, direction))
+        return fault;
+    if (Fault fault = fault_of(key, direction, any_size))
+        return fault;
+    if (!is_unit(direction))
+        return quote(key) + " has the length " + to_text(glm::length(direction)) +
+               "; make it 1, as plane() does";
+    return std::nullopt;
+}
+
+Fault fault_of_z_range(std::string_view key, const ZRange& range)
+{
+    if (Fault fault = fault_of(key, std::array{range.low, range.high}, any_number))
+        return fault;
+    if (range.low < range.high)
+        return std::nullopt;
+    return quote(key) + " is (" + to_text(range.low) + ", " + to_text(range.high) +
+           "), upside down or empty; write the lower end first, then a higher one";
+}
+
+Fault fault_of_points(std::string_view key, const std::vector<Vec3>& points)
+{
+    if (points.size() > most_points)
+        return quote(key) + " has " + std::to_string(points.size()) + " points; use at most " +
+               std::to_string(most_points);
+    for (const Vec3& point : points)
+        if (Fault fault = fault_of(key, point, any_number))
+            return fault;
+    return std::nullopt;
+}
+
+Fault fault_of_squares(std::string_view key, const CheckerValue& value)
+{
+    for (const Rgb& color : {value.color, value.checker.other})
+        if (Fault fault = fault_of(key, color, share))
+            return fault;
+    return fault_of(key, value.checker.size, any_length);
 }
 
 CheckerValue read_checker(const Field& field)
@@ -156,8 +234,7 @@ CheckerValue read_checker(const Field& field)
     if (items[2].kind != ItemKind::word)
         fail_kind(field, items[2].at, "a number", form);
     value.checker.size = to_number(field, {items[2].at, items[2].text});
-    if (!(value.checker.size > 0.0))
-        fail(field.source, items[2].at, "the checker's size is not above 0; use a longer edge");
+    check_range(field, items[2].at, value.checker.size, any_length);
     return value;
 }
 
@@ -185,18 +262,52 @@ std::string Range::text() const
     return except.empty() ? text : text + ", or " + std::string(except);
 }
 
+bool Range::can_hold(double number) const
+{
+    const double size = std::abs(number);
+    return size <= largest && (size >= smallest || size == 0.0);
+}
+
+Fault fault_of(std::string_view key, double number, const Range& range)
+{
+    if (range.contains(number) && range.can_hold(number))
+        return std::nullopt;
+    if (!std::isfinite(number))
+        return quote(key) + " wants a finite number, not " + quote(to_text(number)) + "; " +
+               number_form;
+    const std::string is = quote(key) + (range.part.empty() ? " is " : " has ") +
+                           std::string(range.part) + to_text(number) + std::string(range.unit);
+    if (range.contains(number)) {
+        const bool large = std::abs(number) > range.largest;
+        return is + ", too " + (large ? "large" : "small") + " for single precision; use at " +
+               (large ? "most " + shortest(range.largest) : "least " + shortest(range.smallest)) +
+               " in size";
+    }
+    const bool vowel = std::string_view("aeiou").find(range.noun[0]) != std::string_view::npos;
+    return is + "; use " +
+           (range.whole ? "a whole "
+            : vowel     ? "an "
+                        : "a ") +
+           std::string(range.noun) + ' ' + range.text();
+}
+
+Fault fault_of(std::string_view key, std::span<const double> numbers, const Range& range)
+{
+    for (const double number : numbers)
+        if (!range.contains(number) || !range.can_hold(number))
+            return fault_of(key, number, range);
+    return std::nullopt;
+}
+
+Fault fault_of(std::string_view key, const Vec3& vector, const Range& range)
+{
+    return fault_of(key, numbers_of(vector), range);
+}
+
 void check_range(const Field& field, Position at, double number, const Range& range)
 {
-    if (range.contains(number))
-        return;
-    const bool vowel = std::string_view("aeiou").find(range.noun[0]) != std::string_view::npos;
-    fail(field.source, at,
-         quote(field.entry.key.text) + (range.part.empty() ? " is " : " has ") +
-             std::string(range.part) + to_text(number) + std::string(range.unit) + "; use " +
-             (range.whole ? "a whole "
-              : vowel     ? "an "
-                          : "a ") +
-             std::string(range.noun) + ' ' + range.text());
+    if (const Fault fault = fault_of(field.entry.key.text, number, range))
+        field.refuse(at, *fault);
 }
 
 bool is_word(const Field& field)
@@ -249,6 +360,13 @@ void append(std::string& out, std::span<const double> numbers)
     out += ')';
 }
 
+std::string shortest(double number)
+{
+    std::string text;
+    append(text, number);
+    return text;
+}
+
 std::string to_text(double number)
 {
     char buffer[32];
@@ -264,7 +382,8 @@ Type<double> number(const Range& range)
     if (const std::string limits = range.text(); !limits.empty())
         takes += ' ' + limits;
     return {takes, [range](const Field& field) { return read_number(field, range); },
-            [](std::string& out, double value) { append(out, value); }};
+            [](std::string& out, double value) { append(out, value); },
+            [range](std::string_view key, double value) { return fault_of(key, value, range); }};
 }
 
 Type<int> whole_number(int low, int high)
@@ -272,12 +391,15 @@ Type<int> whole_number(int low, int high)
     const Range range{.low = 1.0 * low, .high = 1.0 * high, .whole = true};
     return {"whole number " + range.text(),
             [range](const Field& field) { return static_cast<int>(read_number(field, range)); },
-            [](std::string& out, int value) { out += std::to_string(value); }};
+            [](std::string& out, int value) { out += std::to_string(value); },
+            [range](std::string_view key, int value) { return fault_of(key, value, range); }};
 }
 
 Type<Vec3> point()
 {
-    return {"point", read_point, append_vector};
+    return {"point", read_point, append_vector, [](std::string_view key, const Vec3& point) {
+                return fault_of(key, point, any_number);
+            }};
 }
 
 Type<std::vector<Vec3>> points()
@@ -296,11 +418,14 @@ Type<std::vector<Vec3>> points()
                 return points;
             },
             [](std::string& out, const std::vector<Vec3>& points) {
+                // Lines are limited, contours hardly.
+                constexpr std::size_t points_in_line = 256;
                 for (std::size_t i = 0; i < points.size(); ++i) {
-                    out += i == 0 ? "" : ",";
+                    out += i == 0 ? "" : i % points_in_line == 0 ? ",\n" : ",";
                     append_vector(out, points[i]);
                 }
-            }};
+            },
+            fault_of_points};
 }
 
 Type<Vec3> direction()
@@ -308,14 +433,24 @@ Type<Vec3> direction()
     return {"direction",
             [](const Field& field) {
                 const Vec3 direction = read_point(field);
-                if (direction == Vec3(0.0))
-                    fail(field.source, field.entry.value[0].at,
-                         quote(field.entry.key.text) +
-                             " is (0, 0, 0), which points nowhere; "
-                             "use a vector of any other length");
+                if (const Fault fault = fault_of_direction(field.entry.key.text, direction))
+                    field.refuse(field.entry.value[0].at, *fault);
                 return direction;
             },
-            append_vector};
+            append_vector, fault_of_direction};
+}
+
+Type<Vec3> unit_direction()
+{
+    return {"direction",
+            [](const Field& field) {
+                const Vec3 direction = to_vector(read_numbers(field, 3, "(0, 1, 2)", any_size));
+                if (const Fault fault = fault_of_zero(field.entry.key.text, direction))
+                    field.refuse(field.entry.value[0].at, *fault);
+                // What has been read and written keeps its digits.
+                return is_unit(direction) ? direction : unit_vector(direction);
+            },
+            append_vector, fault_of_unit};
 }
 
 Type<Vec2> pair(const Range& range)
@@ -325,7 +460,10 @@ Type<Vec2> pair(const Range& range)
                 const std::vector<double> numbers = read_numbers(field, 2, "(0.5, 1)", range);
                 return Vec2(numbers[0], numbers[1]);
             },
-            [](std::string& out, const Vec2& v) { append(out, std::span<const double>(&v.x, 2)); }};
+            [](std::string& out, const Vec2& v) { append(out, std::span<const double>(&v.x, 2)); },
+            [range](std::string_view key, const Vec2& v) {
+                return fault_of(key, std::span<const double>(&v.x, 2), range);
+            }};
 }
 
 Type<Vec2> size(Range range)
@@ -341,6 +479,9 @@ Type<Vec2> size(Range range)
             [](std::string& out, const Vec2& v) {
                 append(out, v.x);
                 append(out += " x ", v.y);
+            },
+            [range](std::string_view key, const Vec2& v) {
+                return fault_of(key, std::span<const double>(&v.x, 2), range);
             }};
 }
 
@@ -349,16 +490,15 @@ Type<ZRange> z_range()
     return {"`(low, high)`, low below high",
             [](const Field& field) {
                 const std::vector<double> ends = read_numbers(field, 2, "(0.5, 1)");
-                if (!(ends[0] < ends[1]))
-                    fail(field.source, field.entry.value[0].at,
-                         "'z_range' is (" + to_text(ends[0]) + ", " + to_text(ends[1]) +
-                             "), upside down or empty; write the lower end first, then a higher "
-                             "one");
-                return ZRange{ends[0], ends[1]};
+                const ZRange range{ends[0], ends[1]};
+                if (const Fault fault = fault_of_z_range(field.entry.key.text, range))
+                    field.refuse(field.entry.value[0].at, *fault);
+                return range;
             },
             [](std::string& out, const ZRange& range) {
                 append(out, std::array{range.low, range.high});
-            }};
+            },
+            fault_of_z_range};
 }
 
 Type<Rgb> color()
@@ -368,22 +508,26 @@ Type<Rgb> color()
                 return item_color(field, only_item(field, ItemKind::tuple, "a colour", color_form),
                                   color_form);
             },
-            append_color};
+            append_color,
+            [](std::string_view key, const Rgb& value) { return fault_of(key, value, share); }};
 }
 
 Type<Rgb> factor()
 {
-    return {"factor", read_factor, [](std::string& out, const Rgb& value) {
-                if (value == Rgb(value.x))
-                    append(out, value.x);
-                else
-                    append_vector(out, value);
-            }};
+    return {
+        "factor", read_factor,
+        [](std::string& out, const Rgb& value) {
+            if (value == Rgb(value.x))
+                append(out, value.x);
+            else
+                append_vector(out, value);
+        },
+        [](std::string_view key, const Rgb& value) { return fault_of(key, value, any_factor); }};
 }
 
 Type<std::string> name()
 {
-    return {"name", read_name, append_name};
+    return {"name", read_name, append_name, fault_of_name};
 }
 
 Type<CheckerValue> checker()
@@ -393,7 +537,8 @@ Type<CheckerValue> checker()
                 append_color(out, value.color);
                 append_color(out += ',', value.checker.other);
                 append(out += ',', value.checker.size);
-            }};
+            },
+            fault_of_squares};
 }
 
 }  // namespace packtrace::language

@@ -2,6 +2,7 @@
 
 #include <packtrace/vec.hpp>
 
+#include "core/number_ranges.hpp"
 #include "scene/block.hpp"
 #include "scene/words.hpp"
 
@@ -10,6 +11,7 @@
 #include <cstddef>
 #include <functional>
 #include <limits>
+#include <optional>
 #include <span>
 #include <string>
 #include <string_view>
@@ -19,19 +21,26 @@
 // The kinds of values that keys take.
 namespace packtrace::language {
 
-/// How a value is described, read and written.
+/// What is wrong with a value, in words that name its key; nothing where it is right.
+using Fault = std::optional<std::string>;
+
+/// How a value is described, read, written and checked.
 template <class Value>
 struct Type {
     std::string takes;  ///< for the reference: "number above 0"
-    /// Throws SceneError that says what the key wants. Numbers are finite throughout.
+    /// Throws SceneError that says what the key wants. It takes what `check` finds no fault with.
     std::function<Value(const Field&)> read;
     std::function<void(std::string& out, const Value&)> write;
+    /// The first fault of a value under this key, whoever made it. Allocates for a fault only.
+    std::function<Fault(std::string_view key, const Value&)> check;
 };
 
 /// The numbers that a key takes; both ends belong to the range unless it is `open`.
 struct Range {
     double low = -std::numeric_limits<double>::max();
     double high = std::numeric_limits<double>::max();
+    double smallest = 0.0;            ///< in size, of numbers other than 0
+    double largest = largest_number;  ///< in size
     bool open = false;
     bool whole = false;
     std::string_view noun = "number";
@@ -39,15 +48,28 @@ struct Range {
     std::string_view unit{};    ///< likewise: " pixels"
     std::string_view except{};  ///< "-1 for no highlight": a number outside that is taken too
 
+    /// Whether the key means anything with the number, however large or small.
     [[nodiscard]] bool contains(double number) const;
+    /// Whether single precision can work with it.
+    [[nodiscard]] bool can_hold(double number) const;
     /// "above 0", "of 0 or more", "from 0 to 1".
     [[nodiscard]] std::string text() const;
 };
 
 inline constexpr Range any_number{};
-inline constexpr Range above_0{.low = 0.0, .open = true};
-inline constexpr Range not_negative{.low = 0.0};
+inline constexpr Range any_length{.low = 0.0, .smallest = smallest_length, .open = true};
+inline constexpr Range any_ior{
+    .low = 0.0, .smallest = 1.0 / largest_ior, .largest = largest_ior, .open = true};
+inline constexpr Range any_exponent{.low = 0.0, .largest = largest_exponent};
+inline constexpr Range any_factor{.low = 0.0, .largest = largest_factor};
 inline constexpr Range share{.low = 0.0, .high = 1.0};
+
+/// What is wrong with a number under this key.
+[[nodiscard]] Fault fault_of(std::string_view key, double number, const Range& range);
+/// The first fault of several.
+[[nodiscard]] Fault fault_of(std::string_view key, std::span<const double> numbers,
+                             const Range& range);
+[[nodiscard]] Fault fault_of(std::string_view key, const Vec3& vector, const Range& range);
 
 [[nodiscard]] Type<double> number(const Range& range);
 [[nodiscard]] Type<int> whole_number(int low, int high);
@@ -57,6 +79,8 @@ inline constexpr Range share{.low = 0.0, .high = 1.0};
 [[nodiscard]] Type<std::vector<Vec3>> points();
 /// (x, y, z) other than (0, 0, 0), as long as written.
 [[nodiscard]] Type<Vec3> direction();
+/// The same of any length, made 1 unless it is but for rounding.
+[[nodiscard]] Type<Vec3> unit_direction();
 /// (a, b)
 [[nodiscard]] Type<Vec2> pair(const Range& range);
 /// `width x height`
@@ -69,6 +93,10 @@ inline constexpr Range share{.low = 0.0, .high = 1.0};
 [[nodiscard]] Type<Rgb> factor();
 /// A word, or text in quotes.
 [[nodiscard]] Type<std::string> name();
+/// The longest name, bytes, and the most corners of a contour.
+inline constexpr std::size_t longest_name = 4096;
+inline constexpr std::size_t most_points = 65'536;
+
 /// The nine numbers of a rotation, row by row; nearly one is mended with a warning.
 [[nodiscard]] Type<Mat3> rotation();
 
@@ -94,6 +122,7 @@ void check_range(const Field& field, Position at, double number, const Range& ra
 void append(std::string& out, double number);
 /// (a, b, …)
 void append(std::string& out, std::span<const double> numbers);
+[[nodiscard]] std::string shortest(double number);
 /// The number as text for a message: 1000000 rather than 1e+06.
 [[nodiscard]] std::string to_text(double number);
 
@@ -109,7 +138,10 @@ template <std::size_t count>
             std::copy(read.begin(), read.end(), result.begin());
             return result;
         },
-        [](std::string& out, const auto& value) { append(out, std::span<const double>(value)); }};
+        [](std::string& out, const auto& value) { append(out, std::span<const double>(value)); },
+        [=](std::string_view key, const auto& value) {
+            return fault_of(key, std::span<const double>(value), range);
+        }};
 }
 
 /// The one of `words` that the value is. Throws SceneError for another.
@@ -135,7 +167,14 @@ template <class Enum>
                         return spelling.value;
                 return Enum{};
             },
-            [](std::string& out, Enum value) { out += word_of(value); }};
+            [](std::string& out, Enum value) { out += word_of(value); },
+            [](std::string_view key, Enum value) {
+                return word_of(value).empty()
+                           ? Fault("'" + std::string(key) + "' is number " +
+                                   std::to_string(static_cast<int>(value)) +
+                                   " of its enumeration, which has no such value; use one it has")
+                           : std::nullopt;
+            }};
 }
 
 }  // namespace packtrace::language

@@ -35,8 +35,10 @@ std::span<const SurfaceWord> surface_words()
 const SurfaceWord& word_of(const Surface& surface)
 {
     const auto words = surface_words();
-    return *std::find_if(words.begin(), words.end(),
-                         [&](const SurfaceWord& word) { return is_of_kind(surface, word.blank); });
+    const auto found = std::find_if(words.begin(), words.end(), [&](const SurfaceWord& word) {
+        return is_of_kind(surface, word.blank);
+    });
+    return found == words.end() ? word_of(Surface(Quadric{})) : *found;
 }
 
 }  // namespace packtrace::language

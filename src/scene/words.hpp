@@ -67,6 +67,7 @@ struct SurfaceWord {
 
 /// All kinds, in the order in which they are listed.
 [[nodiscard]] std::span<const SurfaceWord> surface_words();
+/// That of a general quadric for a kind that does not exist.
 [[nodiscard]] const SurfaceWord& word_of(const Surface& surface);
 
 }  // namespace packtrace::language

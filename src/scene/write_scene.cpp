@@ -1,118 +1,165 @@
 #include <packtrace/write_scene.hpp>
 
 #include <map>
-#include <stdexcept>
 #include <string>
 
-#include "scene/keys.hpp"
+#include <packtrace/validate.hpp>
 
-namespace packtrace {
+#include "scene/keys.hpp"
+#include "scene/object_names.hpp"
+#include "scene/scene_writer.hpp"
+
+namespace packtrace::language {
 namespace {
 
-using language::ObjectKeys;
-using language::write_rows;
-
-/// The keys of every named material, as `material_text` gives them.
-using MaterialTexts = std::map<std::string, std::string, std::less<>>;
-
-template <class Owner>
-void write_block(std::string& out, std::string_view key, const Owner& owner)
-{
-    out.append(key).append(" {");
-    write_rows(out, owner);
-    out += " }\n";
-}
-
-void write_animation(std::string& out, const Animation& animation)
-{
-    out += "animation {";
-    write_rows(out, animation);
-    out += '\n';
-    if (animation.orbit)
-        write_block(out, "orbit", *animation.orbit);
-    for (const CameraKey& key : animation.keys)
-        write_block(out, "key", key);
-    out += "}\n";
-}
-
-/// The keys of a material, each with a blank before it.
-std::string material_text(const Material& material, Illumination illumination)
-{
-    if (material.model.index() != language::default_material(illumination).model.index())
-        throw std::invalid_argument(
-            "a material of another illumination than its scene's can't be written");
-    std::string out;
-    language::visit_parts(material, [&](const auto& part) { write_rows(out, part); });
-    return out;
-}
-
-/// Writes what named materials the objects have, each as its first object has it.
-MaterialTexts write_materials(std::string& out, const Scene& scene)
-{
-    MaterialTexts texts;
-    for (const Object& object : scene.objects) {
-        const Material& material = object.material;
-        if (material.name.empty() || material.checker || texts.contains(material.name))
-            continue;
-        const std::string text = material_text(material, scene.illumination);
-        out += "material ";
-        language::name().write(out, material.name);
-        out.append(" {").append(text).append(" }\n");
-        texts.emplace(material.name, text);
+class SceneWriter {
+public:
+    [[nodiscard]] SceneText write(const Scene& scene)
+    {
+        keys_ += write_rows(out_, scene, "", " = ", "\n");
+        write_camera(scene.camera);
+        for (const Light& light : scene.lights)
+            write_block("light", light);
+        if (scene.animation)
+            write_animation(*scene.animation);
+        write_materials(scene);
+        for (const Object& object : scene.objects)
+            write_object(object);
+        return {std::move(out_), keys_};
     }
-    return texts;
-}
 
-void write_objects(std::string& out, const Scene& scene, const MaterialTexts& materials)
-{
-    std::map<std::string_view, int> unnamed;
-    for (const Object& object : scene.objects) {
-        const std::string_view kind = language::word_of(object.surface).word;
+private:
+    void open(std::string_view key)
+    {
+        out_.append(key).append(" {");
+        ++keys_;
+    }
+
+    template <class Owner>
+    void write_block(std::string_view key, const Owner& owner)
+    {
+        open(key);
+        keys_ += write_rows(out_, owner);
+        out_ += " }\n";
+    }
+
+    void write_camera(const Camera& camera)
+    {
+        CameraKeys keys;
+        keys.position = camera.position;
+        keys.rotation = camera.rotation;
+        keys.fov = camera.fov;
+        write_block("camera", keys);
+    }
+
+    void write_animation(const Animation& animation)
+    {
+        open("animation");
+        keys_ += write_rows(out_, animation);
+        out_ += '\n';
+        if (animation.orbit)
+            write_block("orbit", *animation.orbit);
+        for (const CameraKey& key : animation.keys)
+            write_block("key", key);
+        out_ += "}\n";
+    }
+
+    /// The keys of a material, each with a blank before it.
+    std::string material_text(const Material& material)
+    {
+        std::string text;
+        visit_parts(material, [&](const auto& part) { keys_ += write_rows(text, part); });
+        return text;
+    }
+
+    /// Writes what named materials the objects have, each as its first object has it.
+    void write_materials(const Scene& scene)
+    {
+        for (const Object& object : scene.objects) {
+            if (object.material.name.empty() || materials_.contains(object.material.name))
+                continue;
+            Material material = object.material;
+            // The colours of a checker are its object's own.
+            if (material.checker.reset(), object.material.checker)
+                material.color = Rgb(1.0);
+            open("material ");
+            out_.erase(out_.size() - 2);
+            name().write(out_, material.name);
+            std::string text = material_text(material);
+            out_.append(" {").append(text).append(" }\n");
+            materials_.emplace(material.name, std::move(text));
+        }
+    }
+
+    /// The keys that the object's material has other than the named one.
+    std::string own_material_text(const Material& material)
+    {
+        const auto named = materials_.find(material.name);
+        if (named == materials_.end())
+            return material_text(material);
+        Material plain = material;
+        plain.checker.reset();
+        if (material.checker)
+            plain.color = Rgb(1.0);
+        const std::size_t keys = keys_;
+        const bool same = material_text(plain) == named->second;
+        keys_ = keys;
+        return same ? "" : material_text(material);
+    }
+
+    void write_object(const Object& object)
+    {
         const Material& material = object.material;
         ObjectKeys own;
         own.casts_shadow = object.casts_shadow;
         // Names that the reader gives on its own are not written.
-        int& number = unnamed[kind];
-        if (object.name.empty() ||
-            object.name == std::string(kind) + ' ' + std::to_string(number + 1))
-            ++number;
-        else
+        if (!names_.takes(object))
             own.name = object.name;
+        if (!material.name.empty())
+            own.material = material.name;
         if (material.checker)
             own.checker = {material.color, *material.checker};
-        const std::string text = material_text(material, scene.illumination);
-        const auto named = materials.find(material.name);
-        if (named != materials.end() && named->second == text && !material.checker)
-            own.material = material.name;
 
-        out.append(kind).append(" {");
-        std::visit([&](const auto& surface) { write_rows(out, surface); }, object.surface);
-        write_rows(out, object.transform);
-        if (!own.material)
-            out += text;
-        write_rows(out, own);
-        out += " }\n";
+        open(word_of(object.surface).word);
+        std::visit([&](const auto& surface) { keys_ += write_rows(out_, surface); },
+                   object.surface);
+        if (const auto* const polygon = std::get_if<Polygon>(&object.surface))
+            keys_ += polygon->contours.size();
+        keys_ += write_rows(out_, object.transform);
+        out_ += own_material_text(material);
+        keys_ += write_rows(out_, own);
+        out_ += " }\n";
     }
-}
+
+    std::string out_;
+    std::size_t keys_ = 0;
+    /// The keys of every named material, as `material_text` gives them.
+    std::map<std::string, std::string, std::less<>> materials_;
+    DefaultNames names_;
+};
 
 }  // namespace
 
+SceneText write_unchecked(const Scene& scene)
+{
+    return SceneWriter().write(scene);
+}
+
+}  // namespace packtrace::language
+
+namespace packtrace {
+
 std::string scene_text(const Scene& scene)
 {
-    std::string out;
-    write_rows(out, scene, "", " = ", "\n");
-    language::CameraKeys camera;
-    camera.position = scene.camera.position;
-    camera.rotation = scene.camera.rotation;
-    camera.fov = scene.camera.fov;
-    write_block(out, "camera", camera);
-    for (const Light& light : scene.lights)
-        write_block(out, "light", light);
-    if (scene.animation)
-        write_animation(out, *scene.animation);
-    const MaterialTexts materials = write_materials(out, scene);
-    write_objects(out, scene, materials);
-    return out;
+    validate(scene);
+    language::SceneText written = language::write_unchecked(scene);
+    if (written.keys > language::most_keys || written.text.size() > language::longest_file)
+        throw SceneError("the scene's text has " + std::to_string(written.keys) + " keys and " +
+                         std::to_string(written.text.size()) +
+                         " bytes, too many for a scene file; keep it within " +
+                         std::to_string(language::most_keys) + " keys and " +
+                         std::to_string(language::longest_file) + " bytes");
+    return std::move(written.text);
 }
 
 }  // namespace packtrace

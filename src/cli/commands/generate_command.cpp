@@ -35,6 +35,8 @@ void run_generator(const Arguments<Options>& arguments, Scene (*generate)(const 
     output.finish();
 }
 
+// Options end where a scene file would have more keys than its reader takes: a sphere has four.
+
 /// The generator's command with the options all have; the caller adds its own.
 template <class Options>
 CLI::App* add_generator(CLI::App& generate, const std::string& name, const std::string& help,
@@ -67,8 +69,8 @@ void add_sphereflake(CLI::App& generate)
                       arguments, generate_sphereflake);
     command
         ->add_option("--depth", arguments->options.depth,
-                     "Generations, 0 to 7 (default 4: 7381 spheres; 6: 597871)")
-        ->check(whole_number(0, 7))
+                     "Generations, 0 to 6 (default 4: 7381 spheres; 6: 597871)")
+        ->check(whole_number(0, 6))
         ->type_name("N");
     command->add_flag("--ground", arguments->options.ground,
                       "Add a plane to stand on, and two more lights");
@@ -82,8 +84,8 @@ void add_random(CLI::App& generate)
                       generate_random_spheres);
     command
         ->add_option("--count", arguments->options.count,
-                     "How many, up to 10000000 (default 1000000)")
-        ->check(whole_number(1, 10'000'000))
+                     "How many, up to 1990000 (default 1000000)")
+        ->check(whole_number(1, 1'990'000))
         ->type_name("N");
     add_radius(*command, arguments->options.radius, "Radius of each (default 0.001)");
     command->add_option("--seed", arguments->options.seed, "Another spread for each (default 1)")
@@ -98,8 +100,8 @@ void add_lattice(CLI::App& generate)
                                       arguments, generate_lattice);
     command
         ->add_option("--edge", arguments->options.edge,
-                     "Spheres along each edge, 1 to 215 (default 10)")
-        ->check(whole_number(1, 215))
+                     "Spheres along each edge, 1 to 125 (default 10)")
+        ->check(whole_number(1, 125))
         ->type_name("N");
     add_radius(*command, arguments->options.radius,
                "Radius of each, in cells: neighbours touch at 0.5 (default 0.3)");

@@ -12,8 +12,8 @@ namespace {
 /// Three digits, never less than the number.
 std::string rounded_up(double number)
 {
-    if (number == 0.0 || !std::isfinite(number))
-        return number == 0.0 ? "0" : "infinity";
+    if (number == 0.0)
+        return "0";
     const double unit = std::pow(10.0, std::floor(std::log10(number)) - 2.0);
     char text[32];
     std::snprintf(text, sizeof text, "%.3g", unit * std::ceil(number / unit));
@@ -28,13 +28,9 @@ void print_cut_rays(const std::string& output, const Scene& scene, const RenderO
     if (scene.min_weight <= 0.0)
         return;
     std::cerr << output << ": " << cut.rays << " rays of a weight below "
-              << language::to_text(scene.min_weight) << " not traced";
-    if (std::isinf(cut.bound))
-        std::cerr << "; the scene's light has no bound, so neither has the error";
-    else
-        std::cerr << "; no pixel is off by more than " << rounded_up(cut.bound)
-                  << (options.adaptive ? " where the same samples are taken" : "");
-    std::cerr << '\n';
+              << language::to_text(scene.min_weight) << " not traced; no pixel is off by more than "
+              << rounded_up(cut.bound)
+              << (options.adaptive ? " where the same samples are taken" : "") << '\n';
 }
 
 }  // namespace packtrace::cli

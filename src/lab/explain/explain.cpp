@@ -8,7 +8,6 @@
 #include "dispatch/kernels.hpp"
 #include "kernel_abi/probe.hpp"
 #include "lab/harness/ray_trees.hpp"
-#include "lower/check_scene.hpp"
 
 namespace packtrace {
 namespace {
@@ -46,7 +45,7 @@ RayNode explain_pixel(const Scene& scene, int x, int y, const RenderOptions& opt
     }
     if constexpr (!std::is_same_v<Real, double>)
         throw std::invalid_argument("explain: the scalar kernel is explained in double only");
-    check_scene(scene);
+    validate(scene);
     return reference_trees<double>(scene, options.self_hits)(x, y);
 }
 

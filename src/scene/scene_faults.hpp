@@ -1,0 +1,60 @@
+#pragma once
+
+#include <cstddef>
+#include <optional>
+#include <string>
+#include <string_view>
+
+#include <packtrace/scene.hpp>
+
+#include "scene/rows.hpp"
+
+// What is wrong with scenes: values by the rows of their keys, and whatever takes more than one
+// value to see. The reader asks for its objects as it reads them, validate() for all.
+namespace packtrace::language {
+
+/// A fault of a surface that its keys by themselves don't have: a polygon that is not flat, a
+/// quadric without a surface.
+[[nodiscard]] OwnerFault fault_of_surface(const Surface& surface,
+                                          const Mat4& transform = Mat4(1.0));
+
+/// The first fault of an object but for its name's being another's.
+[[nodiscard]] OwnerFault fault_of_object(const Object& object, Illumination illumination);
+
+[[nodiscard]] OwnerFault fault_of_camera(const Camera& camera);
+
+/// A key of an animation that has these frames, after a key at frame `earlier` (-1 for none).
+[[nodiscard]] OwnerFault fault_of_key(const CameraKey& key, int frames, int earlier);
+[[nodiscard]] OwnerFault fault_of_orbit(const Orbit& orbit, const Camera& camera);
+/// Its frames, and whether it moves the camera one way.
+[[nodiscard]] OwnerFault fault_of_animation(const Animation& animation);
+
+struct SceneFault {
+    std::string subject;  ///< "sphere 3", "light 1", "camera"; empty for the scene's own keys
+    std::string message;
+    std::optional<std::size_t> object{};  ///< that it is about
+    std::string_view key{};               ///< of the object
+
+    [[nodiscard]] std::string text() const
+    {
+        return subject.empty() ? message : subject + ": " + message;
+    }
+};
+
+/// The first fault of a scene, in the order in which it is read: its own keys, camera, objects,
+/// lights, animation; then what needs all of them.
+[[nodiscard]] std::optional<SceneFault> fault_of_scene(const Scene& scene);
+
+/// Colours that may grow beyond single precision.
+[[nodiscard]] std::optional<SceneFault> fault_of_growth(const Scene& scene);
+
+inline constexpr std::string_view looks_nowhere =
+    "'look_at' is the camera's own position or straight along 'up'; move one of them or give "
+    "another up";
+inline constexpr std::string_view checker_of_no_plane =
+    "only a plane can have a checker; remove it and use color";
+inline constexpr std::string_view checker_without_color =
+    "'checker' has no effect under illumination = general, whose coefficients know no colour; "
+    "remove it";
+
+}  // namespace packtrace::language
