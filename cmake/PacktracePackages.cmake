@@ -1,8 +1,8 @@
 # `cpack` in the build folder makes Debian packages: one of each component that is installed.
 #   packtrace          runtime: the program, the shared library, example scenes
 #   libpacktrace-dev   development: headers, the static library, what finds them
-#   python3-packtrace  python, where a build installs that component
-# A package made on Debian 12 also installs on Debian 13.
+#   python3-packtrace  python: the Python package, with PACKTRACE_PYTHON=ON
+# A package made on Debian 12 also installs on Debian 13, but for that of Python.
 set(CPACK_GENERATOR DEB)
 set(CPACK_PACKAGE_NAME packtrace)
 set(CPACK_PACKAGE_VENDOR "The packtrace authors")
@@ -17,12 +17,16 @@ set(CPACK_DEB_COMPONENT_INSTALL ON)
 set(CPACK_COMPONENTS_GROUPING IGNORE)
 set(CPACK_DEBIAN_FILE_NAME DEB-DEFAULT)
 set(CPACK_DEBIAN_PACKAGE_SHLIBDEPS ON)
-set(CPACK_DEBIAN_PACKAGE_GENERATE_SHLIBS ON)
 
 set(CPACK_DEBIAN_RUNTIME_PACKAGE_NAME packtrace)
 set(CPACK_DEBIAN_RUNTIME_PACKAGE_SECTION graphics)
 # Draws the plots of reports.
 set(CPACK_DEBIAN_RUNTIME_PACKAGE_SUGGESTS gnuplot-nox)
+# Says which package has the shared library, to packages of programs that need it. CPack would write
+# this by itself, but look for the same of the Python module, which nobody links.
+file(WRITE ${PROJECT_BINARY_DIR}/install/shlibs "libpacktrace \
+${PROJECT_VERSION_MAJOR}.${PROJECT_VERSION_MINOR} packtrace (= ${PROJECT_VERSION})\n")
+set(CPACK_DEBIAN_RUNTIME_PACKAGE_CONTROL_EXTRA ${PROJECT_BINARY_DIR}/install/shlibs)
 set(CPACK_COMPONENT_RUNTIME_DESCRIPTION
     "The program packtrace, the shared library, and example scenes.")
 
@@ -36,7 +40,12 @@ set(CPACK_COMPONENT_DEVELOPMENT_DESCRIPTION
 
 set(CPACK_DEBIAN_PYTHON_PACKAGE_NAME python3-packtrace)
 set(CPACK_DEBIAN_PYTHON_PACKAGE_SECTION python)
-set(CPACK_DEBIAN_PYTHON_PACKAGE_DEPENDS "python3, python3-numpy")
+# A module is of one Python: that of the Debian it was built on.
+if(PACKTRACE_PYTHON)
+    math(EXPR next_python "${Python_VERSION_MINOR} + 1")
+    set(CPACK_DEBIAN_PYTHON_PACKAGE_DEPENDS "python3-numpy, \
+python3 (>= 3.${Python_VERSION_MINOR}~), python3 (<< 3.${next_python})")
+endif()
 set(CPACK_COMPONENT_PYTHON_DESCRIPTION "The Python module packtrace.")
 
 # Where Debian's own packages have a licence, and completions for zsh.

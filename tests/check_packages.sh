@@ -1,12 +1,13 @@
 #!/bin/sh
-# check_packages.sh CPACK BUILD VERSION
+# check_packages.sh CPACK BUILD VERSION [PYTHON]
 #
 # cpack makes Debian packages of BUILD: each has its files, its licence and what it depends on, and
-# the program runs from where the package is unpacked.
+# the program runs from where the package is unpacked, the Python package too where there is a PYTHON.
 set -eu
 cpack=$1
 build=$2
 version=$3
+python=${4:-}
 folder=$(mktemp -d)
 trap 'rm -rf "$folder"' EXIT
 cd "$folder"
@@ -46,4 +47,15 @@ dpkg-deb -f "$package" Depends | grep -q "packtrace (= $version).*libtbb-dev" ||
 root/usr/bin/packtrace render root/usr/share/packtrace/scenes/four_spheres.scene --size 16x16 \
     -o picture.png >log 2>&1 || fail "the packaged program fails: $(cat log)"
 [ -s picture.png ] || fail "the packaged program writes no picture"
+if [ -n "$python" ]; then
+    has python3-packtrace lib/python3/dist-packages/packtrace/__init__.py \
+        lib/python3/dist-packages/packtrace/py.typed \
+        'lib/python3/dist-packages/packtrace/_packtrace\.cpython-.*\.so'
+    dpkg-deb -f "$package" Depends | grep 'python3 (<<' | grep python3-numpy | grep -q libtbb ||
+        fail "python3-packtrace depends on: $(dpkg-deb -f "$package" Depends)"
+    PYTHONPATH=root/usr/lib/python3/dist-packages "$python" -B -c 'import packtrace
+picture = packtrace.render(packtrace.generate_lattice(2), width=8)
+assert picture.shape == (8, 8, 3) and "root/usr" in packtrace.__file__' >log 2>&1 ||
+        fail "the packaged Python package fails: $(cat log)"
+fi
 echo "packages: $(ls made/*.deb)"

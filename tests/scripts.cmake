@@ -63,7 +63,8 @@ if(PACKTRACE_INSTALL AND PROJECT_IS_TOP_LEVEL)
     set_tests_properties(install.find_package install.pkg_config
                          PROPERTIES FIXTURES_REQUIRED installed)
     packtrace_script_test(packages fast check_packages.sh ${CMAKE_CPACK_COMMAND}
-                          ${PROJECT_BINARY_DIR} ${PROJECT_VERSION})
+                          ${PROJECT_BINARY_DIR} ${PROJECT_VERSION}
+                          "$<$<BOOL:${PACKTRACE_PYTHON}>:${Python_EXECUTABLE}>")
 endif()
 if(TARGET packtrace_shared)
     packtrace_script_test(exports fast check_exports.sh ${CMAKE_NM} ${CMAKE_OBJDUMP}

@@ -1,0 +1,346 @@
+#include "rays.hpp"
+
+#include <pybind11/stl.h>
+#include <tbb/enumerable_thread_specific.h>
+
+#include <limits>
+#include <memory>
+#include <numeric>
+#include <optional>
+#include <vector>
+
+#include "options.hpp"
+#include "pictures.hpp"
+#include "ray_blocks.hpp"
+#include "ray_columns.hpp"
+#include "scene.hpp"
+#include "two_ray_scenes.hpp"
+
+namespace packtrace::python {
+namespace {
+
+using OptionalArray = std::optional<py::array>;
+
+template <class T>
+T* pointer(py::array& array)
+{
+    return static_cast<T*>(array.mutable_data());
+}
+
+/// The three rows of an array (3, n), if there is one.
+template <class Real>
+void set_rows(Real* (&rows)[3], OptionalArray& array)
+{
+    for (py::ssize_t axis = 0; axis < 3 && array; ++axis)
+        rows[axis] = pointer<Real>(*array) + axis * array->shape(1);
+}
+
+/// Where hits go, checked and made by rays.py.
+struct HitArrays {
+    py::array t;
+    py::array object;
+    OptionalArray normal;
+    OptionalArray point;
+    OptionalArray outer_start;
+    OptionalArray inner_start;
+    OptionalArray surface;
+
+    template <class Real>
+    [[nodiscard]] HitsView<Real> view()
+    {
+        HitsView<Real> hits;
+        hits.t = pointer<Real>(t);
+        hits.object = pointer<std::int32_t>(object);
+        Real* normals[3] = {};
+        set_rows(normals, normal);
+        hits.normal_x = normals[0];
+        hits.normal_y = normals[1];
+        hits.normal_z = normals[2];
+        set_rows(hits.point, point);
+        set_rows(hits.outer_start, outer_start);
+        set_rows(hits.inner_start, inner_start);
+        hits.surface = surface ? pointer<std::int32_t>(*surface) : nullptr;
+        return hits;
+    }
+};
+
+template <class T>
+void advance(T*& at, std::size_t by)
+{
+    if (at != nullptr)
+        at += by;
+}
+
+template <class Real>
+HitsView<Real> from(HitsView<Real> hits, std::size_t first)
+{
+    advance(hits.t, first);
+    advance(hits.object, first);
+    for (Real** const component : {&hits.normal_x, &hits.normal_y, &hits.normal_z})
+        advance(*component, first);
+    for (auto* const vector : {&hits.point, &hits.outer_start, &hits.inner_start})
+        for (Real*& component : *vector)
+            advance(component, first);
+    advance(hits.surface, first);
+    return hits;
+}
+
+/// Misses have no point.
+template <class Real>
+void clear_missed_points(const HitsView<Real>& hits, std::size_t count)
+{
+    for (std::size_t i = 0; i < count; ++i)
+        if (hits.object[i] < 0)
+            for (Real* const component : hits.point)
+                component[i] = std::numeric_limits<Real>::quiet_NaN();
+}
+
+/// What the scalar kernel leaves out: normals of misses, and points.
+template <class Real>
+void complete_scalar(const RaysView<Real>& rays, const HitsView<Real>& hits)
+{
+    const Real* const org[3] = {rays.org_x, rays.org_y, rays.org_z};
+    const Real* const dir[3] = {rays.dir_x, rays.dir_y, rays.dir_z};
+    Real* const normal[3] = {hits.normal_x, hits.normal_y, hits.normal_z};
+    for (std::size_t i = 0; i < rays.count; ++i) {
+        const bool missed = hits.object[i] < 0;
+        for (int axis = 0; axis < 3; ++axis) {
+            if (missed && normal[axis] != nullptr)
+                normal[axis][i] = 0;
+            if (hits.point[axis] != nullptr)
+                hits.point[axis][i] = org[axis][i] + hits.t[i] * dir[axis][i];
+        }
+    }
+}
+
+/// Columns of rays, and buffers of the threads that gather them.
+template <class Real, std::size_t columns>
+struct GatheredBlocks {
+    ColumnBlocks<Real, columns> blocks;
+    tbb::enumerable_thread_specific<std::vector<Real>> buffers = {};
+
+    [[nodiscard]] std::array<const Real*, columns> at(std::size_t first, std::size_t count)
+    {
+        return blocks.block(first, count, buffers.local());
+    }
+};
+
+using Numbers = py::array_t<std::int32_t, py::array::c_style>;
+
+class NativeRayScene {
+public:
+    NativeRayScene(Scene scene, const RenderOptions& options)
+        : scenes_(std::move(scene), options), is_scalar_(options.kernel == Kernel::scalar)
+    {
+    }
+
+    void prepare(const py::dtype& dtype)
+    {
+        with_real(dtype, [&](auto real) { static_cast<void>(ready<decltype(real)>()); });
+    }
+
+    void closest(const RayArrays& rays, const OptionalArray& start_point,
+                 const std::optional<Numbers>& start_surface, HitArrays& hits)
+    {
+        with_real(rays.origins.dtype(), [&](auto real) {
+            using Real = decltype(real);
+            if (start_point)
+                closest_from<Real>(rays, *start_point, *start_surface, hits.view<Real>());
+            else
+                closest_of<Real>(rays, hits.view<Real>());
+        });
+    }
+
+    void occluded(const RayArrays& rays, py::array mask)
+    {
+        auto* const to = static_cast<std::uint8_t*>(mask.mutable_data());
+        with_real(rays.origins.dtype(), [&](auto real) {
+            using Real = decltype(real);
+            const RayScene<Real>& scene = ready<Real>();
+            for_rays<Real>(rays, [&](const RaysView<Real>& view, std::size_t first) {
+                scene.occluded(view, to + first);
+            });
+        });
+    }
+
+    py::tuple all_hits(const RayArrays& rays)
+    {
+        return with_real(rays.origins.dtype(),
+                         [&](auto real) { return all_hits_of<decltype(real)>(rays); });
+    }
+
+    void bounds(const RayArrays& rays, const Numbers& objects, py::array to)
+    {
+        static_assert(sizeof(HitBounds) == 2 * sizeof(double));
+        check_objects(objects);
+        auto* const found = static_cast<HitBounds*>(to.mutable_data());
+        const std::int32_t* const object = objects.data();
+        with_real(rays.origins.dtype(), [&](auto real) {
+            using Real = decltype(real);
+            const RayScene<Real>& scene = ready<Real>();
+            for_rays<Real>(rays, [&](const RaysView<Real>& view, std::size_t first) {
+                scene.bound_closest_hits(view, object + first, found + first);
+            });
+        });
+    }
+
+private:
+    template <class Real>
+    const RayScene<Real>& ready()
+    {
+        const py::gil_scoped_release release;
+        return scenes_.of<Real>();
+    }
+
+    /// Calls `work(view, first)` for blocks of rays.
+    template <class Real, class Work>
+    void for_rays(const RayArrays& rays, const Work& work)
+    {
+        GatheredBlocks<Real, 8> gathered{ColumnBlocks<Real, 8>(rays.columns())};
+        for_each_ray_block(rays.count(), gathered.blocks.block_size(), scenes_.threads(),
+                           [&](std::size_t first, std::size_t count) {
+                               work(rays_view(gathered.at(first, count), count), first);
+                           });
+    }
+
+    template <class Real>
+    void finish(const RaysView<Real>& rays, const HitsView<Real>& hits) const
+    {
+        if (is_scalar_)
+            complete_scalar(rays, hits);
+        if (hits.point[0] != nullptr)
+            clear_missed_points(hits, rays.count);
+    }
+
+    template <class Real>
+    void closest_of(const RayArrays& rays, const HitsView<Real>& hits)
+    {
+        const RayScene<Real>& scene = ready<Real>();
+        for_rays<Real>(rays, [&](const RaysView<Real>& view, std::size_t first) {
+            const HitsView<Real> block = from(hits, first);
+            scene.closest_hits(view, block);
+            finish(view, block);
+        });
+    }
+
+    /// Of rays that leave earlier hits.
+    template <class Real>
+    void closest_from(const RayArrays& rays, const py::array& point, const Numbers& surface,
+                      const HitsView<Real>& hits)
+    {
+        const RayScene<Real>& scene = ready<Real>();
+        GatheredBlocks<Real, 3> points{
+            ColumnBlocks<Real, 3>({column_of(point, 0), column_of(point, 1), column_of(point, 2)})};
+        const std::int32_t* const numbers = surface.data();
+        GatheredBlocks<Real, 8> gathered{ColumnBlocks<Real, 8>(rays.columns())};
+        const std::size_t block =
+            std::min(points.blocks.block_size(), gathered.blocks.block_size());
+        for_each_ray_block(
+            rays.count(), block, scenes_.threads(), [&](std::size_t first, std::size_t count) {
+                const auto at = points.at(first, count);
+                const StartsView<Real> starts{{at[0], at[1], at[2]}, numbers + first};
+                const RaysView<Real> view = rays_view(gathered.at(first, count), count);
+                const HitsView<Real> found = from(hits, first);
+                scene.closest_hits(view, starts, found);
+                finish(view, found);
+            });
+    }
+
+    template <class Real>
+    py::tuple all_hits_of(const RayArrays& rays)
+    {
+        const RayScene<Real>& scene = ready<Real>();
+        const std::size_t count = rays.count();
+        py::array_t<std::int64_t> offsets(static_cast<py::ssize_t>(count + 1));
+        std::int64_t* const offset = offsets.mutable_data();
+        offset[0] = 0;
+        // By block, whose first ray is a multiple of the smallest block's size.
+        std::vector<std::vector<SurfaceHit<Real>>> found(count / gathered_rays + 1);
+        for_rays<Real>(rays, [&](const RaysView<Real>& view, std::size_t first) {
+            auto& hits = found[first / gathered_rays];
+            scene.all_hits(view, [&](std::size_t ray, std::span<const SurfaceHit<Real>> of_ray) {
+                hits.insert(hits.end(), of_ray.begin(), of_ray.end());
+                offset[first + ray + 1] = static_cast<std::int64_t>(of_ray.size());
+            });
+        });
+        std::partial_sum(offset, offset + count + 1, offset);
+        return joined(found, std::move(offsets));
+    }
+
+    template <class Real>
+    static py::tuple joined(const std::vector<std::vector<SurfaceHit<Real>>>& found,
+                            py::array_t<std::int64_t> offsets)
+    {
+        const py::ssize_t count = offsets.at(offsets.size() - 1);
+        py::array_t<Real> t(count);
+        py::array_t<std::int32_t> object(count);
+        py::array_t<Real> normal({count, py::ssize_t{3}});
+        Real* to_t = t.mutable_data();
+        std::int32_t* to_object = object.mutable_data();
+        Real* to_normal = normal.mutable_data();
+        {
+            const py::gil_scoped_release release;
+            for (const auto& hits : found)
+                for (const SurfaceHit<Real>& hit : hits) {
+                    *to_t++ = hit.t;
+                    *to_object++ = hit.object;
+                    to_normal = std::copy_n(hit.normal, 3, to_normal);
+                }
+        }
+        return py::make_tuple(offsets, t, object, normal);
+    }
+
+    void check_objects(const Numbers& objects) const
+    {
+        const auto count = static_cast<std::int64_t>(scenes_.object_count());
+        for (py::ssize_t i = 0; i < objects.size(); ++i)
+            if (objects.data()[i] < -1 || objects.data()[i] >= count)
+                throw py::value_error("object is " + std::to_string(objects.data()[i]) +
+                                      " for ray " + std::to_string(i) + "; use -1 to " +
+                                      std::to_string(count - 1) + ", as closest() gave it");
+    }
+
+    TwoRayScenes scenes_;
+    bool is_scalar_;
+};
+
+}  // namespace
+
+void bind_rays(py::module_& module)
+{
+    using Native = NativeRayScene;
+    using Array = const py::array&;
+    py::class_<Native>(module, "RayScene")
+        .def(py::init([](py::handle scene, const py::kwargs& arguments) {
+            const RenderOptions options = kernel_options(arguments);
+            Scene native = scene_of(scene);
+            const py::gil_scoped_release release;
+            return std::make_unique<Native>(std::move(native), options);
+        }))
+        .def("prepare", &Native::prepare)
+        .def(
+            "closest",
+            [](Native& self, Array origins, Array directions, Array t_min, Array t_max,
+               const OptionalArray& start_point, const std::optional<Numbers>& start_surface,
+               Array t, Array object, const OptionalArray& normal, const OptionalArray& point,
+               const OptionalArray& outer_start, const OptionalArray& inner_start,
+               const OptionalArray& surface) {
+                HitArrays hits{t, object, normal, point, outer_start, inner_start, surface};
+                self.closest({origins, directions, t_min, t_max}, start_point, start_surface, hits);
+            })
+        .def("occluded",
+             [](Native& self, Array origins, Array directions, Array t_min, Array t_max,
+                Array mask) {
+                 self.occluded({origins, directions, t_min, t_max}, mask);
+             })
+        .def("all_hits",
+             [](Native& self, Array origins, Array directions, Array t_min, Array t_max) {
+                 return self.all_hits({origins, directions, t_min, t_max});
+             })
+        .def("bounds", [](Native& self, Array origins, Array directions, Array t_min, Array t_max,
+                          const Numbers& objects, Array to) {
+            self.bounds({origins, directions, t_min, t_max}, objects, to);
+        });
+}
+
+}  // namespace packtrace::python

@@ -1,0 +1,88 @@
+#include <packtrace/animate.hpp>
+#include <packtrace/isa.hpp>
+#include <packtrace/render.hpp>
+
+#include <algorithm>
+#include <cmath>
+
+#include "options.hpp"
+#include "pictures.hpp"
+#include "progress.hpp"
+#include "scene.hpp"
+#include "values.hpp"
+
+namespace packtrace::python {
+namespace {
+
+/// One of both alone keeps the picture's shape.
+void set_size(Scene& scene, std::optional<int> width, std::optional<int> height)
+{
+    for (const auto& [size, key] : {std::pair(width, "width"), std::pair(height, "height")})
+        if (size && *size < 1)
+            throw_wrong(key, py::int_(*size), "a number of pixels, 1 or more");
+    const double shape = static_cast<double>(scene.width) / std::max(1, scene.height);
+    if (width && !height)
+        height = std::max(1, static_cast<int>(std::lround(*width / shape)));
+    if (height && !width)
+        width = std::max(1, static_cast<int>(std::lround(*height * shape)));
+    scene.width = width.value_or(scene.width);
+    scene.height = height.value_or(scene.height);
+}
+
+Scene scene_to_render(py::handle value, const py::kwargs& arguments)
+{
+    Scene scene = scene_of(value);
+    set_size(scene, optional_of<int>(arguments["width"], "width"),
+             optional_of<int>(arguments["height"], "height"));
+    if (const auto frame = optional_of<int>(arguments["frame"], "frame"))
+        scene.camera = camera_at(scene, *frame);
+    return scene;
+}
+
+RenderOptions render_options(const py::kwargs& arguments)
+{
+    RenderOptions options = kernel_options(arguments);
+    from_python(arguments["force_general"], "force_general", options.force_general);
+    from_python(arguments["samples"], "samples", options.samples);
+    options.adaptive = optional_of<double>(arguments["adaptive"], "adaptive");
+    return options;
+}
+
+py::tuple render_scene(py::handle value, const py::kwargs& arguments)
+{
+    const Scene scene = scene_to_render(value, arguments);
+    RenderOptions options = render_options(arguments);
+    Progress progress(arguments["progress"]);
+    if (progress.wanted())
+        options.progress = [&progress](double share) { progress(share); };
+    return with_real(py::dtype::from_args(arguments["dtype"]), [&](auto real) {
+        Image<decltype(real)> image;
+        CutRays cut;
+        {
+            const py::gil_scoped_release release;
+            image = render<decltype(real)>(scene, options, &cut);
+        }
+        progress.raise();
+        return py::make_tuple(to_array(std::move(image)), py::make_tuple(cut.rays, cut.bound));
+    });
+}
+
+py::list isas()
+{
+    using namespace py::literals;
+    py::list rows;
+    for (const IsaInfo& isa : list_isas())
+        rows.append(py::dict("name"_a = isa.name, "lanes_single"_a = isa.lanes_single,
+                             "lanes_double"_a = isa.lanes_double, "supported"_a = isa.supported));
+    return rows;
+}
+
+}  // namespace
+
+void bind_render(py::module_& module)
+{
+    module.def("render", render_scene);
+    module.def("isas", isas);
+}
+
+}  // namespace packtrace::python

@@ -1,0 +1,48 @@
+// The compiled part of the Python package packtrace: conversions, and calls of the library. What
+// users see, and what checks arrays, is in ../packtrace.
+#include <pybind11/pybind11.h>
+
+#include <packtrace/image_io.hpp>
+#include <packtrace/read_scene.hpp>
+#include <packtrace/version.hpp>
+
+#include "pictures.hpp"
+#include "rays.hpp"
+#include "scene.hpp"
+#ifdef PACKTRACE_WITH_STUDY
+#include "report.hpp"
+#endif
+
+namespace {
+
+namespace py = pybind11;
+
+template <class Error>
+void add_error(py::module_& module, const char* name, PyObject* base, const char* documentation)
+{
+    const py::exception<Error>& error = py::register_exception<Error>(module, name, base);
+    error.attr("__module__") = "packtrace";
+    error.attr("__doc__") = documentation;
+}
+
+}  // namespace
+
+PYBIND11_MODULE(_packtrace, module)
+{
+    using namespace packtrace;
+    module.attr("__version__") = PACKTRACE_VERSION_STRING;
+    add_error<SceneError>(module, "SceneError", PyExc_ValueError,
+                          "A scene that cannot be used: one line that says what, why, and what to "
+                          "do; for text, also where.");
+    add_error<ImageError>(
+        module, "ImageError", PyExc_OSError,
+        "A picture that cannot be read or written: one line that names the file.");
+    python::bind_scene(module);
+    python::bind_pictures(module);
+    python::bind_render(module);
+    python::bind_rays(module);
+    python::bind_compare(module);
+#ifdef PACKTRACE_WITH_STUDY
+    python::bind_report(module);
+#endif
+}

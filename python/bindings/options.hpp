@@ -1,0 +1,13 @@
+#pragma once
+
+#include <pybind11/pybind11.h>
+
+#include <packtrace/render.hpp>
+
+namespace packtrace::python {
+
+/// The keyword arguments that choose a kernel: kernel, isa, lanes, accuracy, self_hits, traversal,
+/// threads. Raises ValueError for one that is none of its words.
+[[nodiscard]] RenderOptions kernel_options(const pybind11::kwargs& arguments);
+
+}  // namespace packtrace::python

@@ -1,0 +1,52 @@
+#pragma once
+
+#include <pybind11/pybind11.h>
+
+#include <algorithm>
+#include <cstddef>
+
+#include <tbb/blocked_range.h>
+#include <tbb/parallel_for.h>
+#include <tbb/task_arena.h>
+
+namespace packtrace::python {
+
+/// Between so many rays Ctrl-C is looked for.
+inline constexpr std::size_t rays_between_signals = std::size_t{1} << 20;
+
+/// Calls `work(first, count)` for the blocks of [begin, end), on `threads` threads, 0 for one a
+/// processor.
+template <class Work>
+void for_each_block(std::size_t begin, std::size_t end, std::size_t block, int threads,
+                    const Work& work)
+{
+    const auto one = [&](std::size_t number) {
+        const std::size_t first = begin + number * block;
+        work(first, std::min(block, end - first));
+    };
+    const std::size_t blocks = (end - begin + block - 1) / block;
+    if (threads == 1 || blocks <= 1) {
+        for (std::size_t number = 0; number < blocks; ++number)
+            one(number);
+        return;
+    }
+    tbb::task_arena arena(threads == 0 ? tbb::task_arena::automatic : threads);
+    arena.execute([&] { tbb::parallel_for(std::size_t{0}, blocks, one); });
+}
+
+/// The same for all rays, without the GIL; Ctrl-C ends it.
+template <class Work>
+void for_each_ray_block(std::size_t count, std::size_t block, int threads, const Work& work)
+{
+    for (std::size_t begin = 0; begin < count; begin += rays_between_signals) {
+        {
+            const pybind11::gil_scoped_release release;
+            for_each_block(begin, std::min(count, begin + rays_between_signals), block, threads,
+                           work);
+        }
+        if (PyErr_CheckSignals() != 0)
+            throw pybind11::error_already_set();
+    }
+}
+
+}  // namespace packtrace::python

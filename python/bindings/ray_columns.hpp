@@ -1,0 +1,134 @@
+#pragma once
+
+#include <pybind11/numpy.h>
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <cstring>
+#include <vector>
+
+#include <packtrace/intersect.hpp>
+
+// Rays in arrays of any strides, block by block as columns.
+namespace packtrace::python {
+
+namespace py = pybind11;
+
+/// One component of rays where NumPy has it: `stride` bytes from one ray to the next.
+struct Column {
+    const char* data = nullptr;
+    std::ptrdiff_t stride = 0;
+};
+
+template <class Real>
+[[nodiscard]] bool is_contiguous(const Column& column)
+{
+    return column.stride == sizeof(Real) &&
+           reinterpret_cast<std::uintptr_t>(column.data) % alignof(Real) == 0;
+}
+
+/// The columns of an array (n, 3), or the one of an array (n,).
+[[nodiscard]] inline Column column_of(const py::array& array, py::ssize_t axis = 0)
+{
+    const auto* const data = static_cast<const char*>(array.data());
+    const py::ssize_t step = array.ndim() > 1 ? array.strides(1) : 0;
+    return {data + axis * step, array.shape(0) == 0 ? 0 : array.strides(0)};
+}
+
+/// How many rays are sorted into columns at a time, and traced at a time where they need not be.
+inline constexpr std::size_t gathered_rays = 4096;
+inline constexpr std::size_t direct_rays = 16384;
+
+/// Columns of `count` elements, of which blocks are asked for. A column that is contiguous is used
+/// where it is, one that is the same for all rays is written once, others are gathered.
+template <class Real, std::size_t columns>
+class ColumnBlocks {
+public:
+    /// Room of a thread's own for gathered columns.
+    using Buffer = std::vector<Real>;
+
+    explicit ColumnBlocks(const std::array<Column, columns>& sources) : sources_(sources)
+    {
+        for (const Column& source : sources_)
+            if (source.stride != 0 && !is_contiguous<Real>(source))
+                block_ = gathered_rays;
+        for (std::size_t i = 0; i < columns; ++i)
+            if (sources_[i].stride == 0 && sources_[i].data != nullptr)
+                constant_[i].assign(block_, element(sources_[i], 0));
+    }
+
+    [[nodiscard]] std::size_t block_size() const
+    {
+        return block_;
+    }
+
+    /// The columns of rays [first, first + count), count at most block_size().
+    [[nodiscard]] std::array<const Real*, columns> block(std::size_t first, std::size_t count,
+                                                         Buffer& buffer) const
+    {
+        std::array<const Real*, columns> result;
+        for (std::size_t i = 0; i < columns; ++i) {
+            const Column& source = sources_[i];
+            if (source.stride == 0)
+                result[i] = constant_[i].data();
+            else if (is_contiguous<Real>(source))
+                result[i] = reinterpret_cast<const Real*>(source.data) + first;
+            else
+                result[i] = gather(source, first, count, i, buffer);
+        }
+        return result;
+    }
+
+private:
+    [[nodiscard]] static Real element(const Column& column, std::size_t i)
+    {
+        Real value;
+        std::memcpy(&value, column.data + static_cast<std::ptrdiff_t>(i) * column.stride,
+                    sizeof value);
+        return value;
+    }
+
+    [[nodiscard]] const Real* gather(const Column& source, std::size_t first, std::size_t count,
+                                     std::size_t row, Buffer& buffer) const
+    {
+        buffer.resize(columns * block_);
+        Real* const to = buffer.data() + row * block_;
+        for (std::size_t i = 0; i < count; ++i)
+            to[i] = element(source, first + i);
+        return to;
+    }
+
+    std::array<Column, columns> sources_;
+    std::array<std::vector<Real>, columns> constant_;
+    std::size_t block_ = direct_rays;
+};
+
+/// Origins, directions (n, 3), t_min and t_max (n,).
+struct RayArrays {
+    py::array origins;
+    py::array directions;
+    py::array t_min;
+    py::array t_max;
+
+    [[nodiscard]] std::size_t count() const
+    {
+        return static_cast<std::size_t>(origins.shape(0));
+    }
+
+    [[nodiscard]] std::array<Column, 8> columns() const
+    {
+        return {column_of(origins, 0),    column_of(origins, 1),    column_of(origins, 2),
+                column_of(directions, 0), column_of(directions, 1), column_of(directions, 2),
+                column_of(t_min),         column_of(t_max)};
+    }
+};
+
+template <class Real>
+[[nodiscard]] RaysView<Real> rays_view(const std::array<const Real*, 8>& columns, std::size_t count)
+{
+    return {columns[0], columns[1], columns[2], columns[3], columns[4],
+            columns[5], columns[6], columns[7], count};
+}
+
+}  // namespace packtrace::python

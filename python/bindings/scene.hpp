@@ -1,0 +1,23 @@
+#pragma once
+
+#include <pybind11/pybind11.h>
+
+#include <vector>
+
+#include <packtrace/scene.hpp>
+
+// packtrace.Scene, whose classes are Python's own, to and from the library's.
+namespace packtrace::python {
+
+namespace py = pybind11;
+
+/// Raises ValueError, which names the object, for a value of the wrong type.
+[[nodiscard]] Scene scene_of(py::handle scene);
+
+[[nodiscard]] py::object to_python(Scene scene);
+[[nodiscard]] py::object to_python(const Camera& camera);
+[[nodiscard]] py::list to_python(const std::vector<Object>& objects);
+
+void bind_scene(py::module_& module);
+
+}  // namespace packtrace::python

@@ -1,0 +1,175 @@
+#include "values.hpp"
+
+#include <limits>
+#include <string_view>
+
+namespace packtrace::python {
+namespace {
+
+/// A sequence's element or a number, as double; false for anything else.
+bool read_number(py::handle value, double& to)
+{
+    // A bool or a text is no number, although Python would make one of it.
+    if (PyBool_Check(value.ptr()) != 0 || PyUnicode_Check(value.ptr()) != 0)
+        return false;
+    to = PyFloat_AsDouble(value.ptr());
+    if (to != -1.0 || PyErr_Occurred() == nullptr)
+        return true;
+    PyErr_Clear();
+    return false;
+}
+
+template <class Matrix>
+void read_rows(py::handle value, const std::string& key, Matrix& to)
+{
+    constexpr int size = Matrix::length();
+    const std::string use = std::to_string(size) + " rows of " + std::to_string(size) + " numbers";
+    const std::vector<py::object> rows = elements_of(value, key);
+    if (rows.size() != static_cast<std::size_t>(size))
+        throw_wrong(key, value, use);
+    for (int row = 0; row < size; ++row) {
+        std::array<double, static_cast<std::size_t>(size)> numbers;
+        from_python(rows[static_cast<std::size_t>(row)], key, numbers);
+        for (int column = 0; column < size; ++column)
+            to[column][row] = numbers[static_cast<std::size_t>(column)];
+    }
+}
+
+template <class Matrix>
+py::tuple rows_of(const Matrix& value)
+{
+    constexpr int size = Matrix::length();
+    py::tuple rows(static_cast<std::size_t>(size));
+    for (int row = 0; row < size; ++row) {
+        py::tuple numbers(static_cast<std::size_t>(size));
+        for (int column = 0; column < size; ++column)
+            numbers[static_cast<std::size_t>(column)] = value[column][row];
+        rows[static_cast<std::size_t>(row)] = numbers;
+    }
+    return rows;
+}
+
+}  // namespace
+
+void throw_wrong(const std::string& key, py::handle value, const std::string& use)
+{
+    constexpr std::size_t longest = 60;
+    std::string shown = py::repr(value);
+    if (shown.size() > longest)
+        shown = shown.substr(0, longest) + "...";
+    throw py::value_error(key + " is " + shown + "; use " + use);
+}
+
+void read_numbers(py::handle value, const std::string& key, double* to, std::size_t count)
+{
+    const std::string use = std::to_string(count) + " numbers";
+    if (PyUnicode_Check(value.ptr()) != 0)
+        throw_wrong(key, value, use);
+    const auto elements =
+        py::reinterpret_steal<py::object>(PySequence_Fast(value.ptr(), "no sequence"));
+    if (!elements) {
+        PyErr_Clear();
+        throw_wrong(key, value, use);
+    }
+    if (static_cast<std::size_t>(PySequence_Fast_GET_SIZE(elements.ptr())) != count)
+        throw_wrong(key, value, use);
+    for (std::size_t i = 0; i < count; ++i)
+        if (!read_number(PySequence_Fast_GET_ITEM(elements.ptr(), static_cast<Py_ssize_t>(i)),
+                         to[i]))
+            throw_wrong(key, value, use);
+}
+
+std::vector<py::object> elements_of(py::handle value, const std::string& key)
+{
+    if (PyUnicode_Check(value.ptr()) != 0 || !py::isinstance<py::iterable>(value))
+        throw_wrong(key, value, "a list");
+    std::vector<py::object> elements;
+    for (const py::handle element : py::reinterpret_borrow<py::iterable>(value))
+        elements.push_back(py::reinterpret_borrow<py::object>(element));
+    return elements;
+}
+
+void from_python(py::handle value, const std::string& key, double& to)
+{
+    if (!read_number(value, to))
+        throw_wrong(key, value, "a number");
+}
+
+void from_python(py::handle value, const std::string& key, int& to)
+{
+    const auto number = py::reinterpret_steal<py::object>(PyNumber_Index(value.ptr()));
+    const long long whole = number ? PyLong_AsLongLong(number.ptr()) : -1;
+    const bool failed = PyErr_Occurred() != nullptr;
+    PyErr_Clear();
+    if (failed || PyBool_Check(value.ptr()) != 0 || whole < std::numeric_limits<int>::min() ||
+        whole > std::numeric_limits<int>::max())
+        throw_wrong(key, value, "a whole number");
+    to = static_cast<int>(whole);
+}
+
+void from_python(py::handle value, const std::string& key, bool& to)
+{
+    const std::string_view type = Py_TYPE(value.ptr())->tp_name;
+    if (PyBool_Check(value.ptr()) == 0 && type != "numpy.bool_" && type != "numpy.bool")
+        throw_wrong(key, value, "True or False");
+    to = PyObject_IsTrue(value.ptr()) == 1;
+}
+
+void from_python(py::handle value, const std::string& key, std::string& to)
+{
+    if (PyUnicode_Check(value.ptr()) == 0)
+        throw_wrong(key, value, "a text");
+    to = value.cast<std::string>();
+}
+
+void from_python(py::handle value, const std::string& key, Vec2& to)
+{
+    read_numbers(value, key, &to.x, 2);
+}
+
+void from_python(py::handle value, const std::string& key, Vec3& to)
+{
+    read_numbers(value, key, &to.x, 3);
+}
+
+void from_python(py::handle value, const std::string& key, Mat3& to)
+{
+    read_rows(value, key, to);
+}
+
+void from_python(py::handle value, const std::string& key, Mat4& to)
+{
+    read_rows(value, key, to);
+    if (to[0][3] != 0.0 || to[1][3] != 0.0 || to[2][3] != 0.0 || to[3][3] != 1.0)
+        throw_wrong(key, value, "a matrix with the last row (0, 0, 0, 1)");
+}
+
+Rgb color_of(py::handle value, const std::string& key)
+{
+    double grey = 0.0;
+    if (read_number(value, grey))
+        return Rgb(grey);
+    return value_of<Vec3>(value, key);
+}
+
+py::tuple to_python(const Vec2& value)
+{
+    return py::make_tuple(value.x, value.y);
+}
+
+py::tuple to_python(const Vec3& value)
+{
+    return py::make_tuple(value.x, value.y, value.z);
+}
+
+py::tuple to_python(const Mat3& value)
+{
+    return rows_of(value);
+}
+
+py::tuple to_python(const Mat4& value)
+{
+    return rows_of(value);
+}
+
+}  // namespace packtrace::python

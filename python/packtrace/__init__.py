@@ -1,0 +1,62 @@
+"""packtrace: a SIMD ray tracer of spheres, planes, quadrics and polygons.
+
+    import packtrace as pt
+    scene = pt.read_scene("scenes/four_spheres.scene")
+    pt.render(scene, width=640).save("a.png")
+    hits = pt.RayScene(scene).closest(origins, directions)
+
+docs/python.md is the guide. Space is left-handed: x to the right, y up, z forward. Lengths are in
+scene units, angles in degrees, colours linear with 1.0 for full.
+"""
+
+from __future__ import annotations
+
+import os
+from typing import Dict, List, Union
+
+from ._packtrace import ImageError, SceneError, __version__
+from . import _packtrace
+from .picture import (Comparison, Picture, PixelError, compare, heatmap, read_image, render, to_png,
+                      write_image)
+from .rays import AllHits, Hits, RayScene, Starts
+from .report import report
+from .scene import (Animation, Camera, CameraKey, Checker, GeneralMaterial, Light, Material, Object,
+                    Orbit, Plane, Polygon, Quadric, Scene, ScratchMaterial, ShaderMaterial,
+                    SketchMaterial, Sphere, WhittedMaterial)
+
+__all__ = [
+    "AllHits", "Animation", "Camera", "CameraKey", "Checker", "Comparison", "GeneralMaterial", "Hits",
+    "ImageError", "Light", "Material", "Object", "Orbit", "Picture", "PixelError", "Plane", "Polygon",
+    "Quadric", "RayScene", "Scene", "SceneError", "ScratchMaterial", "ShaderMaterial",
+    "SketchMaterial", "Sphere", "Starts", "WhittedMaterial", "__version__", "compare",
+    "generate_lattice", "generate_random_spheres", "generate_sphereflake", "heatmap", "isas",
+    "read_image", "read_scene", "render", "report", "to_png", "write_image",
+]
+
+
+def read_scene(file: Union[str, "os.PathLike[str]"]) -> Scene:
+    """Reads a scene file (docs/scene.md). Raises SceneError: "file:line:column: what, why, what to
+    do". What the reader had to mend becomes a Python warning."""
+    return _packtrace.read_scene(os.fspath(file))
+
+
+def isas() -> List[Dict[str, Union[str, int, bool]]]:
+    """The instruction sets that kernels were compiled for, narrowest first: name, lanes_single,
+    lanes_double, and whether this machine supports it."""
+    return _packtrace.isas()
+
+
+def generate_sphereflake(depth: int = 4, *, reflective: float = 0.0, ground: bool = False) -> Scene:
+    """Spheres on spheres (Haines, 1987): 7381 at depth 4, 597871 at 6."""
+    return _packtrace.generate_sphereflake(depth, reflective, ground)
+
+
+def generate_random_spheres(count: int, radius: float, *, seed: int = 1,
+                            reflective: float = 0.0) -> Scene:
+    """Spheres of one radius, their centers spread evenly over the unit cube."""
+    return _packtrace.generate_random_spheres(count, radius, seed, reflective)
+
+
+def generate_lattice(edge: int = 10, *, radius: float = 0.3, reflective: float = 0.0) -> Scene:
+    """edge × edge × edge spheres in the middles of the unit cube's cells; the radius is in cells."""
+    return _packtrace.generate_lattice(edge, radius, reflective)

@@ -1,0 +1,145 @@
+"""Pictures: arrays that notebooks show, made by `render` and read from files."""
+
+from __future__ import annotations
+
+import os
+from dataclasses import dataclass
+from typing import Any, Callable, List, Literal, Optional, Tuple, Union
+
+import numpy as np
+
+from . import _packtrace
+from .scene import Scene
+
+Path = Union[str, "os.PathLike[str]"]
+
+
+@dataclass
+class CutRays:
+    """Rays that `Scene.min_weight` left out, and the most that any channel is off by that."""
+
+    rays: int
+    bound: float
+
+
+class Picture(np.ndarray):
+    """An array (height, width, 3) of linear red, green and blue, 1.0 for full, not clamped; rows from
+    the top. It is an array like any other, and notebooks show it as a picture."""
+
+    #: What `Scene.min_weight` left out of a rendered picture; None of others.
+    cut: Optional[CutRays] = None
+
+    def save(self, file: Path, *, gamma: float = 1.0) -> None:
+        """Writes the picture; see `write_image`."""
+        write_image(file, self, gamma=gamma)
+
+    def _repr_png_(self) -> Optional[bytes]:
+        return to_png(self) if self.ndim == 3 and self.shape[2] == 3 and self.size > 0 else None
+
+
+@dataclass
+class PixelError:
+    """The pixel at column `x`, row `y`; `error` is the largest difference of a channel."""
+
+    x: int
+    y: int
+    error: float
+
+
+@dataclass
+class Comparison:
+    """The distance between two pictures, in their linear values."""
+
+    max_abs: float
+    rmse: float  #: over all channels of all pixels
+    psnr: float  #: decibels for a peak of 1; infinite for equal pictures
+    pixels: int
+    pixels_off: int  #: pixels with an error above the threshold
+    worst: List[PixelError]  #: largest error first
+
+
+def render(scene: Scene, *, width: Optional[int] = None, height: Optional[int] = None,
+           dtype: Any = np.float32, frame: Optional[int] = None,
+           kernel: Literal["packet", "scalar"] = "packet", isa: str = "auto", lanes: int = 0,
+           accuracy: Literal["fast", "exact"] = "exact",
+           self_hits: Literal["note", "exact"] = "exact",
+           traversal: Literal["auto", "list", "tree"] = "auto", force_general: bool = False,
+           threads: int = 0, samples: int = 1, adaptive: Optional[float] = None,
+           progress: Optional[Callable[[float], Any]] = None) -> Picture:
+    """Renders a scene: an array (height, width, 3) of float32, or of float64 with dtype=np.float64.
+
+    width, height: pixels, instead of the scene's; one alone keeps the picture's shape.
+    frame: the frame of the scene's animation, 0 being the first.
+    kernel, isa, lanes, accuracy, self_hits, traversal: as for RayScene.
+    force_general: uses the kernel that knows everything; the picture is the same.
+    threads: 0 is one a processor. The picture is the same whatever their number.
+    samples: a pixel, 1 to 1024, whose mean is its colour.
+    adaptive: contrast of 0 or more above which a pixel gets its samples; others get one.
+    progress: called now and then with the share done, 0 to 1, from any thread.
+
+    The array is the renderer's own memory, not a copy. Raises SceneError for a scene that cannot be
+    used, ValueError for an impossible option. What `progress` raises is raised when the picture is
+    done.
+    """
+    array, cut = _packtrace.render(
+        scene, width=width, height=height, dtype=_picture_dtype(dtype), frame=frame, kernel=kernel,
+        isa=isa, lanes=lanes, accuracy=accuracy, self_hits=self_hits, traversal=traversal,
+        force_general=force_general, threads=threads, samples=samples, adaptive=adaptive,
+        progress=progress)
+    picture: Picture = array.view(Picture)
+    if scene.min_weight > 0:
+        picture.cut = CutRays(*cut)
+    return picture
+
+
+def compare(a: np.ndarray, b: np.ndarray, *, threshold: float = 1 / 255, worst: int = 5) -> Comparison:
+    """Compares two pictures (height, width, 3) of one size and dtype, float32 or float64, which are
+    copied. A pixel with an error above `threshold` counts as off; the `worst` ones are listed."""
+    numbers, pixels = _packtrace.compare(*_two_pictures(a, b), threshold, worst)
+    return Comparison(*numbers, [PixelError(*pixel) for pixel in pixels])
+
+
+def heatmap(a: np.ndarray, b: np.ndarray) -> Picture:
+    """The error of each pixel as a colour: black for none, through blue, green, yellow and red to
+    white for the largest, over six decades."""
+    return _packtrace.heatmap(*_two_pictures(a, b)).view(Picture)
+
+
+def read_image(file: Path) -> Picture:
+    """The picture in a .png, .pfm or .hdr file, float32; 8-bit values v become v / 255. Raises
+    ImageError."""
+    return _packtrace.read_image(os.fspath(file)).view(Picture)
+
+
+def write_image(file: Path, picture: np.ndarray, *, gamma: float = 1.0) -> None:
+    """Writes a picture (height, width, 3) by the file's extension: .png (8 bits, raised to 1 / gamma),
+    .pfm (float32) or .hdr. The file appears whole or not at all. Raises ImageError."""
+    _packtrace.write_image(os.fspath(file), _picture(picture, "picture"), gamma)
+
+
+def to_png(picture: np.ndarray, *, gamma: float = 1.0) -> bytes:
+    """The bytes of an 8-bit PNG file of a picture (height, width, 3)."""
+    return _packtrace.to_png(_picture(picture, "picture"), gamma)
+
+
+def _picture_dtype(dtype: Any) -> np.dtype:
+    result = np.dtype(dtype)
+    if result not in (np.float32, np.float64):
+        raise ValueError(f"dtype is {result}; use np.float32 or np.float64")
+    return result
+
+
+def _picture(value: Any, name: str) -> np.ndarray:
+    array = np.asarray(value)
+    if array.ndim != 3 or array.shape[2] != 3 or array.size == 0:
+        raise ValueError(f"{name} has shape {array.shape}; use (height, width, 3)")
+    if array.dtype not in (np.float32, np.float64):
+        raise ValueError(f"{name} is {array.dtype}; use float32 or float64, with 1.0 for full")
+    return np.ascontiguousarray(array)
+
+
+def _two_pictures(a: Any, b: Any) -> Tuple[np.ndarray, np.ndarray]:
+    first, second = _picture(a, "a"), _picture(b, "b")
+    if first.dtype != second.dtype:
+        raise ValueError(f"a is {first.dtype} and b {second.dtype}; give both the same dtype")
+    return first, second

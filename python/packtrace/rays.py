@@ -1,0 +1,286 @@
+"""Rays of the caller's own, asked of a scene.
+
+Rays are NumPy arrays of float32 or float64, which says the precision of the answer: `origins` and
+`directions` of shape (..., 3), `t_min` and `t_max` numbers or arrays of shape (...). Answers have the
+shape (...) too. An array is read where it is. Its components may lie in any order and at any stride;
+arrays whose components are contiguous each, as those of `np.empty((3, n)).T`, are the quickest, the
+others are sorted into components some thousand rays at a time. Other sequences than arrays are
+copied, as float64. All work runs without the GIL.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Any, Literal, Optional, Tuple, Union
+
+import numpy as np
+
+from . import _packtrace
+from .scene import Scene
+
+NO_START = -(2**31)
+
+Detail = Literal["t", "normal", "point", "start"]
+
+
+@dataclass
+class Starts:
+    """Rays' origins on the surfaces of earlier hits, made by `Hits.leave`. Rays that start there meet
+    that surface again only where they truly do."""
+
+    origin: np.ndarray  #: (..., 3), scene units; NaN where nothing was hit
+    point: np.ndarray  #: (..., 3), the hits' own points
+    surface: np.ndarray  #: (...), int32, numbers for RayScene
+
+
+@dataclass
+class Hits:
+    """Closest hits. Arrays of vectors have contiguous components."""
+
+    t: np.ndarray  #: (...), in lengths of the ray's direction; t_max for a miss
+    object: np.ndarray  #: (...), int32, index in Scene.objects; -1 for a miss
+    normal: Optional[np.ndarray] = None  #: (..., 3), unit, outwards; 0 for a miss
+    point: Optional[np.ndarray] = None  #: (..., 3), scene units; NaN for a miss
+    #: (..., 3), where rays may start that leave the surface on its outer side
+    outer_start: Optional[np.ndarray] = None
+    inner_start: Optional[np.ndarray] = None  #: (..., 3), the same of its inner side
+    surface: Optional[np.ndarray] = None  #: (...), int32, a number for `leave`
+
+    @property
+    def hit(self) -> np.ndarray:
+        """Shape (...), bool: whether the ray hits anything."""
+        return self.object >= 0
+
+    def leave(self, directions: np.ndarray) -> Starts:
+        """Starts of rays that go on from these hits in `directions` (..., 3), mirrored or refracted.
+        Needs hits of detail="start"."""
+        if self.surface is None or self.normal is None or self.point is None:
+            raise ValueError('these hits have no starts; ask for them: closest(..., detail="start")')
+        directions = np.asarray(directions, self.t.dtype)
+        inward = np.einsum("...i,...i", directions, self.normal) < 0
+        hit = self.hit
+        origin = np.where(inward[..., None], self.inner_start, self.outer_start)
+        origin[~hit] = np.nan
+        surface = np.where(inward, ~self.surface, self.surface)
+        return Starts(origin, self.point, np.where(hit, surface, np.int32(NO_START)))
+
+
+@dataclass
+class AllHits:
+    """Every hit of each ray, sorted by t. Those of ray i are [offsets[i]:offsets[i + 1]] of the other
+    arrays; rays of several dimensions are counted in C order."""
+
+    offsets: np.ndarray  #: (rays + 1,), int64
+    t: np.ndarray  #: (hits,)
+    object: np.ndarray  #: (hits,), int32, index in Scene.objects
+    normal: np.ndarray  #: (hits, 3), unit, outwards
+
+    @property
+    def ray(self) -> np.ndarray:
+        """Shape (hits,), int64: the number of each hit's ray."""
+        return np.repeat(np.arange(len(self.offsets) - 1), np.diff(self.offsets))
+
+
+class RayScene:
+    """A scene made ready for rays. It copies what it needs: later changes to `scene` don't count.
+
+    kernel: "packet", or "scalar" for the reference.
+    isa: instruction set of the packet kernel, see `packtrace.isas()`; "auto" takes the widest.
+    lanes: 4, 8 or 16 rays of floats in a packet; 0 is any.
+    accuracy: "exact", or "fast" for single precision alone in rays of float32.
+    self_hits: "exact", or "note" for rays that start 0.001 along their direction.
+    traversal: "auto", "list" or "tree".
+    threads: how many work on a call; 0 is one a processor. Answers don't depend on it.
+    dtype: what rays will be of, to have that precision ready at once; else with the first rays.
+
+    All members may be called from several threads at once. Ctrl-C stops them. Raises SceneError for a
+    scene that cannot be used, ValueError for an impossible option.
+    """
+
+    def __init__(self, scene: Scene, *, kernel: Literal["packet", "scalar"] = "packet",
+                 isa: str = "auto", lanes: int = 0,
+                 accuracy: Literal["fast", "exact"] = "exact",
+                 self_hits: Literal["note", "exact"] = "exact",
+                 traversal: Literal["auto", "list", "tree"] = "auto", threads: int = 0,
+                 dtype: Any = None) -> None:
+        self._native = _packtrace.RayScene(scene, kernel=kernel, isa=isa, lanes=lanes,
+                                           accuracy=accuracy, self_hits=self_hits,
+                                           traversal=traversal, threads=threads)
+        self._scalar = kernel == "scalar"
+        if dtype is not None:
+            self._native.prepare(_checked_dtype(np.dtype(dtype), "dtype"))
+
+    def closest(self, origins: Any, directions: Any, t_min: Any = 0.0, t_max: Any = np.inf, *,
+                detail: Detail = "point", out: Optional[Hits] = None) -> Hits:
+        """The first hit of each ray where t_min < t < t_max; at equal t that of the lower object.
+
+        origins: (..., 3) or (3,), scene units; or what `Hits.leave` gave.
+        directions: (..., 3) or (3,), of any length; t counts in their lengths.
+        t_min, t_max: numbers or (...), t_min at 0 or above. A ray with a NaN hits nothing.
+        detail: "t" gives t and object; "normal" also normals; "point" also points; "start" also what
+            `Hits.leave` needs. Less is quicker.
+        out: hits of an earlier call of the same shape, dtype and detail, to be overwritten.
+        """
+        starts = origins if isinstance(origins, Starts) else None
+        rays = _Rays(origins if starts is None else starts.origin, directions, t_min, t_max)
+        if detail not in _DETAILS:
+            raise ValueError(f"detail is {detail!r}; use one of {', '.join(map(repr, _DETAILS))}")
+        if detail == "start" and self._scalar:
+            raise ValueError('the scalar kernel gives no starts; use detail="point" or '
+                             'kernel="packet"')
+        hits = _new_hits(rays, detail) if out is None else _checked_hits(out, rays, detail)
+        self._native.closest(*rays.columns, *_flat_starts(starts, rays), *_flat_hits(hits))
+        return hits
+
+    def occluded(self, origins: Any, directions: Any, t_min: Any = 0.0,
+                 t_max: Any = np.inf) -> np.ndarray:
+        """Whether each ray hits anything where t_min < t < t_max: bool, of shape (...)."""
+        rays = _Rays(origins, directions, t_min, t_max)
+        mask = np.empty(rays.shape, np.bool_)
+        self._native.occluded(*rays.columns, mask.reshape(-1))
+        return mask
+
+    def all_hits(self, origins: Any, directions: Any, t_min: Any = 0.0,
+                 t_max: Any = np.inf) -> AllHits:
+        """Every hit of each ray where t_min < t < t_max. A ray that touches a surface without crossing
+        it may meet it twice at the same t."""
+        return AllHits(*self._native.all_hits(*_Rays(origins, directions, t_min, t_max).columns))
+
+    def bounds(self, origins: Any, directions: Any, object: Any, t_min: Any = 0.0,
+               t_max: Any = np.inf) -> np.ndarray:
+        """Proven bounds of the t at which each ray first hits the object of number object[...], which
+        `closest` gave: float64, (..., 2), low and high. Low is above high, (inf, -inf), where object
+        is -1 or the ray surely does not hit it. Takes some 10 µs a ray."""
+        rays = _Rays(origins, directions, t_min, t_max)
+        numbers = np.ascontiguousarray(object)
+        if numbers.shape != rays.shape or numbers.dtype.kind not in "iu":
+            raise ValueError(f"object is {numbers.dtype} of shape {numbers.shape}; use whole numbers "
+                             f"of the rays' shape {rays.shape}")
+        result = np.empty((*rays.shape, 2), np.float64)
+        self._native.bounds(*rays.columns, numbers.reshape(-1).astype(np.int32, copy=False),
+                            result.reshape(-1, 2))
+        return result
+
+
+_DETAILS = ("t", "normal", "point", "start")
+
+
+class _Rays:
+    """Rays' arrays, checked, of one dtype and shape, as columns (n, 3), (n, 3), (n,), (n,)."""
+
+    def __init__(self, origins: Any, directions: Any, t_min: Any, t_max: Any) -> None:
+        vectors = {"origins": _array(origins), "directions": _array(directions)}
+        for name, array in vectors.items():
+            _checked_dtype(array.dtype, name)
+            if array.ndim == 0 or array.shape[-1] != 3:
+                raise ValueError(f"{name} has shape {array.shape}; use (..., 3), such as (n, 3)")
+        self.dtype = vectors["origins"].dtype
+        if vectors["directions"].dtype != self.dtype:
+            raise ValueError(f"origins are {self.dtype} and directions {vectors['directions'].dtype}; "
+                             "give both the same dtype, which the answer then has")
+        self.shape = _common_shape(vectors)
+        both = (_spread(array, (*self.shape, 3)).reshape(-1, 3) for array in vectors.values())
+        ends = (_spread(self._end(t, name), self.shape).reshape(-1)
+                for name, t in (("t_min", t_min), ("t_max", t_max)))
+        self.columns: Tuple[np.ndarray, ...] = (*both, *ends)
+
+    def _end(self, t: Any, name: str) -> np.ndarray:
+        if isinstance(t, np.ndarray) and t.ndim > 0:
+            if t.dtype != self.dtype:
+                raise ValueError(f"{name} is {t.dtype} and origins {self.dtype}; give both the same "
+                                 "dtype")
+            array = t
+        else:
+            try:
+                array = np.asarray(t, self.dtype)
+            except (TypeError, ValueError):
+                raise ValueError(f"{name} is {t!r}; use a number or an array of numbers") from None
+        if array.ndim > 0 and array.shape != self.shape:
+            raise ValueError(f"{name} has shape {array.shape}; use a number or the rays' shape "
+                             f"{self.shape}")
+        return array
+
+
+def _array(value: Any) -> np.ndarray:
+    if isinstance(value, np.ndarray):
+        return value
+    try:
+        return np.asarray(value, np.float64)
+    except (TypeError, ValueError):
+        raise ValueError(f"{value!r} is no array of vectors; use a NumPy array of shape (..., 3)"
+                         ) from None
+
+
+def _checked_dtype(dtype: np.dtype, name: str) -> np.dtype:
+    if dtype not in (np.float32, np.float64):
+        raise ValueError(f"{name} is {dtype}; use float32 or float64, by astype(np.float64)")
+    return dtype
+
+
+def _common_shape(vectors: Any) -> Tuple[int, ...]:
+    shapes = [array.shape[:-1] for array in vectors.values()]
+    if shapes[0] == shapes[1] or not shapes[1]:
+        return shapes[0]
+    if not shapes[0]:
+        return shapes[1]
+    raise ValueError(f"origins have shape {(*shapes[0], 3)} and directions {(*shapes[1], 3)}; give both "
+                     "the same shape, or one of them (3,)")
+
+
+def _spread(array: np.ndarray, shape: Tuple[int, ...]) -> np.ndarray:
+    return array if array.shape == shape else np.broadcast_to(array, shape)
+
+
+def _by_component(shape: Tuple[int, ...], dtype: Any) -> np.ndarray:
+    """An array (..., 3) whose three components are contiguous each."""
+    return np.moveaxis(np.empty((3, *shape), dtype), 0, -1)
+
+
+def _new_hits(rays: _Rays, detail: Detail) -> Hits:
+    hits = Hits(np.empty(rays.shape, rays.dtype), np.empty(rays.shape, np.int32))
+    level = _DETAILS.index(detail)
+    if level >= 1:
+        hits.normal = _by_component(rays.shape, rays.dtype)
+    if level >= 2:
+        hits.point = _by_component(rays.shape, rays.dtype)
+    if level >= 3:
+        hits.outer_start = _by_component(rays.shape, rays.dtype)
+        hits.inner_start = _by_component(rays.shape, rays.dtype)
+        hits.surface = np.empty(rays.shape, np.int32)
+    return hits
+
+
+def _checked_hits(hits: Hits, rays: _Rays, detail: Detail) -> Hits:
+    wanted = _new_hits(rays, detail)
+    for name, array in vars(wanted).items():
+        given = getattr(hits, name)
+        if array is None and given is None:
+            continue
+        if array is None or given is None:
+            raise ValueError(f"out.{name} is {'' if given is None else 'not '}None; use hits of an "
+                             f"earlier call with detail={detail!r}")
+        if (given.shape, given.dtype, given.strides) != (array.shape, array.dtype, array.strides):
+            raise ValueError(f"out.{name} is {given.dtype} of shape {given.shape}; these rays need "
+                             f"{array.dtype} of shape {array.shape}, as an earlier call gave it")
+    return hits
+
+
+def _columns(array: Optional[np.ndarray]) -> Optional[np.ndarray]:
+    """The components of an array (..., 3) made by _by_component: (3, n), of the same memory."""
+    return None if array is None else np.moveaxis(array, -1, 0).reshape(3, -1)
+
+
+def _flat_hits(hits: Hits) -> Tuple[Optional[np.ndarray], ...]:
+    surface = None if hits.surface is None else hits.surface.reshape(-1)
+    return (hits.t.reshape(-1), hits.object.reshape(-1), _columns(hits.normal), _columns(hits.point),
+            _columns(hits.outer_start), _columns(hits.inner_start), surface)
+
+
+def _flat_starts(starts: Optional[Starts], rays: _Rays
+                 ) -> Tuple[Optional[np.ndarray], Optional[np.ndarray]]:
+    if starts is None:
+        return None, None
+    if starts.point.shape != (*rays.shape, 3) or starts.point.dtype != rays.dtype:
+        raise ValueError(f"the starts are {starts.point.dtype} of shape {starts.point.shape}; these "
+                         f"rays are {rays.dtype} of shape {(*rays.shape, 3)}")
+    return starts.point.reshape(-1, 3), starts.surface.reshape(-1)

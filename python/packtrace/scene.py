@@ -1,0 +1,285 @@
+"""Scenes built object by object. The words, units and defaults are those of the scene language
+(docs/scene.md); colours are linear, 1.0 is full.
+
+Classes here hold values and check nothing: `Scene.validate`, `render` and `RayScene` check all of a
+scene and raise `SceneError`, which names the object.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field, replace
+from typing import Any, Dict, List, Literal, Optional, Sequence, Tuple, Union
+
+import numpy as np
+
+from . import _packtrace
+
+#: Three numbers, of any sequence or array.
+Vector = Union[Sequence[float], np.ndarray]
+#: Rows of numbers, of sequences or an array.
+Matrix = Union[Sequence[Sequence[float]], np.ndarray]
+#: One number for all channels, or red, green and blue.
+Colour = Union[float, Sequence[float], np.ndarray]
+
+Illumination = Literal["scratch", "sketch", "whitted", "shader", "general"]
+QuadricKind = Literal["ellipsoid", "cylinder", "cone", "paraboloid", "hyperboloid", "hyperboloid2",
+                      "saddle", "general"]
+
+IDENTITY = ((1.0, 0.0, 0.0, 0.0), (0.0, 1.0, 0.0, 0.0), (0.0, 0.0, 1.0, 0.0), (0.0, 0.0, 0.0, 1.0))
+
+
+@dataclass
+class Sphere:
+    """All points at `radius` from `center`, in scene units; the radius is above 0."""
+
+    center: Vector = (0.0, 0.0, 0.0)
+    radius: float = 1.0
+
+
+@dataclass
+class Plane:
+    """An infinite plane through `point`. `normal` points to its outer side, at any length but 0."""
+
+    point: Vector = (0.0, 0.0, 0.0)
+    normal: Vector = (0.0, 1.0, 0.0)
+
+
+@dataclass
+class Quadric:
+    """A surface of second order in its own space, to be placed by the object's transform.
+
+    `kind` names an equation: "ellipsoid" x² + y² + z² = 1, "cylinder" x² + y² = 1, "cone" x² + y² =
+    z², "paraboloid" x² + y² = z, "hyperboloid" x² + y² - z² = 1, "hyperboloid2" x² + y² - z² = -1,
+    "saddle" x² - y² = z. "general" takes ten `coefficients` A … J of Ax² + By² + Cz² + Dxy + Exz +
+    Fyz + Gx + Hy + Iz + J = 0; the other kinds have their own.
+
+    `z_range` = (low, high) keeps the part between two heights, and `capped` closes it there.
+    """
+
+    kind: QuadricKind = "general"
+    coefficients: Optional[Sequence[float]] = None
+    z_range: Optional[Tuple[float, float]] = None
+    capped: bool = False
+
+
+@dataclass
+class Polygon:
+    """A flat sheet. `contours` holds one contour or more, each of three corners (x, y, z) or more in
+    one plane. The first one's corners run clockwise seen from the outer side; a contour within
+    another is a hole.
+    """
+
+    contours: Sequence[Union[Sequence[Vector], np.ndarray]] = ()
+
+
+Surface = Union[Sphere, Plane, Quadric, Polygon]
+
+
+@dataclass
+class Checker:
+    """Squares on a plane: `other` is the colour of every second one, `size` its edge in scene units."""
+
+    other: Colour = 0.0
+    size: float = 1.0
+
+
+@dataclass(kw_only=True)
+class Material:
+    """What all materials have. Use the class that fits `Scene.illumination`."""
+
+    color: Colour = 1.0
+    checker: Optional[Checker] = None
+    name: str = ""
+
+
+@dataclass(kw_only=True)
+class ScratchMaterial(Material):
+    """`specular` is the highlight's exponent, -1 for none; `reflective` the mirrored share, 0 to 1."""
+
+    specular: float = -1.0
+    reflective: float = 0.0
+
+
+@dataclass(kw_only=True)
+class SketchMaterial(Material):
+    """`ambient` and `diffuse` multiply the colour; `specular` (mirror and highlight) and `refractive`
+    (the share that goes through) are white. `ior` is the index of refraction."""
+
+    ambient: Colour = 0.0
+    diffuse: Colour = 0.0
+    specular: Colour = 0.0
+    refractive: Colour = 0.0
+    shininess: float = 1.0
+    ior: float = 1.0
+
+
+@dataclass(kw_only=True)
+class WhittedMaterial(Material):
+    """As SketchMaterial, with `transmissive` for the share that goes through."""
+
+    ambient: Colour = 0.0
+    diffuse: Colour = 0.0
+    specular: Colour = 0.0
+    transmissive: Colour = 0.0
+    shininess: float = 1.0
+    ior: float = 1.0
+
+
+@dataclass(kw_only=True)
+class ShaderMaterial(Material):
+    """`reflectance` = (r0, r1, r2, r3) of f = r0 + r1 Id + r2 Is^r3, times the colour."""
+
+    reflectance: Sequence[float] = (0.0, 0.0, 0.0, 1.0)
+
+
+@dataclass(kw_only=True)
+class GeneralMaterial(Material):
+    """Absolute factors; the colour counts for nothing."""
+
+    ambient: Colour = 0.0
+    diffuse: Colour = 0.0
+    highlight: Colour = 0.0
+    reflect: Colour = 0.0
+    transmit: Colour = 0.0
+    shininess: float = 1.0
+    ior: float = 1.0
+
+
+@dataclass
+class Object:
+    """A surface with a material. `transform` is a 4 × 4 matrix M (rows first) that takes a point p of
+    the surface to M p; its last row is (0, 0, 0, 1). Without a material it has the one that the
+    scene's illumination starts from."""
+
+    surface: Surface
+    material: Optional[Material] = None
+    name: str = ""
+    transform: Matrix = IDENTITY
+    casts_shadow: bool = True
+
+    def translate(self, by: Vector) -> Object:
+        """A copy moved by `by` (scene units), after what its transform does so far."""
+        return replace(self, transform=_packtrace.translated(self.transform, by))
+
+    def rotate(self, axis: Vector, degrees: float) -> Object:
+        """A copy turned about an axis through the origin; 90 degrees about z take x to y."""
+        return replace(self, transform=_packtrace.rotated(self.transform, axis, degrees))
+
+    def scale(self, factors: Colour) -> Object:
+        """A copy scaled about the origin, by one number or three; below 0 mirrors."""
+        return replace(self, transform=_packtrace.scaled(self.transform, factors))
+
+
+@dataclass
+class Light:
+    """`type` is "ambient", "point" (`vector` is its position) or "directional" (`vector` points from
+    the scene towards it). `intensity` 1 is full and does not fall off with the distance."""
+
+    type: Literal["ambient", "point", "directional"] = "ambient"
+    intensity: Colour = 1.0
+    vector: Vector = (0.0, 0.0, 0.0)
+    casts_shadow: bool = True
+
+
+@dataclass
+class Camera:
+    """A pinhole camera. The columns of `rotation` (3 × 3, rows first) are its axes to the right, up
+    and forward. `viewport` (width, height) lies at `distance`, in scene units; with `fov`, the full
+    vertical angle of view in degrees, it follows the picture's shape. `pixel_sample` says where in a
+    pixel its sample lies, from the left and top edge; None is the place that the illumination has.
+    """
+
+    position: Vector = (0.0, 0.0, 0.0)
+    rotation: Matrix = ((1.0, 0.0, 0.0), (0.0, 1.0, 0.0), (0.0, 0.0, 1.0))
+    viewport: Tuple[float, float] = (1.0, 1.0)
+    distance: float = 1.0
+    fov: Optional[float] = None
+    pixel_sample: Optional[Tuple[float, float]] = None
+
+    @staticmethod
+    def look_at(position: Vector, target: Vector, up: Vector = (0.0, 1.0, 0.0),
+                **fields: Any) -> Camera:
+        """A camera at `position` that looks at `target`; `fields` are further ones, such as fov."""
+        return Camera(position=position, rotation=_packtrace.look_at(position, target, up), **fields)
+
+
+@dataclass
+class Orbit:
+    """A circle of the camera about an axis through `center`, which it looks at."""
+
+    center: Vector = (0.0, 0.0, 0.0)
+    axis: Vector = (0.0, 1.0, 0.0)
+    degrees: float = 360.0
+
+
+@dataclass
+class CameraKey:
+    """The camera's pose at one frame."""
+
+    frame: int = 0
+    position: Vector = (0.0, 0.0, 0.0)
+    look_at: Vector = (0.0, 0.0, 1.0)
+    up: Vector = (0.0, 1.0, 0.0)
+
+
+@dataclass
+class Animation:
+    """`frames` pictures of a camera on an `orbit`, or through two `keys` or more."""
+
+    frames: int = 1
+    orbit: Optional[Orbit] = None
+    keys: List[CameraKey] = field(default_factory=list)
+
+
+@dataclass
+class Scene:
+    """A scene in double precision. Object numbers of hits are indices in `objects`; where two
+    surfaces are hit at the same t, the lower number wins.
+
+    `width` and `height` are pixels. `max_depth` counts reflections and refractions after the camera
+    ray; None is what the illumination starts from (4 for "sketch", else 3). `min_weight` (0 to 1)
+    leaves out mirrored and refracted rays that count for less.
+    """
+
+    width: int = 512
+    height: int = 512
+    background: Colour = 0.0
+    illumination: Illumination = "scratch"
+    max_depth: Optional[int] = None
+    min_weight: float = 0.0
+    depth_limit: Literal["background", "local"] = "local"
+    shadows: Literal["none", "opaque", "transparent"] = "opaque"
+    camera: Camera = field(default_factory=Camera)
+    objects: List[Object] = field(default_factory=list)
+    lights: List[Light] = field(default_factory=list)
+    animation: Optional[Animation] = None
+
+    @staticmethod
+    def from_text(text: str, name: str = "scene") -> Scene:
+        """The scene that a text in the scene language describes; `name` stands for the file in
+        messages. Raises SceneError: "scene:1:10: what, why, what to do"."""
+        return _packtrace.parse_scene(text, name)
+
+    def to_text(self) -> str:
+        """The scene in the scene language. Reading it gives the same scene, number for number."""
+        return _packtrace.scene_text(self)
+
+    def validate(self) -> None:
+        """Raises SceneError for the first fault of the scene, in one line that names the object."""
+        _packtrace.validate(self)
+
+    def camera_at(self, frame: int) -> Camera:
+        """The camera of one frame of the animation, 0 being the first."""
+        return _packtrace.camera_at(self, frame)
+
+    # Objects of a file become Python's own only when they are asked for: there may be millions.
+    def __getattr__(self, name: str) -> Any:
+        if name == "objects" and "_native_objects" in self.__dict__:
+            self.objects = self.__dict__["_native_objects"].take()
+            del self.__dict__["_native_objects"]
+            return self.objects
+        raise AttributeError(f"a Scene has no '{name}'")
+
+    def __getstate__(self) -> Dict[str, Any]:
+        self.objects  # noqa: B018 - which makes them Python's own
+        return self.__dict__.copy()

@@ -1,0 +1,262 @@
+"""Rays: answers are the program's, bit for bit; arrays are neither copied nor guessed at."""
+
+import threading
+import unittest
+
+import numpy as np
+
+import packtrace as pt
+from support import HAND_SCENE, SCENES, hand_scene, random_rays, reset_peak, resident_bytes
+from support import rows_of_program
+
+DTYPES = (np.float32, np.float64)
+
+
+def precision(dtype):
+    return "single" if dtype == np.float32 else "double"
+
+
+def columns(origins, directions):
+    count = len(origins)
+    return [*origins.T, *directions.T, np.zeros(count), np.full(count, np.inf)]
+
+
+class TestAnswers(unittest.TestCase):
+    def check_program(self, text, dtype, **options):
+        """Closest hits, all hits and occlusion are those that the program prints."""
+        words = [word for key, value in options.items() for word in (f"--{key}", value)]
+        words += ["--precision", precision(dtype)]
+        scene = pt.Scene.from_text(text)
+        names = [item.name for item in scene.objects]
+        rays = pt.RayScene(scene, **options)
+        origins, directions = random_rays(5000, dtype)
+        hits = rays.closest(origins, directions)
+        expected = rows_of_program(text, columns(origins, directions), *words)
+        self.assertEqual([row[0] == "1" for row in expected], list(hits.hit))
+        for i in np.flatnonzero(hits.hit):
+            self.assertEqual(expected[i][2], names[hits.object[i]])
+        numbers = np.array([[row[1], *row[3:]] for row in expected if row[0] == "1"], np.float64)
+        found = np.column_stack([hits.t, hits.normal])[hits.hit]
+        np.testing.assert_array_equal(numbers, found)
+        every = rays.all_hits(origins, directions)
+        expected = rows_of_program(text, columns(origins, directions), *words, "--all")
+        np.testing.assert_array_equal([int(row[0]) for row in expected], every.ray)
+        self.assertEqual([row[2] for row in expected], [names[number] for number in every.object])
+        np.testing.assert_array_equal(np.array([[row[1], *row[3:]] for row in expected], np.float64),
+                                      np.column_stack([every.t, every.normal]))
+        np.testing.assert_array_equal(rays.occluded(origins, directions), hits.hit)
+
+    def test_the_answers_are_the_programs(self):
+        for dtype in DTYPES:
+            for options in ({}, {"accuracy": "fast"} if dtype == np.float32 else {},
+                            {"kernel": "scalar"}):
+                with self.subTest(dtype=dtype, **options):
+                    self.check_program(HAND_SCENE, dtype, **options)
+        self.check_program(pt.read_scene(SCENES / "four_spheres.scene").to_text(), np.float64)
+
+    def test_bounds_are_the_programs(self):
+        for dtype in DTYPES:
+            origins, directions = random_rays(200, dtype)
+            rays = pt.RayScene(hand_scene())
+            hits = rays.closest(origins, directions, detail="t")
+            bounds = rays.bounds(origins, directions, hits.object)
+            expected = rows_of_program(HAND_SCENE, columns(origins, directions), "--bounds",
+                                       "--precision", precision(dtype))
+            np.testing.assert_array_equal(
+                np.array([row[-2:] for row in expected if row[0] == "1"], np.float64),
+                bounds[hits.hit])
+            self.assertTrue((bounds[~hits.hit] == (np.inf, -np.inf)).all())
+
+    def test_hits_worked_out_by_hand(self):
+        rays = pt.RayScene(hand_scene())
+        hits = rays.closest((0, 0, 0), [(0, 0, 1.0), (0, -2, 0), (0, 1, 0)])
+        np.testing.assert_array_equal(hits.t, [4, 1, np.inf])
+        np.testing.assert_array_equal(hits.object, [0, 1, -1])
+        np.testing.assert_array_equal(hits.normal, [(0, 0, -1), (0, 1, 0), (0, 0, 0)])
+        np.testing.assert_array_equal(hits.point, [(0, 0, 4), (0, -2, 0), [np.nan] * 3])
+        beyond = rays.closest((0, 0, 0), (0, 0, 1), t_min=4.5)
+        self.assertEqual((beyond.t, beyond.object), (6, 0))
+        self.assertFalse(rays.occluded((0, 0, 0), (0, 0, 1), t_max=4))
+        every = rays.all_hits((0, 0, 0), [(0, 1, 0), (0, 0, 1)])
+        np.testing.assert_array_equal(every.offsets, [0, 0, 2])
+        np.testing.assert_array_equal(every.t, [4, 6])
+
+    def test_points_of_both_kernels(self):
+        origins, directions = random_rays(1000)
+        for kernel in ("packet", "scalar"):
+            hits = pt.RayScene(hand_scene(), kernel=kernel).closest(origins, directions)
+            points = origins + hits.t[:, None] * directions
+            np.testing.assert_allclose(hits.point[hits.hit], points[hits.hit], atol=1e-12)
+            self.assertTrue(np.isnan(hits.point[~hits.hit]).all())
+            self.assertFalse(hits.normal[~hits.hit].any())
+
+    def test_rays_that_leave_hits(self):
+        for dtype in DTYPES:
+            rays = pt.RayScene(hand_scene())
+            origins, directions = random_rays(20000, dtype)
+            first = rays.closest(origins, directions, detail="start")
+            on = rays.closest(first.leave(directions), directions)
+            every = rays.all_hits(origins, directions)
+            counts = np.diff(every.offsets)
+            # Straight on, each ray meets one surface less.
+            self.assertGreater((counts > 1).sum(), 100)
+            self.assertGreater(np.mean(on.hit == (counts > 1)), 0.999)
+            second = every.t[every.offsets[:-1][counts > 1] + 1]
+            both = on.hit[counts > 1]
+            far = (first.t + on.t)[counts > 1]
+            np.testing.assert_allclose(far[both], second[both], rtol=1e-4)
+        with self.assertRaisesRegex(ValueError, 'detail="start"'):
+            rays.closest(origins, directions).leave(directions)
+
+    def test_threads_change_nothing(self):
+        origins, directions = random_rays(100_000)
+        answers = [pt.RayScene(hand_scene(), threads=threads).closest(origins, directions)
+                   for threads in (1, 2, 0)]
+        for answer in answers[1:]:
+            np.testing.assert_array_equal(answers[0].t, answer.t)
+            np.testing.assert_array_equal(answers[0].normal, answer.normal)
+
+    def test_several_threads_may_ask_at_once(self):
+        origins, directions = random_rays(50_000)
+        rays = pt.RayScene(hand_scene())
+        answers = [None] * 4
+
+        def ask(number):
+            answers[number] = rays.closest(origins, directions).t
+
+        workers = [threading.Thread(target=ask, args=(number,)) for number in range(4)]
+        for worker in workers:
+            worker.start()
+        for worker in workers:
+            worker.join()
+        for answer in answers:
+            np.testing.assert_array_equal(answer, answers[0])
+
+
+class TestArrays(unittest.TestCase):
+    def setUp(self):
+        self.rays = pt.RayScene(hand_scene())
+
+    def test_any_strides_give_the_same_answer(self):
+        for dtype in DTYPES:
+            origins, directions = random_rays(10_000, dtype)
+            expected = self.rays.closest(origins, directions)
+            wide = np.zeros((20_000, 7), dtype)
+            wide[::2, 1:4], wide[::2, 4:7] = origins, directions
+            unaligned = np.frombuffer(b"x" + np.ascontiguousarray(directions).tobytes(), np.uint8)[1:]
+            unaligned = unaligned.view(dtype).reshape(-1, 3)
+            for given in ((np.ascontiguousarray(origins), np.ascontiguousarray(directions)),
+                          (wide[::2, 1:4], wide[::2, 4:7]), (origins, unaligned),
+                          (origins[::-1][::-1], directions)):
+                hits = self.rays.closest(*given, np.zeros(10_000, dtype), np.inf)
+                np.testing.assert_array_equal(hits.t, expected.t)
+                np.testing.assert_array_equal(hits.normal, expected.normal)
+            back = self.rays.closest(origins[::-1], directions[::-1])
+            np.testing.assert_array_equal(back.object[::-1], expected.object)
+
+    def test_answers_have_the_shape_and_dtype_of_the_rays(self):
+        for dtype in DTYPES:
+            for shape in ((), (0,), (4,), (2, 3), (2, 3, 4)):
+                directions = np.zeros((*shape, 3), dtype)
+                directions[..., 2] = 1
+                hits = self.rays.closest(np.zeros(3, dtype), directions, detail="start")
+                for array in (hits.t, hits.normal, hits.point, hits.outer_start):
+                    self.assertEqual(array.dtype, dtype)
+                self.assertEqual(hits.t.shape, shape)
+                self.assertEqual(hits.normal.shape, (*shape, 3))
+                self.assertTrue((hits.t == 4).all() and (hits.normal == (0, 0, -1)).all())
+                self.assertEqual(self.rays.occluded(directions, directions).shape, shape)
+                self.assertEqual(self.rays.closest(hits.leave(directions), directions).t.shape, shape)
+
+    def test_out_is_overwritten(self):
+        origins, directions = random_rays(1000)
+        hits = self.rays.closest(origins, directions)
+        expected = hits.t.copy()
+        hits.t[:] = -1
+        memory = hits.normal.__array_interface__["data"]
+        again = self.rays.closest(origins, directions, out=hits)
+        self.assertIs(again, hits)
+        self.assertEqual(memory, again.normal.__array_interface__["data"])
+        np.testing.assert_array_equal(hits.t, expected)
+        with self.assertRaisesRegex(ValueError, r"out.t is float64 of shape \(1000,\)"):
+            self.rays.closest(origins[:5], directions[:5], out=hits)
+        with self.assertRaisesRegex(ValueError, "out.normal is not None"):
+            self.rays.closest(origins, directions, out=hits, detail="t")
+        hits.t.flags.writeable = False
+        with self.assertRaisesRegex(ValueError, "writ"):
+            self.rays.closest(origins, directions, out=hits)
+
+    def test_wrong_arrays_are_refused(self):
+        good = np.zeros((5, 3))
+        for message, arguments in (
+                (r"origins has shape \(5, 2\); use \(..., 3\)", (good[:, :2], good)),
+                (r"directions has shape \(3, 5\)", (good, good.T)),
+                (r"origins is int64; use float32 or float64", (good.astype(int), good)),
+                (r"directions is >f8", (good, good.astype(">f8"))),
+                (r"origins is object", (good.astype(object), good)),
+                (r"origins are float64 and directions float32", (good, good.astype(np.float32))),
+                (r"origins have shape \(5, 3\) and directions \(4, 3\)", (good, good[:4])),
+                (r"t_min has shape \(4,\); use a number or the rays' shape \(5,\)",
+                 (good, good, np.zeros(4))),
+                (r"t_max is float32 and origins float64", (good, good, 0, np.ones(5, np.float32))),
+                (r"t_max is 'far'; use a number", (good, good, 0, "far")),
+                (r"is no array of vectors", ("north", good))):
+            with self.subTest(message), self.assertRaisesRegex(ValueError, message):
+                self.rays.closest(*arguments)
+        with self.assertRaisesRegex(ValueError, "detail is 'most'; use one of 't', 'normal'"):
+            self.rays.closest(good, good, detail="most")
+        with self.assertRaisesRegex(ValueError, "object is 3 for ray 4; use -1 to 2"):
+            self.rays.bounds(good, good, np.array([0, 0, 0, 0, 3]))
+        with self.assertRaisesRegex(ValueError, "object is float64"):
+            self.rays.bounds(good, good, np.zeros(5))
+
+    def test_wrong_options_are_refused(self):
+        scene = hand_scene()
+        for message, options in (("kernel is 'gpu'; use one of 'packet', 'scalar'", {"kernel": "gpu"}),
+                                 ("isa.*mmx", {"isa": "mmx"}),
+                                 ("threads is -1", {"threads": -1}),
+                                 ("lanes is 'many'", {"lanes": "many"}),
+                                 ("dtype is int64", {"dtype": int})):
+            with self.subTest(message), self.assertRaisesRegex(ValueError, message):
+                pt.RayScene(scene, **options)
+        with self.assertRaisesRegex(pt.SceneError, "radius"):
+            pt.RayScene(pt.Scene(objects=[pt.Object(pt.Sphere(radius=-1))]))
+
+    def test_rays_that_mean_nothing_hit_nothing(self):
+        origins, directions = random_rays(100)
+        origins[::2, 1] = np.nan
+        hits = self.rays.closest(origins, directions)
+        self.assertFalse(hits.hit[::2].any())
+        self.assertTrue(hits.hit[1::2].any())
+
+
+class TestMemory(unittest.TestCase):
+    """The peak of memory tells whether rays were copied: a copy of these takes 96 MB or more."""
+
+    def peak_above(self, work):
+        work()
+        before, _ = resident_bytes()
+        reset_peak()
+        work()
+        return resident_bytes()[1] - before
+
+    def test_rays_are_not_copied(self):
+        count = 4_000_000
+        for dtype in DTYPES:
+            one_vector = count * 3 * np.dtype(dtype).itemsize
+            for order in ("F", "C"):
+                origins = np.zeros((count, 3), dtype, order)
+                directions = np.ones((count, 3), dtype, order)
+                rays = pt.RayScene(hand_scene(), dtype=dtype)
+                hits = rays.closest(origins, directions, detail="t")
+                mask = rays.occluded(origins, directions)
+                with self.subTest(dtype=dtype, order=order):
+                    peak = self.peak_above(
+                        lambda: rays.closest(origins, directions, out=hits, detail="t"))
+                    self.assertLess(peak, one_vector / 3)
+                    peak = self.peak_above(lambda: rays.occluded(origins, directions))
+                    self.assertLess(peak, mask.nbytes + one_vector / 3)
+
+
+if __name__ == "__main__":
+    unittest.main()

@@ -1,0 +1,160 @@
+"""Scenes: from text, from files, built object by object, and back."""
+
+import copy
+import pickle
+import unittest
+import warnings
+from dataclasses import replace
+
+import numpy as np
+
+import packtrace as pt
+from support import SCENES, hand_scene
+
+
+class TestText(unittest.TestCase):
+    def test_reads_every_example_and_writes_what_reads_the_same(self):
+        for file in sorted(SCENES.glob("*.scene")):
+            with self.subTest(file.name):
+                scene = pt.read_scene(file)
+                text = scene.to_text()
+                self.assertGreater(len(scene.objects), 0)
+                self.assertEqual(scene.to_text(), text, "objects changed when Python took them")
+                self.assertEqual(pt.Scene.from_text(text), scene)
+
+    def test_wrong_text_is_refused_with_its_place(self):
+        with self.assertRaisesRegex(pt.SceneError, r"^mine:1:10: unknown key 'raduis'"):
+            pt.Scene.from_text("sphere { raduis = 1 }", "mine")
+        with self.assertRaisesRegex(ValueError, "nowhere.scene"):
+            pt.read_scene("nowhere.scene")
+
+    def test_what_the_reader_mends_is_warned_of(self):
+        with warnings.catch_warnings(record=True) as caught:
+            warnings.simplefilter("always")
+            pt.Scene.from_text("camera { rotation = (0.7071, 0, -0.7071, 0, 1, 0, 0.7071, 0, 0.7071) }\n"
+                               "sphere { center = (0, 0, 3)  radius = 1 }")
+        self.assertEqual(len(caught), 1)
+        self.assertIn("rotation", str(caught[0].message))
+
+
+class TestBuilding(unittest.TestCase):
+    def test_a_scene_built_is_the_scene_read(self):
+        read = pt.Scene.from_text("""
+            illumination = whitted
+            image_size = 64 x 48
+            shadows = transparent
+            camera { position = (1, 2, -3)  look_at = (0, 0, 4)  fov = 50 }
+            material glass { specular = 0.1  transmissive = 0.8  ior = 1.5  shininess = 200 }
+            sphere { name = "ball"  center = (0, 0, 4)  radius = 1  material = glass }
+            plane { name = "floor"  point = (0, -1, 0)  normal = (0, 2, 0)
+                    checker = rgb(1, 1, 1), rgb(0, 0, 0), 0.5  diffuse = 0.7 }
+            cone { name = "hat"  z_range = (-1, 0)  capped = yes  rotate = (1, 0, 0, -90)
+                   translate = (2, 1, 6)  scale = (1, 2, 1)  casts_shadow = no }
+            quadric { name = "egg"  coefficients = (1, 2, 3, 0, 0, 0, 0, 0, 0, -1) }
+            polygon { name = "sheet"  vertices = (-1, -1, 9), (-1, 1, 9), (1, 1, 9), (1, -1, 9)
+                      vertices = (-0.5, -0.5, 9), (0.5, -0.5, 9), (0, 0.5, 9) }
+            light { type = ambient  intensity = 0.2 }
+            light { type = point  position = (2, 5, 0)  intensity = (0.5, 0.6, 0.7) }
+            light { type = directional  direction = (1, 1, -1)  intensity = 0.1  casts_shadow = no }
+        """)
+        glass = pt.WhittedMaterial(name="glass", specular=0.1, transmissive=0.8, ior=1.5,
+                                   shininess=200)
+        built = pt.Scene(
+            width=64, height=48, illumination="whitted", shadows="transparent",
+            camera=pt.Camera.look_at((1, 2, -3), (0, 0, 4), fov=50),
+            objects=[
+                pt.Object(pt.Sphere((0, 0, 4), 1), glass, "ball"),
+                pt.Object(pt.Plane((0, -1, 0), np.array([0, 2, 0])),
+                          pt.WhittedMaterial(checker=pt.Checker(0, 0.5), diffuse=0.7), "floor"),
+                replace(pt.Object(pt.Quadric("cone", z_range=(-1, 0), capped=True), name="hat",
+                                  casts_shadow=False)
+                        .rotate((1, 0, 0), -90).translate((2, 1, 6)).scale((1, 2, 1))),
+                pt.Object(pt.Quadric(coefficients=(1, 2, 3, 0, 0, 0, 0, 0, 0, -1)), name="egg"),
+                pt.Object(pt.Polygon([np.array([(-1, -1, 9), (-1, 1, 9), (1, 1, 9), (1, -1, 9.0)]),
+                                      [(-0.5, -0.5, 9), (0.5, -0.5, 9), (0, 0.5, 9)]]), name="sheet"),
+            ],
+            lights=[pt.Light(intensity=0.2),
+                    pt.Light("point", (0.5, 0.6, 0.7), (2, 5, 0)),
+                    pt.Light("directional", 0.1, (1, 1, -1), casts_shadow=False)])
+        self.assertEqual(built.to_text(), read.to_text())
+
+    def test_changes_of_fields_count(self):
+        scene = hand_scene()
+        scene.objects[0].surface.radius=2
+        del scene.objects[1:]
+        self.assertIn("radius=2", scene.to_text())
+        self.assertNotIn("floor", scene.to_text())
+
+    def test_copies_and_pickles_are_the_same_scene(self):
+        for make in (copy.copy, copy.deepcopy, lambda scene: pickle.loads(pickle.dumps(scene))):
+            self.assertEqual(make(hand_scene()), hand_scene())
+
+    def test_defaults_are_those_of_the_illumination(self):
+        for illumination in ("scratch", "sketch", "whitted", "shader", "general"):
+            with self.subTest(illumination):
+                built = pt.Scene(illumination=illumination,
+                                 objects=[pt.Object(pt.Sphere((0, 0, 3), 1), name="sphere 1")])
+                read = pt.Scene.from_text(f"illumination = {illumination}\n"
+                                          "sphere { center = (0, 0, 3) radius = 1 }")
+                self.assertEqual(built.to_text(), read.to_text())
+
+    def test_animations(self):
+        scene = hand_scene()
+        scene.animation = pt.Animation(4, pt.Orbit((0, 0, 5)))
+        turned = np.asarray(scene.camera_at(1).position)
+        self.assertAlmostEqual(np.linalg.norm(turned - (0, 0, 5)), 5)
+        scene.animation = pt.Animation(3, keys=[pt.CameraKey(0), pt.CameraKey(2, (0, 0, 2),
+                                                                              (0, 0, 3))])
+        np.testing.assert_allclose(scene.camera_at(1).position, (0, 0, 1), atol=1e-15)
+        with self.assertRaisesRegex(ValueError, "frame"):
+            scene.camera_at(3)
+
+    def test_generated_scenes(self):
+        self.assertEqual(len(pt.generate_sphereflake(2).objects), 91)
+        self.assertEqual(len(pt.generate_lattice(3).objects), 27)
+        self.assertEqual(len(pt.generate_random_spheres(50, 0.01).objects), 50)
+        with self.assertRaises(ValueError):
+            pt.generate_lattice(0)
+
+
+class TestErrors(unittest.TestCase):
+    """Each names the object, says what is wrong, and what to use."""
+
+    def refuses(self, message, **fields):
+        with self.assertRaisesRegex(ValueError, message):
+            pt.Scene(**fields).validate()
+
+    def test_values_of_the_wrong_type(self):
+        ball = pt.Sphere((0, 0, 5), 1)
+        self.refuses(r"^object 0: 'ball': center is \(0, 0\); use 3 numbers",
+                     objects=[pt.Object(pt.Sphere((0, 0)), name="ball")])
+        self.refuses(r"^object 1: .*radius is 'big'; use a number",
+                     objects=[pt.Object(ball), pt.Object(pt.Sphere(radius="big"))])
+        self.refuses(r"^object 0: is of the class Sphere; use an Object", objects=[ball])
+        self.refuses(r"surface is None; use a Sphere", objects=[pt.Object(None)])
+        self.refuses(r"material: .*class str; use the one that fits",
+                     objects=[pt.Object(ball, "gold")])
+        self.refuses(r"transform is \[1, 2\]; use 4 rows", objects=[pt.Object(ball, transform=[1, 2])])
+        self.refuses(r"use a matrix with the last row \(0, 0, 0, 1\)",
+                     objects=[pt.Object(ball, transform=np.ones((4, 4)))])
+        self.refuses(r"kind is 'egg'; use one of 'ellipsoid'", objects=[pt.Object(pt.Quadric("egg"))])
+        self.refuses(r"coefficients is \(1,\); use None, as the kind 'cone' has its own",
+                     objects=[pt.Object(pt.Quadric("cone", (1,)))])
+        self.refuses(r"^light 0: type is 'sun'; use one of 'ambient'", lights=[pt.Light("sun")])
+        self.refuses(r"^illumination is 'dark'; use one of", illumination="dark")
+        self.refuses(r"^width is 2.5; use a whole number", width=2.5)
+        self.refuses(r"^objects is 7; use a list", objects=7)
+
+    def test_values_that_no_scene_may_have(self):
+        with self.assertRaisesRegex(pt.SceneError, "ball.*radius.*above 0"):
+            pt.Scene(objects=[pt.Object(pt.Sphere((0, 0, 5), -1), name="ball")]).validate()
+        with self.assertRaisesRegex(pt.SceneError, "illumination"):
+            pt.Scene(objects=[pt.Object(pt.Sphere(), pt.GeneralMaterial())]).validate()
+
+    def test_what_is_no_scene(self):
+        with self.assertRaisesRegex(ValueError, "use a packtrace.Scene"):
+            pt.render("a.scene")
+
+
+if __name__ == "__main__":
+    unittest.main()
