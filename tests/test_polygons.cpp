@@ -27,6 +27,7 @@
 #include "reference/inside.hpp"
 #include "reference/own_roots.hpp"
 #include "reference_scenes.hpp"
+#include "render_scene.hpp"
 #include "scene_text.hpp"
 
 namespace packtrace::test {

@@ -1,5 +1,8 @@
 #include "cli/interrupts.hpp"
 
+#include <algorithm>
+#include <array>
+#include <atomic>
 #include <csignal>
 #include <string_view>
 
@@ -10,18 +13,39 @@
 namespace packtrace::cli {
 namespace {
 
+/// Lines for the handler of signals: one that may be read, one that may be written.
+std::array<std::array<char, 512>, 2> lines;
+std::atomic<const char*> given_line{nullptr};
+
 // Calls nothing but what signal handlers may call.
 void end_by(int signal)
 {
-    const std::string_view line = remove_all_temporaries() > 0
-                                      ? "\npacktrace: interrupted; the unfinished file is removed\n"
-                                      : "\npacktrace: interrupted\n";
+    std::string_view line = remove_all_temporaries() > 0
+                                ? "\npacktrace: interrupted; the unfinished file is removed\n"
+                                : "\npacktrace: interrupted\n";
+    if (const char* const given = given_line.load(); given != nullptr)
+        line = given;
     [[maybe_unused]] const ssize_t written = write(STDERR_FILENO, line.data(), line.size());
     std::signal(signal, SIG_DFL);
     std::raise(signal);
 }
 
 }  // namespace
+
+void set_interrupt_line(const std::string& line)
+{
+    static std::size_t next = 0;
+    if (line.empty())
+        return given_line.store(nullptr);
+    std::array<char, 512>& text = lines[next];
+    next = 1 - next;
+    const std::size_t length = std::min(line.size(), text.size() - 3);
+    text[0] = '\n';
+    std::copy_n(line.data(), length, text.data() + 1);
+    text[length + 1] = '\n';
+    text[length + 2] = '\0';
+    given_line.store(text.data());
+}
 
 void clean_up_when_interrupted()
 {

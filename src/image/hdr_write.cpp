@@ -1,4 +1,4 @@
-// The one place that compiles stb_image_write.
+// Radiance pictures: stb_image_write, a row at a time.
 #include <algorithm>
 
 #include "image/hdr.hpp"
@@ -27,12 +27,32 @@ float clamp_to_rgbe(float value)
 
 }  // namespace
 
+std::string hdr_header(int width, int height)
+{
+    return "#?RADIANCE\n# Written by stb_image_write.h\nFORMAT=32-bit_rle_rgbe\n"
+           "EXPOSURE=          1.0000000000000\n\n-Y " +
+           std::to_string(height) + " +X " + std::to_string(width) + "\n";
+}
+
+void append_hdr_row(Bytes& file, std::span<const float> row)
+{
+    std::vector<float> values(row.size());
+    std::transform(row.begin(), row.end(), values.begin(), clamp_to_rgbe);
+    const auto width = static_cast<int>(row.size() / 3);
+    std::vector<unsigned char> scratch(4 * row.size() / 3);
+    stbi__write_context context{};
+    stbi__start_write_callbacks(&context, append, &file);
+    stbiw__write_hdr_scanline(&context, width, 3, scratch.data(), values.data());
+    stbiw__write_flush(&context);
+}
+
 Bytes encode_hdr(const Image<float>& image)
 {
-    std::vector<float> values(image.rgb.size());
-    std::transform(image.rgb.begin(), image.rgb.end(), values.begin(), clamp_to_rgbe);
-    Bytes file;
-    stbi_write_hdr_to_func(append, &file, image.width, image.height, 3, values.data());
+    const std::string header = hdr_header(image.width, image.height);
+    Bytes file(header.begin(), header.end());
+    const std::size_t row = 3 * static_cast<std::size_t>(image.width);
+    for (int y = 0; y < image.height; ++y)
+        append_hdr_row(file, {image.pixel(0, y), row});
     return file;
 }
 

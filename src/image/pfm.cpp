@@ -78,19 +78,34 @@ void check_length(const Header& header, std::size_t size)
 
 }  // namespace
 
+std::string pfm_header(int width, int height)
+{
+    return "PF\n" + std::to_string(width) + " " + std::to_string(height) + "\n-1.0\n";
+}
+
+template <class Real>
+void encode_pfm_values(std::span<const Real> values, std::uint8_t* to)
+{
+    for (const Real value : values) {
+        store(static_cast<float>(value), to);
+        to += sizeof(float);
+    }
+}
+
+template void encode_pfm_values(std::span<const float>, std::uint8_t*);
+template void encode_pfm_values(std::span<const double>, std::uint8_t*);
+template void encode_pfm_values(std::span<const long double>, std::uint8_t*);
+
 template <class Real>
 Bytes encode_pfm(const Image<Real>& image)
 {
-    const std::string header =
-        "PF\n" + std::to_string(image.width) + " " + std::to_string(image.height) + "\n-1.0\n";
+    const std::string header = pfm_header(image.width, image.height);
     Bytes file(header.begin(), header.end());
     file.resize(header.size() + image.rgb.size() * sizeof(float));
+    const std::size_t row = 3 * static_cast<std::size_t>(image.width);
     std::uint8_t* to = file.data() + header.size();
-    for (int y = image.height - 1; y >= 0; --y) {
-        const Real* row = image.pixel(0, y);
-        for (int i = 0; i < 3 * image.width; ++i, to += sizeof(float))
-            store(static_cast<float>(row[i]), to);
-    }
+    for (int y = image.height - 1; y >= 0; --y, to += row * sizeof(float))
+        encode_pfm_values(std::span<const Real>(image.pixel(0, y), row), to);
     return file;
 }
 

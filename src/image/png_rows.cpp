@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <csetjmp>
+#include <exception>
 #include <memory>
 #include <string>
 #include <utility>
@@ -24,7 +25,6 @@ struct PngState {
     png_infop info = nullptr;
     std::string fault;
     std::span<const std::uint8_t> unread;  ///< of the file that is read
-    Bytes written;
     Bytes samples;
     Image<float> image;
 };
@@ -51,12 +51,6 @@ void give_bytes(png_structp png, png_bytep to, std::size_t count)
         png_error(png, "the file ends early");
     std::copy_n(unread.data(), count, to);
     unread = unread.subspan(count);
-}
-
-void take_bytes(png_structp png, png_bytep from, std::size_t count)
-{
-    Bytes& written = state_of(png).written;
-    written.insert(written.end(), from, from + count);
 }
 
 /// Asks libpng for rows of red, green and blue, of 8 or 16 bits.
@@ -106,27 +100,10 @@ void read_picture(PngState& state)
     png_read_end(state.png, nullptr);
 }
 
-void write_picture(PngState& state, int width, int height, const GiveRow& give_row)
-{
-    png_set_IHDR(state.png, state.info, static_cast<png_uint_32>(width),
-                 static_cast<png_uint_32>(height), 8, PNG_COLOR_TYPE_RGB, PNG_INTERLACE_NONE,
-                 PNG_COMPRESSION_TYPE_DEFAULT, PNG_FILTER_TYPE_DEFAULT);
-    png_set_filter(state.png, PNG_FILTER_TYPE_DEFAULT, PNG_FILTER_UP);
-    png_set_compression_level(state.png, 1);
-    png_write_info(state.png, state.info);
-    state.samples.resize(3 * static_cast<std::size_t>(width));
-    for (int y = 0; y < height; ++y) {
-        give_row(y, state.samples.data());
-        png_write_row(state.png, state.samples.data());
-    }
-    png_write_end(state.png, nullptr);
-}
-
 /// Runs `use`, whose fault becomes an ImageError.
 template <class Use>
 void guard(PngState& state, const std::string& what, const Use& use)
 {
-    state.info = png_create_info_struct(state.png);
     if (setjmp(png_jmpbuf(state.png)) != 0)
         throw ImageError(what + state.fault);
     use();
@@ -145,21 +122,89 @@ Image<float> decode_png(std::span<const std::uint8_t> file)
         png_destroy_read_struct(&used->png, &used->info, nullptr);
     };
     const std::unique_ptr<PngState, decltype(destroy)> owner(&state, destroy);
+    state.info = png_create_info_struct(state.png);
     png_set_read_fn(state.png, nullptr, give_bytes);
     guard(state, "damaged PNG: ", [&] { read_picture(state); });
     return std::move(state.image);
 }
 
+struct PngRows::State {
+    PngState png;
+    Take take;
+    std::exception_ptr error;  ///< of `take`: no exception passes through libpng
+
+    ~State()
+    {
+        png_destroy_write_struct(&png.png, &png.info);
+    }
+
+    static void take_bytes(png_structp png, png_bytep from, std::size_t count)
+    {
+        State& state = *static_cast<State*>(png_get_io_ptr(png));
+        try {
+            state.take({from, count});
+        } catch (...) {
+            state.error = std::current_exception();
+        }
+        if (state.error)
+            png_error(png, "");
+    }
+
+    template <class Use>
+    void run(const Use& use)
+    {
+        try {
+            guard(png, "can't be written as PNG: ", use);
+        } catch (const ImageError&) {
+            if (error)
+                std::rethrow_exception(error);
+            throw;
+        }
+    }
+};
+
+PngRows::PngRows(int width, int height, Take take) : state_(std::make_unique<State>())
+{
+    state_->take = std::move(take);
+    PngState& state = state_->png;
+    state.png = png_create_write_struct(PNG_LIBPNG_VER_STRING, &state, jump_out, ignore_warning);
+    state.info = png_create_info_struct(state.png);
+    png_set_write_fn(state.png, state_.get(), State::take_bytes, nullptr);
+    state_->run([&] {
+        png_set_IHDR(state.png, state.info, static_cast<png_uint_32>(width),
+                     static_cast<png_uint_32>(height), 8, PNG_COLOR_TYPE_RGB, PNG_INTERLACE_NONE,
+                     PNG_COMPRESSION_TYPE_DEFAULT, PNG_FILTER_TYPE_DEFAULT);
+        png_set_filter(state.png, PNG_FILTER_TYPE_DEFAULT, PNG_FILTER_UP);
+        png_set_compression_level(state.png, 1);
+        png_write_info(state.png, state.info);
+    });
+}
+
+PngRows::~PngRows() = default;
+
+void PngRows::write(const std::uint8_t* row)
+{
+    state_->run([&] { png_write_row(state_->png.png, row); });
+}
+
+void PngRows::finish()
+{
+    state_->run([&] { png_write_end(state_->png.png, nullptr); });
+}
+
 Bytes encode_png_rows(int width, int height, const GiveRow& give_row)
 {
-    PngState state;
-    state.png = png_create_write_struct(PNG_LIBPNG_VER_STRING, &state, jump_out, ignore_warning);
-    const auto destroy = [](PngState* used) { png_destroy_write_struct(&used->png, &used->info); };
-    const std::unique_ptr<PngState, decltype(destroy)> owner(&state, destroy);
-    png_set_write_fn(state.png, nullptr, take_bytes, nullptr);
-    guard(state,
-          "can't be written as PNG: ", [&] { write_picture(state, width, height, give_row); });
-    return std::move(state.written);
+    Bytes file;
+    PngRows rows(width, height, [&](std::span<const std::uint8_t> bytes) {
+        file.insert(file.end(), bytes.begin(), bytes.end());
+    });
+    Bytes row(3 * static_cast<std::size_t>(width));
+    for (int y = 0; y < height; ++y) {
+        give_row(y, row.data());
+        rows.write(row.data());
+    }
+    rows.finish();
+    return file;
 }
 
 }  // namespace packtrace

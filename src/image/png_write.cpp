@@ -67,7 +67,9 @@ void insert_recipe(Bytes& file, std::string_view recipe)
     file.insert(file.begin() + recipe_at, chunk.begin(), chunk.end());
 }
 
-Bytes encode_whole(const Bytes& samples, int width, int height)
+}  // namespace
+
+Bytes encode_png_samples(const Bytes& samples, int width, int height)
 {
     // stb's setting is a global, which no two threads may write.
     [[maybe_unused]] static const int filter = stbi_write_force_png_filter = filter_up;
@@ -78,8 +80,6 @@ Bytes encode_whole(const Bytes& samples, int width, int height)
         throw std::bad_alloc();
     return Bytes(file.get(), file.get() + length);
 }
-
-}  // namespace
 
 template <class Real>
 Bytes encode_png(const Image<Real>& image, const PngSettings& settings)
@@ -98,7 +98,7 @@ Bytes encode_png(const Image<Real>& image, const PngSettings& settings)
     } else {
         Bytes samples(image.rgb.size());
         round(0, image.height, samples.data());
-        file = encode_whole(samples, image.width, image.height);
+        file = encode_png_samples(samples, image.width, image.height);
     }
     if (!settings.recipe.empty())
         insert_recipe(file, settings.recipe);

@@ -54,30 +54,125 @@ void run_on_threads(int threads, const Work& work)
     tbb::task_arena(threads).execute(work);
 }
 
-// The samples of render.hpp, in its order; `each_row` calls work for all rows.
-template <class Real, class EachRow>
-void trace_samples(const reference::Reference<Real>& reference, const RenderOptions& options,
-                   Image<Real>& image, const EachRow& each_row)
-{
-    const std::vector<Vec2> pattern = sample_pattern(options.samples);
-    const auto trace_pixels = [&](int j, reference::CutCounter* cuts,
-                                  const std::vector<Vec2>& places, const auto& wanted) {
-        for (int i = 0; i < image.width; ++i)
-            if (wanted(i, j))
-                put_pixel(image, i, j, reference.trace_samples(i, j, places, cuts));
-    };
-    const auto all = [](int, int) { return true; };
+/// Some rows of a picture: those asked for, or with those beside them that contrast looks at.
+struct Rows {
+    int first = 0;
+    int end = 0;
+
+    [[nodiscard]] int count() const
+    {
+        return end - first;
+    }
+    [[nodiscard]] bool has(int j) const
+    {
+        return j >= first && j < end;
+    }
+};
+
+template <class Real>
+class RowTracer {
+public:
+    RowTracer(const reference::Reference<Real>& reference, const RenderOptions& options,
+              const Rows& rows, reference::CutCounter* cuts)
+        : reference_(reference),
+          options_(options),
+          rows_(rows),
+          cuts_(cuts),
+          counter_(options.adaptive ? 2 * rows.count() : rows.count(), options.progress)
+    {
+    }
+
+    void trace(Image<Real>& image)
+    {
+        if (options_.samples == 1)
+            each_row(rows_,
+                     [&](int j, Cuts* cuts) { reference_.trace_row(j, image, cuts, rows_.first); });
+        else
+            trace_all(image, rows_, sample_pattern(options_.samples));
+    }
+
+    /// All pixels once, those of `around` too; then those with contrast in full.
+    void trace_adaptive(Image<Real>& image, const Rows& around)
+    {
+        Image<Real> wide(image.width, around.count());
+        trace_all(wide, around, {Vec2(0.5)});
+        ContrastMap<Real> contrast(wide, *options_.adaptive);
+        for (int row = 0; row < wide.height; ++row)
+            contrast.mark_row(row);
+        const std::vector<Vec2> pattern = sample_pattern(options_.samples);
+        each_row(rows_, [&](int j, Cuts* cuts) {
+            for (int i = 0; i < wide.width; ++i)
+                if (contrast(i, j - around.first))
+                    put_pixel(wide, i, j - around.first,
+                              reference_.trace_samples(i, j, pattern, cuts));
+        });
+        std::copy_n(wide.pixel(0, rows_.first - around.first), image.rgb.size(), image.rgb.begin());
+    }
+
+private:
     using Cuts = reference::CutCounter;
-    if (!options.adaptive)
-        return each_row([&](int j, Cuts* cuts) { trace_pixels(j, cuts, pattern, all); });
-    each_row([&](int j, Cuts* cuts) { trace_pixels(j, cuts, {Vec2(0.5)}, all); });
-    ContrastMap<Real> contrast(image, *options.adaptive);
-    for (int j = 0; j < image.height; ++j)
-        contrast.mark_row(j);
-    each_row([&](int j, Cuts* cuts) { trace_pixels(j, cuts, pattern, contrast); });
-}
+
+    /// `image` holds `rows`.
+    void trace_all(Image<Real>& image, const Rows& rows, const std::vector<Vec2>& places)
+    {
+        each_row(rows, [&](int j, Cuts* cuts) {
+            for (int i = 0; i < image.width; ++i)
+                put_pixel(image, i, j - rows.first, reference_.trace_samples(i, j, places, cuts));
+        });
+    }
+
+    // Rows count by themselves: their sums do not depend on threads. Only those asked for do.
+    template <class Work>
+    void each_row(const Rows& rows, const Work& work)
+    {
+        tbb::parallel_for(
+            tbb::blocked_range<int>(rows.first, rows.end, 1),
+            [&](const tbb::blocked_range<int>& some) {
+                for (int j = some.begin(); j != some.end(); ++j) {
+                    work_on(j, work);
+                    if (rows_.has(j))
+                        counter_.row_done();
+                }
+            },
+            tbb::simple_partitioner());
+    }
+
+    template <class Work>
+    void work_on(int j, const Work& work)
+    {
+        if (cuts_ == nullptr || !rows_.has(j))
+            return work(j, nullptr);
+        Cuts row = cuts_->fresh();
+        work(j, &row);
+        const std::lock_guard lock(adding_);
+        cuts_->add(row);
+    }
+
+    const reference::Reference<Real>& reference_;
+    const RenderOptions& options_;
+    Rows rows_;
+    Cuts* cuts_;
+    RowCounter counter_;
+    std::mutex adding_;
+};
 
 }  // namespace
+
+template <class Real>
+void render_reference_rows(const reference::Reference<Real>& reference, int picture_height,
+                           const RenderOptions& options, int first, Image<Real>& image,
+                           reference::CutCounter* cuts)
+{
+    const Rows rows{first, first + image.height};
+    RowTracer<Real> tracer(reference, options, rows, cuts);
+    run_on_threads(options.threads, [&] {
+        if (options.adaptive)
+            tracer.trace_adaptive(
+                image, {std::max(0, rows.first - 1), std::min(picture_height, rows.end + 1)});
+        else
+            tracer.trace(image);
+    });
+}
 
 template <class Real>
 Image<Real> render_reference(const Scene& scene, const RenderOptions& options,
@@ -85,35 +180,7 @@ Image<Real> render_reference(const Scene& scene, const RenderOptions& options,
 {
     Image<Real> image(scene.width, scene.height);
     const reference::Reference<Real> reference(scene, {}, options.self_hits);
-    RowCounter counter(options.adaptive ? 2 * image.height : image.height, options.progress);
-    std::mutex adding;
-    // Rows count by themselves: their sums do not depend on threads.
-    const auto work_on = [&](int j, const auto& work) {
-        if (cuts == nullptr)
-            return work(j, cuts);
-        reference::CutCounter row = cuts->fresh();
-        work(j, &row);
-        const std::lock_guard lock(adding);
-        cuts->add(row);
-    };
-    const auto each_row = [&](const auto& work) {
-        tbb::parallel_for(
-            tbb::blocked_range<int>(0, image.height, 1),
-            [&](const tbb::blocked_range<int>& rows) {
-                for (int j = rows.begin(); j != rows.end(); ++j) {
-                    work_on(j, work);
-                    counter.row_done();
-                }
-            },
-            tbb::simple_partitioner());
-    };
-    run_on_threads(options.threads, [&] {
-        if (options.samples == 1)
-            each_row(
-                [&](int j, reference::CutCounter* row) { reference.trace_row(j, image, row); });
-        else
-            trace_samples(reference, options, image, each_row);
-    });
+    render_reference_rows(reference, scene.height, options, 0, image, cuts);
     return image;
 }
 
@@ -121,5 +188,12 @@ template Image<float> render_reference(const Scene&, const RenderOptions&, refer
 template Image<double> render_reference(const Scene&, const RenderOptions&, reference::CutCounter*);
 template Image<long double> render_reference(const Scene&, const RenderOptions&,
                                              reference::CutCounter*);
+template void render_reference_rows(const reference::Reference<float>&, int, const RenderOptions&,
+                                    int, Image<float>&, reference::CutCounter*);
+template void render_reference_rows(const reference::Reference<double>&, int, const RenderOptions&,
+                                    int, Image<double>&, reference::CutCounter*);
+template void render_reference_rows(const reference::Reference<long double>&, int,
+                                    const RenderOptions&, int, Image<long double>&,
+                                    reference::CutCounter*);
 
 }  // namespace packtrace

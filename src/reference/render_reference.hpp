@@ -5,6 +5,7 @@
 #include <packtrace/scene.hpp>
 
 #include "reference/cut_rays.hpp"
+#include "reference/reference.hpp"
 
 namespace packtrace {
 
@@ -14,5 +15,12 @@ namespace packtrace {
 template <class Real>
 [[nodiscard]] Image<Real> render_reference(const Scene& scene, const RenderOptions& options = {},
                                            reference::CutCounter* cuts = nullptr);
+
+/// The same for the rows of `image` alone, the first of which is row `first` of the picture. They
+/// have the bits they have in the whole picture.
+template <class Real>
+void render_reference_rows(const reference::Reference<Real>& reference, int picture_height,
+                           const RenderOptions& options, int first, Image<Real>& image,
+                           reference::CutCounter* cuts = nullptr);
 
 }  // namespace packtrace

@@ -31,30 +31,46 @@ FrameRenderer<Real>::FrameRenderer(const Scene& scene, LoweredScene lowered,
 }
 
 template <class Real>
-FrameCounts FrameRenderer<Real>::render_tiles(Image<Real>& image) const
+FrameCounts FrameRenderer<Real>::render_tiles(int first, Image<Real>& image) const
 {
-    const TileGrid grid(width_, height_);
     if (options_.adaptive)
-        return render_adaptive(grid, image);
+        return render_adaptive(first, image);
+    const TileGrid grid(width_, image.height, first);
+    const Canvas<Real> canvas(image, first);
     Progress done(grid.count, options_.progress);
     return for_each_tile(grid, done, [&](int x, int y) {
-        return options_.samples > 1 ? tiles_.render_mean(image, x, y)
-                                    : tiles_.render_once(image, x, y);
+        return options_.samples > 1 ? tiles_.render_mean(canvas, x, y)
+                                    : tiles_.render_once(canvas, x, y);
     });
 }
 
-// All tiles once, then the pixels with contrast in full.
+// All tiles once, then the pixels with contrast in full. Contrast also looks at the rows beside
+// those asked for: a tile more on either side.
 template <class Real>
-FrameCounts FrameRenderer<Real>::render_adaptive(const TileGrid& grid, Image<Real>& image) const
+FrameCounts FrameRenderer<Real>::render_adaptive(int first, Image<Real>& image) const
 {
-    Progress done(2 * grid.count, options_.progress);
-    const FrameCounts first =
-        for_each_tile(grid, done, [&](int x, int y) { return tiles_.render_once(image, x, y); });
-    ContrastMap<Real> contrast(image, *options_.adaptive);
-    tbb::parallel_for(0, height_, [&](int y) { contrast.mark_row(y); });
-    return first + for_each_tile(grid, done, [&](int x, int y) {
-               return tiles_.refine(image, contrast, x, y);
-           });
+    const int end = first + image.height;
+    const int above = std::min(first, abi::tile_size);
+    const int below = std::min(height_ - end, abi::tile_size);
+    Image<Real> wider;
+    if (above + below > 0)
+        wider = Image<Real>::unset(width_, above + image.height + below);
+    Image<Real>& all = above + below > 0 ? wider : image;
+    const Canvas<Real> canvas(all, first - above);
+    const TileGrid grid(width_, image.height, first);
+    const TileGrid around(width_, all.height, first - above);
+    Progress done(around.count + grid.count, options_.progress);
+    const FrameCounts once = for_each_tile(around, done, [&](int x, int y) {
+        const abi::RayCounts counts = tiles_.render_once(canvas, x, y);
+        return y >= first && y < end ? counts : abi::RayCounts();
+    });
+    ContrastMap<Real> contrast(all, *options_.adaptive);
+    tbb::parallel_for(0, all.height, [&](int row) { contrast.mark_row(row); });
+    const FrameCounts more = for_each_tile(
+        grid, done, [&](int x, int y) { return tiles_.refine(canvas, contrast, x, y); });
+    if (above + below > 0)
+        std::copy_n(all.pixel(0, above), image.rgb.size(), image.rgb.begin());
+    return once + more;
 }
 
 template <class Real>
@@ -62,10 +78,16 @@ FrameCounts FrameRenderer<Real>::render(Image<Real>& image) const
 {
     if (image.width != width_ || image.height != height_)
         image = Image<Real>::unset(width_, height_);
+    return render_rows(0, image);
+}
+
+template <class Real>
+FrameCounts FrameRenderer<Real>::render_rows(int first, Image<Real>& image) const
+{
     if (options_.threads == 0)
-        return render_tiles(image);
+        return render_tiles(first, image);
     tbb::task_arena arena(options_.threads);
-    return arena.execute([&] { return render_tiles(image); });
+    return arena.execute([&] { return render_tiles(first, image); });
 }
 
 template class FrameRenderer<float>;

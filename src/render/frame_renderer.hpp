@@ -19,14 +19,20 @@ public:
     /// As Renderer::render.
     FrameCounts render(Image<Real>& image) const;
 
+    /// Renders the rows of `image` alone, the first of which is row `first` of the picture. They
+    /// have the bits they have in the whole picture; counts are of them alone. Rows are whole
+    /// tiles: `first` is a multiple of a tile's size, and so is their number, but at the picture's
+    /// end.
+    FrameCounts render_rows(int first, Image<Real>& image) const;
+
     [[nodiscard]] std::size_t scene_bytes() const
     {
         return tiles_.scene_bytes();
     }
 
 private:
-    [[nodiscard]] FrameCounts render_tiles(Image<Real>& image) const;
-    [[nodiscard]] FrameCounts render_adaptive(const TileGrid& grid, Image<Real>& image) const;
+    [[nodiscard]] FrameCounts render_tiles(int first, Image<Real>& image) const;
+    [[nodiscard]] FrameCounts render_adaptive(int first, Image<Real>& image) const;
 
     int width_;
     int height_;

@@ -12,14 +12,16 @@
 
 namespace packtrace {
 
-/// How a picture is cut.
+/// How a picture is cut, or some rows of it from `first` on.
 struct TileGrid {
     int columns;
     int count;
+    int first_row;
 
-    TileGrid(int width, int height)
+    TileGrid(int width, int height, int first = 0)
         : columns((width + abi::tile_size - 1) / abi::tile_size),
-          count(columns * ((height + abi::tile_size - 1) / abi::tile_size))
+          count(columns * ((height + abi::tile_size - 1) / abi::tile_size)),
+          first_row(first)
     {
     }
 };
@@ -36,7 +38,7 @@ template <class Work>
             abi::RayCounts& sum = counts.local();
             for (int tile = tiles.begin(); tile != tiles.end(); ++tile) {
                 sum += work(tile % grid.columns * abi::tile_size,
-                            tile / grid.columns * abi::tile_size);
+                            grid.first_row + tile / grid.columns * abi::tile_size);
                 done.finish_piece();
             }
         },

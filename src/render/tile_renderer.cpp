@@ -62,38 +62,38 @@ abi::TileJob<Real> TileRenderer<Real>::job_at(const abi::CameraView<Real>& camer
 }
 
 template <class Real>
-abi::RayCounts TileRenderer<Real>::render_once(Image<Real>& image, int x, int y) const
+abi::RayCounts TileRenderer<Real>::render_once(const Canvas<Real>& canvas, int x, int y) const
 {
-    return render_once(image, x, y, observation_);
+    return render_once(canvas, x, y, observation_);
 }
 
 template <class Real>
-abi::RayCounts TileRenderer<Real>::render_mean(Image<Real>& image, int x, int y) const
+abi::RayCounts TileRenderer<Real>::render_mean(const Canvas<Real>& canvas, int x, int y) const
 {
-    return render_mean(image, x, y, observation_);
+    return render_mean(canvas, x, y, observation_);
 }
 
 template <class Real>
-abi::RayCounts TileRenderer<Real>::render_observed(Image<Real>& image, int x, int y,
+abi::RayCounts TileRenderer<Real>::render_observed(const Canvas<Real>& canvas, int x, int y,
                                                    abi::Observation& observation) const
 {
-    return pattern_.size() > 1 ? render_mean(image, x, y, &observation)
-                               : render_once(image, x, y, &observation);
+    return pattern_.size() > 1 ? render_mean(canvas, x, y, &observation)
+                               : render_once(canvas, x, y, &observation);
 }
 
 template <class Real>
-abi::RayCounts TileRenderer<Real>::render_once(Image<Real>& image, int x, int y,
+abi::RayCounts TileRenderer<Real>::render_once(const Canvas<Real>& canvas, int x, int y,
                                                abi::Observation* observation) const
 {
     abi::TileJob<Real> job = job_at(once_, x, y, observation);
-    job.rgb = image.pixel(x, y);
+    job.rgb = canvas.pixel(x, y);
     job.row_stride = std::ptrdiff_t{3} * width_;
     return kernels_.render_tile(job);
 }
 
 // One sample of all pixels after the other, so that packets are as compact as with one sample.
 template <class Real>
-abi::RayCounts TileRenderer<Real>::render_mean(Image<Real>& image, int x, int y,
+abi::RayCounts TileRenderer<Real>::render_mean(const Canvas<Real>& canvas, int x, int y,
                                                abi::Observation* observation) const
 {
     constexpr int row_length = 3 * abi::tile_size;
@@ -114,13 +114,13 @@ abi::RayCounts TileRenderer<Real>::render_mean(Image<Real>& image, int x, int y,
     const Real share = Real(1) / static_cast<Real>(pattern_.size());
     for (int row = 0; row < job.height; ++row)
         for (int i = 0; i < 3 * job.width; ++i)
-            image.pixel(x, y + row)[i] = share * sums[row * row_length + i];
+            canvas.pixel(x, y + row)[i] = share * sums[row * row_length + i];
     return counts;
 }
 
 template <class Real>
-abi::RayCounts TileRenderer<Real>::refine(Image<Real>& image, const ContrastMap<Real>& contrast,
-                                          int x, int y) const
+abi::RayCounts TileRenderer<Real>::refine(const Canvas<Real>& canvas,
+                                          const ContrastMap<Real>& contrast, int x, int y) const
 {
     abi::TileJob<Real> job = job_at(corner_, x, y, observation_);
     abi::RayCounts counts;
@@ -131,8 +131,9 @@ abi::RayCounts TileRenderer<Real>::refine(Image<Real>& image, const ContrastMap<
     });
     for (int number = 0; number < abi::tile_pixels; ++number) {
         const auto [column, row] = z_order_place(number);
-        if (column < job.width && row < job.height && contrast(x + column, y + row))
-            batch.add_pixel(column, row, image.pixel(x + column, y + row));
+        if (column < job.width && row < job.height &&
+            contrast(x + column, y + row - canvas.first_row))
+            batch.add_pixel(column, row, canvas.pixel(x + column, y + row));
     }
     batch.finish();
     return counts;

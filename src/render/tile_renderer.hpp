@@ -12,6 +12,22 @@
 
 namespace packtrace {
 
+/// Where tiles go: an image that holds rows of a picture from `first_row` on.
+template <class Real>
+struct Canvas {
+    Image<Real>& image;
+    int first_row = 0;
+
+    Canvas(Image<Real>& rows, int first = 0) : image(rows), first_row(first)
+    {
+    }
+    /// By column and row of the picture.
+    [[nodiscard]] Real* pixel(int x, int y) const
+    {
+        return image.pixel(x, y - first_row);
+    }
+};
+
 /// A scene and the kernels for it, tile by tile. Thread-safe; a thread's first tile allocates.
 template <class Real>
 class TileRenderer {
@@ -32,18 +48,19 @@ public:
 
     /// Fills the tile whose first pixel is (x, y) with one sample a pixel: the scene's own, or of
     /// several the centre.
-    abi::RayCounts render_once(Image<Real>& image, int x, int y) const;
+    abi::RayCounts render_once(const Canvas<Real>& canvas, int x, int y) const;
 
     /// Fills it with as many samples as the options say, none of them adaptive, and records into
     /// `observation`, from any thread.
-    abi::RayCounts render_observed(Image<Real>& image, int x, int y,
+    abi::RayCounts render_observed(const Canvas<Real>& canvas, int x, int y,
                                    abi::Observation& observation) const;
 
     /// The same with the mean of all samples.
-    abi::RayCounts render_mean(Image<Real>& image, int x, int y) const;
+    abi::RayCounts render_mean(const Canvas<Real>& canvas, int x, int y) const;
 
-    /// Gives the pixels where `contrast` says so what render_mean() gives them, bit for bit.
-    abi::RayCounts refine(Image<Real>& image, const ContrastMap<Real>& contrast, int x,
+    /// `contrast` is that of the canvas' rows. Gives the pixels where `contrast` says so what
+    /// render_mean() gives them, bit for bit.
+    abi::RayCounts refine(const Canvas<Real>& canvas, const ContrastMap<Real>& contrast, int x,
                           int y) const;
 
     /// Working memory of a thread.
@@ -60,9 +77,9 @@ public:
 private:
     [[nodiscard]] abi::TileJob<Real> job_at(const abi::CameraView<Real>& camera, int x, int y,
                                             abi::Observation* observation) const;
-    abi::RayCounts render_once(Image<Real>& image, int x, int y,
+    abi::RayCounts render_once(const Canvas<Real>& canvas, int x, int y,
                                abi::Observation* observation) const;
-    abi::RayCounts render_mean(Image<Real>& image, int x, int y,
+    abi::RayCounts render_mean(const Canvas<Real>& canvas, int x, int y,
                                abi::Observation* observation) const;
 
     int width_;

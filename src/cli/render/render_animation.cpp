@@ -158,6 +158,9 @@ void check_animation_options(const RenderArguments& arguments)
     const AnimationArguments& animation = arguments.animation;
     if (animation.frame && animation.many())
         throw CLI::ValidationError("--frame: one frame only; leave out --frames and --y4m");
+    if (animation.many() && arguments.resume)
+        throw CLI::ValidationError(
+            "--resume: is for one picture; --frames goes on with missing frames by itself");
     if (animation.overwrite && (!animation.frames || animation.y4m))
         throw CLI::ValidationError("--overwrite: only --frames into picture files skips any");
     if (animation.frames)

@@ -33,6 +33,7 @@ struct RenderArguments {
     SamplingArguments sampling;
     AnimationArguments animation;
     ImageWriteOptions write;
+    bool resume = false;  ///< keep finished bands, and go on with those of an earlier run
     bool quiet = false;
 };
 

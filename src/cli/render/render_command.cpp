@@ -15,6 +15,7 @@
 #include "cli/output/progress_bar.hpp"
 #include "cli/render/cut_rays.hpp"
 #include "cli/render/render_animation.hpp"
+#include "cli/render/render_bands.hpp"
 #include "cli/render/render_picture.hpp"
 #include "cli/study/certainty_option.hpp"
 #include "image/format.hpp"
@@ -49,7 +50,15 @@ void check_gamma(const RenderArguments& arguments)
         throw CLI::ValidationError("--gamma: only PNG has one; .pfm and .hdr hold linear values");
 }
 
-void render_one(const RenderArguments& arguments, const Scene& scene, RenderOptions options)
+void print_found(const RenderArguments& arguments, const BandTally& tally)
+{
+    if (tally.found > 0)
+        std::cerr << arguments.output << ": " << tally.found << " of " << tally.bands
+                  << " bands were finished by an earlier run\n";
+}
+
+/// A picture that is held as a whole until it is written.
+void render_whole(const RenderArguments& arguments, const Scene& scene, RenderOptions options)
 {
     const auto start = std::chrono::steady_clock::now();
     AnyImage picture;
@@ -62,14 +71,28 @@ void render_one(const RenderArguments& arguments, const Scene& scene, RenderOpti
     const auto rendered = std::chrono::steady_clock::now();
     write_picture(arguments.output, picture, arguments.write);
     const auto written = std::chrono::steady_clock::now();
-    if (!arguments.quiet) {
-        print_summary(arguments, options, scene, seconds_between(start, rendered),
-                      seconds_between(rendered, written));
-        print_cut_rays(arguments.output, scene, options, cut);
+    if (arguments.quiet)
+        return;
+    print_summary(arguments, options, scene, seconds_between(start, rendered),
+                  seconds_between(rendered, written));
+    print_cut_rays(arguments.output, scene, options, cut);
+}
+
+void render_one(const RenderArguments& arguments, const Scene& scene, const RenderOptions& options)
+{
+    const std::int64_t pixels = std::int64_t{scene.width} * scene.height;
+    if (pixels <= most_whole_pixels && !arguments.resume) {
+        render_whole(arguments, scene, options);
+    } else {
+        const BandTally tally = render_bands(arguments, scene, options);
+        if (!arguments.quiet) {
+            print_found(arguments, tally);
+            print_summary(arguments, options, scene, tally.rendering, tally.writing);
+            print_cut_rays(arguments.output, scene, options, tally.cut);
+        }
     }
     if (!arguments.certainty)
         return;
-    options.progress = {};
     const std::string line = write_certainty(arguments, scene, options);
     if (!arguments.quiet)
         std::cerr << line << '\n';
@@ -88,8 +111,8 @@ void run_render(const RenderArguments& arguments)
         check_image_writable(arguments.output);
     Scene scene = read_scene_input(arguments.scene).scene;
     apply(arguments.picture, scene);
-    // Frames of an animation are written by one more.
-    const ThreadLimit limit(options.threads, arguments.animation.many() ? 1 : 0);
+    // Frames of an animation and bands of a picture are written by one more.
+    const ThreadLimit limit(options.threads, 1);
     if (arguments.animation.many())
         return render_animation(arguments, scene, options);
     if (arguments.animation.frame)
@@ -121,6 +144,9 @@ void add_render(CLI::App& app)
                      "Raise a PNG's or video's values to 1/G; 1 (default) writes them linear")
         ->check(positive_number())
         ->type_name("G");
+    command->add_flag("--resume", arguments->resume,
+                      "Keep finished bands of the picture beside it until it is complete; after an "
+                      "interruption, the same command goes on with them");
     command->add_flag("-q,--quiet", arguments->quiet, "No progress bar, no summary");
     command->callback([arguments] { run_render(*arguments); });
 }

@@ -1,0 +1,198 @@
+#include "cli/output/journal.hpp"
+
+#include <cerrno>
+#include <charconv>
+#include <sstream>
+#include <string_view>
+
+#include <fcntl.h>
+#include <sys/file.h>
+#include <unistd.h>
+
+#include "core/atomic_file.hpp"
+#include "core/read_file.hpp"
+#include "core/text_hash.hpp"
+
+namespace packtrace::cli {
+namespace {
+
+constexpr std::string_view first_line = "packtrace journal 1\n";
+
+std::filesystem::path beside(const std::filesystem::path& output, const char* ending)
+{
+    std::filesystem::path name = output;
+    name += ending;
+    return name;
+}
+
+std::uint32_t checksum_of(std::string_view text)
+{
+    return static_cast<std::uint32_t>(text_hash(text));
+}
+
+/// Cuts the next line off `text`; without its end where there is none.
+std::string_view cut_line(std::string_view& text)
+{
+    const std::size_t end = text.find('\n');
+    const std::string_view line = text.substr(0, end);
+    text.remove_prefix(end == std::string_view::npos ? text.size() : end + 1);
+    return line;
+}
+
+/// The numbers of a line whose checksum, the last, holds; empty for any other line.
+Journal::Entry parse_entry(std::string_view line)
+{
+    const std::size_t last = line.rfind(' ');
+    if (last == std::string_view::npos)
+        return {};
+    Journal::Entry entry;
+    const char* at = line.data();
+    const char* const end = at + line.size();
+    while (at < end) {
+        std::uint64_t number = 0;
+        const auto [stop, error] = std::from_chars(at, end, number);
+        if (error != std::errc() || (stop != end && *stop != ' '))
+            return {};
+        entry.push_back(number);
+        at = stop + 1;
+    }
+    if (entry.back() != checksum_of(line.substr(0, last)))
+        return {};
+    entry.pop_back();
+    return entry;
+}
+
+}  // namespace
+
+Journal::Journal(const std::filesystem::path& output, const std::string& head,
+                 std::string (*differs)(const std::string& before, const std::string& now))
+    : output_(std::filesystem::is_symlink(output) ? std::filesystem::weakly_canonical(output)
+                                                  : output),
+      journal_name_(beside(output, ".journal")),
+      part_name_(beside(output, ".part"))
+{
+    std::error_code ignored;
+    if (std::filesystem::exists(output, ignored) &&
+        !std::filesystem::is_regular_file(output, ignored))
+        throw FileError(output.string() +
+                        ": --resume: is no regular file, beside which a journal could lie; "
+                        "leave out --resume");
+    open(head, differs);
+}
+
+void Journal::open(const std::string& head,
+                   std::string (*differs)(const std::string&, const std::string&))
+{
+    if (!std::filesystem::exists(journal_name_))
+        begin(head);
+    journal_.reset(std::fopen(journal_name_.c_str(), "abe"));
+    if (!journal_)
+        throw FileError(journal_name_, "can't write", errno);
+    if (flock(fileno(journal_.get()), LOCK_EX | LOCK_NB) != 0)
+        throw FileError(journal_name_.string() +
+                        ": another run is at work on this output; wait for it or end it");
+    const std::string text = read_file(journal_name_);
+    const std::string before = read_entries(text);
+    if (before != head)
+        throw FileError(journal_name_.string() + ": was begun with " + differs(before, head) +
+                        "; use what it was begun with, or remove this file to begin again");
+    // What was cut short stays a line of its own.
+    if (!text.ends_with('\n'))
+        std::fputc('\n', journal_.get());
+    const int handle = ::open(part_name_.c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0666);
+    part_.reset(handle < 0 ? nullptr : fdopen(handle, "r+b"));
+    if (!part_)
+        throw FileError(part_name_, "can't write", errno);
+}
+
+/// A journal without pieces; it appears whole.
+void Journal::begin(const std::string& head)
+{
+    std::error_code ignored;
+    std::filesystem::remove(part_name_, ignored);
+    AtomicFile file(journal_name_);
+    file.write(first_line);
+    file.write(head + "\n");
+    file.commit();
+}
+
+/// Returns the head.
+std::string Journal::read_entries(const std::string& text)
+{
+    std::string_view rest = text;
+    if (!rest.starts_with(first_line))
+        throw FileError(journal_name_.string() +
+                        ": is no journal of this version's; remove it to begin again");
+    rest.remove_prefix(first_line.size());
+    const std::string head(cut_line(rest));
+    while (!rest.empty())
+        if (Entry entry = parse_entry(cut_line(rest)); !entry.empty())
+            entries_.push_back(std::move(entry));
+    return head;
+}
+
+void Journal::add(const Entry& entry)
+{
+    std::string line;
+    for (const std::uint64_t number : entry)
+        line += std::to_string(number) + " ";
+    line.pop_back();
+    line += " " + std::to_string(checksum_of(line)) + "\n";
+    if (std::fwrite(line.data(), 1, line.size(), journal_.get()) != line.size() ||
+        std::fflush(journal_.get()) != 0)
+        throw FileError(journal_name_, "can't write", errno);
+}
+
+void Journal::read(std::uint64_t offset, std::span<std::uint8_t> bytes) const
+{
+    while (!bytes.empty()) {
+        const ssize_t got =
+            pread(fileno(part_.get()), bytes.data(), bytes.size(), static_cast<off_t>(offset));
+        if (got < 0 && errno != EINTR)
+            throw FileError(part_name_, "can't read", errno);
+        if (got == 0)
+            return;
+        if (got > 0) {
+            offset += static_cast<std::uint64_t>(got);
+            bytes = bytes.subspan(static_cast<std::size_t>(got));
+        }
+    }
+}
+
+void Journal::write(std::uint64_t offset, std::span<const std::uint8_t> bytes)
+{
+    while (!bytes.empty()) {
+        const ssize_t put =
+            pwrite(fileno(part_.get()), bytes.data(), bytes.size(), static_cast<off_t>(offset));
+        if (put < 0 && errno != EINTR)
+            throw FileError(part_name_, "can't write", errno);
+        if (put > 0) {
+            offset += static_cast<std::uint64_t>(put);
+            bytes = bytes.subspan(static_cast<std::size_t>(put));
+        }
+    }
+}
+
+void Journal::truncate(std::uint64_t length)
+{
+    if (ftruncate(fileno(part_.get()), static_cast<off_t>(length)) != 0)
+        throw FileError(part_name_, "can't write", errno);
+}
+
+void Journal::remove()
+{
+    std::error_code ignored;
+    std::filesystem::remove(journal_name_, ignored);
+    std::filesystem::remove(part_name_, ignored);
+}
+
+void Journal::rename_part()
+{
+    std::error_code error;
+    std::filesystem::rename(part_name_, output_, error);
+    if (error)
+        throw FileError(output_, "can't write", error.value());
+    remove();
+}
+
+}  // namespace packtrace::cli

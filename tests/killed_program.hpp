@@ -1,0 +1,55 @@
+#pragma once
+
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <chrono>
+#include <csignal>
+#include <functional>
+#include <string>
+#include <thread>
+#include <vector>
+
+#include <fcntl.h>
+
+#include "run_program.hpp"
+
+namespace packtrace::test {
+
+/// Starts a program, and ends it by a signal once `when` holds, which is asked every millisecond;
+/// the program may end before. Returns what waitpid() says.
+[[nodiscard]] inline int kill_program(const std::vector<std::string>& words, int number,
+                                      const std::function<bool()>& when)
+{
+    const pid_t child = fork();
+    if (child == 0) {
+        const int nowhere = open("/dev/null", O_RDWR);
+        for (const int handle : {0, 1, 2})
+            dup2(nowhere, handle);
+        std::vector<char*> arguments;
+        for (const std::string& word : words)
+            arguments.push_back(const_cast<char*>(word.c_str()));
+        arguments.push_back(nullptr);
+        execvp(arguments.front(), arguments.data());
+        _exit(127);
+    }
+    int status = 0;
+    while (waitpid(child, &status, WNOHANG) == 0) {
+        if (when()) {
+            kill(child, number);
+            waitpid(child, &status, 0);
+            break;
+        }
+        std::this_thread::sleep_for(std::chrono::milliseconds(1));
+    }
+    return status;
+}
+
+/// Lines of a file that may not be there.
+[[nodiscard]] inline long lines_of(const std::filesystem::path& file)
+{
+    const std::string text = read_text(file);
+    return std::count(text.begin(), text.end(), '\n');
+}
+
+}  // namespace packtrace::test

@@ -1,0 +1,204 @@
+// render --resume: interrupted pictures.
+#include <csignal>
+#include <filesystem>
+#include <fstream>
+#include <string>
+#include <vector>
+
+#include "catch.hpp"
+#include "killed_program.hpp"
+
+namespace packtrace::test {
+namespace {
+
+using Words = std::vector<std::string>;
+
+/// A folder with a scene whose picture has eight bands.
+class Studio {
+public:
+    Studio()
+    {
+        write_text(folder / "one.scene", scene("200"));
+        write_text(folder / "other.scene", scene("201"));
+    }
+
+    [[nodiscard]] Words words(const std::string& picture, const Words& more = {"--resume"},
+                              const std::string& scene = "one.scene") const
+    {
+        Words all{"render", (folder / scene).string(),  "--size", "1000x8300",
+                  "-o",     (folder / picture).string()};
+        all.insert(all.end(), more.begin(), more.end());
+        return all;
+    }
+
+    [[nodiscard]] ProgramResult render(const std::string& picture, const Words& more = {"--resume"},
+                                       const std::string& scene = "one.scene") const
+    {
+        return run_packtrace(words(picture, more, scene));
+    }
+
+    /// Kills a run with --resume once it has finished `bands`, and makes sure that it was not done.
+    void interrupt(const std::string& picture, long bands, int signal = SIGKILL) const
+    {
+        Words all = words(picture);
+        all.insert(all.begin(), PACKTRACE_CLI);
+        const int status = kill_program(
+            all, signal, [&] { return lines_of(folder / (picture + ".journal")) >= 2 + bands; });
+        REQUIRE(WIFSIGNALED(status));
+        REQUIRE(std::filesystem::exists(folder / (picture + ".part")));
+    }
+
+    [[nodiscard]] bool same(const std::string& a, const std::string& b) const
+    {
+        return read_text(folder / a) == read_text(folder / b);
+    }
+
+    TempFolder folder;
+
+private:
+    static std::string scene(const std::string& red)
+    {
+        return "sphere { center = (0, 0, 3)  radius = 1  color = (" + red +
+               ", 40, 30) }\nlight { type = ambient  intensity = 0.5 }\n"
+               "light { type = point  intensity = 0.5  position = (2, 3, -1) }\n";
+    }
+};
+
+}  // namespace
+
+TEST_CASE("a resumed picture is the one that was not interrupted", "[resume]")
+{
+    for (const std::string ending : {".png", ".pfm", ".hdr"}) {
+        CAPTURE(ending);
+        const Studio studio;
+        REQUIRE(studio.render("whole" + ending, {"-q"}).exit_code == 0);
+        for (const long bands : {0L, 1L, 3L}) {
+            const std::string picture = "a" + std::to_string(bands) + ending;
+            studio.interrupt(picture, bands);
+            CHECK_FALSE(std::filesystem::exists(studio.folder / picture));
+            const ProgramResult result = studio.render(picture);
+            CHECK(result.exit_code == 0);
+            if (bands > 0)
+                CHECK_THAT(result.err, ContainsSubstring("bands were finished by an earlier run"));
+            CHECK(studio.same(picture, "whole" + ending));
+            CHECK_FALSE(std::filesystem::exists(studio.folder / (picture + ".part")));
+            CHECK_FALSE(std::filesystem::exists(studio.folder / (picture + ".journal")));
+        }
+        // No temporary file is left either.
+        CHECK(studio.folder.names().size() == 2 + 4);
+    }
+}
+
+TEST_CASE("a run with --resume that nobody interrupts leaves the picture alone", "[resume]")
+{
+    const Studio studio;
+    CHECK(studio.render("a.png", {"-q", "--resume", "--spp", "2"}).exit_code == 0);
+    CHECK(studio.render("b.png", {"-q", "--spp", "2"}).exit_code == 0);
+    CHECK(studio.same("a.png", "b.png"));
+    CHECK((studio.folder.names() == Words{"a.png", "b.png", "one.scene", "other.scene"}));
+}
+
+TEST_CASE("an interrupted picture says how far it came", "[resume]")
+{
+    const Studio studio;
+    const std::string picture = (studio.folder / "a.png").string();
+    studio.interrupt("a.png", 1, SIGINT);
+    CHECK((studio.folder.names() ==
+           Words{"a.png.journal", "a.png.part", "one.scene", "other.scene"}));
+    CHECK(studio.render("a.png").exit_code == 0);
+}
+
+TEST_CASE("a picture begun otherwise is not gone on with", "[resume]")
+{
+    struct Other {
+        Words words;
+        std::string scene;
+        std::string message;
+    };
+    const std::vector<Other> others = {
+        {{"--resume"}, "other.scene", "was begun with another scene"},
+        {{"--resume", "--depth", "0"}, "one.scene", "was begun with another scene"},
+        {{"--resume", "--spp", "2"}, "one.scene", "was begun with other options"},
+        {{"--resume", "--precision", "double"}, "one.scene", "was begun with other options"},
+        {{"--resume", "--gamma", "2.2"}, "one.scene", "was begun with other options"},
+    };
+    const Studio studio;
+    studio.interrupt("a.png", 1);
+    const std::string journal = read_text(studio.folder / "a.png.journal");
+    for (const Other& other : others) {
+        CAPTURE(other.words, other.scene);
+        const ProgramResult result = studio.render("a.png", other.words, other.scene);
+        CHECK(result.exit_code == 1);
+        CHECK_THAT(result.err, ContainsSubstring("a.png.journal: " + other.message));
+        CHECK(std::count(result.err.begin(), result.err.end(), '\n') == 1);
+        CHECK(read_text(studio.folder / "a.png.journal") == journal);
+    }
+    std::string older = journal;
+    older.replace(older.find("packtrace ", 10), 11, "packtrace 9");
+    write_text(studio.folder / "a.png.journal", older);
+    CHECK_THAT(studio.render("a.png").err, ContainsSubstring("was begun with another version"));
+    write_text(studio.folder / "a.png.journal", "four eggs\n");
+    CHECK_THAT(studio.render("a.png").err, ContainsSubstring("is no journal"));
+}
+
+TEST_CASE("bands that are damaged or cut short are rendered again", "[resume]")
+{
+    const Studio studio;
+    REQUIRE(studio.render("whole.pfm", {"-q"}).exit_code == 0);
+    studio.interrupt("a.pfm", 2);
+    const std::string journal = read_text(studio.folder / "a.pfm.journal");
+    const std::string part = read_text(studio.folder / "a.pfm.part");
+    for (std::size_t cut = 0; cut < 30; cut += 3) {
+        CAPTURE(cut);
+        write_text(studio.folder / "a.pfm.journal", journal.substr(0, journal.size() - cut));
+        write_text(studio.folder / "a.pfm.part", part);
+        CHECK(studio.render("a.pfm").exit_code == 0);
+        CHECK(studio.same("a.pfm", "whole.pfm"));
+    }
+    for (const std::size_t kept : {std::size_t{0}, std::size_t{100}, part.size() - 100}) {
+        write_text(studio.folder / "a.pfm.journal", journal);
+        write_text(studio.folder / "a.pfm.part", part.substr(0, kept));
+        CHECK(studio.render("a.pfm").exit_code == 0);
+        CHECK(studio.same("a.pfm", "whole.pfm"));
+    }
+    std::string changed = part;
+    changed.back() = static_cast<char>(changed.back() ^ 1);
+    write_text(studio.folder / "a.pfm.journal", journal);
+    write_text(studio.folder / "a.pfm.part", changed);
+    CHECK(studio.render("a.pfm").exit_code == 0);
+    CHECK(studio.same("a.pfm", "whole.pfm"));
+}
+
+TEST_CASE("--resume is refused where no journal can be kept", "[resume]")
+{
+    const Studio studio;
+    const ProgramResult frames = studio.render("%d.png", {"--resume", "--frames", "0..1"});
+    CHECK(frames.exit_code == 2);
+    CHECK_THAT(frames.err, ContainsSubstring("--resume: is for one picture"));
+    std::filesystem::create_symlink("/dev/null", studio.folder / "null.png");
+    const ProgramResult device = studio.render("null.png");
+    CHECK(device.exit_code == 1);
+    CHECK_THAT(device.err, ContainsSubstring("is no regular file"));
+}
+
+TEST_CASE("pictures killed at random moments are resumed to the same bytes", "[resume][slow]")
+{
+    const Studio studio;
+    REQUIRE(studio.render("whole.hdr", {"-q"}).exit_code == 0);
+    std::uint32_t random = 1;
+    for (int i = 0; i < 50; ++i) {
+        Words all = studio.words("a.hdr");
+        all.insert(all.begin(), PACKTRACE_CLI);
+        random = random * 1664525u + 1013904223u;
+        const auto end = std::chrono::steady_clock::now() + std::chrono::milliseconds(random >> 22);
+        (void)kill_program(all, i % 2 == 0 ? SIGKILL : SIGTERM,
+                           [&] { return std::chrono::steady_clock::now() > end; });
+        if (i % 4 != 3)
+            continue;
+        CHECK(studio.render("a.hdr").exit_code == 0);
+        CHECK(studio.same("a.hdr", "whole.hdr"));
+        CHECK(studio.folder.names().size() == 4);
+    }
+}
+
+}  // namespace packtrace::test
