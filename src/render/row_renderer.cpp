@@ -4,8 +4,9 @@
 #include <stdexcept>
 #include <type_traits>
 
+#include <packtrace/validate.hpp>
+
 #include "dispatch/kernels.hpp"
-#include "lower/check_scene.hpp"
 #include "lower/most_light.hpp"
 #include "reference/render_reference.hpp"
 #include "render/check_sampling.hpp"
@@ -47,7 +48,7 @@ public:
 private:
     static const Scene& checked(const Scene& scene)
     {
-        check_scene(scene);
+        validate(scene);
         return scene;
     }
 
