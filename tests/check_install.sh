@@ -105,7 +105,7 @@ pkg_config() {
         "$libraries/libpacktrace.a" $(pkg-config --static --libs packtrace)
     runs "$folder/static" 0
     # The first program of the documentation prints what stands there.
-    sed -n '/^```cpp/,/^```/p' "$source/docs/library.md" | grep -v '^```' >"$folder/first.cpp"
+    sed -n '/^```cpp/,/^```$/{p;/^```$/q}' "$source/docs/library.md" | grep -v '^```' >"$folder/first.cpp"
     sed -n '/^```output/,/^```/p' "$source/docs/library.md" | grep -v '^```' >"$folder/expected"
     # shellcheck disable=SC2046
     quietly "$cxx" "$folder/first.cpp" -o "$folder/first" $(pkg-config --cflags --libs packtrace)

@@ -8,6 +8,9 @@
 
 #include "bounds/bounded_scene.hpp"
 #include "render/ray_backend.hpp"
+#include "render/ray_parts.hpp"
+#include "render/ray_structs.hpp"
+#include "render/watched_pieces.hpp"
 
 namespace packtrace {
 
@@ -41,28 +44,45 @@ template <class Real>
 RayScene<Real>& RayScene<Real>::operator=(RayScene&&) noexcept = default;
 
 template <class Real>
-void RayScene<Real>::closest_hits(const RaysView<Real>& rays, const HitsView<Real>& hits) const
+void RayScene<Real>::closest_hits(const RaysView<Real>& rays, const HitsView<Real>& hits,
+                                  const QueryWatch& watch) const
 {
-    state_->backend->closest_hits(rays, nullptr, hits);
+    for_watched_pieces(rays.count, watch, [&](std::size_t first, std::size_t count) {
+        state_->backend->closest_hits(part_of(rays, first, count), nullptr, part_of(hits, first));
+    });
 }
 
 template <class Real>
 void RayScene<Real>::closest_hits(const RaysView<Real>& rays, const StartsView<Real>& starts,
-                                  const HitsView<Real>& hits) const
+                                  const HitsView<Real>& hits, const QueryWatch& watch) const
 {
-    state_->backend->closest_hits(rays, &starts, hits);
+    for_watched_pieces(rays.count, watch, [&](std::size_t first, std::size_t count) {
+        const StartsView<Real> part = part_of(starts, first);
+        state_->backend->closest_hits(part_of(rays, first, count), &part, part_of(hits, first));
+    });
 }
 
 template <class Real>
-void RayScene<Real>::occluded(const RaysView<Real>& rays, std::uint8_t* mask) const
+void RayScene<Real>::occluded(const RaysView<Real>& rays, std::uint8_t* mask,
+                              const QueryWatch& watch) const
 {
-    state_->backend->occluded(rays, mask);
+    for_watched_pieces(rays.count, watch, [&](std::size_t first, std::size_t count) {
+        state_->backend->occluded(part_of(rays, first, count), mask + first);
+    });
 }
 
 template <class Real>
-void RayScene<Real>::all_hits(const RaysView<Real>& rays, const TakeHits& take) const
+void RayScene<Real>::all_hits(const RaysView<Real>& rays, const TakeHits& take,
+                              const QueryWatch& watch) const
 {
-    state_->backend->all_hits(rays, take);
+    for_watched_pieces(rays.count, watch, [&](std::size_t first, std::size_t count) {
+        if (first == 0)
+            return state_->backend->all_hits(part_of(rays, first, count), take);
+        state_->backend->all_hits(part_of(rays, first, count),
+                                  [&](std::size_t ray, std::span<const SurfaceHit<Real>> hits) {
+                                      take(first + ray, hits);
+                                  });
+    });
 }
 
 namespace {
@@ -84,12 +104,14 @@ bounds::Range range_of(const RaysView<Real>& rays, std::size_t i)
 
 template <class Real>
 void RayScene<Real>::bound_closest_hits(const RaysView<Real>& rays, const std::int32_t* object,
-                                        HitBounds* bounds) const
+                                        HitBounds* bounds, const QueryWatch& watch) const
 {
-    for (std::size_t i = 0; i < rays.count; ++i)
-        bounds[i] = object[i] < 0
-                        ? HitBounds{}
-                        : state_->bounded.first_hit(object[i], line_of(rays, i), range_of(rays, i));
+    for_watched_pieces(rays.count, watch, [&](std::size_t first, std::size_t count) {
+        for (std::size_t i = first; i < first + count; ++i)
+            bounds[i] = object[i] < 0 ? HitBounds{}
+                                      : state_->bounded.first_hit(object[i], line_of(rays, i),
+                                                                  range_of(rays, i));
+    });
 }
 
 template <class Real>
@@ -114,6 +136,96 @@ void RayScene<Real>::bound_all_hits(const RaysView<Real>& rays, std::size_t ray,
         for (std::size_t i = 0; i < t.size(); ++i)
             bounds[order[first + i]] = found[i];
     }
+}
+
+template <class Real>
+void RayScene<Real>::closest_hits(const RayStructs<Real>& rays, const HitStructs<Real>& hits,
+                                  const QueryWatch& watch) const
+{
+    detail::check_length("hits", hits.count, rays.count);
+    HitChunk<Real> found;
+    for_chunks(rays, watch, [&](const RaysView<Real>& chunk, std::size_t first) {
+        closest_hits(chunk, found.view());
+        found.write(hits, first, chunk.count);
+    });
+}
+
+template <class Real>
+void RayScene<Real>::occluded(const RayStructs<Real>& rays, std::span<std::uint8_t> mask,
+                              const QueryWatch& watch) const
+{
+    detail::check_length("mask", mask.size(), rays.count);
+    for_chunks(rays, watch, [&](const RaysView<Real>& chunk, std::size_t first) {
+        occluded(chunk, mask.data() + first);
+    });
+}
+
+template <class Real>
+void RayScene<Real>::all_hits(const RayStructs<Real>& rays, const TakeHits& take,
+                              const QueryWatch& watch) const
+{
+    for_chunks(rays, watch, [&](const RaysView<Real>& chunk, std::size_t first) {
+        all_hits(chunk, [&](std::size_t ray, std::span<const SurfaceHit<Real>> hits) {
+            take(first + ray, hits);
+        });
+    });
+}
+
+template <class Real>
+void RayScene<Real>::bound_closest_hits(const RayStructs<Real>& rays,
+                                        std::span<const std::int32_t> object,
+                                        std::span<HitBounds> bounds, const QueryWatch& watch) const
+{
+    detail::check_length("object", object.size(), rays.count);
+    detail::check_length("bounds", bounds.size(), rays.count);
+    for_chunks(rays, watch, [&](const RaysView<Real>& chunk, std::size_t first) {
+        bound_closest_hits(chunk, object.data() + first, bounds.data() + first);
+    });
+}
+
+template <class Real>
+SurfaceHit<Real> RayScene<Real>::closest_hit(const Ray<Real>& ray) const
+{
+    SurfaceHit<Real> hit;
+    closest_hits(RayStructs<Real>(&ray, 1), HitStructs<Real>(&hit, 1));
+    return hit;
+}
+
+template <class Real>
+bool RayScene<Real>::occluded(const Ray<Real>& ray) const
+{
+    std::uint8_t mask = 0;
+    occluded(RayStructs<Real>(&ray, 1), std::span(&mask, 1));
+    return mask != 0;
+}
+
+template <class Real>
+std::vector<SurfaceHit<Real>> RayScene<Real>::all_hits(const Ray<Real>& ray) const
+{
+    std::vector<SurfaceHit<Real>> found;
+    all_hits(RayStructs<Real>(&ray, 1), [&](std::size_t, std::span<const SurfaceHit<Real>> hits) {
+        found.assign(hits.begin(), hits.end());
+    });
+    return found;
+}
+
+template <class Real>
+HitBounds RayScene<Real>::bound_closest_hit(const Ray<Real>& ray, std::int32_t object) const
+{
+    HitBounds bounds;
+    bound_closest_hits(RayStructs<Real>(&ray, 1), std::span(&object, 1), std::span(&bounds, 1));
+    return bounds;
+}
+
+template <class Real>
+std::vector<HitBounds> RayScene<Real>::bound_all_hits(const Ray<Real>& ray,
+                                                      std::span<const SurfaceHit<Real>> hits) const
+{
+    std::vector<HitBounds> bounds(hits.size());
+    for_chunks(RayStructs<Real>(&ray, 1), {}, [&](const RaysView<Real>& chunk, std::size_t) {
+        bound_all_hits(chunk, 0, hits, bounds);
+    });
+    return bounds;
 }
 
 template class RayScene<float>;

@@ -1,0 +1,207 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <limits>
+#include <span>
+#include <stdexcept>
+#include <string>
+#include <type_traits>
+
+// Rays of the caller's own and what they hit, in the layouts that RayScene takes.
+namespace packtrace {
+
+/// Rays as arrays of their components, `count` elements each; nothing is copied or kept. A hit
+/// counts where t_min < t < t_max; t_min >= 0. Directions need not be unit, t counts in their
+/// lengths. A ray with a NaN anywhere hits nothing.
+template <class Real>
+struct RaysView {
+    const Real* org_x = nullptr;
+    const Real* org_y = nullptr;
+    const Real* org_z = nullptr;
+    const Real* dir_x = nullptr;
+    const Real* dir_y = nullptr;
+    const Real* dir_z = nullptr;
+    const Real* t_min = nullptr;
+    const Real* t_max = nullptr;
+    std::size_t count = 0;
+};
+
+/// Where closest hits go: `object` is the index in Scene::objects, -1 for a miss, whose `t` is
+/// the ray's t_max. Normals are unit and point outwards; leave them null where not wanted.
+template <class Real>
+struct HitsView {
+    Real* t = nullptr;
+    std::int32_t* object = nullptr;
+    Real* normal_x = nullptr;
+    Real* normal_y = nullptr;
+    Real* normal_z = nullptr;
+    /// Where rays may start that leave the hit on the outer or the inner side of the surface with
+    /// SelfHits::exact: their own start is no hit at any t > 0. With SelfHits::note the hit point.
+    /// Wanted only together with normals; the scalar kernel does not fill them.
+    Real* outer_start[3] = {};
+    Real* inner_start[3] = {};
+    Real* point[3] = {};              ///< the hit's own point, likewise
+    std::int32_t* surface = nullptr;  ///< a number for StartsView, likewise
+};
+
+/// What rays that leave earlier hits start on, `count` elements each: with SelfHits::exact they
+/// meet that surface again only where they truly do, however shallow below it they go. `point` and
+/// `surface` are what HitsView got; for rays that leave on the inner side of the surface, the
+/// complement ~surface. `no_start` is a ray from elsewhere; other numbers must not be given.
+template <class Real>
+struct StartsView {
+    const Real* point[3] = {};
+    const std::int32_t* surface = nullptr;
+};
+
+inline constexpr std::int32_t no_start = std::numeric_limits<std::int32_t>::min();
+
+/// One hit of a ray with a surface.
+template <class Real>
+struct SurfaceHit {
+    Real t = 0;
+    std::int32_t object = -1;  ///< index in Scene::objects; -1 for a miss, whose `t` is t_max
+    Real normal[3] = {};       ///< unit, outwards
+};
+
+/// Holds the t of a hit, as infinite precision has it: low <= t <= high. Empty, low > high, for no
+/// hit.
+struct HitBounds {
+    double low = std::numeric_limits<double>::infinity();
+    double high = -std::numeric_limits<double>::infinity();
+
+    [[nodiscard]] bool empty() const
+    {
+        return low > high;
+    }
+};
+
+/// One ray, as RaysView has it.
+template <class Real>
+struct Ray {
+    Real org[3] = {};
+    Real dir[3] = {0, 0, 1};
+    Real t_min = 0;
+    Real t_max = std::numeric_limits<Real>::infinity();
+};
+
+/// Rays as an array of structs, or as parts of structs of your own, `stride` bytes from one ray to
+/// the next: RayStructs<float>(&mine[0].ray, mine.size(), sizeof mine[0]). Nothing is kept.
+template <class Real>
+struct RayStructs {
+    const Ray<Real>* first = nullptr;
+    std::size_t count = 0;
+    std::size_t stride = sizeof(Ray<Real>);  ///< bytes, a multiple of alignof(Real)
+
+    RayStructs(const Ray<Real>* rays, std::size_t ray_count,
+               std::size_t ray_stride = sizeof(Ray<Real>))
+        : first(rays), count(ray_count), stride(ray_stride)
+    {
+    }
+    /// Of a std::vector, std::array or std::span.
+    template <class Rays>
+    requires std::is_convertible_v<const Rays&, std::span<const Ray<Real>>> RayStructs(
+        const Rays& rays)
+        : first(std::span<const Ray<Real>>(rays).data()),
+          count(std::span<const Ray<Real>>(rays).size())
+    {
+    }
+
+    [[nodiscard]] const Ray<Real>& operator[](std::size_t i) const
+    {
+        return *reinterpret_cast<const Ray<Real>*>(reinterpret_cast<const std::byte*>(first) +
+                                                   i * stride);
+    }
+};
+
+/// Where the closest hits of RayStructs go, likewise.
+template <class Real>
+struct HitStructs {
+    SurfaceHit<Real>* first = nullptr;
+    std::size_t count = 0;
+    std::size_t stride = sizeof(SurfaceHit<Real>);  ///< bytes
+
+    HitStructs(SurfaceHit<Real>* hits, std::size_t hit_count,
+               std::size_t hit_stride = sizeof(SurfaceHit<Real>))
+        : first(hits), count(hit_count), stride(hit_stride)
+    {
+    }
+    template <class Hits>
+    requires std::is_convertible_v<Hits&, std::span<SurfaceHit<Real>>> HitStructs(Hits& hits)
+        : first(std::span<SurfaceHit<Real>>(hits).data()),
+          count(std::span<SurfaceHit<Real>>(hits).size())
+    {
+    }
+
+    [[nodiscard]] SurfaceHit<Real>& operator[](std::size_t i) const
+    {
+        return *reinterpret_cast<SurfaceHit<Real>*>(reinterpret_cast<std::byte*>(first) +
+                                                    i * stride);
+    }
+};
+
+namespace detail {
+
+/// Throws std::invalid_argument where an array has not `wanted` elements.
+inline void check_length(const char* name, std::size_t length, std::size_t wanted)
+{
+    if (length != wanted)
+        throw std::invalid_argument(std::string(name) + " has " + std::to_string(length) +
+                                    " elements, where there are " + std::to_string(wanted) +
+                                    " rays; give it one for each ray");
+}
+
+}  // namespace detail
+
+/// RaysView from spans (or vectors, or arrays), whose lengths are checked.
+template <class Real>
+struct RaySpans {
+    std::span<const Real> org_x, org_y, org_z;
+    std::span<const Real> dir_x, dir_y, dir_z;
+    std::span<const Real> t_min, t_max;
+
+    /// Valid as long as the arrays. Throws std::invalid_argument where one is longer than another.
+    [[nodiscard]] RaysView<Real> view() const
+    {
+        const std::size_t count = org_x.size();
+        detail::check_length("org_y", org_y.size(), count);
+        detail::check_length("org_z", org_z.size(), count);
+        detail::check_length("dir_x", dir_x.size(), count);
+        detail::check_length("dir_y", dir_y.size(), count);
+        detail::check_length("dir_z", dir_z.size(), count);
+        detail::check_length("t_min", t_min.size(), count);
+        detail::check_length("t_max", t_max.size(), count);
+        return {org_x.data(), org_y.data(), org_z.data(), dir_x.data(), dir_y.data(),
+                dir_z.data(), t_min.data(), t_max.data(), count};
+    }
+};
+
+/// HitsView from spans, likewise; leave the normals empty where not wanted.
+template <class Real>
+struct HitSpans {
+    std::span<Real> t;
+    std::span<std::int32_t> object;
+    std::span<Real> normal_x = {}, normal_y = {}, normal_z = {};
+
+    /// For so many rays. Throws std::invalid_argument where an array has not that length.
+    [[nodiscard]] HitsView<Real> view(std::size_t rays) const
+    {
+        detail::check_length("t", t.size(), rays);
+        detail::check_length("object", object.size(), rays);
+        HitsView<Real> hits;
+        hits.t = t.data();
+        hits.object = object.data();
+        if (normal_x.empty() && normal_y.empty() && normal_z.empty())
+            return hits;
+        detail::check_length("normal_x", normal_x.size(), rays);
+        detail::check_length("normal_y", normal_y.size(), rays);
+        detail::check_length("normal_z", normal_z.size(), rays);
+        hits.normal_x = normal_x.data();
+        hits.normal_y = normal_y.data();
+        hits.normal_z = normal_z.data();
+        return hits;
+    }
+};
+
+}  // namespace packtrace
