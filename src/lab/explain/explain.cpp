@@ -4,6 +4,7 @@
 #include <type_traits>
 
 #include <packtrace/isa.hpp>
+#include <packtrace/validate.hpp>
 
 #include "dispatch/kernels.hpp"
 #include "kernel_abi/probe.hpp"
