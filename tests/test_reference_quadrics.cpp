@@ -4,6 +4,7 @@
 #include "reference/all_hits.hpp"
 #include "reference_scenes.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <random>
 #include <vector>
@@ -294,6 +295,26 @@ TEST_CASE("in scratch a sphere's normal stays outside, other normals face the vi
     scene.objects = {quadric(ellipsoid, matte(Rgb(1)))};
     scene.objects[0].transform[2][2] = 2.0;
     check_color(trace(scene, eye, {0, 0, 1}), Rgb(0));
+}
+
+TEST_CASE("two planes that cross are hit where each of them is, however far from their edge",
+          "[reference_quadrics]")
+{
+    std::mt19937 random(5);
+    std::uniform_real_distribution<double> unit(-1.0, 1.0);
+    // x = z and x = -z.
+    const Object object = quadric(crossing_planes);
+    for (int i = 0; i < 200; ++i) {
+        const V org(3.0 * unit(random), unit(random), 3.0 * unit(random));
+        const V dir(unit(random), unit(random), unit(random));
+        std::vector<double> expected = {(org.z - org.x) / (dir.x - dir.z),
+                                        -(org.z + org.x) / (dir.x + dir.z)};
+        std::sort(expected.begin(), expected.end());
+        const Hits hits = hits_of(object, org, dir);
+        REQUIRE(hits.size() == 2);
+        for (std::size_t k = 0; k < 2; ++k)
+            CHECK(std::abs(hits[k].t - expected[k]) < 1e-9 * (1.0 + std::abs(expected[k])));
+    }
 }
 
 }  // namespace packtrace::test

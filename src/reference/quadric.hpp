@@ -33,9 +33,15 @@ struct QuadricBody {
         const Vec3<Real>& s = form.square;
         return form.constant == 0 && form.linear == 0 && (s.x == 0) + (s.y == 0) + (s.z == 0) == 1;
     }
-    /// Half the gradient at a canonical point. Of two planes it is that of one of them, and of no
-    /// other direction however near to their edge, where |s_i| x_i² = |s_j| x_j².
+    /// Half the gradient at a canonical point.
     [[nodiscard]] Vec3<Real> half_gradient(const Vec3<Real>& p) const
+    {
+        const Vec3<Real> bent = form.square * p;
+        return {bent.x, bent.y, bent.z + form.linear};
+    }
+    /// Its direction on the surface, of any length. Of two planes it is that of one of them, and of
+    /// no other direction however near to their edge, where |s_i| x_i² = |s_j| x_j².
+    [[nodiscard]] Vec3<Real> way_out(const Vec3<Real>& p) const
     {
         if (crossing_planes()) {
             const auto component = [](Real s, Real x) {
@@ -44,8 +50,7 @@ struct QuadricBody {
             return {component(form.square.x, p.x), component(form.square.y, p.y),
                     component(form.square.z, p.z)};
         }
-        const Vec3<Real> bent = form.square * p;
-        return {bent.x, bent.y, bent.z + form.linear};
+        return half_gradient(p);
     }
     /// The left side of the equation at a canonical point; negative inside.
     [[nodiscard]] Real value(const Vec3<Real>& p) const
@@ -142,7 +147,7 @@ template <class Real>
         case Part::side:
             break;
     }
-    const Vec3<Real> n = quadric.half_gradient(quadric.point_to_canonical(P));
+    const Vec3<Real> n = quadric.way_out(quadric.point_to_canonical(P));
     const auto& axes = quadric.form.axes;
     return n.x * axes[0] + n.y * axes[1] + n.z * axes[2];
 }
