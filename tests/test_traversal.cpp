@@ -276,6 +276,34 @@ TEST_CASE("objects too far away for a hierarchy overwrite nothing and hide nothi
     }
 }
 
+TEST_CASE("caps without end are found through a hierarchy, too", "[traversal]")
+{
+    // Outside of the ellipsoid is what the caps close.
+    Quadric inside_out;
+    inside_out.coefficients = {-1, -2, -3, 0, 0, 0, 0, 0, 0, 1};
+    inside_out.z_range = ZRange{-0.5, 0.2};
+    inside_out.capped = true;
+    Scene scene;
+    const Material material = scratch(Rgb(0.5), 50, 0.3);
+    add_object(scene, inside_out, material);
+    add_sphere(scene, {0, 0, 6}, 0.5, material);
+    add_sphere(scene, {4, 0, 6}, 0.5, material);
+    for (const IsaInfo& isa : list_isas()) {
+        if (!isa.supported)
+            continue;
+        RenderOptions options;
+        options.isa = isa.name;
+        compare_traversals(scene, many_rays<float>(2000, 3), options);
+        compare_traversals(scene, many_rays<double>(2000, 3), options);
+    }
+    const Rays<double> rays = many_rays<double>(2000, 3);
+    RenderOptions scalar;
+    scalar.kernel = Kernel::scalar;
+    const Results<double> expected = trace(scene, rays, scalar, Traversal::automatic);
+    const Results<double> packets = trace(scene, rays, {}, Traversal::tree);
+    CHECK(packets.hits == expected.hits);
+}
+
 TEST_CASE("lists and hierarchies give the same for two hundred scenes", "[traversal][slow]")
 {
     compare_on_every_isa(200, 5000, 1000);

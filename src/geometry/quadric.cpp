@@ -115,7 +115,9 @@ Bound bound_of(const Quadric& quadric, const CanonicalForm& form, const Mat4& tr
     const Mat3 linear(transform);
     // Rounding of the bound itself; far more than it can be.
     constexpr double slack = 1.0 + 1e-9;
-    if (const auto axes = half_axes(form)) {
+    // The inside of an ellipsoid turned inside out, and with it the caps, has no end.
+    const bool endless = quadric.capped && form.constant > 0.0;
+    if (const auto axes = endless ? std::nullopt : half_axes(form)) {
         Mat3 ellipsoid = linear * form.axes;
         for (int axis = 0; axis < 3; ++axis)
             ellipsoid[axis] *= (*axes)[axis];
