@@ -40,7 +40,7 @@ struct RenderOptions {
     int width = 0;  ///< packet kernel: float lanes 4, 8 or 16; 0 is any
     Traversal traversal = Traversal::automatic;  ///< packet kernel
     /// Packet kernel: run the one that knows everything, and leave nothing out of the scene. The
-    /// picture is the same, bit for bit.
+    /// picture is the same, bit for bit, unless objects share one place (docs/features.md).
     bool force_general = false;
     int threads = 0;  ///< 0: all of the TBB arena the call runs in
     /// Samples a pixel, 1 … 1024. One lies where the scene's camera says; more lie in the same

@@ -30,6 +30,7 @@ void add_onedim(CLI::App& app);
 void add_profile(CLI::App& app);
 void add_render(CLI::App& app);
 void add_report(CLI::App& app);
+void add_soak(CLI::App& app);
 void add_stress(CLI::App& app);
 
 }  // namespace packtrace::cli

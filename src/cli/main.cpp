@@ -68,6 +68,7 @@ int run(int argc, char** argv)
     add_intersect(app);
     add_demo(app);
     add_onedim(app);
+    add_soak(app);
     add_stress(app);
     clean_up_when_interrupted();
     try {

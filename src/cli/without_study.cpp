@@ -62,6 +62,11 @@ void add_report(CLI::App& app)
     add_left_out(app, "report");
 }
 
+void add_soak(CLI::App& app)
+{
+    add_left_out(app, "soak");
+}
+
 void add_stress(CLI::App& app)
 {
     add_left_out(app, "stress");

@@ -1,0 +1,165 @@
+#include <algorithm>
+#include <filesystem>
+#include <iostream>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include <packtrace/write_scene.hpp>
+
+#include <tbb/info.h>
+#include <tbb/task_arena.h>
+
+#include "cli/command.hpp"
+#include "cli/options/common_options.hpp"
+#include "cli/options/scene_input.hpp"
+#include "cli/options/thread_limit.hpp"
+#include "cli/options/validators.hpp"
+#include "core/atomic_file.hpp"
+#include "lab/soak/soak.hpp"
+#include "lab/stress/ray_faults.hpp"
+#include "scene/quote.hpp"
+
+namespace packtrace::cli {
+namespace {
+
+constexpr int most_scenes = 1'000'000'000;
+
+struct SoakArguments {
+    lab::SoakOptions options;
+    std::optional<double> minutes;
+    std::optional<int> scenes;
+    int first = 0;
+    std::filesystem::path cases = ".";
+    std::vector<std::string> files;
+    int threads = 0;
+};
+
+void write_text(const std::filesystem::path& file, const std::string& text)
+{
+    AtomicFile out(file);
+    out.write(text);
+    out.commit();
+}
+
+/// The commands whose answers show what was found.
+void print_commands(const lab::SoakFinding& finding, const std::string& scene,
+                    const std::string& rays)
+{
+    if (!finding.ray)
+        std::cout << "    packtrace soak " << scene << '\n';
+    char picture = 'a';
+    for (const lab::SoakWay& way : finding.ways) {
+        if (finding.ray)
+            std::cout << "    packtrace intersect " << scene << ' ' << rays
+                      << lab::intersect_words(way) << '\n';
+        else
+            std::cout << "    packtrace render " << scene << lab::render_words(way) << " -o "
+                      << picture++ << ".pfm\n";
+    }
+    if (finding.ways.size() == 2 && !finding.ray)
+        std::cout << "    packtrace compare a.pfm b.pfm\n";
+}
+
+void print_report(const SoakArguments& arguments, const lab::SoakReport& report)
+{
+    const std::string stem =
+        "soak-" + std::to_string(arguments.options.seed) + "-" + std::to_string(report.number);
+    const std::filesystem::path scene = arguments.cases / (stem + ".scene");
+    const std::filesystem::path rays = arguments.cases / (stem + ".csv");
+    write_text(scene, "# " + report.finding.what + "\n" + scene_text(report.scene));
+    if (report.finding.ray)
+        write_text(rays,
+                   "ox,oy,oz,dx,dy,dz,t_min,t_max\n" + lab::csv_of(*report.finding.ray) + "\n");
+    std::cout << "scene " << report.number << ": " << report.finding.what << '\n';
+    print_commands(report.finding, language::escape(scene.string()),
+                   language::escape(rays.string()));
+    std::cout << std::flush;
+}
+
+/// Scenes from files, in place of random ones.
+int check_files(const SoakArguments& arguments)
+{
+    int findings = 0;
+    for (const std::string& file : arguments.files) {
+        const SceneInput input = read_scene_input(file);
+        const auto finding = lab::check_scene(input.scene, arguments.options.seed);
+        std::cout << language::escape(input.name) << ": "
+                  << (finding ? finding->what : "as it should be") << '\n';
+        if (finding && !finding->ray)
+            print_commands(*finding, language::escape(file), "");
+        findings += finding ? 1 : 0;
+    }
+    return findings;
+}
+
+int check_random(const SoakArguments& arguments)
+{
+    lab::SoakOptions options = arguments.options;
+    if (arguments.scenes)
+        options.scenes = static_cast<std::uint64_t>(*arguments.scenes);
+    options.first = static_cast<std::uint64_t>(arguments.first);
+    if (arguments.minutes || !arguments.scenes)
+        options.seconds = 60.0 * arguments.minutes.value_or(1.0);
+    const lab::SoakCounts counts = lab::run_soak(
+        options, [&](const lab::SoakReport& report) { print_report(arguments, report); });
+    std::cout << counts.scenes << " scenes, " << counts.refused
+              << " of them refused by the scene language, " << counts.findings
+              << (counts.findings == 1 ? " finding\n" : " findings\n");
+    return counts.findings;
+}
+
+void run(const SoakArguments& arguments)
+{
+    const int threads =
+        arguments.threads > 0 ? arguments.threads : tbb::info::default_concurrency();
+    // Some pictures are made by several threads, in arenas of their own.
+    const ThreadLimit limit(std::max(threads, lab::soak_threads));
+    tbb::task_arena arena(threads);
+    const int findings = arena.execute(
+        [&] { return arguments.files.empty() ? check_random(arguments) : check_files(arguments); });
+    if (findings > 0)
+        throw Failed{};
+}
+
+}  // namespace
+
+void add_soak(CLI::App& app)
+{
+    CLI::App* command = app.add_subcommand(
+        "soak",
+        "Trace random scenes in every way there is and hold the answers against each other");
+    const auto arguments = std::make_shared<SoakArguments>();
+    command
+        ->add_option("SCENE", arguments->files,
+                     "Check these scene files in place of random scenes; - is standard input")
+        ->type_name("");
+    command
+        ->add_option("--minutes", arguments->minutes,
+                     "How long to go on (default 1; no end of its own with --scenes)")
+        ->check(positive_number())
+        ->type_name("N");
+    command->add_option("--scenes", arguments->scenes, "How many scenes to trace at most")
+        ->check(whole_number(1, most_scenes))
+        ->type_name("N");
+    command->add_option("--seed", arguments->options.seed, "Other scenes (default 1)")
+        ->type_name("N");
+    command
+        ->add_option("--first", arguments->first,
+                     "Number of the first scene (default 0); a finding names its own")
+        ->check(whole_number(0, most_scenes))
+        ->type_name("N");
+    command
+        ->add_option("--findings", arguments->options.most_findings,
+                     "Stop after so many findings (default 10)")
+        ->check(whole_number(1, 1000))
+        ->type_name("N");
+    command
+        ->add_option("--cases", arguments->cases,
+                     "Write the scenes of findings into this folder (default .)")
+        ->type_name("FOLDER");
+    add_threads_option(*command, arguments->threads);
+    command->callback([arguments] { run(*arguments); });
+}
+
+}  // namespace packtrace::cli

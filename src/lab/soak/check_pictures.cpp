@@ -1,0 +1,235 @@
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+#include <set>
+
+#include <packtrace/write_scene.hpp>
+
+#include "lab/soak/soak_finding.hpp"
+
+// What pictures promise: the same bits in every way of a group, numbers everywhere, and the scalar
+// kernel's colours where these do not hang on the last digits.
+namespace packtrace::lab {
+namespace {
+
+/// Red, green and blue of each pixel.
+using Values = std::vector<double>;
+
+template <class Real>
+Values values_of(const Image<Real>& image)
+{
+    return {image.rgb.begin(), image.rgb.end()};
+}
+
+Values picture(const Scene& scene, const SoakWay& way)
+{
+    if (way.precision == "single")
+        return values_of(render<float>(scene, way.options));
+    if (way.precision == "double")
+        return values_of(render<double>(scene, way.options));
+    return values_of(render<long double>(scene, way.options));
+}
+
+std::string pixel_text(const Scene& scene, std::size_t value)
+{
+    const auto pixel = static_cast<int>(value / 3);
+    return "pixel " + std::to_string(pixel % scene.width) + "," +
+           std::to_string(pixel / scene.width);
+}
+
+/// The first value that is none; empty where all are numbers.
+std::string not_a_number(const Scene& scene, const Values& values)
+{
+    for (std::size_t i = 0; i < values.size(); ++i)
+        if (!std::isfinite(values[i]))
+            return pixel_text(scene, i) + " is no finite number";
+    return "";
+}
+
+double largest(const Values& values)
+{
+    double most = 0.0;
+    for (const double value : values)
+        most = std::max(most, std::abs(value));
+    return most;
+}
+
+/// Shares of light through glass are multiplied in the order in which occluders are found, which
+/// a list and a hierarchy differ in.
+double allowed_difference(const Scene& scene, const SoakWay& a, const SoakWay& b,
+                          const Values& values)
+{
+    const bool same_order =
+        a.options.traversal == Traversal::list && b.options.traversal == Traversal::list;
+    if (scene.shadows != ShadowKind::transparent || same_order)
+        return 0.0;
+    return (a.precision == "single" ? 1e-5 : 1e-13) * largest(values);
+}
+
+std::string differing(const Scene& scene, const Values& a, const Values& b, double allowed)
+{
+    for (std::size_t i = 0; i < a.size(); ++i) {
+        const bool same = std::memcmp(&a[i], &b[i], sizeof a[i]) == 0;
+        if (!same && !(std::abs(a[i] - b[i]) <= allowed && allowed > 0.0))
+            return "pictures differ at " + pixel_text(scene, i) + ": " + std::to_string(a[i]) +
+                   " and " + std::to_string(b[i]);
+    }
+    return "";
+}
+
+std::string compare(const Scene& scene, const SoakWay& first, const Values& first_values,
+                    const SoakWay& way, const Values& values)
+{
+    return differing(scene, first_values, values,
+                     allowed_difference(scene, first, way, first_values));
+}
+
+SoakFinding finding_of_two(std::string what, const SoakWay& first, const SoakWay& second)
+{
+    const auto again = [first, second](const Scene& scene) {
+        return compare(scene, first, picture(scene, first), second, picture(scene, second));
+    };
+    return {std::move(what), {first, second}, std::nullopt, again};
+}
+
+SoakFinding finding_of_one(std::string what, const SoakWay& way)
+{
+    const auto again = [way](const Scene& scene) {
+        return not_a_number(scene, picture(scene, way));
+    };
+    return {std::move(what), {way}, std::nullopt, again};
+}
+
+/// Whether two objects share a place. A ray that leaves one of them then starts on the other, too,
+/// and rounding decides whether it hits it.
+bool has_twins(const Scene& scene)
+{
+    std::set<std::string> places;
+    for (const Object& object : scene.objects) {
+        Scene alone;
+        alone.objects.resize(1);
+        alone.objects[0].surface = object.surface;
+        alone.objects[0].transform = object.transform;
+        if (!places.insert(scene_text(alone)).second)
+            return true;
+    }
+    return false;
+}
+
+/// The pictures of a group; `values` gets that of its first way.
+std::optional<SoakFinding> check_group(const Scene& scene, const SoakGroup& group, bool twins,
+                                       Values& values)
+{
+    const SoakWay& first = group.ways.front();
+    values = picture(scene, first);
+    if (std::string what = not_a_number(scene, values); !what.empty())
+        return finding_of_one(std::move(what), first);
+    for (const SoakWay& way : group.ways) {
+        // It counts whether the later twin was left out.
+        if (twins && way.options.force_general)
+            continue;
+        std::string what = compare(scene, first, values, way, picture(scene, way));
+        if (!what.empty())
+            return finding_of_two(std::move(what), first, way);
+    }
+    return std::nullopt;
+}
+
+/// The scalar kernel twice: the picture that counts, and one in another precision that tells
+/// which pixels hang on the last digits.
+struct Judges {
+    SoakWay truth;
+    SoakWay other;
+    double agree;   ///< where both differ by less, relative to the largest value, a pixel counts
+    double differ;  ///< and must not be off by more
+};
+
+Judges judges_of(const std::string& precision, SelfHits self_hits)
+{
+    const bool single = precision == "single";
+    return {scalar_way("double", self_hits), scalar_way(single ? "single" : "extended", self_hits),
+            single ? 1e-4 : 1e-9, single ? 3e-2 : 1e-4};
+}
+
+/// Edges and paths through much glass are left out by the judges, but for a few that are a rounding
+/// away from being left out.
+std::string off_reference(const Scene& scene, const Values& values, const Values& truth,
+                          const Values& other, const Judges& judges)
+{
+    const double unit = std::max(largest(truth), 1e-30);
+    std::size_t counted = 0;
+    std::size_t off = 0;
+    std::size_t where = 0;
+    for (std::size_t i = 0; i < values.size(); ++i) {
+        if (!(std::abs(truth[i] - other[i]) <= judges.agree * unit))
+            continue;
+        ++counted;
+        if (std::abs(values[i] - truth[i]) <= judges.differ * unit)
+            continue;
+        if (off++ == 0)
+            where = i;
+    }
+    const std::size_t allowed = 9 + counted / 50;
+    if (off <= allowed)
+        return "";
+    return std::to_string(off) + " of " + std::to_string(counted) +
+           " values are off the scalar kernel's, first at " + pixel_text(scene, where) + ": " +
+           std::to_string(values[where]) + ", which should be " + std::to_string(truth[where]);
+}
+
+std::string off_reference_again(const Scene& scene, const SoakWay& way, const Judges& judges)
+{
+    return off_reference(scene, picture(scene, way), picture(scene, judges.truth),
+                         picture(scene, judges.other), judges);
+}
+
+std::optional<SoakFinding> check_reference(const Scene& scene, const SoakWay& way,
+                                           const Values& values, SelfHits self_hits)
+{
+    // The note's own rule, which the scalar kernel follows, shades in an object's own space.
+    if (scene.illumination == Illumination::shader)
+        return std::nullopt;
+    const Judges judges = judges_of(way.precision, self_hits);
+    const Values truth = picture(scene, judges.truth);
+    if (std::string what = not_a_number(scene, truth); !what.empty())
+        return finding_of_one(std::move(what), judges.truth);
+    std::string what = off_reference(scene, values, truth, picture(scene, judges.other), judges);
+    if (what.empty())
+        return std::nullopt;
+    const auto again = [way, judges](const Scene& other) {
+        return off_reference_again(other, way, judges);
+    };
+    return SoakFinding{std::move(what), {way, judges.truth}, std::nullopt, again};
+}
+
+std::optional<SoakFinding> check_mode(const Scene& scene, const std::string& precision,
+                                      Accuracy accuracy, SelfHits self_hits)
+{
+    Values first;
+    Values values;
+    const std::vector<SoakGroup> groups = packet_groups(precision, accuracy, self_hits);
+    const bool twins = has_twins(scene);
+    for (const SoakGroup& group : groups) {
+        if (auto finding = check_group(scene, group, twins, values))
+            return finding;
+        if (first.empty())
+            first = values;
+    }
+    // By the note's rule, starts are 0.001 away: that counts where things are small.
+    if (accuracy == Accuracy::fast || groups.empty() || twins || self_hits == SelfHits::note)
+        return std::nullopt;
+    return check_reference(scene, groups.front().ways.front(), first, self_hits);
+}
+
+}  // namespace
+
+std::optional<SoakFinding> check_pictures(const Scene& scene, SelfHits self_hits)
+{
+    if (auto finding = check_mode(scene, "double", Accuracy::exact, self_hits))
+        return finding;
+    if (auto finding = check_mode(scene, "single", Accuracy::exact, self_hits))
+        return finding;
+    return check_mode(scene, "single", Accuracy::fast, self_hits);
+}
+
+}  // namespace packtrace::lab

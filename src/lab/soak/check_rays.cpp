@@ -1,0 +1,166 @@
+#include <cmath>
+#include <limits>
+
+#include <glm/geometric.hpp>
+
+#include "lab/soak/soak_finding.hpp"
+#include "lab/soak/soak_scene.hpp"
+#include "lab/stress/ray_faults.hpp"
+#include "lab/stress/stress_family.hpp"
+
+// What answers to rays promise: the same bits in every way of a group; of `exact` packets and
+// packets of doubles, to be right wherever double itself can tell.
+namespace packtrace::lab {
+namespace {
+
+constexpr int rays_of_a_scene = 48;
+
+/// The truth of a ray among many objects takes long.
+constexpr int rays_among_many = 8;
+constexpr std::size_t many_objects = 30;
+
+StressRay any_ray(StressRandom& random, const Scene& scene)
+{
+    const auto any_point = [&] {
+        const int count = static_cast<int>(scene.objects.size());
+        return point_near(random, scene.objects[static_cast<std::size_t>(random.below(count))]);
+    };
+    const Vec3 aim = any_point();
+    Vec3 org = random.below(2) == 0 ? scene.camera.position : any_point();
+    if (random.below(3) == 0)
+        org += glm::length(aim - org) * random.power(1e-3, 10.0) * random.unit();
+    StressRay ray = ray_towards(org, aim);
+    if (random.below(4) == 0)
+        ray.dir *= random.power(1e-3, 1e3);
+    if (random.below(6) == 0)
+        ray.dir[random.below(3)] = 0.0;
+    ray.t_min = 0.0;
+    ray.t_max = random.below(4) == 0 ? glm::length(aim - org) * random.between(0.5, 1.5) : no_end;
+    // Some aim at a point that they start at.
+    if (!(glm::length(ray.dir) > 0.0) || !std::isfinite(glm::length(ray.dir)))
+        ray.dir = random.unit();
+    return ray;
+}
+
+template <class Real>
+StressGroup group_of(Scene scene, std::vector<StressRay> rays)
+{
+    round_to_precision<Real>(scene);
+    StressGroup group = stress_group(std::move(scene));
+    for (StressRay& ray : rays) {
+        round_to_precision<Real>(ray);
+        group.expected.push_back(
+            expect(ray, group.hits_of(ray), std::numeric_limits<Real>::epsilon() / 2.0));
+    }
+    group.rays = std::move(rays);
+    return group;
+}
+
+template <class Real>
+StressRun run_way(const SoakWay& way, const StressGroup& group)
+{
+    return run_subject<Real>({"packet", "", way.options.isa, true, way.options}, group);
+}
+
+/// Whether two ways answered a ray alike.
+bool same_ray(const StressRun& a, const StressRun& b, std::size_t i)
+{
+    StressRun one;
+    StressRun other;
+    one.answers = {a.answers[i]};
+    other.answers = {b.answers[i]};
+    return same_answers(one, other) && a.occluded[i] == b.occluded[i] && a.first[i] == b.first[i] &&
+           a.crossings[i] == b.crossings[i];
+}
+
+/// What is wrong with the answer to a ray, wherever double can tell.
+template <class Real>
+std::string fault_in(const StressGroup& group, const StressRun& run, std::size_t i)
+{
+    // Packets of doubles may be a few last places off where double does not decide.
+    if (sizeof(Real) == sizeof(double) && !group.expected[i].decided(double_band))
+        return "";
+    Evaluation evaluation(std::numeric_limits<Real>::epsilon() / 2.0);
+    evaluate_ray(evaluation, group, run, i);
+    Errors errors = evaluation.errors();
+    // Doubles are not refined, and 1 of 100 normals may be off.
+    errors.normal_beyond = 0;
+    if (sizeof(Real) == sizeof(double))
+        errors.t_beyond = 0;
+    const char* const fault = fault_of(errors);
+    return *fault == '\0' ? "" : example_text(group, 0, i, run.answers[i], fault);
+}
+
+template <class Real>
+SoakFinding two_ways(const StressRay& ray, const SoakWay& first, const SoakWay& second)
+{
+    const auto again = [ray, first, second](const Scene& scene) -> std::string {
+        const StressGroup group = group_of<Real>(scene, {ray});
+        const bool same = same_ray(run_way<Real>(first, group), run_way<Real>(second, group), 0);
+        return same ? "" : "answers to a ray differ";
+    };
+    return {"answers to a ray differ", {first, second}, ray, again};
+}
+
+template <class Real>
+SoakFinding one_way(std::string what, const StressRay& ray, const SoakWay& way)
+{
+    const auto again = [ray, way](const Scene& scene) {
+        const StressGroup group = group_of<Real>(scene, {ray});
+        return fault_in<Real>(group, run_way<Real>(way, group), 0);
+    };
+    return {std::move(what), {way}, ray, again};
+}
+
+template <class Real>
+std::optional<SoakFinding> check_group(const StressGroup& group, const SoakGroup& ways)
+{
+    const SoakWay& first = ways.ways.front();
+    const StressRun run = run_way<Real>(first, group);
+    const bool held = first.options.accuracy == Accuracy::exact;
+    for (std::size_t i = 0; i < group.rays.size() && held; ++i)
+        if (std::string what = fault_in<Real>(group, run, i); !what.empty())
+            return one_way<Real>(std::move(what), group.rays[i], first);
+    for (const SoakWay& way : ways.ways) {
+        // One kernel answers rays of the caller's own, on the caller's thread.
+        if (way.options.force_general)
+            continue;
+        const StressRun other = run_way<Real>(way, group);
+        for (std::size_t i = 0; i < group.rays.size(); ++i)
+            if (!same_ray(run, other, i))
+                return two_ways<Real>(group.rays[i], first, way);
+    }
+    return std::nullopt;
+}
+
+template <class Real>
+std::optional<SoakFinding> check_precision(const Scene& scene, const std::vector<StressRay>& rays,
+                                           const std::string& precision)
+{
+    const StressGroup group = group_of<Real>(scene, rays);
+    for (const Accuracy accuracy : {Accuracy::exact, Accuracy::fast}) {
+        // Packets of doubles are the same in both.
+        if (precision == "double" && accuracy == Accuracy::fast)
+            continue;
+        for (const SoakGroup& ways : packet_groups(precision, accuracy, SelfHits::exact))
+            if (auto finding = check_group<Real>(group, ways))
+                return finding;
+    }
+    return std::nullopt;
+}
+
+}  // namespace
+
+std::optional<SoakFinding> check_rays(const Scene& scene, std::uint64_t seed)
+{
+    StressRandom random(seed);
+    const int count = scene.objects.size() > many_objects ? rays_among_many : rays_of_a_scene;
+    std::vector<StressRay> rays;
+    for (int i = 0; i < count; ++i)
+        rays.push_back(any_ray(random, scene));
+    if (auto finding = check_precision<float>(scene, rays, "single"))
+        return finding;
+    return check_precision<double>(scene, rays, "double");
+}
+
+}  // namespace packtrace::lab

@@ -1,0 +1,115 @@
+#include "lab/soak/soak.hpp"
+
+#include <algorithm>
+#include <chrono>
+#include <stdexcept>
+#include <vector>
+
+#include <packtrace/read_scene.hpp>
+
+#include <tbb/parallel_for.h>
+
+#include "lab/soak/shrink.hpp"
+#include "lab/soak/soak_scene.hpp"
+#include "lab/stress/stress_family.hpp"
+
+namespace packtrace::lab {
+namespace {
+
+/// Scenes that are traced side by side.
+constexpr std::uint64_t batch = 32;
+
+/// What became of a scene.
+struct Outcome {
+    bool refused = false;
+    std::optional<SoakFinding> finding;
+    Scene scene;
+};
+
+/// The seed of a scene's random numbers.
+std::uint64_t seed_of(std::uint64_t seed, std::uint64_t number)
+{
+    return StressRandom(StressRandom(seed).bits() ^ number).bits();
+}
+
+Outcome outcome_of(std::uint64_t seed)
+{
+    StressRandom random(seed);
+    const Scene made = soak_scene(random);
+    Outcome outcome;
+    try {
+        outcome.scene = as_read(made);
+        outcome.finding = check_scene(outcome.scene, random.bits());
+    } catch (const SceneError&) {
+        outcome.refused = true;
+    } catch (const std::invalid_argument&) {
+        outcome.refused = true;
+    }
+    return outcome;
+}
+
+/// The number of scenes in the next batch; 0 where there is no time or none is left.
+class Limit {
+public:
+    explicit Limit(const SoakOptions& options) : options_(options), start_(Clock::now())
+    {
+    }
+    [[nodiscard]] std::uint64_t next(std::uint64_t done) const
+    {
+        const double seconds = std::chrono::duration<double>(Clock::now() - start_).count();
+        if (options_.seconds > 0.0 && seconds >= options_.seconds)
+            return 0;
+        return options_.scenes ? std::min(batch, *options_.scenes - done) : batch;
+    }
+
+private:
+    using Clock = std::chrono::steady_clock;
+    const SoakOptions& options_;
+    Clock::time_point start_;
+};
+
+SoakReport report_of(std::uint64_t number, Outcome outcome)
+{
+    SoakReport report{number, *std::move(outcome.finding), {}};
+    report.scene = shrink(report.finding, std::move(outcome.scene));
+    // The rays' truth is that of rounded numbers.
+    if (report.finding.ray && report.finding.ways.front().precision == "single")
+        round_to_precision<float>(report.scene);
+    return report;
+}
+
+}  // namespace
+
+std::optional<SoakFinding> check_scene(const Scene& scene, std::uint64_t seed)
+{
+    // The notes' own rule is for comparison: it is tried now and then.
+    const SelfHits self_hits = seed % 5 == 0 ? SelfHits::note : SelfHits::exact;
+    if (auto finding = check_pictures(scene, self_hits))
+        return finding;
+    return check_rays(scene, seed);
+}
+
+SoakCounts run_soak(const SoakOptions& options, const std::function<void(const SoakReport&)>& take)
+{
+    SoakCounts counts;
+    const Limit limit(options);
+    while (const std::uint64_t count = limit.next(counts.scenes)) {
+        const std::uint64_t first = options.first + counts.scenes;
+        std::vector<Outcome> outcomes(count);
+        tbb::parallel_for(std::uint64_t{0}, count, [&](std::uint64_t i) {
+            outcomes[i] = outcome_of(seed_of(options.seed, first + i));
+        });
+        for (std::uint64_t i = 0; i < count; ++i) {
+            ++counts.scenes;
+            counts.refused += std::uint64_t{outcomes[i].refused};
+            if (!outcomes[i].finding)
+                continue;
+            take(report_of(first + i, std::move(outcomes[i])));
+            if (++counts.findings >= options.most_findings)
+                return counts;
+        }
+    }
+    return counts;
+}
+
+}  // namespace packtrace::lab
