@@ -4,6 +4,7 @@
 # Programs of users get packtrace in the WAY named, set nothing else, and run:
 #   prefix                    no program yet: installs BUILD into BUILD/tests/prefix
 #   find_package, pkg_config  from there
+#   examples                  from there, the examples as a project of their own
 #   add_subdirectory, fetch_content
 #                             from SOURCE, linked with the library that BUILD holds already: their
 #                             own, for instruction sets ISA…, would take minutes to compile
@@ -121,6 +122,13 @@ pkg_config() {
         $(pkg-config --cflags packtrace)
 }
 
+examples() {
+    quietly "$cmake" -G Ninja -S "$source/examples" -B "$folder/examples" \
+        -DCMAKE_CXX_COMPILER="$cxx" -DCMAKE_PREFIX_PATH="$prefix"
+    quietly "$cmake" --build "$folder/examples"
+    (cd "$folder" && quietly ./examples/picture && [ -s picture.png ]) || fail "no picture"
+}
+
 # command_of NAME FILE: the command that makes the FILE in the user's project NAME.
 command_of() {
     ninja -C "$folder/$1" -t commands "$2" | tail -n 1
@@ -151,6 +159,7 @@ case $way in
 prefix) install_prefix ;;
 find_package) find_package ;;
 pkg_config) pkg_config ;;
+examples) examples ;;
 add_subdirectory | fetch_content) subproject ;;
 *) fail "unknown way '$way'" ;;
 esac

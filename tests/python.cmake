@@ -10,5 +10,6 @@ foreach(file IN LISTS python_tests)
     add_test(NAME python.${family} COMMAND ${Python_EXECUTABLE} -B -W error -m unittest ${name}
              WORKING_DIRECTORY ${CMAKE_CURRENT_SOURCE_DIR}/python)
     set_tests_properties(python.${family} PROPERTIES LABELS fast ENVIRONMENT
-        "PYTHONPATH=${PROJECT_BINARY_DIR}/python;PACKTRACE_PROGRAM=$<TARGET_FILE:packtrace_cli>")
+        "PYTHONPATH=${PROJECT_BINARY_DIR}/python;PACKTRACE_PROGRAM=$<TARGET_FILE:packtrace_cli>;\
+PACKTRACE_EXAMPLES=$<TARGET_FILE_DIR:packtrace_example_million_rays>")
 endforeach()

@@ -49,6 +49,15 @@ if("sse42" IN_LIST PACKTRACE_KERNELS AND "avx2" IN_LIST PACKTRACE_KERNELS)
                           "${emulated}" ${fail_on_none})
 endif()
 
+foreach(example IN ITEMS picture million_rays animation)
+    packtrace_script_test(example.${example} fast check_examples.sh ${example}
+                          $<TARGET_FILE:packtrace_example_${example}>
+                          "$<$<STREQUAL:${example},animation>:3>")
+endforeach()
+packtrace_script_test(example.scalar_against_simd fast check_examples.sh scalar_against_simd
+                      env PACKTRACE=$<TARGET_FILE:packtrace_cli>
+                      ${PROJECT_SOURCE_DIR}/examples/scalar_against_simd.sh
+                      ${PROJECT_SOURCE_DIR}/scenes/four_spheres.scene)
 packtrace_script_test(run_script fast check_run.sh ${PROJECT_SOURCE_DIR}/run)
 
 # Users of the library: programs that find it installed, or take it in as a part of their project.
@@ -60,7 +69,9 @@ if(PACKTRACE_INSTALL AND PROJECT_IS_TOP_LEVEL)
                               ${PACKTRACE_ISAS})
     endforeach()
     set_tests_properties(install.prefix PROPERTIES FIXTURES_SETUP installed)
-    set_tests_properties(install.find_package install.pkg_config
+    packtrace_script_test(install.examples fast check_install.sh examples ${CMAKE_COMMAND}
+                          ${CMAKE_CXX_COMPILER} ${PROJECT_BINARY_DIR} ${PROJECT_SOURCE_DIR})
+    set_tests_properties(install.find_package install.pkg_config install.examples
                          PROPERTIES FIXTURES_REQUIRED installed)
     packtrace_script_test(packages fast check_packages.sh ${CMAKE_CPACK_COMMAND}
                           ${PROJECT_BINARY_DIR} ${PROJECT_VERSION}

@@ -152,7 +152,7 @@ class RayScene:
         `closest` gave: float64, (..., 2), low and high. Low is above high, (inf, -inf), where object
         is -1 or the ray surely does not hit it. Takes some 10 µs a ray."""
         rays = _Rays(origins, directions, t_min, t_max)
-        numbers = np.ascontiguousarray(object)
+        numbers = np.asarray(object)
         if numbers.shape != rays.shape or numbers.dtype.kind not in "iu":
             raise ValueError(f"object is {numbers.dtype} of shape {numbers.shape}; use whole numbers "
                              f"of the rays' shape {rays.shape}")
