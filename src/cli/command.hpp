@@ -26,6 +26,7 @@ void add_explain(CLI::App& app);
 void add_generate(CLI::App& app);
 void add_info(CLI::App& app);
 void add_intersect(CLI::App& app);
+void add_join(CLI::App& app);
 void add_onedim(CLI::App& app);
 void add_profile(CLI::App& app);
 void add_render(CLI::App& app);

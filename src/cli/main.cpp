@@ -66,6 +66,7 @@ int run(int argc, char** argv)
     add_generate(app);
     add_info(app);
     add_intersect(app);
+    add_join(app);
     add_demo(app);
     add_onedim(app);
     add_soak(app);

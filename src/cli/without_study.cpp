@@ -3,6 +3,7 @@
 
 #include "cli/command.hpp"
 #include "cli/study/certainty_option.hpp"
+#include "cli/study/join_stress.hpp"
 
 // Stands in for the commands of src/lab in programs built without it (PACKTRACE_BUILD_STUDY).
 namespace packtrace::cli {
@@ -40,6 +41,13 @@ std::string write_certainty(const RenderArguments&, const Scene&, const RenderOp
 std::optional<UnsureSample> sample_unsure(const Scene&, const std::string&)
 {
     return std::nullopt;
+}
+
+std::string join_stress(const std::vector<std::string>&)
+{
+    throw std::runtime_error(
+        "packtrace: this build leaves out parts of 'stress'; type ./run build, which builds all "
+        "commands");
 }
 
 void add_bench(CLI::App& app)

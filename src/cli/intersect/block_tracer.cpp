@@ -11,11 +11,10 @@ BlockTracer<Real>::BlockTracer(const Scene& scene, const RenderOptions& options,
 {
 }
 
-template <class Real>
-std::string_view BlockTracer<Real>::header() const
+std::string_view header_of(RayQuery query, RayBounds bounds)
 {
-    const bool bounded = bounds_ == RayBounds::proven;
-    switch (query_) {
+    const bool bounded = bounds == RayBounds::proven;
+    switch (query) {
         case RayQuery::all:
             return bounded ? HitRows::bounded_all_header : HitRows::all_header;
         case RayQuery::any:

@@ -16,15 +16,15 @@
 
 namespace packtrace::cli {
 
+/// The line above all rows.
+[[nodiscard]] std::string_view header_of(RayQuery query, RayBounds bounds);
+
 /// Turns blocks of rays into rows of hits; several threads may do so at once.
 template <class Real>
 class BlockTracer {
 public:
     /// Throws as RayScene does.
     BlockTracer(const Scene& scene, const RenderOptions& options, RayQuery query, RayBounds bounds);
-
-    /// The line above all rows.
-    [[nodiscard]] std::string_view header() const;
 
     /// Throws FileError for a wrong line.
     [[nodiscard]] std::string rows_of(const RayBlock& block);

@@ -1,63 +1,72 @@
+#include <iostream>
 #include <memory>
 #include <string>
 
 #include "cli/command.hpp"
+#include "cli/intersect/hit_output.hpp"
+#include "cli/intersect/intersect_arguments.hpp"
 #include "cli/intersect/intersect_rays.hpp"
-#include "cli/options/common_options.hpp"
+#include "cli/intersect/part_head.hpp"
 #include "cli/options/scene_input.hpp"
+#include "cli/options/shard.hpp"
 #include "cli/options/thread_limit.hpp"
-#include "cli/options/validators.hpp"
 
 namespace packtrace::cli {
 namespace {
 
-struct IntersectArguments {
-    std::string scene;
-    std::string rays;
-    std::string output;
-    KernelArguments kernel;
-    bool all = false;
-    bool any = false;
-    bool bounds = false;
-};
-
-RayQuery query_of(const IntersectArguments& arguments)
+/// The rays of a shard, numbered as in the whole file.
+RayRange range_of(const std::string& rays, const Shard& shard)
 {
-    return arguments.all ? RayQuery::all : arguments.any ? RayQuery::any : RayQuery::closest;
+    RayRange range = cut_rays(rays, static_cast<std::uint64_t>(shard.index),
+                              static_cast<std::uint64_t>(shard.count));
+    if (range.begin == 0)
+        return range;
+    RayRange before;
+    before.end = range.begin;
+    const RayCount count = count_rays(rays, before);
+    range.first_line += count.lines;
+    range.first_ray = count.rays;
+    range.format = format_of_rays(rays);
+    return range;
+}
+
+template <class Real>
+void run(const IntersectArguments& arguments, const Scene& scene, const RenderOptions& options,
+         RayBlocks& rays, HitOutput& output)
+{
+    BlockTracer<Real> tracer(scene, options, arguments.query(), arguments.ray_bounds());
+    intersect_rays<Real>(tracer, rays, [&](const RayBlock& block, std::string_view rows) {
+        output.take(block, rows);
+    });
+    output.finish();
 }
 
 void run_intersect(const IntersectArguments& arguments)
 {
-    const RenderOptions options = render_options(arguments.kernel);
-    if (arguments.scene == "-" && arguments.rays == "-")
-        throw CLI::ValidationError(
-            "RAYS: standard input holds the scene or the rays, not both; give a file for one");
+    const RenderOptions options = checked_options(arguments);
     const ThreadLimit limit(options.threads);
     // Before the work, so that a wrong name doesn't cost it.
-    TextOutput output(arguments.output);
+    if (!arguments.output.empty())
+        check_writable(arguments.output);
     const Scene scene = read_scene_input(arguments.scene).scene;
-    RayBlocks rays(arguments.rays);
-    const RayBounds bounds = arguments.bounds ? RayBounds::proven : RayBounds::none;
+    RayRange range;
+    std::string recipe = hits_recipe(arguments, scene, options);
+    std::string header(header_of(arguments.query(), arguments.ray_bounds()));
+    if (arguments.shard) {
+        const Shard shard = *parse_shard(*arguments.shard);
+        range = range_of(arguments.rays, shard);
+        const PartHead head{shard, recipe + ", " + std::to_string(ray_file_size(arguments.rays)) +
+                                       " bytes of rays"};
+        header = head.line() + header;
+        recipe += ", shard " + shard.text();
+    }
+    RayBlocks rays(arguments.rays, range);
+    HitOutput output(arguments, recipe, header);
+    output.skip_finished(rays);
     if (arguments.kernel.precision == "single")
-        intersect_rays<float>(scene, options, query_of(arguments), bounds, rays, output);
+        run<float>(arguments, scene, options, rays, output);
     else
-        intersect_rays<double>(scene, options, query_of(arguments), bounds, rays, output);
-}
-
-// Not add_kernel_options: here double is the default, and nothing is wider.
-void add_options(CLI::App& command, KernelArguments& arguments)
-{
-    command.add_option("--kernel", arguments.kernel, "packet (default), or the scalar reference")
-        ->check(one_of({"packet", "scalar"}))
-        ->type_name("packet|scalar");
-    arguments.precision = "double";
-    command.add_option("--precision", arguments.precision, "double (default) or single")
-        ->check(one_of({"single", "double"}))
-        ->type_name("single|double");
-    add_traversal_option(command, arguments.traversal);
-    add_accuracy_options(command, arguments.accuracy);
-    add_isa_options(command, arguments.isa);
-    add_threads_option(command, arguments.threads);
+        run<double>(arguments, scene, options, rays, output);
 }
 
 }  // namespace
@@ -67,26 +76,13 @@ void add_intersect(CLI::App& app)
     CLI::App* command =
         app.add_subcommand("intersect", "Say where rays of your own meet a scene's objects");
     const auto arguments = std::make_shared<IntersectArguments>();
-    add_scene_option(*command, arguments->scene);
-    command
-        ->add_option("RAYS", arguments->rays,
-                     "CSV of ox,oy,oz,dx,dy,dz[,t_min,t_max]; - is standard input")
-        ->required()
-        ->type_name("");
-    command
-        ->add_option("-o,--output", arguments->output,
-                     "CSV to write (default standard output): hit,t,object,nx,ny,nz")
-        ->type_name("FILE");
-    CLI::Option* all = command->add_flag(
-        "--all", arguments->all, "Write every hit of each ray in order: ray,t,object,nx,ny,nz");
-    CLI::Option* any =
-        command->add_flag("--any", arguments->any, "Write only whether a ray hits anything: hit")
-            ->excludes(all);
-    command
-        ->add_flag("--bounds", arguments->bounds,
-                   "Write proven bounds of each t, too: t_low,t_high; some 10 µs a hit")
-        ->excludes(any);
-    add_options(*command, arguments->kernel);
+    add_intersect_options(*command, *arguments);
+    add_shard_option(*command, arguments->shard,
+                     "Answer part I, from 0, of N parts of the rays; packtrace join makes one "
+                     "file of the parts");
+    command->add_flag("--resume", arguments->resume,
+                      "Keep finished rows beside FILE until it is complete; after an "
+                      "interruption, the same command goes on with them");
     command->callback([arguments] { run_intersect(*arguments); });
 }
 

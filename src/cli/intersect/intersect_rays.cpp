@@ -8,8 +8,6 @@
 #include <tbb/global_control.h>
 #include <tbb/parallel_pipeline.h>
 
-#include "cli/intersect/block_tracer.hpp"
-
 namespace packtrace::cli {
 namespace {
 
@@ -48,12 +46,8 @@ Task read_block(RayBlocks& rays, tbb::flow_control& control, bool& ended)
 }  // namespace
 
 template <class Real>
-void intersect_rays(const Scene& scene, const RenderOptions& options, RayQuery query,
-                    RayBounds bounds, RayBlocks& rays, TextOutput& output)
+void intersect_rays(BlockTracer<Real>& tracer, RayBlocks& rays, const TakeRows& take)
 {
-    BlockTracer<Real> tracer(scene, options, query, bounds);
-    output.write(tracer.header());
-
     bool ended = false;
     const auto read = [&](tbb::flow_control& control) { return read_block(rays, control, ended); };
     const auto trace = [&](Task task) {
@@ -63,7 +57,7 @@ void intersect_rays(const Scene& scene, const RenderOptions& options, RayQuery q
     const auto write = [&](const Task& task) {
         if (task.error)
             std::rethrow_exception(task.error);
-        output.write(task.rows);
+        take(task.block, task.rows);
     };
     // Two blocks a thread: one to work on, one that waits.
     const std::size_t blocks =
@@ -72,12 +66,9 @@ void intersect_rays(const Scene& scene, const RenderOptions& options, RayQuery q
         blocks, tbb::make_filter<void, Task>(tbb::filter_mode::serial_in_order, read) &
                     tbb::make_filter<Task, Task>(tbb::filter_mode::parallel, trace) &
                     tbb::make_filter<Task, void>(tbb::filter_mode::serial_in_order, write));
-    output.finish();
 }
 
-template void intersect_rays<float>(const Scene&, const RenderOptions&, RayQuery, RayBounds,
-                                    RayBlocks&, TextOutput&);
-template void intersect_rays<double>(const Scene&, const RenderOptions&, RayQuery, RayBounds,
-                                     RayBlocks&, TextOutput&);
+template void intersect_rays(BlockTracer<float>&, RayBlocks&, const TakeRows&);
+template void intersect_rays(BlockTracer<double>&, RayBlocks&, const TakeRows&);
 
 }  // namespace packtrace::cli

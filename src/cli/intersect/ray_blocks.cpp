@@ -10,7 +10,11 @@ constexpr std::string_view byte_order_mark = "\xEF\xBB\xBF";
 
 }  // namespace
 
-RayBlocks::RayBlocks(const std::string& file) : blocks_(file)
+RayBlocks::RayBlocks(const std::string& file, const RayRange& range)
+    : blocks_(file, range.begin, range.end),
+      format_(range.format),
+      line_(range.first_line),
+      ray_(range.first_ray)
 {
     format_.file = blocks_.name();
 }

@@ -5,6 +5,7 @@
 #include <string>
 
 #include "cli/intersect/ray_format.hpp"
+#include "cli/intersect/ray_range.hpp"
 #include "cli/intersect/text_blocks.hpp"
 
 namespace packtrace::cli {
@@ -21,7 +22,7 @@ struct RayBlock {
 class RayBlocks {
 public:
     /// Throws FileError.
-    explicit RayBlocks(const std::string& file);
+    explicit RayBlocks(const std::string& file, const RayRange& range = {});
 
     /// Throws FileError.
     [[nodiscard]] RayBlock next();

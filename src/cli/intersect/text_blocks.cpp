@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cerrno>
+#include <cstdint>
 #include <utility>
 
 #include "core/file_error.hpp"
@@ -9,11 +10,12 @@
 
 namespace packtrace::cli {
 
-TextBlocks::TextBlocks(const std::string& file)
+TextBlocks::TextBlocks(const std::string& file, std::uint64_t begin, std::uint64_t end)
     : name_(file == "-" ? "standard input" : language::escape(file)),
-      file_(file == "-" ? stdin : std::fopen(file.c_str(), "rb"))
+      file_(file == "-" ? stdin : std::fopen(file.c_str(), "rb")),
+      left_(end - begin)
 {
-    if (!file_)
+    if (!file_ || (begin > 0 && fseeko(file_.get(), static_cast<off_t>(begin), SEEK_SET) != 0))
         throw FileError(name_, "can't read", errno);
 }
 
@@ -22,7 +24,10 @@ std::string TextBlocks::next()
     std::string block = std::exchange(begun_, {});
     const std::size_t kept = block.size();
     block.resize(largest);
-    block.resize(kept + std::fread(block.data() + kept, 1, largest - kept, file_.get()));
+    const std::size_t wanted = std::min<std::uint64_t>(largest - kept, left_);
+    const std::size_t got = std::fread(block.data() + kept, 1, wanted, file_.get());
+    left_ -= got;
+    block.resize(kept + got);
     if (std::ferror(file_.get()))
         throw FileError(name_, "can't read", errno);
     if (block.size() < largest)

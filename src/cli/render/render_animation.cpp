@@ -7,15 +7,14 @@
 
 #include <packtrace/animate.hpp>
 
+#include "cli/options/shard.hpp"
 #include "cli/options/validators.hpp"
 #include "cli/output/progress_bar.hpp"
 #include "cli/output/text_table.hpp"
 #include "cli/render/cut_rays.hpp"
-#include "cli/render/frame_output.hpp"
 #include "cli/render/render_picture.hpp"
 #include "core/job_queue.hpp"
 #include "render/frame_pattern.hpp"
-#include "render/frame_range.hpp"
 
 namespace packtrace::cli {
 namespace {
@@ -31,7 +30,33 @@ auto checked(const std::string& option, const Call& call)
     }
 }
 
-/// All frames when none are named.
+/// "1.2 s, 40.0 ms each"
+std::string seconds_text(double seconds, int frames)
+{
+    return fixed(seconds, 1) + " s, " + fixed(1e3 * seconds / frames, 1) + " ms each";
+}
+
+double seconds_since(std::chrono::steady_clock::time_point start)
+{
+    return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+}
+
+/// Renders a frame and adds to the tally what it took.
+AnyImage render_frame(const Scene& scene, const std::string& precision,
+                      const RenderOptions& options, FrameTally& tally)
+{
+    const auto start = std::chrono::steady_clock::now();
+    CutRays cut;
+    AnyImage image = render_picture(scene, precision, options, &cut);
+    tally.cut.rays += cut.rays;
+    tally.cut.bound = std::max(tally.cut.bound, cut.bound);
+    tally.rendering += seconds_since(start);
+    ++tally.rendered;
+    return image;
+}
+
+}  // namespace
+
 FrameRange frames_of(const AnimationArguments& arguments, const Scene& scene)
 {
     const std::string option = arguments.frames ? "--frames" : "--y4m";
@@ -47,23 +72,7 @@ FrameRange frames_of(const AnimationArguments& arguments, const Scene& scene)
     });
 }
 
-struct Tally {
-    int rendered = 0;
-    int skipped = 0;         ///< there already
-    int replaced = 0;        ///< rendered in place of another picture
-    CutRays cut;             ///< of all frames; the largest bound
-    double rendering = 0.0;  ///< seconds, waiting for the writer apart
-    double writing = 0.0;    ///< seconds, mostly while the next frame renders
-    double seconds = 0.0;    ///< all in all
-};
-
-/// "1.2 s, 40.0 ms each"
-std::string seconds_text(double seconds, int frames)
-{
-    return fixed(seconds, 1) + " s, " + fixed(1e3 * seconds / frames, 1) + " ms each";
-}
-
-void print_tally(const std::string& output, const Tally& tally)
+void print_tally(const std::string& output, const FrameTally& tally)
 {
     std::string text = output + ": " + std::to_string(tally.rendered) + " frames rendered";
     if (tally.rendered > 0)
@@ -79,48 +88,26 @@ void print_tally(const std::string& output, const Tally& tally)
     std::cerr << text << '\n';
 }
 
-double seconds_since(std::chrono::steady_clock::time_point start)
-{
-    return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-}
-
-/// Renders a frame and adds to the tally what it took.
-AnyImage render_frame(const Scene& scene, const std::string& precision,
-                      const RenderOptions& options, Tally& tally)
+FrameTally render_frames(const RenderArguments& arguments, const Scene& scene,
+                         RenderOptions options, FrameOutput& output, const NextFrame& next,
+                         const ShowFrame& show)
 {
     const auto start = std::chrono::steady_clock::now();
-    CutRays cut;
-    AnyImage image = render_picture(scene, precision, options, &cut);
-    tally.cut.rays += cut.rays;
-    tally.cut.bound = std::max(tally.cut.bound, cut.bound);
-    tally.rendering += seconds_since(start);
-    ++tally.rendered;
-    return image;
-}
-
-/// A frame is written while the next ones render. The bar shows the share of the whole animation.
-Tally render_frames(const RenderArguments& arguments, const Scene& scene, RenderOptions options,
-                    const FrameRange& range, FrameOutput& output)
-{
-    const auto start = std::chrono::steady_clock::now();
-    Tally tally;
+    FrameTally tally;
     Scene posed = scene;
-    ProgressBar bar(arguments.quiet ? Verbosity::quiet : Verbosity::normal);
     JobQueue writer;
-    for (int frame = range.first; frame <= range.last; ++frame) {
-        posed.camera = camera_at(scene, frame);
-        const FrameOutput::Found found = output.find(frame, posed.camera);
+    while (const std::optional<int> frame = next()) {
+        posed.camera = camera_at(scene, *frame);
+        const FrameOutput::Found found = output.find(*frame, posed.camera);
         if (found == FrameOutput::Found::same && !arguments.animation.overwrite) {
             ++tally.skipped;
             continue;
         }
         tally.replaced += found == FrameOutput::Found::other ? 1 : 0;
-        options.progress = [&](double share) {
-            bar.update((frame - range.first + share) / range.count());
-        };
-        writer.add([&output, frame, camera = posed.camera,
+        options.progress = [&](double share) { show(*frame, share); };
+        writer.add([&output, number = *frame, camera = posed.camera,
                     image = render_frame(posed, arguments.kernel.precision, options, tally)] {
-            output.write(frame, camera, image);
+            output.write(number, camera, image);
         });
     }
     writer.finish();
@@ -129,8 +116,6 @@ Tally render_frames(const RenderArguments& arguments, const Scene& scene, Render
     tally.seconds = seconds_since(start);
     return tally;
 }
-
-}  // namespace
 
 void add_animation_options(CLI::App& command, AnimationArguments& arguments)
 {
@@ -146,6 +131,8 @@ void add_animation_options(CLI::App& command, AnimationArguments& arguments)
         ->type_name("A..B");
     command.add_flag("--overwrite", arguments.overwrite,
                      "Render frames that are there already, too");
+    add_shard_option(command, arguments.shard,
+                     "Of --frames A..B only A + I, A + I + N and so on, for N machines");
     command.add_flag("--y4m", arguments.y4m,
                      "Write the frames (default all) as one YUV4MPEG2 video; IMAGE is a file or -");
     command.add_option("--fps", arguments.fps, "Frames per second of --y4m (default 30)")
@@ -163,6 +150,8 @@ void check_animation_options(const RenderArguments& arguments)
             "--resume: is for one picture; --frames goes on with missing frames by itself");
     if (animation.overwrite && (!animation.frames || animation.y4m))
         throw CLI::ValidationError("--overwrite: only --frames into picture files skips any");
+    if (animation.shard && (!animation.frames || animation.y4m))
+        throw CLI::ValidationError("--shard: cuts --frames into picture files only");
     if (animation.frames)
         (void)checked("--frames", [&] { return parse_frame_range(*animation.frames); });
     if (animation.frames && !animation.y4m)
@@ -180,7 +169,21 @@ void render_animation(const RenderArguments& arguments, const Scene& scene,
     const FrameRange range = frames_of(arguments.animation, scene);
     const auto output =
         arguments.animation.y4m ? frame_stream(arguments) : frame_files(arguments, scene, options);
-    const Tally tally = render_frames(arguments, scene, options, range, *output);
+    const Shard shard = parse_shard(arguments.animation.shard.value_or("0/1")).value();
+    ProgressBar bar(arguments.quiet ? Verbosity::quiet : Verbosity::normal);
+    int following = range.first + shard.index;
+    const auto next = [&]() -> std::optional<int> {
+        const int frame = following;
+        if (frame > range.last)
+            return std::nullopt;
+        following += shard.count;
+        return frame;
+    };
+    // The bar shows the share of the whole animation.
+    const auto show = [&](int frame, double share) {
+        bar.update((frame - range.first + share) / range.count());
+    };
+    const FrameTally tally = render_frames(arguments, scene, options, *output, next, show);
     if (arguments.quiet)
         return;
     const std::string name = arguments.output == "-" ? "standard output" : arguments.output;

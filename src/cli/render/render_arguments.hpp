@@ -13,6 +13,7 @@ namespace packtrace::cli {
 struct AnimationArguments {
     std::optional<int> frame;
     std::optional<std::string> frames;
+    std::optional<std::string> shard;
     bool y4m = false;
     bool overwrite = false;
     int fps = 30;

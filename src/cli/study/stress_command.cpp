@@ -11,6 +11,7 @@
 
 #include "cli/command.hpp"
 #include "cli/options/common_options.hpp"
+#include "cli/options/shard.hpp"
 #include "cli/options/thread_limit.hpp"
 #include "cli/options/validators.hpp"
 #include "cli/output/text_table.hpp"
@@ -32,6 +33,7 @@ struct StressArguments {
     std::optional<std::string> isa;
     std::optional<std::string> traversal;
     std::optional<std::string> cases;  ///< a folder for scenes and rays of wrong answers
+    std::optional<std::string> shard;
     int threads = 0;
     bool list = false;
     bool json = false;
@@ -177,9 +179,12 @@ void print_faults(const std::vector<StressRow>& rows)
     }
 }
 
-void print_json(const lab::StressOptions& options, const std::vector<StressRow>& rows)
+void print_json(const StressArguments& arguments, const std::vector<StressRow>& rows)
 {
+    const lab::StressOptions& options = arguments.options;
     nlohmann::ordered_json json;
+    if (arguments.shard)
+        json["shard"] = *arguments.shard;
     json["seed"] = options.seed;
     json["rays_per_family"] = options.rays;
     json["verdict"] = lab::stress_verdict(rows);
@@ -215,6 +220,13 @@ void run(const StressArguments& arguments)
     if (arguments.isa)
         options.isa = chosen_isa({arguments.isa, {}}).name;
     options.traversal = traversal_named(arguments.traversal.value_or("auto"));
+    if (arguments.shard) {
+        if (!arguments.json)
+            throw CLI::ValidationError("--shard: packtrace join reads parts as JSON; add --json");
+        const Shard shard = *parse_shard(*arguments.shard);
+        options.first_family = shard.index;
+        options.family_step = shard.count;
+    }
     const ThreadLimit limit(arguments.threads);
     std::vector<StressRow> rows;
     lab::run_stress(options, [&](const std::vector<StressRow>& some) {
@@ -223,7 +235,7 @@ void run(const StressArguments& arguments)
     if (arguments.cases)
         write_cases(*arguments.cases, rows);
     if (arguments.json) {
-        print_json(options, rows);
+        print_json(arguments, rows);
     } else {
         print_rows(rows);
         print_faults(rows);
@@ -277,6 +289,9 @@ void add_stress(CLI::App& app)
                      "Write the first wrong ray of each row, and its scene, into this folder")
         ->type_name("FOLDER");
     command->add_flag("--json", arguments->json, "Print JSON");
+    add_shard_option(
+        *command, arguments->shard,
+        "Only families I, I + N and so on; packtrace join makes one JSON of the parts");
     command->callback([arguments] { run(*arguments); });
 }
 

@@ -261,8 +261,16 @@ void run_stress(const StressOptions& options,
 {
     check_families(options);
     const std::vector<StressSubject> subjects = stress_subjects(options);
+    // Counts those wanted.
+    int number = -options.first_family;
+    const auto mine = [&](const std::string& name) {
+        if (!wanted(options.families, name))
+            return false;
+        const int place = number++;
+        return place >= 0 && place % options.family_step == 0;
+    };
     for (const StressFamily& family : stress_families()) {
-        if (!wanted(options.families, family.name))
+        if (!mine(family.name))
             continue;
         std::vector<StressRow> rows;
         if (wanted(options.precisions, "single"))
@@ -273,7 +281,7 @@ void run_stress(const StressOptions& options,
         take(rows);
     }
     for (const StressMeasure& measure : stress_measures()) {
-        if (!wanted(options.families, measure.name))
+        if (!mine(measure.name))
             continue;
         std::vector<StressRow> rows;
         if (wanted(options.precisions, "single"))

@@ -19,6 +19,8 @@ struct StressOptions {
     Traversal traversal = Traversal::automatic;
     int rays = 4096;  ///< of each family and precision
     std::uint64_t seed = 1;
+    int first_family = 0;  ///< of those wanted, begin with this one
+    int family_step = 1;   ///< and take each so many-th
 };
 
 /// How many, and quantiles of their errors.

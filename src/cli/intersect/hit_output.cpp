@@ -1,0 +1,103 @@
+#include "cli/intersect/hit_output.hpp"
+
+#include <algorithm>
+
+#include "cli/interrupts.hpp"
+#include "cli/render/band_file.hpp"
+#include "core/checksum.hpp"
+#include "image/bytes.hpp"
+
+namespace packtrace::cli {
+namespace {
+
+std::span<const std::uint8_t> bytes_of(std::string_view text)
+{
+    return {reinterpret_cast<const std::uint8_t*>(text.data()), text.size()};
+}
+
+/// Adds the bytes of the part file from `begin` to `end` to a checksum.
+std::uint32_t checksum_of(const Journal& journal, std::uint64_t begin, std::uint64_t end,
+                          std::uint32_t before)
+{
+    Bytes piece;
+    while (begin < end) {
+        piece.assign(std::min<std::uint64_t>(end - begin, std::uint64_t{1} << 20), 0);
+        journal.read(begin, piece);
+        before = checksum(piece, before);
+        begin += piece.size();
+    }
+    return before;
+}
+
+}  // namespace
+
+HitOutput::HitOutput(const IntersectArguments& arguments, const std::string& recipe,
+                     std::string_view header)
+    : name_(arguments.output)
+{
+    if (!arguments.resume) {
+        text_ = std::make_unique<TextOutput>(arguments.output);
+        text_->write(header);
+        return;
+    }
+    journal_ = std::make_unique<Journal>(arguments.output, recipe, recipe_difference);
+    done_ = find_finished(header);
+    journal_->truncate(done_.bytes);
+    journal_->write(0, bytes_of(header));
+}
+
+/// The last entry whose bytes are in the part file.
+HitOutput::Progress HitOutput::find_finished(std::string_view header) const
+{
+    Progress done;
+    done.bytes = header.size();
+    done.rows = checksum(bytes_of(header));
+    Bytes begun(header.size());
+    journal_->read(0, begun);
+    if (checksum(begun) != done.rows)
+        return done;
+    for (const Journal::Entry& entry : journal_->entries()) {
+        if (entry.size() != 4 || entry[0] <= done.blocks || entry[2] < done.bytes)
+            continue;
+        const std::uint32_t rows = checksum_of(*journal_, done.bytes, entry[2], done.rows);
+        if (rows != entry[3])
+            break;
+        done = {entry[0], static_cast<std::uint32_t>(entry[1]), entry[2], rows};
+    }
+    return done;
+}
+
+void HitOutput::skip_finished(RayBlocks& rays)
+{
+    std::uint32_t sum = 0;
+    for (std::uint64_t i = 0; i < done_.blocks; ++i)
+        sum = checksum(bytes_of(rays.next().text), sum);
+    if (sum != done_.rays)
+        throw FileError(name_ +
+                        ".journal: was begun with other rays; use what it was begun with, or "
+                        "remove this file to begin again");
+}
+
+void HitOutput::take(const RayBlock& block, std::string_view rows)
+{
+    if (text_)
+        return text_->write(rows);
+    journal_->write(done_.bytes, bytes_of(rows));
+    done_ = {done_.blocks + 1, checksum(bytes_of(block.text), done_.rays),
+             done_.bytes + rows.size(), checksum(bytes_of(rows), done_.rows)};
+    journal_->add({done_.blocks, done_.rays, done_.bytes, done_.rows});
+    set_interrupt_line("packtrace: interrupted after " + std::to_string(block.first_ray) +
+                       " rays and more; the same command goes on "
+                       "with " +
+                       name_);
+}
+
+void HitOutput::finish()
+{
+    if (text_)
+        return text_->finish();
+    journal_->rename_part();
+    set_interrupt_line("");
+}
+
+}  // namespace packtrace::cli

@@ -1,0 +1,50 @@
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <string>
+#include <string_view>
+
+#include "cli/intersect/intersect_arguments.hpp"
+#include "cli/intersect/ray_blocks.hpp"
+#include "cli/output/journal.hpp"
+#include "cli/output/text_output.hpp"
+
+namespace packtrace::cli {
+
+/// Where rows of hits go: standard output, or a file that appears when complete. With `--resume`
+/// the rows of finished blocks are kept beside it until then.
+class HitOutput {
+public:
+    /// `recipe` says what hits depend on. Throws FileError.
+    HitOutput(const IntersectArguments& arguments, const std::string& recipe,
+              std::string_view header);
+
+    /// Passes over the blocks that an earlier run finished. Throws FileError where their rays have
+    /// changed since.
+    void skip_finished(RayBlocks& rays);
+
+    /// Rows of the next block. Throws FileError.
+    void take(const RayBlock& block, std::string_view rows);
+
+    /// After the last rows.
+    void finish();
+
+private:
+    /// How much of input and output is finished.
+    struct Progress {
+        std::uint64_t blocks = 0;
+        std::uint32_t rays = 0;  ///< checksum
+        std::uint64_t bytes = 0;
+        std::uint32_t rows = 0;  ///< checksum
+    };
+
+    [[nodiscard]] Progress find_finished(std::string_view header) const;
+
+    std::string name_;
+    std::unique_ptr<TextOutput> text_;
+    std::unique_ptr<Journal> journal_;
+    Progress done_;
+};
+
+}  // namespace packtrace::cli

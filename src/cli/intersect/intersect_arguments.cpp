@@ -1,0 +1,72 @@
+#include "cli/intersect/intersect_arguments.hpp"
+
+#include "cli/options/scene_input.hpp"
+#include "cli/options/validators.hpp"
+#include "cli/render/frame_recipe.hpp"
+
+namespace packtrace::cli {
+namespace {
+
+// Not add_kernel_options: here double is the default, and nothing is wider.
+void add_options(CLI::App& command, KernelArguments& arguments)
+{
+    command.add_option("--kernel", arguments.kernel, "packet (default), or the scalar reference")
+        ->check(one_of({"packet", "scalar"}))
+        ->type_name("packet|scalar");
+    arguments.precision = "double";
+    command.add_option("--precision", arguments.precision, "double (default) or single")
+        ->check(one_of({"single", "double"}))
+        ->type_name("single|double");
+    add_traversal_option(command, arguments.traversal);
+    add_accuracy_options(command, arguments.accuracy);
+    add_isa_options(command, arguments.isa);
+    add_threads_option(command, arguments.threads);
+}
+
+}  // namespace
+
+void add_intersect_options(CLI::App& command, IntersectArguments& arguments)
+{
+    add_scene_option(command, arguments.scene);
+    command
+        .add_option("RAYS", arguments.rays,
+                    "CSV of ox,oy,oz,dx,dy,dz[,t_min,t_max]; - is standard input")
+        ->required()
+        ->type_name("");
+    command
+        .add_option("-o,--output", arguments.output,
+                    "CSV to write (default standard output): hit,t,object,nx,ny,nz")
+        ->type_name("FILE");
+    CLI::Option* all = command.add_flag(
+        "--all", arguments.all, "Write every hit of each ray in order: ray,t,object,nx,ny,nz");
+    CLI::Option* any =
+        command.add_flag("--any", arguments.any, "Write only whether a ray hits anything: hit")
+            ->excludes(all);
+    command
+        .add_flag("--bounds", arguments.bounds,
+                  "Write proven bounds of each t, too: t_low,t_high; some 10 µs a hit")
+        ->excludes(any);
+    add_options(command, arguments.kernel);
+}
+
+RenderOptions checked_options(const IntersectArguments& arguments)
+{
+    if (arguments.scene == "-" && arguments.rays == "-")
+        throw CLI::ValidationError(
+            "RAYS: standard input holds the scene or the rays, not both; give a file for one");
+    if (arguments.resume && arguments.output.empty())
+        throw CLI::ValidationError("--resume: standard output keeps nothing; give -o FILE");
+    return render_options(arguments.kernel);
+}
+
+std::string hits_recipe(const IntersectArguments& arguments, const Scene& scene,
+                        const RenderOptions& options)
+{
+    RenderArguments kernel;
+    kernel.kernel = arguments.kernel;
+    std::string recipe = FrameRecipe(kernel, scene, options).of(scene.camera);
+    recipe += arguments.all ? ", all hits" : arguments.any ? ", any hit" : ", closest hits";
+    return recipe + (arguments.bounds ? " with bounds" : "");
+}
+
+}  // namespace packtrace::cli

@@ -1,0 +1,44 @@
+#pragma once
+
+#include <optional>
+#include <string>
+
+#include <packtrace/scene.hpp>
+
+#include "cli/intersect/ray_query.hpp"
+#include "cli/options/common_options.hpp"
+
+namespace packtrace::cli {
+
+struct IntersectArguments {
+    std::string scene;
+    std::string rays;
+    std::string output;
+    KernelArguments kernel;
+    std::optional<std::string> shard;
+    bool all = false;
+    bool any = false;
+    bool bounds = false;
+    bool resume = false;
+
+    [[nodiscard]] RayQuery query() const
+    {
+        return all ? RayQuery::all : any ? RayQuery::any : RayQuery::closest;
+    }
+    [[nodiscard]] RayBounds ray_bounds() const
+    {
+        return bounds ? RayBounds::proven : RayBounds::none;
+    }
+};
+
+/// All options but `--shard` and `--resume`.
+void add_intersect_options(CLI::App& command, IntersectArguments& arguments);
+
+/// Throws CLI::ValidationError for options that contradict each other.
+[[nodiscard]] RenderOptions checked_options(const IntersectArguments& arguments);
+
+/// Says of hits all that they depend on, but for the rays.
+[[nodiscard]] std::string hits_recipe(const IntersectArguments& arguments, const Scene& scene,
+                                      const RenderOptions& options);
+
+}  // namespace packtrace::cli

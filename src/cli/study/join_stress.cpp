@@ -1,0 +1,130 @@
+#include "cli/study/join_stress.hpp"
+
+#include <algorithm>
+#include <optional>
+
+#include <nlohmann/json.hpp>
+
+#include "cli/options/shard.hpp"
+#include "core/json_text.hpp"
+#include "core/read_file.hpp"
+#include "lab/stress/stress.hpp"
+#include "lab/stress/stress_verdict.hpp"
+#include "scene/quote.hpp"
+
+namespace packtrace::cli {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+struct Part {
+    std::string name;
+    Shard shard;
+    Json json;
+};
+
+[[noreturn]] void fail(const std::string& name, const std::string& why)
+{
+    throw FileError(language::escape(name) + ": " + why);
+}
+
+Part read_part(const std::string& name)
+{
+    Part part{name, {}, Json::parse(read_file(name), nullptr, false)};
+    const bool whole = part.json.is_object() && part.json.contains("shard") &&
+                       part.json["shard"].is_string() && part.json.contains("rows") &&
+                       part.json["rows"].is_array();
+    const std::optional<Shard> shard =
+        whole ? parse_shard(part.json["shard"].get<std::string>()) : std::nullopt;
+    if (!shard)
+        fail(name, "is no part that packtrace stress --json --shard wrote");
+    part.shard = *shard;
+    return part;
+}
+
+/// In the order of their numbers.
+std::vector<Part> read_parts(const std::vector<std::string>& names)
+{
+    std::vector<Part> parts;
+    for (const std::string& name : names)
+        parts.push_back(read_part(name));
+    std::stable_sort(parts.begin(), parts.end(),
+                     [](const Part& a, const Part& b) { return a.shard.index < b.shard.index; });
+    for (std::size_t i = 0; i < parts.size(); ++i) {
+        const Part& part = parts[i];
+        for (const char* const key : {"seed", "rays_per_family"})
+            if (part.json[key] != parts.front().json[key] ||
+                part.shard.count != parts.front().shard.count)
+                fail(part.name,
+                     "is a part of other work than the others; join parts of the same options");
+        if (i > 0 && part.shard.index == parts[i - 1].shard.index)
+            fail(part.name,
+                 "is part " + part.shard.text() + ", as is another; give each part once");
+    }
+    for (int i = 0; i < parts.front().shard.count; ++i)
+        if (static_cast<std::size_t>(i) >= parts.size() ||
+            parts[static_cast<std::size_t>(i)].shard.index != i)
+            throw FileError("part " + Shard{i, parts.front().shard.count}.text() +
+                            " is missing; give all parts");
+    return parts;
+}
+
+/// As much of a row as the verdict asks for.
+lab::StressRow row_of(const Json& json)
+{
+    lab::StressRow row;
+    json.at("family").get_to(row.family);
+    json.at("precision").get_to(row.precision);
+    json.at("mode").get_to(row.mode);
+    json.at("held").get_to(row.held);
+    json.at("rays").get_to(row.rays);
+    json.at("hits").get_to(row.hits);
+    json.at("wrong").get_to(row.wrong);
+    json.at("self_hits").get_to(row.self_hits);
+    json.at("second_lost").get_to(row.second_lost);
+    json.at("bounds").get_to(row.bounds);
+    json.at("bounds_missed").get_to(row.bounds_missed);
+    json.at("t_at_doubles_limit").get_to(row.t_at_limit);
+    json.at("normal_beyond_1e-6").get_to(row.normal_beyond);
+    json.at("faults").get_to(row.faults);
+    return row;
+}
+
+std::size_t place_of(const std::string& family)
+{
+    static const std::vector<lab::StressFamilyInfo> families = lab::list_stress_families();
+    const auto at = std::find_if(families.begin(), families.end(),
+                                 [&](const auto& known) { return known.name == family; });
+    return static_cast<std::size_t>(at - families.begin());
+}
+
+}  // namespace
+
+std::string join_stress(const std::vector<std::string>& names)
+{
+    const std::vector<Part> parts = read_parts(names);
+    std::vector<Json> rows;
+    for (const Part& part : parts)
+        rows.insert(rows.end(), part.json["rows"].begin(), part.json["rows"].end());
+    std::vector<lab::StressRow> judged;
+    try {
+        // A family is wholly in one part, its rows in order.
+        std::stable_sort(rows.begin(), rows.end(), [](const Json& a, const Json& b) {
+            return place_of(a.at("family").get<std::string>()) <
+                   place_of(b.at("family").get<std::string>());
+        });
+        for (const Json& row : rows)
+            judged.push_back(row_of(row));
+    } catch (const Json::exception& error) {
+        fail(parts.front().name,
+             std::string("has a row that stress did not write: ") + error.what());
+    }
+    Json joined;
+    joined["seed"] = parts.front().json["seed"];
+    joined["rays_per_family"] = parts.front().json["rays_per_family"];
+    joined["verdict"] = lab::stress_verdict(judged);
+    joined["rows"] = rows;
+    return json_text(joined);
+}
+
+}  // namespace packtrace::cli
