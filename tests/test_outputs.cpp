@@ -167,6 +167,27 @@ TEST_CASE("what a killed program left is removed by the next that writes the sam
     CHECK(WaitingProgram::temporaries(folder) == 0);
 }
 
+TEST_CASE("names of files show in messages without their control characters", "[outputs]")
+{
+    const TempFolder folder;
+    const std::string scene = (folder / "\x1b[31mred\n.scene").string();
+    std::filesystem::copy_file(four_spheres_file, scene);
+    const std::string picture = (folder / "\x1b[31mred\n.pfm").string();
+    const ProgramResult rendered = run_packtrace({"render", scene, "--size", "8x8", "-o", picture});
+    CHECK(rendered.exit_code == 0);
+    CHECK_THAT(rendered.err, ContainsSubstring("\\x1b[31mred\\x0a.pfm"));
+    const ProgramResult info = run_packtrace({"info", scene});
+    CHECK(info.exit_code == 0);
+    const std::string systems = (folder / "\x1b[31mred\n.txt").string();
+    write_text(systems, "?\n");
+    const ProgramResult solved = run_packtrace({"onedim", systems, "--keep-going"});
+    CHECK(solved.exit_code == 1);
+    for (const std::string& text : {rendered.err, info.out, info.err, solved.err}) {
+        CAPTURE(text);
+        CHECK(text.find("\x1b") == std::string::npos);
+    }
+}
+
 TEST_CASE("more threads than are of use are not started", "[outputs]")
 {
     const TempFolder folder;

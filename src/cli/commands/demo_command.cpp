@@ -20,6 +20,7 @@
 #include "core/atomic_file.hpp"
 #include "lab/harness/statistics.hpp"
 #include "lab/harness/stopwatch.hpp"
+#include "scene/quote.hpp"
 
 namespace packtrace::cli {
 namespace {
@@ -84,10 +85,10 @@ void write_pictures(const std::filesystem::path& folder, const std::string& stem
 {
     const std::filesystem::path file = folder / (stem + ".png");
     write_image(file, convert<float>(entries.back().image));
-    std::cout << "picture           " << file.string() << '\n';
+    std::cout << "picture           " << language::escape(file.string()) << '\n';
     const std::filesystem::path map = folder / (stem + "_error.png");
     write_image(map, heatmap(entries.back().image, entries.front().image));
-    std::cout << "its error         " << map.string() << '\n';
+    std::cout << "its error         " << language::escape(map.string()) << '\n';
 }
 
 void run_demo(const DemoArguments& arguments)
@@ -101,8 +102,9 @@ void run_demo(const DemoArguments& arguments)
     const ThreadLimit limit(arguments.threads);
     std::vector<DemoEntry> entries = demo_entries(arguments.threads);
     render_rounds(scene, arguments.rounds, entries);
-    std::cout << input.name << ", " << scene.width << " x " << scene.height << ", median of "
-              << arguments.rounds << " renders; errors against the scalar reference in double\n\n";
+    std::cout << language::escape(input.name) << ", " << scene.width << " x " << scene.height
+              << ", median of " << arguments.rounds
+              << " renders; errors against the scalar reference in double\n\n";
     print_table(entries);
     std::cout << '\n';
     write_pictures(arguments.folder, input.stem, entries);

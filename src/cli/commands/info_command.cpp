@@ -20,6 +20,7 @@
 #include "cli/study/certainty_option.hpp"
 #include "core/json_text.hpp"
 #include "scene/key_tables.hpp"
+#include "scene/quote.hpp"
 #include "scene/values.hpp"
 #include "scene/words.hpp"
 
@@ -96,8 +97,8 @@ void print_memory(std::size_t bytes, std::size_t objects)
 
 void print_scene(const std::string& file, const Scene& scene, const SceneFeatures& features)
 {
-    std::cout << "\nscene    " << file << "\nsize     " << scene.width << " x " << scene.height
-              << "\nobjects  " << listed(count_objects(scene)) << "\nlights   "
+    std::cout << "\nscene    " << language::escape(file) << "\nsize     " << scene.width << " x "
+              << scene.height << "\nobjects  " << listed(count_objects(scene)) << "\nlights   "
               << listed(count_lights(scene)) << "\nmodel    " << word_of(scene.illumination)
               << "\ndepth    " << scene.max_depth << "\nweights  "
               << (scene.min_weight > 0.0 ? "from " + language::to_text(scene.min_weight) + " on"

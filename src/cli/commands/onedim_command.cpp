@@ -13,6 +13,7 @@
 #include "cli/options/common_options.hpp"
 #include "cli/options/validators.hpp"
 #include "core/file_error.hpp"
+#include "scene/quote.hpp"
 
 namespace packtrace::cli {
 namespace {
@@ -107,7 +108,7 @@ private:
             flush();
             throw std::runtime_error(message);
         }
-        std::cerr << message << '\n';
+        std::cerr << language::escape(message) << '\n';
         malformed_.push_back(systems_.size());
         systems_.push_back({});
     }

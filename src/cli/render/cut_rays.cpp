@@ -4,6 +4,7 @@
 #include <cstdio>
 #include <iostream>
 
+#include "scene/quote.hpp"
 #include "scene/values.hpp"
 
 namespace packtrace::cli {
@@ -27,7 +28,7 @@ void print_cut_rays(const std::string& output, const Scene& scene, const RenderO
 {
     if (scene.min_weight <= 0.0)
         return;
-    std::cerr << output << ": " << cut.rays << " rays of a weight below "
+    std::cerr << language::escape(output) << ": " << cut.rays << " rays of a weight below "
               << language::to_text(scene.min_weight) << " not traced; no pixel is off by more than "
               << rounded_up(cut.bound)
               << (options.adaptive ? " where the same samples are taken" : "") << '\n';

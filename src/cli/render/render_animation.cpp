@@ -15,6 +15,7 @@
 #include "cli/render/render_picture.hpp"
 #include "core/job_queue.hpp"
 #include "render/frame_pattern.hpp"
+#include "scene/quote.hpp"
 
 namespace packtrace::cli {
 namespace {
@@ -74,7 +75,8 @@ FrameRange frames_of(const AnimationArguments& arguments, const Scene& scene)
 
 void print_tally(const std::string& output, const FrameTally& tally)
 {
-    std::string text = output + ": " + std::to_string(tally.rendered) + " frames rendered";
+    std::string text =
+        language::escape(output) + ": " + std::to_string(tally.rendered) + " frames rendered";
     if (tally.rendered > 0)
         text += " in " + seconds_text(tally.rendering, tally.rendered) + "; written in " +
                 seconds_text(tally.writing, tally.rendered) + "; both in " +

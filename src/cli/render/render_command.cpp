@@ -19,6 +19,7 @@
 #include "cli/render/render_picture.hpp"
 #include "cli/study/certainty_option.hpp"
 #include "image/format.hpp"
+#include "scene/quote.hpp"
 
 namespace packtrace::cli {
 namespace {
@@ -40,7 +41,7 @@ void print_summary(const RenderArguments& arguments, const RenderOptions& option
                   ": %d x %d, %s, %s, %.1f ms, %.1f Mpixel/s; written in %.1f ms\n", scene.width,
                   scene.height, kernel.c_str(), arguments.kernel.precision.c_str(), 1e3 * seconds,
                   1e-6 * pixels / seconds, 1e3 * writing);
-    std::cerr << arguments.output << text;
+    std::cerr << language::escape(arguments.output) << text;
 }
 
 void check_gamma(const RenderArguments& arguments)

@@ -9,6 +9,7 @@
 #include <CLI/CLI.hpp>
 
 #include "image/format.hpp"
+#include "scene/quote.hpp"
 
 namespace packtrace::cli {
 namespace {
@@ -65,7 +66,7 @@ std::string write_certainty(const RenderArguments& arguments, const Scene& scene
     if (image_format(*arguments.certainty) != ImageFormat::png)
         write.gamma = 1.0;
     write_image(*arguments.certainty, certainty_picture(certainty), write);
-    return *arguments.certainty + ": red, traced again in double: " +
+    return language::escape(*arguments.certainty) + ": red, traced again in double: " +
            share_text(unsure_total(certainty.unsure), certainty.rays.total()) +
            "; blue, undecided by double, too: " +
            share_text(certainty.undecided, certainty.rays.total());

@@ -1,10 +1,9 @@
 #include "lab/truth/truth.hpp"
 
-#include <system_error>
-
 #include <packtrace/version.hpp>
 #include <packtrace/write_scene.hpp>
 
+#include "core/atomic_file.hpp"
 #include "core/text_hash.hpp"
 #include "lab/harness/machine.hpp"
 #include "lab/harness/stopwatch.hpp"
@@ -91,9 +90,7 @@ Truth find_truth(const Scene& scene, const TruthRequest& request)
     if (!truth || !still_true(*truth, scene, request.samples)) {
         truth = make_truth(scene, request);
         if (!request.cache.empty()) {
-            // A folder that can't be made shows when the file is written into it.
-            std::error_code ignored;
-            std::filesystem::create_directories(request.cache, ignored);
+            make_folders(request.cache);
             write_truth(file, *truth);
         }
     }
