@@ -5,9 +5,10 @@
 # bookworm (Debian 12) or trixie (13). Needs root, and debootstrap or a FOLDER with a fresh system.
 #   1. Sources: installs what ./run install names, builds, installs, and builds and runs a program
 #      of a user by find_package, pkg-config, and FetchContent, all compiled.
+#      The Python package is built and installed with the rest, and runs its page's programs.
 #   2. Packages: makes them there, installs them on a second fresh system, runs the program, and
-#      builds and runs a user's there. With --packages FOLDER, packages that are there already, and
-#      no step 1.
+#      builds and runs a user's there; the Python package likewise. With --packages FOLDER, packages
+#      that are there already, and no step 1.
 # Options go to CMake, such as -DPACKTRACE_ISAS=avx2. Objects are taken from CCACHE_DIR, where it is
 # set; CMAKE_BUILD_PARALLEL_LEVEL says how many are made at a time. Not a part of ctest: it takes as long as all of packtrace takes to build, twice.
 set -euo pipefail
@@ -87,6 +88,14 @@ uses_pkg_config() {
         $(pkg-config --cflags --libs packtrace) && /user_program'
 }
 
+# Runs the programs of docs/python.md.
+uses_python() {
+    step "the programs of docs/python.md"
+    inside "$1" sh -ec 'mkdir -p /programs && cd /programs &&
+        sed -n "/^\`\`\`python/,/^\`\`\`/p" /packtrace/docs/python.md | grep -v "^\`\`\`" >program.py &&
+        /usr/bin/python3 program.py && test -s ball.png'
+}
+
 copy_sources() {
     mkdir -p "$work/$1/packtrace"
     (cd "$source" && git ls-files -co --exclude-standard | tar cf - -T -) |
@@ -106,9 +115,10 @@ from_sources() {
     fi
     step "build and install"
     inside build sh -ec 'cd /packtrace && cmake --preset release -DPACKTRACE_BUILD_TESTS=OFF \
-        -DPACKTRACE_BUILD_BENCH=OFF "$@" && cmake --build --preset release &&
+        -DPACKTRACE_BUILD_BENCH=OFF -DPACKTRACE_PYTHON=ON "$@" && cmake --build --preset release &&
         cmake --install build/release >/installed && ldconfig' build "${options[@]}"
     inside build packtrace render /usr/local/share/packtrace/scenes/four_spheres.scene -o /a.png
+    uses_python build
     uses build find_package
     uses build find_package -DCOMPONENTS=static
     uses_pkg_config build
@@ -129,12 +139,14 @@ from_packages() {
     inside user packtrace render /usr/share/packtrace/scenes/four_spheres.scene -o /a.png
     inside user sh -ec 'apt-get install -y -qq --no-install-recommends /packages/*.deb g++ cmake make \
         pkgconf >/log || { cat /log; exit 1; }'
+    uses_python user
     uses user find_package
     uses user find_package -DCOMPONENTS=static
     uses_pkg_config user
     step "packages go"
-    inside user sh -ec 'apt-get remove -y -qq packtrace libpacktrace-dev >/log
-        ! [ -e /usr/bin/packtrace ] && ! [ -e /usr/include/packtrace ]'
+    inside user sh -ec 'apt-get remove -y -qq packtrace libpacktrace-dev python3-packtrace >/log
+        ! [ -e /usr/bin/packtrace ] && ! [ -e /usr/include/packtrace ] &&
+        ! python3 -c "import packtrace" 2>/log'
 }
 
 [ -n "$packages" ] || from_sources

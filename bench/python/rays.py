@@ -8,7 +8,7 @@ Both fill the same arrays of hits, in turns; the order changes from one turn to 
 medians, and their ratio with the range of its middle half over the turns. The rows say what rays are
 made of: `columns` are arrays whose components are contiguous each, with t_min and t_max as arrays;
 `numbers` are the same with numbers for t_min and t_max; `vectors` are arrays (n, 3) in C order, which
-Python sorts into columns, while C++ has the columns.
+the Python package sorts into columns, and C++ by a loop in its program.
 """
 
 import argparse
@@ -23,7 +23,7 @@ ROOT = Path(__file__).resolve().parents[2]
 
 
 def pointers(arrays):
-    return (ctypes.c_void_p * len(arrays))(*(0 if array is None else array.ctypes.data
+    return (ctypes.c_void_p * len(arrays))(*(None if array is None else array.ctypes.data
                                              for array in arrays))
 
 
@@ -36,12 +36,22 @@ class FromCpp:
         make.restype = ctypes.c_void_p
         self.closest = getattr(library, f"closest_{name}")
         self.closest.restype = ctypes.c_double
+        self.closest_of_vectors = getattr(library, f"vectors_{name}")
+        self.closest_of_vectors.restype = ctypes.c_double
         self.scene = ctypes.c_void_p(make(text.encode()))
 
-    def seconds(self, columns, hits):
+    @staticmethod
+    def to(hits):
         normals = [None] * 3 if hits.normal is None else hits.normal.T
-        return self.closest(self.scene, pointers(columns), ctypes.c_size_t(len(hits.t)),
-                            pointers([hits.t, *normals]), ctypes.c_void_p(hits.object.ctypes.data))
+        return (ctypes.c_size_t(len(hits.t)), pointers([hits.t, *normals]),
+                ctypes.c_void_p(hits.object.ctypes.data))
+
+    def seconds(self, columns, hits):
+        return self.closest(self.scene, pointers(columns), *self.to(hits))
+
+    def seconds_of_vectors(self, origins, directions, hits):
+        return self.closest_of_vectors(self.scene, ctypes.c_void_p(origins.ctypes.data),
+                                       ctypes.c_void_p(directions.ctypes.data), *self.to(hits))
 
 
 def seconds_of(call):
@@ -94,12 +104,13 @@ def main():
                     given += (columns[6], columns[7])
                 hits = ours.closest(*given, detail=detail)
                 expected = ours.closest(origins, directions, detail=detail)
-                cpp.seconds(columns, hits)
+                plain = (lambda: cpp.seconds_of_vectors(*given, hits)) if layout == "vectors" else (
+                    lambda: cpp.seconds(columns, hits))
+                plain()
                 assert np.array_equal(hits.t, expected.t), "answers differ"
-                seconds = race(arguments.turns, lambda: cpp.seconds(columns, hits),
-                               lambda: seconds_of(lambda: ours.closest(*given, detail=detail,
-                                                                       out=hits)))
-                ratios = [python / plain for plain, python in zip(*seconds)]
+                seconds = race(arguments.turns, plain, lambda: seconds_of(
+                    lambda: ours.closest(*given, detail=detail, out=hits)))
+                ratios = [python / direct for direct, python in zip(*seconds)]
                 low, _, high = statistics.quantiles(ratios, n=4)
                 rows.append({"dtype": str(dtype), "detail": detail, "layout": layout, "rays": count,
                              "cpp_s": statistics.median(seconds[0]),

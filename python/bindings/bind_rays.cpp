@@ -178,9 +178,12 @@ public:
         with_real(rays.origins.dtype(), [&](auto real) {
             using Real = decltype(real);
             const RayScene<Real>& scene = ready<Real>();
-            for_rays<Real>(rays, [&](const RaysView<Real>& view, std::size_t first) {
-                scene.bound_closest_hits(view, object + first, found + first);
-            });
+            for_rays<Real>(
+                rays,
+                [&](const RaysView<Real>& view, std::size_t first) {
+                    scene.bound_closest_hits(view, object + first, found + first);
+                },
+                slow_rays_between_signals);
         });
     }
 
@@ -194,13 +197,16 @@ private:
 
     /// Calls `work(view, first)` for blocks of rays.
     template <class Real, class Work>
-    void for_rays(const RayArrays& rays, const Work& work)
+    void for_rays(const RayArrays& rays, const Work& work,
+                  std::size_t between_signals = rays_between_signals)
     {
         GatheredBlocks<Real, 8> gathered{ColumnBlocks<Real, 8>(rays.columns())};
-        for_each_ray_block(rays.count(), gathered.blocks.block_size(), scenes_.threads(),
-                           [&](std::size_t first, std::size_t count) {
-                               work(rays_view(gathered.at(first, count), count), first);
-                           });
+        for_each_ray_block(
+            rays.count(), gathered.blocks.block_size(), scenes_.threads(),
+            [&](std::size_t first, std::size_t count) {
+                work(rays_view(gathered.at(first, count), count), first);
+            },
+            between_signals);
     }
 
     template <class Real>

@@ -11,8 +11,10 @@
 
 namespace packtrace::python {
 
-/// Between so many rays Ctrl-C is looked for.
+/// Between so many rays Ctrl-C is looked for; of slow queries, between fewer. Multiples of all
+/// sizes of blocks.
 inline constexpr std::size_t rays_between_signals = std::size_t{1} << 20;
+inline constexpr std::size_t slow_rays_between_signals = std::size_t{1} << 16;
 
 /// Calls `work(first, count)` for the blocks of [begin, end), on `threads` threads, 0 for one a
 /// processor.
@@ -36,13 +38,13 @@ void for_each_block(std::size_t begin, std::size_t end, std::size_t block, int t
 
 /// The same for all rays, without the GIL; Ctrl-C ends it.
 template <class Work>
-void for_each_ray_block(std::size_t count, std::size_t block, int threads, const Work& work)
+void for_each_ray_block(std::size_t count, std::size_t block, int threads, const Work& work,
+                        std::size_t between_signals = rays_between_signals)
 {
-    for (std::size_t begin = 0; begin < count; begin += rays_between_signals) {
+    for (std::size_t begin = 0; begin < count; begin += between_signals) {
         {
             const pybind11::gil_scoped_release release;
-            for_each_block(begin, std::min(count, begin + rays_between_signals), block, threads,
-                           work);
+            for_each_block(begin, std::min(count, begin + between_signals), block, threads, work);
         }
         if (PyErr_CheckSignals() != 0)
             throw pybind11::error_already_set();

@@ -68,14 +68,23 @@ public:
                                                          Buffer& buffer) const
     {
         std::array<const Real*, columns> result;
-        for (std::size_t i = 0; i < columns; ++i) {
+        std::size_t i = 0;
+        while (i < columns) {
             const Column& source = sources_[i];
-            if (source.stride == 0)
-                result[i] = constant_[i].data();
-            else if (is_contiguous<Real>(source))
-                result[i] = reinterpret_cast<const Real*>(source.data) + first;
-            else
-                result[i] = gather(source, first, count, i, buffer);
+            const std::size_t here = i++;
+            if (source.stride == 0) {
+                result[here] = constant_[here].data();
+            } else if (is_contiguous<Real>(source)) {
+                result[here] = reinterpret_cast<const Real*>(source.data) + first;
+            } else if (here % 3 == 0 && here + 3 <= columns &&
+                       sources_[here + 1].stride == source.stride) {
+                for (std::size_t axis = 0; axis < 3; ++axis)
+                    result[here + axis] = room(here + axis, buffer);
+                gather_vectors(here, first, count, buffer);
+                i = here + 3;
+            } else {
+                result[here] = gather(source, first, count, room(here, buffer));
+            }
         }
         return result;
     }
@@ -89,11 +98,34 @@ private:
         return value;
     }
 
-    [[nodiscard]] const Real* gather(const Column& source, std::size_t first, std::size_t count,
-                                     std::size_t row, Buffer& buffer) const
+    [[nodiscard]] Real* room(std::size_t column, Buffer& buffer) const
     {
         buffer.resize(columns * block_);
-        Real* const to = buffer.data() + row * block_;
+        return buffer.data() + column * block_;
+    }
+
+    /// The components of vectors, which start at column `x`, in one pass.
+    void gather_vectors(std::size_t x, std::size_t first, std::size_t count, Buffer& buffer) const
+    {
+        const char* from[3];
+        Real* to[3];
+        for (std::size_t axis = 0; axis < 3; ++axis) {
+            const Column& source = sources_[x + axis];
+            from[axis] = source.data + static_cast<std::ptrdiff_t>(first) * source.stride;
+            to[axis] = room(x + axis, buffer);
+        }
+        const std::ptrdiff_t stride = sources_[x].stride;
+        for (std::size_t i = 0; i < count; ++i) {
+            const std::ptrdiff_t at = static_cast<std::ptrdiff_t>(i) * stride;
+            std::memcpy(to[0] + i, from[0] + at, sizeof(Real));
+            std::memcpy(to[1] + i, from[1] + at, sizeof(Real));
+            std::memcpy(to[2] + i, from[2] + at, sizeof(Real));
+        }
+    }
+
+    [[nodiscard]] const Real* gather(const Column& source, std::size_t first, std::size_t count,
+                                     Real* to) const
+    {
         for (std::size_t i = 0; i < count; ++i)
             to[i] = element(source, first + i);
         return to;

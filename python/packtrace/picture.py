@@ -9,7 +9,7 @@ from typing import Any, Callable, List, Literal, Optional, Tuple, Union
 import numpy as np
 
 from . import _packtrace
-from .scene import Scene
+from .scene import Array, Scene
 
 Path = Union[str, "os.PathLike[str]"]
 
@@ -22,7 +22,7 @@ class CutRays:
     bound: float
 
 
-class Picture(np.ndarray):
+class Picture(np.ndarray[Any, Any]):
     """An array (height, width, 3) of linear red, green and blue, 1.0 for full, not clamped; rows from
     the top. It is an array like any other, and notebooks show it as a picture."""
 
@@ -92,14 +92,14 @@ def render(scene: Scene, *, width: Optional[int] = None, height: Optional[int] =
     return picture
 
 
-def compare(a: np.ndarray, b: np.ndarray, *, threshold: float = 1 / 255, worst: int = 5) -> Comparison:
+def compare(a: Array, b: Array, *, threshold: float = 1 / 255, worst: int = 5) -> Comparison:
     """Compares two pictures (height, width, 3) of one size and dtype, float32 or float64, which are
     copied. A pixel with an error above `threshold` counts as off; the `worst` ones are listed."""
     numbers, pixels = _packtrace.compare(*_two_pictures(a, b), threshold, worst)
     return Comparison(*numbers, [PixelError(*pixel) for pixel in pixels])
 
 
-def heatmap(a: np.ndarray, b: np.ndarray) -> Picture:
+def heatmap(a: Array, b: Array) -> Picture:
     """The error of each pixel as a colour: black for none, through blue, green, yellow and red to
     white for the largest, over six decades."""
     return _packtrace.heatmap(*_two_pictures(a, b)).view(Picture)
@@ -111,25 +111,25 @@ def read_image(file: Path) -> Picture:
     return _packtrace.read_image(os.fspath(file)).view(Picture)
 
 
-def write_image(file: Path, picture: np.ndarray, *, gamma: float = 1.0) -> None:
+def write_image(file: Path, picture: Array, *, gamma: float = 1.0) -> None:
     """Writes a picture (height, width, 3) by the file's extension: .png (8 bits, raised to 1 / gamma),
     .pfm (float32) or .hdr. The file appears whole or not at all. Raises ImageError."""
     _packtrace.write_image(os.fspath(file), _picture(picture, "picture"), gamma)
 
 
-def to_png(picture: np.ndarray, *, gamma: float = 1.0) -> bytes:
+def to_png(picture: Array, *, gamma: float = 1.0) -> bytes:
     """The bytes of an 8-bit PNG file of a picture (height, width, 3)."""
     return _packtrace.to_png(_picture(picture, "picture"), gamma)
 
 
-def _picture_dtype(dtype: Any) -> np.dtype:
+def _picture_dtype(dtype: Any) -> np.dtype[Any]:
     result = np.dtype(dtype)
     if result not in (np.float32, np.float64):
         raise ValueError(f"dtype is {result}; use np.float32 or np.float64")
     return result
 
 
-def _picture(value: Any, name: str) -> np.ndarray:
+def _picture(value: Any, name: str) -> Array:
     array = np.asarray(value)
     if array.ndim != 3 or array.shape[2] != 3 or array.size == 0:
         raise ValueError(f"{name} has shape {array.shape}; use (height, width, 3)")
@@ -138,7 +138,7 @@ def _picture(value: Any, name: str) -> np.ndarray:
     return np.ascontiguousarray(array)
 
 
-def _two_pictures(a: Any, b: Any) -> Tuple[np.ndarray, np.ndarray]:
+def _two_pictures(a: Any, b: Any) -> Tuple[Array, Array]:
     first, second = _picture(a, "a"), _picture(b, "b")
     if first.dtype != second.dtype:
         raise ValueError(f"a is {first.dtype} and b {second.dtype}; give both the same dtype")

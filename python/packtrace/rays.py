@@ -11,12 +11,12 @@ copied, as float64. All work runs without the GIL.
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import Any, Literal, Optional, Tuple, Union
+from typing import Any, Dict, List, Literal, Optional, Tuple, Union
 
 import numpy as np
 
 from . import _packtrace
-from .scene import Scene
+from .scene import Array, Scene
 
 NO_START = -(2**31)
 
@@ -28,33 +28,34 @@ class Starts:
     """Rays' origins on the surfaces of earlier hits, made by `Hits.leave`. Rays that start there meet
     that surface again only where they truly do."""
 
-    origin: np.ndarray  #: (..., 3), scene units; NaN where nothing was hit
-    point: np.ndarray  #: (..., 3), the hits' own points
-    surface: np.ndarray  #: (...), int32, numbers for RayScene
+    origin: Array  #: (..., 3), scene units; NaN where nothing was hit
+    point: Array  #: (..., 3), the hits' own points
+    surface: Array  #: (...), int32, numbers for RayScene
 
 
 @dataclass
 class Hits:
     """Closest hits. Arrays of vectors have contiguous components."""
 
-    t: np.ndarray  #: (...), in lengths of the ray's direction; t_max for a miss
-    object: np.ndarray  #: (...), int32, index in Scene.objects; -1 for a miss
-    normal: Optional[np.ndarray] = None  #: (..., 3), unit, outwards; 0 for a miss
-    point: Optional[np.ndarray] = None  #: (..., 3), scene units; NaN for a miss
+    t: Array  #: (...), in lengths of the ray's direction; t_max for a miss
+    object: Array  #: (...), int32, index in Scene.objects; -1 for a miss
+    normal: Optional[Array] = None  #: (..., 3), unit, outwards; 0 for a miss
+    point: Optional[Array] = None  #: (..., 3), scene units; NaN for a miss
     #: (..., 3), where rays may start that leave the surface on its outer side
-    outer_start: Optional[np.ndarray] = None
-    inner_start: Optional[np.ndarray] = None  #: (..., 3), the same of its inner side
-    surface: Optional[np.ndarray] = None  #: (...), int32, a number for `leave`
+    outer_start: Optional[Array] = None
+    inner_start: Optional[Array] = None  #: (..., 3), the same of its inner side
+    surface: Optional[Array] = None  #: (...), int32, a number for `leave`
 
     @property
-    def hit(self) -> np.ndarray:
+    def hit(self) -> Array:
         """Shape (...), bool: whether the ray hits anything."""
         return self.object >= 0
 
-    def leave(self, directions: np.ndarray) -> Starts:
+    def leave(self, directions: Array) -> Starts:
         """Starts of rays that go on from these hits in `directions` (..., 3), mirrored or refracted.
         Needs hits of detail="start"."""
-        if self.surface is None or self.normal is None or self.point is None:
+        if (self.surface is None or self.normal is None or self.point is None or
+                self.outer_start is None or self.inner_start is None):
             raise ValueError('these hits have no starts; ask for them: closest(..., detail="start")')
         directions = np.asarray(directions, self.t.dtype)
         inward = np.einsum("...i,...i", directions, self.normal) < 0
@@ -70,13 +71,13 @@ class AllHits:
     """Every hit of each ray, sorted by t. Those of ray i are [offsets[i]:offsets[i + 1]] of the other
     arrays; rays of several dimensions are counted in C order."""
 
-    offsets: np.ndarray  #: (rays + 1,), int64
-    t: np.ndarray  #: (hits,)
-    object: np.ndarray  #: (hits,), int32, index in Scene.objects
-    normal: np.ndarray  #: (hits, 3), unit, outwards
+    offsets: Array  #: (rays + 1,), int64
+    t: Array  #: (hits,)
+    object: Array  #: (hits,), int32, index in Scene.objects
+    normal: Array  #: (hits, 3), unit, outwards
 
     @property
-    def ray(self) -> np.ndarray:
+    def ray(self) -> Array:
         """Shape (hits,), int64: the number of each hit's ray."""
         return np.repeat(np.arange(len(self.offsets) - 1), np.diff(self.offsets))
 
@@ -133,7 +134,7 @@ class RayScene:
         return hits
 
     def occluded(self, origins: Any, directions: Any, t_min: Any = 0.0,
-                 t_max: Any = np.inf) -> np.ndarray:
+                 t_max: Any = np.inf) -> Array:
         """Whether each ray hits anything where t_min < t < t_max: bool, of shape (...)."""
         rays = _Rays(origins, directions, t_min, t_max)
         mask = np.empty(rays.shape, np.bool_)
@@ -147,7 +148,7 @@ class RayScene:
         return AllHits(*self._native.all_hits(*_Rays(origins, directions, t_min, t_max).columns))
 
     def bounds(self, origins: Any, directions: Any, object: Any, t_min: Any = 0.0,
-               t_max: Any = np.inf) -> np.ndarray:
+               t_max: Any = np.inf) -> Array:
         """Proven bounds of the t at which each ray first hits the object of number object[...], which
         `closest` gave: float64, (..., 2), low and high. Low is above high, (inf, -inf), where object
         is -1 or the ray surely does not hit it. Takes some 10 µs a ray."""
@@ -179,12 +180,14 @@ class _Rays:
             raise ValueError(f"origins are {self.dtype} and directions {vectors['directions'].dtype}; "
                              "give both the same dtype, which the answer then has")
         self.shape = _common_shape(vectors)
-        both = (_spread(array, (*self.shape, 3)).reshape(-1, 3) for array in vectors.values())
-        ends = (_spread(self._end(t, name), self.shape).reshape(-1)
-                for name, t in (("t_min", t_min), ("t_max", t_max)))
-        self.columns: Tuple[np.ndarray, ...] = (*both, *ends)
+        wide = (*self.shape, 3)
+        self.columns: Tuple[Array, Array, Array, Array] = (
+            _spread(vectors["origins"], wide).reshape(-1, 3),
+            _spread(vectors["directions"], wide).reshape(-1, 3),
+            _spread(self._end(t_min, "t_min"), self.shape).reshape(-1),
+            _spread(self._end(t_max, "t_max"), self.shape).reshape(-1))
 
-    def _end(self, t: Any, name: str) -> np.ndarray:
+    def _end(self, t: Any, name: str) -> Array:
         if isinstance(t, np.ndarray) and t.ndim > 0:
             if t.dtype != self.dtype:
                 raise ValueError(f"{name} is {t.dtype} and origins {self.dtype}; give both the same "
@@ -201,7 +204,7 @@ class _Rays:
         return array
 
 
-def _array(value: Any) -> np.ndarray:
+def _array(value: Any) -> Array:
     if isinstance(value, np.ndarray):
         return value
     try:
@@ -211,14 +214,14 @@ def _array(value: Any) -> np.ndarray:
                          ) from None
 
 
-def _checked_dtype(dtype: np.dtype, name: str) -> np.dtype:
+def _checked_dtype(dtype: np.dtype[Any], name: str) -> np.dtype[Any]:
     if dtype not in (np.float32, np.float64):
         raise ValueError(f"{name} is {dtype}; use float32 or float64, by astype(np.float64)")
     return dtype
 
 
-def _common_shape(vectors: Any) -> Tuple[int, ...]:
-    shapes = [array.shape[:-1] for array in vectors.values()]
+def _common_shape(vectors: Dict[str, Array]) -> Tuple[int, ...]:
+    shapes: List[Tuple[int, ...]] = [array.shape[:-1] for array in vectors.values()]
     if shapes[0] == shapes[1] or not shapes[1]:
         return shapes[0]
     if not shapes[0]:
@@ -227,11 +230,11 @@ def _common_shape(vectors: Any) -> Tuple[int, ...]:
                      "the same shape, or one of them (3,)")
 
 
-def _spread(array: np.ndarray, shape: Tuple[int, ...]) -> np.ndarray:
+def _spread(array: Array, shape: Tuple[int, ...]) -> Array:
     return array if array.shape == shape else np.broadcast_to(array, shape)
 
 
-def _by_component(shape: Tuple[int, ...], dtype: Any) -> np.ndarray:
+def _by_component(shape: Tuple[int, ...], dtype: Any) -> Array:
     """An array (..., 3) whose three components are contiguous each."""
     return np.moveaxis(np.empty((3, *shape), dtype), 0, -1)
 
@@ -265,19 +268,20 @@ def _checked_hits(hits: Hits, rays: _Rays, detail: Detail) -> Hits:
     return hits
 
 
-def _columns(array: Optional[np.ndarray]) -> Optional[np.ndarray]:
+def _columns(array: Optional[Array]) -> Optional[Array]:
     """The components of an array (..., 3) made by _by_component: (3, n), of the same memory."""
     return None if array is None else np.moveaxis(array, -1, 0).reshape(3, -1)
 
 
-def _flat_hits(hits: Hits) -> Tuple[Optional[np.ndarray], ...]:
+def _flat_hits(hits: Hits) -> Tuple[Array, Array, Optional[Array], Optional[Array],
+                                      Optional[Array], Optional[Array], Optional[Array]]:
     surface = None if hits.surface is None else hits.surface.reshape(-1)
     return (hits.t.reshape(-1), hits.object.reshape(-1), _columns(hits.normal), _columns(hits.point),
             _columns(hits.outer_start), _columns(hits.inner_start), surface)
 
 
 def _flat_starts(starts: Optional[Starts], rays: _Rays
-                 ) -> Tuple[Optional[np.ndarray], Optional[np.ndarray]]:
+                 ) -> Tuple[Optional[Array], Optional[Array]]:
     if starts is None:
         return None, None
     if starts.point.shape != (*rays.shape, 3) or starts.point.dtype != rays.dtype:

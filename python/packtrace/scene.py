@@ -10,16 +10,17 @@ from __future__ import annotations
 from dataclasses import dataclass, field, replace
 from typing import Any, Dict, List, Literal, Optional, Sequence, Tuple, Union
 
-import numpy as np
+from numpy.typing import NDArray
 
 from . import _packtrace
 
+Array = NDArray[Any]
 #: Three numbers, of any sequence or array.
-Vector = Union[Sequence[float], np.ndarray]
+Vector = Union[Sequence[float], Array]
 #: Rows of numbers, of sequences or an array.
-Matrix = Union[Sequence[Sequence[float]], np.ndarray]
+Matrix = Union[Sequence[Sequence[float]], Array]
 #: One number for all channels, or red, green and blue.
-Colour = Union[float, Sequence[float], np.ndarray]
+Colour = Union[float, Sequence[float], Array]
 
 Illumination = Literal["scratch", "sketch", "whitted", "shader", "general"]
 QuadricKind = Literal["ellipsoid", "cylinder", "cone", "paraboloid", "hyperboloid", "hyperboloid2",
@@ -69,7 +70,7 @@ class Polygon:
     another is a hole.
     """
 
-    contours: Sequence[Union[Sequence[Vector], np.ndarray]] = ()
+    contours: Sequence[Union[Sequence[Vector], Array]] = ()
 
 
 Surface = Union[Sphere, Plane, Quadric, Polygon]

@@ -1,5 +1,6 @@
 """Rays: answers are the program's, bit for bit; arrays are neither copied nor guessed at."""
 
+import signal
 import threading
 import unittest
 
@@ -228,6 +229,19 @@ class TestArrays(unittest.TestCase):
         hits = self.rays.closest(origins, directions)
         self.assertFalse(hits.hit[::2].any())
         self.assertTrue(hits.hit[1::2].any())
+
+
+class TestInterrupts(unittest.TestCase):
+    def test_ctrl_c_stops_a_long_call(self):
+        rays = pt.RayScene(hand_scene(), threads=1)
+        count = 3_000_000
+        directions = np.broadcast_to((0.0, 0.0, 1.0), (count, 3))
+        # Bounds take seconds; the signal comes long before their end.
+        timer = threading.Timer(0.05, signal.raise_signal, (signal.SIGINT,))
+        timer.start()
+        with self.assertRaises(KeyboardInterrupt):
+            rays.bounds((0, 0, 0), directions, np.zeros(count, np.int32))
+        timer.join()
 
 
 class TestMemory(unittest.TestCase):
