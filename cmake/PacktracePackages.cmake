@@ -45,6 +45,8 @@ if(PACKTRACE_PYTHON)
     math(EXPR next_python "${Python_VERSION_MINOR} + 1")
     set(CPACK_DEBIAN_PYTHON_PACKAGE_DEPENDS "python3-numpy, \
 python3 (>= 3.${Python_VERSION_MINOR}~), python3 (<< 3.${next_python})")
+    set(CPACK_DEBIAN_PYTHON_PACKAGE_CONTROL_EXTRA
+        ${CMAKE_CURRENT_LIST_DIR}/python3-packtrace/prerm)
 endif()
 set(CPACK_COMPONENT_PYTHON_DESCRIPTION "The Python module packtrace.")
 

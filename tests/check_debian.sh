@@ -146,7 +146,7 @@ from_packages() {
     step "packages go"
     inside user sh -ec 'apt-get remove -y -qq packtrace libpacktrace-dev python3-packtrace >/log
         ! [ -e /usr/bin/packtrace ] && ! [ -e /usr/include/packtrace ] &&
-        ! python3 -c "import packtrace" 2>/log'
+        ! python3 -Ic "import packtrace" 2>/log'
 }
 
 [ -n "$packages" ] || from_sources
