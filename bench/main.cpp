@@ -10,6 +10,7 @@ int main(int argc, char** argv)
     packtrace::bench::register_kernels();
     packtrace::bench::register_frames();
     packtrace::bench::register_power();
+    packtrace::bench::register_updates();
 
     benchmark::Initialize(&argc, argv);
     if (benchmark::ReportUnrecognizedArguments(argc, argv))

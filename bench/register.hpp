@@ -2,9 +2,10 @@
 
 namespace packtrace::bench {
 
-/// Each registers the benchmarks of one file, for every instruction set of the machine.
+/// Each registers the benchmarks of one file.
 void register_kernels();
 void register_frames();
 void register_power();
+void register_updates();
 
 }  // namespace packtrace::bench

@@ -9,6 +9,7 @@
 
 #include <tbb/task_arena.h>
 
+#include "bvh/refit.hpp"
 #include "catch.hpp"
 
 // The hierarchy's invariants, whatever it is built of.
@@ -205,6 +206,62 @@ TEST_CASE("the validator sees a box that is too small", "[bvh]")
     Bvh bvh = build_bvh(items);
     bvh.nodes[0].high[1][0] -= 1.0f;
     CHECK(Validator(bvh, as_given).faults > 0);
+}
+
+namespace {
+
+std::vector<Box4> boxes_of_leaves(const Bvh& bvh, const std::vector<BvhItem>& items)
+{
+    std::vector<Box4> boxes;
+    for (const BvhLeaf& leaf : bvh.leaves) {
+        Box4 box;
+        for (std::uint32_t i = 0; i < leaf.count; ++i) {
+            const BvhItem& item = items.at(bvh.order.at(leaf.first + i));
+            box.include(low_of(item), high_of(item));
+        }
+        boxes.push_back(box);
+    }
+    return boxes;
+}
+
+}  // namespace
+
+TEST_CASE("a refitted hierarchy holds every item where it is now", "[bvh]")
+{
+    for (const Items& family : families()) {
+        CAPTURE(family.name);
+        std::vector<BvhItem> sorted = family.items;
+        Bvh bvh = build_bvh(sorted);
+        // Without a move nothing changes.
+        const std::vector<abi::BvhNode> built = bvh.nodes;
+        refit_bvh(bvh, boxes_of_leaves(bvh, family.items));
+        CHECK(std::memcmp(built.data(), bvh.nodes.data(), built.size() * sizeof built[0]) == 0);
+
+        std::vector<BvhItem> moved = family.items;
+        std::mt19937 random(3);
+        std::uniform_real_distribution<float> by(-5.0f, 5.0f);
+        for (BvhItem& item : moved)
+            for (int axis = 0; axis < 3; ++axis) {
+                const float step = by(random);
+                item.low[axis] += step;
+                item.high[axis] += step;
+            }
+        refit_bvh(bvh, boxes_of_leaves(bvh, moved));
+        CHECK(Validator(bvh, moved).faults == 0);
+    }
+}
+
+TEST_CASE("the cost of a hierarchy grows as its items scatter", "[bvh]")
+{
+    const std::vector<BvhItem> items = scattered(5000, 1);
+    std::vector<BvhItem> sorted = items;
+    Bvh bvh = build_bvh(sorted);
+    const double built = surface_area_cost(bvh);
+    CHECK(built > 1.0);
+    std::vector<BvhItem> moved = items;
+    std::shuffle(moved.begin(), moved.end(), std::mt19937(4));
+    refit_bvh(bvh, boxes_of_leaves(bvh, moved));
+    CHECK(surface_area_cost(bvh) > 5.0 * built);
 }
 
 TEST_CASE("a hierarchy does not depend on the number of threads", "[bvh]")

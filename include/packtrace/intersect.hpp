@@ -15,8 +15,16 @@
 
 namespace packtrace {
 
+/// What RayScene::update() did.
+struct SceneUpdate {
+    /// Whether all was built anew. Else the hierarchy was refitted: its boxes follow the objects.
+    bool rebuilt = false;
+    /// How many boxes a random line enters, against the hierarchy when it was built.
+    double cost = 1.0;
+};
+
 /// A scene made ready for rays of the caller's own, by the packet kernels or the scalar
-/// reference. `Real` is float or double. All members may be called from several threads at
+/// reference. `Real` is float or double. All const members may be called from several threads at
 /// once; `closest_hits` and `occluded` allocate nothing with the packet kernels. `watch` reports
 /// progress and can stop a query, which then throws StopError.
 template <class Real>
@@ -28,6 +36,22 @@ public:
     PACKTRACE_API ~RayScene();
     PACKTRACE_API RayScene(RayScene&&) noexcept;
     PACKTRACE_API RayScene& operator=(RayScene&&) noexcept;
+
+    /// Takes over where objects of `scene` are now: the numbers of their surfaces, and
+    /// Object::transform. It has the objects, in their order, that this was made of; `moved` are
+    /// the numbers of those that may have moved, all without it. The answers are from then on those
+    /// of a RayScene made of `scene`, bit for bit.
+    ///
+    /// The hierarchy is refitted, several times as quickly as one is built. It is built anew by the
+    /// first update (which keeps what later ones need, some 100 bytes an object), where objects
+    /// become another kind of surface or were or are too large for it (such as planes), where its
+    /// cost has grown to 1.5, and always where there is none (few objects, the scalar kernel).
+    ///
+    /// Works on the threads of the TBB arena the call runs in; no other member may run meanwhile.
+    /// Throws SceneError as validate() does, std::invalid_argument for another number of objects
+    /// and for numbers that no object has; then the answers stay those of before.
+    PACKTRACE_API SceneUpdate update(const Scene& scene, std::span<const std::int32_t> moved);
+    PACKTRACE_API SceneUpdate update(const Scene& scene);
 
     // Rays as arrays of their components.
 

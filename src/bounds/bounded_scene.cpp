@@ -1,23 +1,98 @@
 #include "bounds/bounded_scene.hpp"
 
+#include <type_traits>
 #include <variant>
+
+#include <tbb/blocked_range.h>
+#include <tbb/concurrent_vector.h>
+#include <tbb/parallel_for.h>
 
 #include "bounds/line_hits.hpp"
 
 namespace packtrace::bounds {
+namespace {
+
+bool equal(const Sphere& a, const Sphere& b)
+{
+    return a.center == b.center && a.radius == b.radius;
+}
+
+bool equal(const Plane& a, const Plane& b)
+{
+    return a.point == b.point && a.normal == b.normal;
+}
+
+bool equal(const Quadric& a, const Quadric& b)
+{
+    return a.kind == b.kind && a.coefficients == b.coefficients && a.capped == b.capped &&
+           a.z_range.has_value() == b.z_range.has_value() &&
+           (!a.z_range || (a.z_range->low == b.z_range->low && a.z_range->high == b.z_range->high));
+}
+
+bool equal(const Polygon& a, const Polygon& b)
+{
+    return a.contours == b.contours;
+}
+
+}  // namespace
 
 BoundedScene::BoundedScene(const Scene& scene)
 {
     index_.reserve(scene.objects.size());
     for (const Object& object : scene.objects) {
-        const Sphere* sphere = std::get_if<Sphere>(&object.surface);
-        if (sphere != nullptr && object.transform == Mat4(1.0)) {
+        if (is_plain_sphere(object)) {
             index_.push_back(static_cast<std::int32_t>(spheres_.size()));
-            spheres_.push_back(*sphere);
+            spheres_.push_back(std::get<Sphere>(object.surface));
         } else {
             index_.push_back(~static_cast<std::int32_t>(placed_.size()));
             placed_.push_back({object.surface, object.transform});
         }
+    }
+}
+
+bool BoundedScene::holds(std::int32_t object, const Object& now) const
+{
+    const std::int32_t at = index_[static_cast<std::size_t>(object)];
+    if (at >= 0)
+        return is_plain_sphere(now) &&
+               equal(spheres_[static_cast<std::size_t>(at)], std::get<Sphere>(now.surface));
+    const Placed& placed = placed_[static_cast<std::size_t>(~at)];
+    return placed.transform == now.transform && placed.surface.index() == now.surface.index() &&
+           std::visit(
+               [&](const auto& surface) {
+                   return equal(surface, std::get<std::decay_t<decltype(surface)>>(now.surface));
+               },
+               placed.surface);
+}
+
+bool BoundedScene::replace_in_place(const Scene& scene, const MovedShape& shape)
+{
+    const std::int32_t at = index_[static_cast<std::size_t>(shape.object)];
+    if (at >= 0 && !shape.plain)
+        return false;
+    if (at >= 0) {
+        spheres_[static_cast<std::size_t>(at)] = shape.sphere;
+    } else {
+        const Object& now = scene.objects[static_cast<std::size_t>(shape.object)];
+        placed_[static_cast<std::size_t>(~at)] = {now.surface, now.transform};
+    }
+    return true;
+}
+
+void BoundedScene::replace(const Scene& scene, std::span<const MovedShape> moved)
+{
+    constexpr std::size_t task_objects = 4096;
+    tbb::concurrent_vector<std::int32_t> placed_now;
+    tbb::parallel_for(tbb::blocked_range<std::size_t>(0, moved.size(), task_objects),
+                      [&](const tbb::blocked_range<std::size_t>& part) {
+                          for (std::size_t i = part.begin(); i < part.end(); ++i)
+                              if (!replace_in_place(scene, moved[i]))
+                                  placed_now.push_back(moved[i].object);
+                      });
+    for (const std::int32_t object : placed_now) {
+        const Object& now = scene.objects[static_cast<std::size_t>(object)];
+        index_[static_cast<std::size_t>(object)] = ~static_cast<std::int32_t>(placed_.size());
+        placed_.push_back({now.surface, now.transform});
     }
 }
 

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <span>
 #include <vector>
@@ -7,6 +8,7 @@
 #include <packtrace/intersect.hpp>
 
 #include "bounds/choose_bounds.hpp"
+#include "scene/moved_shape.hpp"
 
 namespace packtrace::bounds {
 
@@ -14,6 +16,17 @@ namespace packtrace::bounds {
 class BoundedScene {
 public:
     explicit BoundedScene(const Scene& scene);
+
+    [[nodiscard]] std::size_t object_count() const
+    {
+        return index_.size();
+    }
+
+    /// Whether an object's surface and place are those of `now`.
+    [[nodiscard]] bool holds(std::int32_t object, const Object& now) const;
+
+    /// Takes over the surfaces and places of some objects, each named once.
+    void replace(const Scene& scene, std::span<const MovedShape> moved);
 
     /// Bounds of the first hit of a line with an object.
     [[nodiscard]] HitBounds first_hit(std::int32_t object, const Line& line,
@@ -30,6 +43,8 @@ private:
         Mat4 transform;
     };
 
+    /// False where the object needs another entry than it has.
+    bool replace_in_place(const Scene& scene, const MovedShape& shape);
     [[nodiscard]] std::vector<HitInterval> hits_of(std::int32_t object, const Line& line) const;
 
     std::vector<std::int32_t> index_;  ///< in `spheres_`, or the complement of one in `placed_`

@@ -26,15 +26,6 @@ Vec3 anchor_of(const LoweredSphere& sphere)
     return sphere.center - sphere.center * (sphere.radius / distance);
 }
 
-bool is_anchored(const LoweredSphere& sphere)
-{
-    // Most spheres are not by far, which costs no square root.
-    const double reach = sphere.radius * (1.0 + 2.0 / anchored_ratio);
-    if (glm::dot(sphere.center, sphere.center) > reach * reach)
-        return false;
-    return sphere.radius > anchored_ratio * glm::length(anchor_of(sphere));
-}
-
 /// The factor of a similarity transform, or 0 when angles or ratios of lengths change.
 double similarity_scale(const Mat4& transform)
 {
@@ -60,6 +51,15 @@ Exit exit_of_sphere(const Vec3& center, double radius, const Vec3& eye, const Ve
 }
 
 }  // namespace
+
+bool is_anchored(const LoweredSphere& sphere)
+{
+    // Most spheres are not by far, which costs no square root.
+    const double reach = sphere.radius * (1.0 + 2.0 / anchored_ratio);
+    if (glm::dot(sphere.center, sphere.center) > reach * reach)
+        return false;
+    return sphere.radius > anchored_ratio * glm::length(anchor_of(sphere));
+}
 
 bool lower_sphere(const Sphere& sphere, const Mat4& transform, std::int32_t surface,
                   SurfaceLists& lists)

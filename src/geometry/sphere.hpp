@@ -42,6 +42,10 @@ int lower_kind(const Object& object, const Sphere& sphere, std::int32_t surface,
 bool lower_sphere(const Sphere& sphere, const Mat4& transform, std::int32_t surface,
                   SurfaceLists& lists);
 
+/// Whether a sphere's surface passes so near the world's origin for its size that it is stored as
+/// an anchored one.
+[[nodiscard]] bool is_anchored(const LoweredSphere& sphere);
+
 /// Moves the spheres whose surface passes near the world's origin for their size to a list of
 /// their own, and finds their anchors.
 void part_anchored_spheres(SurfaceLists& lists);

@@ -42,10 +42,10 @@ Traversal chosen(Traversal traversal, const LoweredScene& lowered, std::size_t t
 }
 
 template <class Real>
-PackedTree<Real> pack_tree(const LoweredScene& lowered, Traversal traversal)
+PackedTree<Real> pack_tree(const LoweredScene& lowered, Traversal traversal, Bvh* keep)
 {
     return chosen(traversal, lowered, stream_tree_objects) == Traversal::tree
-               ? PackedTree<Real>(lowered)
+               ? PackedTree<Real>(lowered, keep)
                : PackedTree<Real>();
 }
 
@@ -65,8 +65,8 @@ Traversal frame_traversal(const LoweredScene& lowered, Traversal traversal, int 
 }
 
 template <class Real>
-PackedScene<Real>::PackedScene(const LoweredScene& lowered, Traversal traversal)
-    : tree_(pack_tree<Real>(lowered, traversal)),
+PackedScene<Real>::PackedScene(const LoweredScene& lowered, Traversal traversal, Bvh* keep)
+    : tree_(pack_tree<Real>(lowered, traversal, keep)),
       lists_(lowered, !tree_.view().empty()),
       shapes_(lowered)
 {
@@ -95,6 +95,19 @@ PackedScene<Real>::PackedScene(const LoweredScene& lowered, Traversal traversal)
         view_.rules.secondary_t_min = static_cast<Real>(lowered.epsilon);
     else
         view_.rules.start_error = start_roundoffs<Real> * std::numeric_limits<Real>::epsilon() / 2;
+}
+
+template <class Real>
+void PackedScene<Real>::refit(const LoweredScene& lowered, const Bvh& bvh)
+{
+    tree_.refit(lowered, bvh);
+    shapes_.move(lowered);
+    view_.tree = tree_.view();
+    view_.shapes = shapes_.view();
+    if (view_.wide == nullptr)
+        return;
+    wide_.tree = tree_.wide_view(shapes_.view());
+    view_.certifiable = certifiable(lowered);
 }
 
 template <class Real>

@@ -24,9 +24,15 @@ template <class Real>
 class PackedScene {
 public:
     /// Throws std::invalid_argument for polygons, which no kernel traces.
-    explicit PackedScene(const LoweredScene& lowered, Traversal traversal = Traversal::automatic);
+    /// `keep`, if any, gets the hierarchy, if any, as refit() needs it.
+    explicit PackedScene(const LoweredScene& lowered, Traversal traversal = Traversal::automatic,
+                         Bvh* keep = nullptr);
     PackedScene(const PackedScene&) = delete;
     PackedScene& operator=(const PackedScene&) = delete;
+
+    /// Takes over where objects are now that `bvh` holds, after refit_tree(). Each is still of its
+    /// kind; objects that lists hold have not moved. For scenes whose objects all cast shadows.
+    void refit(const LoweredScene& lowered, const Bvh& bvh);
 
     /// Valid as long as this object.
     [[nodiscard]] const abi::SceneView<Real>& view() const

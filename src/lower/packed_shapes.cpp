@@ -31,6 +31,11 @@ AlignedArray<Shape> pack_kind(const std::vector<Object>& objects,
     return shapes;
 }
 
+bool any_hit_again_outside(const LoweredScene& lowered)
+{
+    return !std::all_of(lowered.quadrics.begin(), lowered.quadrics.end(), is_convex);
+}
+
 }  // namespace
 
 PackedShapes::PackedShapes(const LoweredScene& lowered) : index_(lowered.material_index.size())
@@ -40,14 +45,32 @@ PackedShapes::PackedShapes(const LoweredScene& lowered) : index_(lowered.materia
         auto& shapes = std::get<AlignedArray<ShapeOf<Kind>>>(shapes_);
         shapes = pack_kind(lowered.*list, lowered.faces_viewer, index_, view_.*Kind::shapes);
     });
+    pack_corners(lowered);
+    view_.index = index_.data();
+    view_.hit_again_outside = any_hit_again_outside(lowered);
+}
+
+void PackedShapes::move(const LoweredScene& lowered)
+{
+    for_each_kind([&](auto list) {
+        using Kind = KindOf<decltype(list)>;
+        auto& shapes = std::get<AlignedArray<ShapeOf<Kind>>>(shapes_);
+        const auto& objects = lowered.*list;
+        for_each_in_parallel(objects, [&](const Kind& object) {
+            shapes[static_cast<std::size_t>(&object - objects.data())] = shape_of(object);
+        });
+    });
+    pack_corners(lowered);
+    view_.hit_again_outside = any_hit_again_outside(lowered);
+}
+
+void PackedShapes::pack_corners(const LoweredScene& lowered)
+{
     std::vector<const LoweredPolygon*> polygons;
     for (const LoweredPolygon& polygon : lowered.polygons)
         polygons.push_back(&polygon);
     auto& records = std::get<AlignedArray<abi::PolygonRecord<double>>>(shapes_);
     polygon_corners_ = PackedCorners<double>(polygons, {records.data(), records.size()});
-    view_.index = index_.data();
-    view_.hit_again_outside =
-        !std::all_of(lowered.quadrics.begin(), lowered.quadrics.end(), is_convex);
 }
 
 }  // namespace packtrace

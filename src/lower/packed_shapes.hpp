@@ -16,6 +16,9 @@ class PackedShapes {
 public:
     explicit PackedShapes(const LoweredScene& lowered);
 
+    /// Takes over where surfaces are now; each is still of its kind.
+    void move(const LoweredScene& lowered);
+
     /// Valid as long as this object, also where that moves to.
     [[nodiscard]] const abi::ShapesView& view() const
     {
@@ -29,6 +32,8 @@ public:
     }
 
 private:
+    void pack_corners(const LoweredScene& lowered);
+
     AlignedArray<abi::SurfaceIndex> index_;
     decltype(shape_arrays_of(surface_lists)) shapes_;
     PackedCorners<double> polygon_corners_;

@@ -3,9 +3,16 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
+#include <span>
+#include <utility>
 
+#include <glm/common.hpp>
 #include <glm/geometric.hpp>
 
+#include <tbb/parallel_reduce.h>
+
+#include "bvh/refit.hpp"
 #include "lower/in_parallel.hpp"
 
 namespace packtrace {
@@ -30,14 +37,19 @@ float round_up(double x)
     return std::nextafter(rounded, std::numeric_limits<float>::infinity());
 }
 
-/// The box with room for what rounding does to a centre and a radius.
+/// Half the sizes of a box with room for what rounding does to a centre and a radius.
+Vec3 with_slack(const CenteredBox& box)
+{
+    return box.half * (1.0 + 1e-6) + glm::abs(box.center) * 3e-7;
+}
+
 BvhItem make_item(const CenteredBox& box, std::size_t number, ItemKind kind)
 {
     BvhItem item{};
+    const Vec3 size = with_slack(box);
     for (int axis = 0; axis < 3; ++axis) {
-        const double size = box.half[axis] * (1.0 + 1e-6) + std::abs(box.center[axis]) * 3e-7;
-        item.low[axis] = round_down(box.center[axis] - size);
-        item.high[axis] = round_up(box.center[axis] + size);
+        item.low[axis] = round_down(box.center[axis] - size[axis]);
+        item.high[axis] = round_up(box.center[axis] + size[axis]);
     }
     item.number = static_cast<std::uint32_t>(number);
     item.kind = kind;
@@ -109,79 +121,6 @@ double worst_slack(const LoweredScene& lowered)
     return sphere_slack * condition;
 }
 
-}  // namespace
-
-std::size_t count_tree_objects(const LoweredScene& lowered)
-{
-    std::size_t count = 0;
-    for_each_surface(lowered, [&](const auto& object) { count += fits_tree(object) ? 1u : 0u; });
-    return count;
-}
-
-template <class Real>
-PackedTree<Real>::PackedTree(const LoweredScene& lowered)
-{
-    Bvh bvh = build_tree(lowered);
-    if (bvh.nodes.empty())
-        return;
-    pack_leaves(lowered, bvh);
-    nodes_ = AlignedArray<abi::BvhNode>::unset(bvh.nodes.size());
-    std::copy(bvh.nodes.begin(), bvh.nodes.end(), nodes_.data());
-    view_.nodes = nodes_.data();
-    view_.blocks = blocks_.data();
-    view_.block_surfaces = block_surfaces_.data();
-    view_.run_surfaces = run_surfaces_.data();
-    view_.quadrics = quadrics_.data();
-    view_.polygons = polygons_.data();
-    view_.quadric_count = static_cast<int>(quadrics_.size());
-    view_.node_count = static_cast<int>(bvh.nodes.size());
-    view_.extent = extent_of(nodes_[0]);
-    view_.slack = static_cast<float>(worst_slack(lowered));
-    view_.spread = coherent_spread(bvh.nodes, view_.extent);
-    bound_root(nodes_[0]);
-    for (const LoweredSphere& sphere : lowered.spheres)
-        view_.center_error = std::max(view_.center_error, round_up(center_error<Real>(sphere)));
-}
-
-/// The ball around the root's box.
-template <class Real>
-void PackedTree<Real>::bound_root(const abi::BvhNode& root)
-{
-    Vec3 low(std::numeric_limits<double>::infinity());
-    Vec3 high(-std::numeric_limits<double>::infinity());
-    for (int slot = 0; slot < abi::node_width; ++slot)
-        for (int axis = 0; axis < 3; ++axis)
-            if (root.low[axis][slot] <= root.high[axis][slot]) {
-                low[axis] = std::min(low[axis], double{root.low[axis][slot]});
-                high[axis] = std::max(high[axis], double{root.high[axis][slot]});
-            }
-    Vec3 rounded;
-    for (int axis = 0; axis < 3; ++axis) {
-        view_.middle[axis] = static_cast<float>(0.5 * low[axis] + 0.5 * high[axis]);
-        rounded[axis] = double{view_.middle[axis]};
-    }
-    view_.radius =
-        round_up(1.000001 * std::max(glm::length(high - rounded), glm::length(low - rounded)));
-}
-
-template <class Real>
-abi::BvhView<double> PackedTree<Real>::wide_view(const abi::ShapesView& shapes) const
-{
-    abi::BvhView<double> wide;
-    wide.nodes = view_.nodes;
-    wide.block_surfaces = view_.block_surfaces;
-    wide.run_surfaces = view_.run_surfaces;
-    wide.quadric_count = view_.quadric_count;
-    wide.shapes = &shapes;
-    wide.node_count = view_.node_count;
-    wide.extent = view_.extent;
-    wide.slack = view_.slack;
-    wide.spread = view_.spread;
-    return wide;
-}
-
-namespace {
-
 /// How many of what leaves hold there are: blocks of spheres, and objects of the other kinds.
 using LeafCounts = std::array<std::uint32_t, item_kinds>;
 
@@ -226,22 +165,81 @@ std::vector<const LoweredPolygon*> polygons_of_runs(const LoweredScene& lowered,
     return polygons;
 }
 
-void name_leaves(Bvh& bvh, const std::vector<std::uint32_t>& names)
+void name_leaves(std::span<abi::BvhNode> nodes, const std::vector<std::uint32_t>& names)
 {
-    for (abi::BvhNode& node : bvh.nodes)
+    for (abi::BvhNode& node : nodes)
         for (int slot = 0; slot < abi::node_width; ++slot)
             if (abi::is_leaf(node.child[slot]) && node.low[0][slot] <= node.high[0][slot])
                 node.child[slot] = names[node.child[slot] & ~abi::leaf_bit];
 }
 
+/// How far rounding to Real moves the centre of any of the spheres, at most.
+template <class Real>
+float worst_center_error(const std::vector<LoweredSphere>& spheres)
+{
+    constexpr std::size_t task_spheres = 4096;
+    return tbb::parallel_reduce(
+        tbb::blocked_range<std::size_t>(0, spheres.size(), task_spheres), 0.0f,
+        [&](const tbb::blocked_range<std::size_t>& part, float worst) {
+            for (std::size_t i = part.begin(); i < part.end(); ++i)
+                worst = std::max(worst, round_up(center_error<Real>(spheres[i])));
+            return worst;
+        },
+        [](float a, float b) { return std::max(a, b); });
+}
+
+/// The box of what is in a leaf. It is rounded once, so that nearly all is done in double.
+template <class Object>
+Box4 box_of_leaf(const std::vector<Object>& objects, const Bvh& bvh, const BvhLeaf& leaf)
+{
+    Vec3 low(std::numeric_limits<double>::infinity());
+    Vec3 high(-std::numeric_limits<double>::infinity());
+    for (std::uint32_t i = 0; i < leaf.count; ++i) {
+        const CenteredBox box = box_of(objects[bvh.order[leaf.first + i]]);
+        const Vec3 size = with_slack(box);
+        low = glm::min(low, box.center - size);
+        high = glm::max(high, box.center + size);
+    }
+    Box4 rounded;
+    for (int axis = 0; axis < 3; ++axis) {
+        rounded.low[axis] = round_down(low[axis]);
+        rounded.high[axis] = round_up(high[axis]);
+    }
+    return rounded;
+}
+
 }  // namespace
 
-/// Also points the nodes' leaves to where they are packed.
-template <class Real>
-void PackedTree<Real>::pack_leaves(const LoweredScene& lowered, Bvh& bvh)
+std::size_t count_tree_objects(const LoweredScene& lowered)
 {
+    std::size_t count = 0;
+    for_each_surface(lowered, [&](const auto& object) { count += fits_tree(object) ? 1u : 0u; });
+    return count;
+}
+
+void refit_tree(const LoweredScene& lowered, Bvh& bvh)
+{
+    std::vector<Box4> boxes(bvh.leaves.size());
+    for_each_in_parallel(bvh.leaves, [&](const BvhLeaf& leaf) {
+        Box4& box = boxes[static_cast<std::size_t>(&leaf - bvh.leaves.data())];
+        if (leaf.kind == sphere_item)
+            box = box_of_leaf(lowered.spheres, bvh, leaf);
+        else if (leaf.kind == quadric_item)
+            box = box_of_leaf(lowered.quadrics, bvh, leaf);
+        else
+            box = box_of_leaf(lowered.polygons, bvh, leaf);
+    });
+    refit_bvh(bvh, boxes);
+}
+
+template <class Real>
+PackedTree<Real>::PackedTree(const LoweredScene& lowered, Bvh* keep)
+{
+    Bvh bvh = build_tree(lowered);
+    if (bvh.nodes.empty())
+        return;
     const LeafCounts count = count_places(bvh);
-    const std::vector<std::uint32_t> names = leaf_names(bvh, count);
+    nodes_ = AlignedArray<abi::BvhNode>::unset(bvh.nodes.size());
     blocks_ = AlignedArray<abi::SphereBlock<Real>>::unset(count[sphere_item]);
     block_surfaces_ =
         AlignedArray<std::int32_t>::unset(std::size_t{count[sphere_item]} * abi::node_width);
@@ -249,6 +247,75 @@ void PackedTree<Real>::pack_leaves(const LoweredScene& lowered, Bvh& bvh)
     polygons_ = AlignedArray<abi::PolygonRecord<Real>>::unset(count[polygon_item]);
     run_surfaces_ =
         AlignedArray<std::int32_t>::unset(std::size_t{count[quadric_item]} + count[polygon_item]);
+    view_.nodes = nodes_.data();
+    view_.blocks = blocks_.data();
+    view_.block_surfaces = block_surfaces_.data();
+    view_.run_surfaces = run_surfaces_.data();
+    view_.quadrics = quadrics_.data();
+    view_.polygons = polygons_.data();
+    view_.quadric_count = static_cast<int>(quadrics_.size());
+    view_.node_count = static_cast<int>(bvh.nodes.size());
+    refit(lowered, bvh);
+    if (keep != nullptr)
+        *keep = std::move(bvh);
+}
+
+/// Fills in all that does not follow from how many objects and nodes there are.
+template <class Real>
+void PackedTree<Real>::refit(const LoweredScene& lowered, const Bvh& bvh)
+{
+    std::copy(bvh.nodes.begin(), bvh.nodes.end(), nodes_.data());
+    pack_leaves(lowered, bvh);
+    view_.extent = extent_of(nodes_[0]);
+    view_.slack = static_cast<float>(worst_slack(lowered));
+    view_.spread = coherent_spread(bvh.nodes, view_.extent);
+    bound_root(nodes_[0]);
+    view_.center_error = worst_center_error<Real>(lowered.spheres);
+}
+
+/// The ball around the root's box.
+template <class Real>
+void PackedTree<Real>::bound_root(const abi::BvhNode& root)
+{
+    Vec3 low(std::numeric_limits<double>::infinity());
+    Vec3 high(-std::numeric_limits<double>::infinity());
+    for (int slot = 0; slot < abi::node_width; ++slot)
+        for (int axis = 0; axis < 3; ++axis)
+            if (root.low[axis][slot] <= root.high[axis][slot]) {
+                low[axis] = std::min(low[axis], double{root.low[axis][slot]});
+                high[axis] = std::max(high[axis], double{root.high[axis][slot]});
+            }
+    Vec3 rounded;
+    for (int axis = 0; axis < 3; ++axis) {
+        view_.middle[axis] = static_cast<float>(0.5 * low[axis] + 0.5 * high[axis]);
+        rounded[axis] = double{view_.middle[axis]};
+    }
+    view_.radius =
+        round_up(1.000001 * std::max(glm::length(high - rounded), glm::length(low - rounded)));
+}
+
+template <class Real>
+abi::BvhView<double> PackedTree<Real>::wide_view(const abi::ShapesView& shapes) const
+{
+    abi::BvhView<double> wide;
+    wide.nodes = view_.nodes;
+    wide.block_surfaces = view_.block_surfaces;
+    wide.run_surfaces = view_.run_surfaces;
+    wide.quadric_count = view_.quadric_count;
+    wide.shapes = &shapes;
+    wide.node_count = view_.node_count;
+    wide.extent = view_.extent;
+    wide.slack = view_.slack;
+    wide.spread = view_.spread;
+    return wide;
+}
+
+/// Also points the nodes' leaves to where they are packed.
+template <class Real>
+void PackedTree<Real>::pack_leaves(const LoweredScene& lowered, const Bvh& bvh)
+{
+    const LeafCounts count = count_places(bvh);
+    const std::vector<std::uint32_t> names = leaf_names(bvh, count);
     for_each_in_parallel(bvh.leaves, [&](const BvhLeaf& leaf) {
         const std::uint32_t name = names[static_cast<std::size_t>(&leaf - bvh.leaves.data())];
         if (leaf.kind == sphere_item)
@@ -261,7 +328,7 @@ void PackedTree<Real>::pack_leaves(const LoweredScene& lowered, Bvh& bvh)
     });
     polygon_corners_ =
         PackedCorners<Real>(polygons_of_runs(lowered, bvh), {polygons_.data(), polygons_.size()});
-    name_leaves(bvh, names);
+    name_leaves({nodes_.data(), nodes_.size()}, names);
 }
 
 /// The run begins with the number `first`, and `records` with the number `base`.

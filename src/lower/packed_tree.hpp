@@ -10,12 +10,20 @@ namespace packtrace {
 /// How many objects of a scene can be in a hierarchy.
 [[nodiscard]] std::size_t count_tree_objects(const LoweredScene& lowered);
 
+/// Gives a hierarchy over those objects the boxes that they have now; each is still of its kind.
+void refit_tree(const LoweredScene& lowered, Bvh& bvh);
+
 /// A hierarchy over those objects, in the arrays and the precision the kernels read.
 template <class Real>
 class PackedTree {
 public:
     PackedTree() = default;
-    explicit PackedTree(const LoweredScene& lowered);
+    /// `keep`, if any, gets the hierarchy as refit() needs it.
+    explicit PackedTree(const LoweredScene& lowered, Bvh* keep = nullptr);
+
+    /// Packs the objects anew, and the boxes of `bvh`, which this was made of and refit_tree() has
+    /// been at since.
+    void refit(const LoweredScene& lowered, const Bvh& bvh);
 
     /// Valid as long as this object; empty for a default one.
     [[nodiscard]] const abi::BvhView<Real>& view() const
@@ -39,7 +47,7 @@ public:
     }
 
 private:
-    void pack_leaves(const LoweredScene& lowered, Bvh& bvh);
+    void pack_leaves(const LoweredScene& lowered, const Bvh& bvh);
     void bound_root(const abi::BvhNode& root);
     template <class Object, class Record>
     void pack_run(const std::vector<Object>& objects, const Bvh& bvh, const BvhLeaf& leaf,

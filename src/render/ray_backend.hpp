@@ -4,6 +4,8 @@
 
 #include <packtrace/intersect.hpp>
 
+#include "scene/moved_shape.hpp"
+
 namespace packtrace {
 
 /// What answers a RayScene's questions.
@@ -17,6 +19,8 @@ public:
     virtual void occluded(const RaysView<Real>& rays, std::uint8_t* mask) const = 0;
     virtual void all_hits(const RaysView<Real>& rays,
                           const typename RayScene<Real>::TakeHits& take) const = 0;
+    /// As RayScene::update; `moved` are objects of the scene, each there once, without a fault.
+    virtual SceneUpdate update(const Scene& scene, std::span<const MovedShape> moved) = 0;
 };
 
 template <class Real>

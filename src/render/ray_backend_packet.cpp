@@ -1,4 +1,7 @@
 #include <algorithm>
+#include <memory>
+#include <optional>
+#include <tuple>
 #include <utility>
 #include <vector>
 
@@ -6,8 +9,10 @@
 
 #include <tbb/enumerable_thread_specific.h>
 
+#include "bvh/refit.hpp"
 #include "core/aligned_array.hpp"
 #include "dispatch/kernels.hpp"
+#include "lower/move_objects.hpp"
 #include "lower/packed_scene.hpp"
 #include "render/ray_backend.hpp"
 
@@ -19,6 +24,9 @@ constexpr std::size_t longest_stream = std::size_t{1} << 20;
 
 // All hits are gathered before they are sorted; shorter pieces bound that memory.
 constexpr std::size_t longest_gathering = 256;
+
+/// From this cost on, against what a hierarchy cost when it was built, one is built anew.
+constexpr double most_refit_cost = 1.5;
 
 template <class Real>
 abi::RaysView<Real> piece_of(const RaysView<Real>& rays, std::size_t first, std::size_t longest)
@@ -74,9 +82,14 @@ struct FoundHit {
     std::int32_t object;
     SurfaceHit<Real> hit;
 
+    /// Where an object is hit twice at one t, as on the rim of a cap, the normals decide: the order
+    /// must not be that of the search.
     bool operator<(const FoundHit& other) const
     {
-        return std::pair(t, object) < std::pair(other.t, other.object);
+        const Real(&a)[3] = hit.normal;
+        const Real(&b)[3] = other.hit.normal;
+        return std::tie(t, object, a[0], a[1], a[2]) <
+               std::tie(other.t, other.object, b[0], b[1], b[2]);
     }
 };
 
@@ -94,9 +107,12 @@ template <class Real>
 class PacketBackend final : public RayBackend<Real> {
 public:
     PacketBackend(const Scene& scene, const RenderOptions& options)
-        : packed_(lower(scene, accuracy_in<Real>(options), options.self_hits), options.traversal),
+        : accuracy_(accuracy_in<Real>(options)),
+          self_hits_(options.self_hits),
+          traversal_(options.traversal),
+          packed_(std::make_unique<PackedScene<Real>>(lower_shapes(scene), traversal_)),
           kernels_(precision<Real>(kernels_of(choose_isa(options.isa, options.width).name))),
-          scratch_bytes_(kernels_.stream_scratch_bytes(packed_.view())),
+          scratch_bytes_(kernels_.stream_scratch_bytes(packed_->view())),
           scratch_([this] { return AlignedArray<std::byte>::unset(scratch_bytes_); })
     {
     }
@@ -108,7 +124,7 @@ public:
             auto piece = piece_of(rays, first, longest_stream);
             if (starts != nullptr)
                 add_starts(piece, *starts, first);
-            kernels_.closest_hits(packed_.view(), piece, piece_of(hits, first),
+            kernels_.closest_hits(packed_->view(), piece, piece_of(hits, first),
                                   scratch_.local().data());
         }
     }
@@ -116,7 +132,7 @@ public:
     void occluded(const RaysView<Real>& rays, std::uint8_t* mask) const override
     {
         for (std::size_t first = 0; first < rays.count; first += longest_stream)
-            kernels_.occluded(packed_.view(), piece_of(rays, first, longest_stream), mask + first,
+            kernels_.occluded(packed_->view(), piece_of(rays, first, longest_stream), mask + first,
                               scratch_.local().data());
     }
 
@@ -127,7 +143,7 @@ public:
         std::vector<SurfaceHit<Real>> sorted;
         for (std::size_t first = 0; first < rays.count; first += longest_gathering) {
             const auto piece = piece_of(rays, first, longest_gathering);
-            kernels_.all_hits(packed_.view(), piece, {&by_ray, gather<Real>});
+            kernels_.all_hits(packed_->view(), piece, {&by_ray, gather<Real>});
             for (int ray = 0; ray < piece.count; ++ray) {
                 auto& hits = by_ray[static_cast<std::size_t>(ray)];
                 std::sort(hits.begin(), hits.end());
@@ -140,8 +156,67 @@ public:
         }
     }
 
+    SceneUpdate update(const Scene& scene, std::span<const MovedShape> moved) override
+    {
+        if (const std::optional<double> cost = refit(scene, moved))
+            return {.rebuilt = false, .cost = *cost};
+        rebuild(scene);
+        return {.rebuilt = true};
+    }
+
 private:
-    PackedScene<Real> packed_;
+    /// What a refit starts from.
+    struct Kept {
+        LoweredScene lowered;
+        Bvh bvh;
+        double built_cost = 0.0;
+    };
+
+    /// Rays of a caller know no shadows.
+    [[nodiscard]] LoweredScene lower_shapes(const Scene& scene) const
+    {
+        LoweredScene lowered = lower(scene, accuracy_, self_hits_);
+        lowered.casts_shadow.clear();
+        return lowered;
+    }
+
+    /// Returns the hierarchy's cost against that when it was built, or nothing where it has to be
+    /// built anew.
+    std::optional<double> refit(const Scene& scene, std::span<const MovedShape> moved)
+    {
+        if (kept_ == nullptr)
+            return std::nullopt;
+        // Of no use where anything below fails or throws.
+        std::unique_ptr<Kept> kept = std::move(kept_);
+        if (!move_objects(scene, moved, packed_->view().shapes.index, kept->lowered))
+            return std::nullopt;
+        refit_tree(kept->lowered, kept->bvh);
+        const double cost = surface_area_cost(kept->bvh) / kept->built_cost;
+        if (!(cost <= most_refit_cost))
+            return std::nullopt;
+        packed_->refit(kept->lowered, kept->bvh);
+        kept_ = std::move(kept);
+        return cost;
+    }
+
+    void rebuild(const Scene& scene)
+    {
+        auto kept = std::make_unique<Kept>();
+        kept->lowered = lower_shapes(scene);
+        packed_ = std::make_unique<PackedScene<Real>>(kept->lowered, traversal_, &kept->bvh);
+        scratch_bytes_ = kernels_.stream_scratch_bytes(packed_->view());
+        scratch_.clear();
+        if (kept->bvh.nodes.empty())
+            return;
+        kept->built_cost = surface_area_cost(kept->bvh);
+        kept_ = std::move(kept);
+    }
+
+    Accuracy accuracy_;
+    SelfHits self_hits_;
+    Traversal traversal_;
+    std::unique_ptr<PackedScene<Real>> packed_;
+    std::unique_ptr<Kept> kept_;  ///< from the first update on, where there is a hierarchy
     const abi::PrecisionTable<Real>& kernels_;
     std::size_t scratch_bytes_;
     mutable tbb::enumerable_thread_specific<AlignedArray<std::byte>> scratch_;

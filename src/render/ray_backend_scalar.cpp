@@ -74,6 +74,12 @@ public:
         }
     }
 
+    SceneUpdate update(const Scene& scene, std::span<const MovedShape>) override
+    {
+        bodies_ = reference::Bodies<Real>(scene);
+        return {.rebuilt = true};
+    }
+
 private:
     // The reference's ranges are closed, those of RaysView open.
     [[nodiscard]] reference::Hit<Real> closest(const ScalarRay<Real>& ray) const

@@ -7,10 +7,12 @@
 #include <packtrace/validate.hpp>
 
 #include "bounds/bounded_scene.hpp"
+#include "render/moved_objects.hpp"
 #include "render/ray_backend.hpp"
 #include "render/ray_parts.hpp"
 #include "render/ray_structs.hpp"
 #include "render/watched_pieces.hpp"
+#include "scene/scene_faults.hpp"
 
 namespace packtrace {
 
@@ -19,6 +21,9 @@ struct RayScene<Real>::State {
     explicit State(const Scene& scene) : bounded(scene)
     {
     }
+
+    /// Of objects that are there, each named once.
+    SceneUpdate update(const Scene& scene, const std::vector<std::int32_t>& moved);
 
     bounds::BoundedScene bounded;
     std::unique_ptr<RayBackend<Real>> backend;
@@ -42,6 +47,34 @@ template <class Real>
 RayScene<Real>::RayScene(RayScene&&) noexcept = default;
 template <class Real>
 RayScene<Real>& RayScene<Real>::operator=(RayScene&&) noexcept = default;
+
+template <class Real>
+SceneUpdate RayScene<Real>::State::update(const Scene& scene,
+                                          const std::vector<std::int32_t>& moved)
+{
+    if (moved.empty())
+        return {};
+    std::vector<MovedShape> shapes;
+    if (const auto fault = language::fault_of_shapes(scene, moved, shapes))
+        throw SceneError(fault->text());
+    const SceneUpdate done = backend->update(scene, shapes);
+    bounded.replace(scene, shapes);
+    return done;
+}
+
+template <class Real>
+SceneUpdate RayScene<Real>::update(const Scene& scene, std::span<const std::int32_t> moved)
+{
+    check_same_objects(scene.objects.size(), state_->bounded.object_count());
+    return state_->update(scene, distinct_objects(moved, scene.objects.size()));
+}
+
+template <class Real>
+SceneUpdate RayScene<Real>::update(const Scene& scene)
+{
+    check_same_objects(scene.objects.size(), state_->bounded.object_count());
+    return state_->update(scene, moved_objects(state_->bounded, scene));
+}
 
 template <class Real>
 void RayScene<Real>::closest_hits(const RaysView<Real>& rays, const HitsView<Real>& hits,

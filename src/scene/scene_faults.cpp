@@ -141,15 +141,16 @@ std::string subject_of(const Scene& scene, std::size_t object, const KeyFault& f
     return in_block ? "material " + quote(material.name) : label_of(scene, object);
 }
 
-std::optional<SceneFault> fault_of_objects(const Scene& scene)
+/// The first number below `count` that `is_faulty`, else `count`.
+template <class IsFaulty>
+std::size_t first_faulty(std::size_t count, const IsFaulty& is_faulty)
 {
     constexpr std::size_t task_objects = 4096;
-    const std::size_t count = scene.objects.size();
-    // The first one, whichever thread comes first.
+    // Whichever thread comes first.
     std::atomic<std::size_t> first = count;
     const auto check_part = [&](const tbb::blocked_range<std::size_t>& part) {
         for (std::size_t i = part.begin(); i < part.end() && i < first; ++i) {
-            if (!fault_of_object(scene.objects[i], scene.illumination))
+            if (!is_faulty(i))
                 continue;
             std::size_t before = first;
             while (i < before && !first.compare_exchange_weak(before, i)) {
@@ -157,10 +158,20 @@ std::optional<SceneFault> fault_of_objects(const Scene& scene)
         }
     };
     tbb::parallel_for(tbb::blocked_range<std::size_t>(0, count, task_objects), check_part);
-    if (first == count)
+    return first;
+}
+
+std::optional<SceneFault> fault_of_objects(const Scene& scene)
+{
+    const auto fault_at = [&](std::size_t i) {
+        return fault_of_object(scene.objects[i], scene.illumination);
+    };
+    const std::size_t first =
+        first_faulty(scene.objects.size(), [&](std::size_t i) { return fault_at(i).has_value(); });
+    if (first == scene.objects.size())
         return std::nullopt;
-    OwnerFault fault = fault_of_object(scene.objects[first], scene.illumination);
-    return SceneFault{subject_of(scene, first, *fault), fault->message, first.load(), fault->key};
+    const OwnerFault fault = fault_at(first);
+    return SceneFault{subject_of(scene, first, *fault), fault->message, first, fault->key};
 }
 
 std::optional<SceneFault> fault_of_lights(const Scene& scene)
@@ -214,7 +225,7 @@ OwnerFault fault_of_surface(const Surface& surface, const Mat4& transform)
     return std::nullopt;
 }
 
-OwnerFault fault_of_object(const Object& object, Illumination illumination)
+OwnerFault fault_of_shape(const Object& object)
 {
     OwnerFault fault =
         std::visit([](const auto& surface) { return fault_in_rows(surface); }, object.surface);
@@ -227,6 +238,12 @@ OwnerFault fault_of_object(const Object& object, Illumination illumination)
         if (!fault && std::holds_alternative<Quadric>(object.surface))
             fault = fault_of_surface(object.surface, object.transform);
     }
+    return fault;
+}
+
+OwnerFault fault_of_object(const Object& object, Illumination illumination)
+{
+    OwnerFault fault = fault_of_shape(object);
     if (!fault)
         fault = fault_of_names(object);
     if (!fault)
@@ -292,6 +309,23 @@ OwnerFault fault_of_animation(const Animation& animation)
     if (!animation.orbit && animation.keys.size() < 2)
         return KeyFault{"", "it moves nothing; add orbit { ... } or two or more key { ... }"};
     return std::nullopt;
+}
+
+std::optional<SceneFault> fault_of_shapes(const Scene& scene, std::span<const std::int32_t> objects,
+                                          std::vector<MovedShape>& shapes)
+{
+    shapes.resize(objects.size());
+    const auto number_at = [&](std::size_t i) { return static_cast<std::size_t>(objects[i]); };
+    const std::size_t first = first_faulty(objects.size(), [&](std::size_t i) {
+        const Object& object = scene.objects[number_at(i)];
+        shapes[i] = moved_shape(object, objects[i]);
+        return fault_of_shape(object).has_value();
+    });
+    if (first == objects.size())
+        return std::nullopt;
+    const std::size_t number = number_at(first);
+    const OwnerFault fault = fault_of_shape(scene.objects[number]);
+    return SceneFault{label_of(scene, number), fault->message, number, fault->key};
 }
 
 std::optional<SceneFault> fault_of_growth(const Scene& scene)

@@ -1,12 +1,16 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <optional>
+#include <span>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include <packtrace/scene.hpp>
 
+#include "scene/moved_shape.hpp"
 #include "scene/rows.hpp"
 
 // What is wrong with scenes: values by the rows of their keys, and whatever takes more than one
@@ -17,6 +21,9 @@ namespace packtrace::language {
 /// quadric without a surface.
 [[nodiscard]] OwnerFault fault_of_surface(const Surface& surface,
                                           const Mat4& transform = Mat4(1.0));
+
+/// The first fault of an object's surface and of its transform.
+[[nodiscard]] OwnerFault fault_of_shape(const Object& object);
 
 /// The first fault of an object but for its name's being another's.
 [[nodiscard]] OwnerFault fault_of_object(const Object& object, Illumination illumination);
@@ -44,6 +51,12 @@ struct SceneFault {
 /// The first fault of a scene, in the order in which it is read: its own keys, camera, objects,
 /// lights, animation; then what needs all of them.
 [[nodiscard]] std::optional<SceneFault> fault_of_scene(const Scene& scene);
+
+/// The first of the objects numbered whose surface or transform has a fault. Without a fault
+/// `shapes` holds them.
+[[nodiscard]] std::optional<SceneFault> fault_of_shapes(const Scene& scene,
+                                                        std::span<const std::int32_t> objects,
+                                                        std::vector<MovedShape>& shapes);
 
 /// Colours that may grow beyond single precision.
 [[nodiscard]] std::optional<SceneFault> fault_of_growth(const Scene& scene);

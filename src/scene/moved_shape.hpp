@@ -1,0 +1,33 @@
+#pragma once
+
+#include <cstdint>
+
+#include <packtrace/scene.hpp>
+
+namespace packtrace {
+
+/// An object that may have moved. Scenes are large, so that what most moved objects are, spheres
+/// without a transform, is copied here, to be read again and again.
+struct MovedShape {
+    std::int32_t object = 0;
+    bool plain = false;  ///< a sphere without a transform; others are looked up in the scene
+    Sphere sphere{};
+};
+
+/// Whether an object is a sphere without a transform.
+[[nodiscard]] inline bool is_plain_sphere(const Object& object)
+{
+    return std::holds_alternative<Sphere>(object.surface) && object.transform == Mat4(1.0);
+}
+
+[[nodiscard]] inline MovedShape moved_shape(const Object& object, std::int32_t number)
+{
+    MovedShape shape;
+    shape.object = number;
+    shape.plain = is_plain_sphere(object);
+    if (shape.plain)
+        shape.sphere = std::get<Sphere>(object.surface);
+    return shape;
+}
+
+}  // namespace packtrace
