@@ -126,6 +126,7 @@ struct GatheredBlocks {
 };
 
 using Numbers = py::array_t<std::int32_t, py::array::c_style>;
+using Doubles = py::array_t<double, py::array::c_style>;
 
 class NativeRayScene {
 public:
@@ -156,9 +157,9 @@ public:
         auto* const to = static_cast<std::uint8_t*>(mask.mutable_data());
         with_real(rays.origins.dtype(), [&](auto real) {
             using Real = decltype(real);
-            const RayScene<Real>& scene = ready<Real>();
+            const HeldScene<Real> scene = ready<Real>();
             for_rays<Real>(rays, [&](const RaysView<Real>& view, std::size_t first) {
-                scene.occluded(view, to + first);
+                scene->occluded(view, to + first);
             });
         });
     }
@@ -172,27 +173,69 @@ public:
     void bounds(const RayArrays& rays, const Numbers& objects, py::array to)
     {
         static_assert(sizeof(HitBounds) == 2 * sizeof(double));
-        check_objects(objects);
+        check_objects(objects, -1, "object of ray ");
         auto* const found = static_cast<HitBounds*>(to.mutable_data());
         const std::int32_t* const object = objects.data();
         with_real(rays.origins.dtype(), [&](auto real) {
             using Real = decltype(real);
-            const RayScene<Real>& scene = ready<Real>();
+            const HeldScene<Real> scene = ready<Real>();
             for_rays<Real>(
                 rays,
                 [&](const RaysView<Real>& view, std::size_t first) {
-                    scene.bound_closest_hits(view, object + first, found + first);
+                    scene->bound_closest_hits(view, object + first, found + first);
                 },
                 slow_rays_between_signals);
         });
     }
 
+    py::tuple update(py::handle scene)
+    {
+        Scene native = scene_of(scene);
+        SceneUpdate done;
+        {
+            const py::gil_scoped_release release;
+            done = scenes_.update(std::move(native));
+        }
+        return py::make_tuple(done.rebuilt, done.cost);
+    }
+
+    /// `transforms` is (n, 4, 4), rows first.
+    py::tuple transform(const Numbers& objects, const Doubles& transforms)
+    {
+        check_objects(objects, 0, "object number ");
+        std::vector<Mat4> matrices(static_cast<std::size_t>(objects.size()));
+        for (std::size_t i = 0; i < matrices.size(); ++i)
+            for (int row = 0; row < 4; ++row)
+                for (int column = 0; column < 4; ++column)
+                    matrices[i][column][row] =
+                        transforms.at(static_cast<py::ssize_t>(i), row, column);
+        SceneUpdate done;
+        {
+            const py::gil_scoped_release release;
+            done = scenes_.transform({objects.data(), matrices.size()}, matrices);
+        }
+        return py::make_tuple(done.rebuilt, done.cost);
+    }
+
 private:
+    /// Lets no object move while it lives.
     template <class Real>
-    const RayScene<Real>& ready()
+    struct HeldScene {
+        std::shared_lock<std::shared_mutex> lock;
+        const RayScene<Real>* scene;
+
+        const RayScene<Real>* operator->() const
+        {
+            return scene;
+        }
+    };
+
+    template <class Real>
+    [[nodiscard]] HeldScene<Real> ready()
     {
         const py::gil_scoped_release release;
-        return scenes_.of<Real>();
+        auto lock = scenes_.hold();
+        return {std::move(lock), &scenes_.of<Real>()};
     }
 
     /// Calls `work(view, first)` for blocks of rays.
@@ -221,10 +264,10 @@ private:
     template <class Real>
     void closest_of(const RayArrays& rays, const HitsView<Real>& hits)
     {
-        const RayScene<Real>& scene = ready<Real>();
+        const HeldScene<Real> scene = ready<Real>();
         for_rays<Real>(rays, [&](const RaysView<Real>& view, std::size_t first) {
             const HitsView<Real> block = from(hits, first);
-            scene.closest_hits(view, block);
+            scene->closest_hits(view, block);
             finish(view, block);
         });
     }
@@ -234,7 +277,7 @@ private:
     void closest_from(const RayArrays& rays, const py::array& point, const Numbers& surface,
                       const HitsView<Real>& hits)
     {
-        const RayScene<Real>& scene = ready<Real>();
+        const HeldScene<Real> scene = ready<Real>();
         GatheredBlocks<Real, 3> points{
             ColumnBlocks<Real, 3>({column_of(point, 0), column_of(point, 1), column_of(point, 2)})};
         const std::int32_t* const numbers = surface.data();
@@ -247,7 +290,7 @@ private:
                 const StartsView<Real> starts{{at[0], at[1], at[2]}, numbers + first};
                 const RaysView<Real> view = rays_view(gathered.at(first, count), count);
                 const HitsView<Real> found = from(hits, first);
-                scene.closest_hits(view, starts, found);
+                scene->closest_hits(view, starts, found);
                 finish(view, found);
             });
     }
@@ -255,7 +298,7 @@ private:
     template <class Real>
     py::tuple all_hits_of(const RayArrays& rays)
     {
-        const RayScene<Real>& scene = ready<Real>();
+        const HeldScene<Real> scene = ready<Real>();
         const std::size_t count = rays.count();
         py::array_t<std::int64_t> offsets(static_cast<py::ssize_t>(count + 1));
         std::int64_t* const offset = offsets.mutable_data();
@@ -264,7 +307,7 @@ private:
         std::vector<std::vector<SurfaceHit<Real>>> found(count / gathered_rays + 1);
         for_rays<Real>(rays, [&](const RaysView<Real>& view, std::size_t first) {
             auto& hits = found[first / gathered_rays];
-            scene.all_hits(view, [&](std::size_t ray, std::span<const SurfaceHit<Real>> of_ray) {
+            scene->all_hits(view, [&](std::size_t ray, std::span<const SurfaceHit<Real>> of_ray) {
                 hits.insert(hits.end(), of_ray.begin(), of_ray.end());
                 offset[first + ray + 1] = static_cast<std::int64_t>(of_ray.size());
             });
@@ -296,14 +339,15 @@ private:
         return py::make_tuple(offsets, t, object, normal);
     }
 
-    void check_objects(const Numbers& objects) const
+    /// Throws where a number is below `least` or of no object; `of` says what has the numbers.
+    void check_objects(const Numbers& objects, std::int32_t least, const std::string& of) const
     {
         const auto count = static_cast<std::int64_t>(scenes_.object_count());
         for (py::ssize_t i = 0; i < objects.size(); ++i)
-            if (objects.data()[i] < -1 || objects.data()[i] >= count)
-                throw py::value_error("object is " + std::to_string(objects.data()[i]) +
-                                      " for ray " + std::to_string(i) + "; use -1 to " +
-                                      std::to_string(count - 1) + ", as closest() gave it");
+            if (objects.data()[i] < least || objects.data()[i] >= count)
+                throw py::value_error(of + std::to_string(i) + " is " +
+                                      std::to_string(objects.data()[i]) + "; use " +
+                                      std::to_string(least) + " to " + std::to_string(count - 1));
     }
 
     TwoRayScenes scenes_;
@@ -324,6 +368,8 @@ void bind_rays(py::module_& module)
             return std::make_unique<Native>(std::move(native), options);
         }))
         .def("prepare", &Native::prepare)
+        .def("update", &Native::update)
+        .def("transform", &Native::transform)
         .def(
             "closest",
             [](Native& self, Array origins, Array directions, Array t_min, Array t_max,

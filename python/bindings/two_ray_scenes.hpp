@@ -1,9 +1,14 @@
 #pragma once
 
+#include <algorithm>
+#include <cstdint>
 #include <memory>
 #include <mutex>
+#include <shared_mutex>
+#include <span>
 #include <tuple>
 #include <utility>
+#include <vector>
 
 #include <packtrace/intersect.hpp>
 #include <packtrace/isa.hpp>
@@ -11,7 +16,9 @@
 
 namespace packtrace::python {
 
-/// A scene for rays of either precision, each made ready when it is asked for first.
+/// A scene for rays of either precision, each made ready when it is asked for first. Threads may
+/// ask at once; where objects move, one waits for the other. All members are to be called without
+/// the GIL, which a thread that is waited for may want.
 class TwoRayScenes {
 public:
     TwoRayScenes(Scene scene, const RenderOptions& options)
@@ -28,26 +35,83 @@ public:
         return options_.threads;
     }
 
+    /// Moving objects does not change their number.
     [[nodiscard]] std::size_t object_count() const
     {
         return scene_.objects.size();
     }
 
-    /// To be called without the GIL: another thread may be making it.
+    /// While it lives, no object moves.
+    [[nodiscard]] std::shared_lock<std::shared_mutex> hold()
+    {
+        return std::shared_lock(moving_);
+    }
+
+    /// With `hold`.
     template <class Real>
     [[nodiscard]] const RayScene<Real>& of()
     {
-        const std::lock_guard lock(mutex_);
+        const std::lock_guard lock(making_);
         auto& made = std::get<std::unique_ptr<RayScene<Real>>>(made_);
         if (!made)
             made = std::make_unique<RayScene<Real>>(scene_, options_);
         return *made;
     }
 
+    /// Objects are where they are in `scene`.
+    SceneUpdate update(Scene scene)
+    {
+        const std::unique_lock lock(moving_);
+        const SceneUpdate done = update_made([&](auto& made) { return made.update(scene); }, scene);
+        scene_ = std::move(scene);
+        return done;
+    }
+
+    /// Objects, by their numbers, get these transforms. Where that throws, all stays as it was.
+    SceneUpdate transform(std::span<const std::int32_t> objects, std::vector<Mat4> transforms)
+    {
+        const std::unique_lock lock(moving_);
+        for (std::size_t i = 0; i < objects.size(); ++i)
+            std::swap(transform_of(objects[i]), transforms[i]);
+        try {
+            return update_made([&](auto& made) { return made.update(scene_, objects); }, scene_);
+        } catch (...) {
+            for (std::size_t i = objects.size(); i-- > 0;)
+                std::swap(transform_of(objects[i]), transforms[i]);
+            throw;
+        }
+    }
+
 private:
+    /// Updates what is made, and else checks the scene alone.
+    template <class Update>
+    SceneUpdate update_made(const Update& update, const Scene& scene)
+    {
+        SceneUpdate all;
+        bool any = false;
+        const auto one = [&](auto& made) {
+            if (!made)
+                return;
+            const SceneUpdate done = update(*made);
+            all = {all.rebuilt || done.rebuilt, any ? std::max(all.cost, done.cost) : done.cost};
+            any = true;
+        };
+        one(std::get<0>(made_));
+        one(std::get<1>(made_));
+        if (!any)
+            validate(scene);
+        return all;
+    }
+
+    [[nodiscard]] Mat4& transform_of(std::int32_t object)
+    {
+        return scene_.objects[static_cast<std::size_t>(object)].transform;
+    }
+
     Scene scene_;
     RenderOptions options_;
-    std::mutex mutex_;
+    std::mutex making_;
+    std::shared_mutex moving_;
     std::tuple<std::unique_ptr<RayScene<float>>, std::unique_ptr<RayScene<double>>> made_;
 };
 

@@ -18,7 +18,7 @@ from ._packtrace import ImageError, SceneError, __version__
 from . import _packtrace
 from .picture import (Comparison, Picture, PixelError, compare, heatmap, read_image, render, to_png,
                       write_image)
-from .rays import AllHits, Hits, RayScene, Starts
+from .rays import AllHits, Hits, RayScene, SceneUpdate, Starts
 from .report import report
 from .scene import (Animation, Camera, CameraKey, Checker, GeneralMaterial, Light, Material, Object,
                     Orbit, Plane, Polygon, Quadric, Scene, ScratchMaterial, ShaderMaterial,
@@ -27,7 +27,7 @@ from .scene import (Animation, Camera, CameraKey, Checker, GeneralMaterial, Ligh
 __all__ = [
     "AllHits", "Animation", "Camera", "CameraKey", "Checker", "Comparison", "GeneralMaterial", "Hits",
     "ImageError", "Light", "Material", "Object", "Orbit", "Picture", "PixelError", "Plane", "Polygon",
-    "Quadric", "RayScene", "Scene", "SceneError", "ScratchMaterial", "ShaderMaterial",
+    "Quadric", "RayScene", "Scene", "SceneError", "SceneUpdate", "ScratchMaterial", "ShaderMaterial",
     "SketchMaterial", "Sphere", "Starts", "WhittedMaterial", "__version__", "compare",
     "generate_lattice", "generate_random_spheres", "generate_sphereflake", "heatmap", "isas",
     "read_image", "read_scene", "render", "report", "to_png", "write_image",

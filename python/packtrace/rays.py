@@ -82,8 +82,17 @@ class AllHits:
         return np.repeat(np.arange(len(self.offsets) - 1), np.diff(self.offsets))
 
 
+@dataclass
+class SceneUpdate:
+    """What moving objects did."""
+
+    rebuilt: bool  #: all was built anew; else the hierarchy's boxes followed the objects
+    cost: float  #: how many boxes a random line enters, against the hierarchy when it was built
+
+
 class RayScene:
-    """A scene made ready for rays. It copies what it needs: later changes to `scene` don't count.
+    """A scene made ready for rays. It copies what it needs: later changes to `scene` count when
+    `update` is called.
 
     kernel: "packet", or "scalar" for the reference.
     isa: instruction set of the packet kernel, see `packtrace.isas()`; "auto" takes the widest.
@@ -110,6 +119,29 @@ class RayScene:
         self._scalar = kernel == "scalar"
         if dtype is not None:
             self._native.prepare(_checked_dtype(np.dtype(dtype), "dtype"))
+
+    def update(self, scene: Scene) -> SceneUpdate:
+        """Takes over where the objects of `scene` are now: surfaces and transforms of the objects, in
+        their order, that this was made of. Answers are from then on those of RayScene(scene), which
+        takes several times as long. Where it raises SceneError, or ValueError for another number of
+        objects, answers stay those of before. Waits until other threads' rays are done."""
+        return SceneUpdate(*self._native.update(scene))
+
+    def transform(self, objects: Any, transforms: Any) -> SceneUpdate:
+        """The same for the objects of these numbers alone, (n,), which get the transforms (n, 4, 4),
+        float64, rows first: Object.transform. The quick way to move many."""
+        numbers, matrices = np.asarray(objects), np.asarray(transforms)
+        if numbers.ndim != 1 or numbers.dtype.kind not in "iu":
+            raise ValueError(f"objects are {numbers.dtype} of shape {numbers.shape}; use whole numbers "
+                             "of shape (n,)")
+        if matrices.shape != (*numbers.shape, 4, 4) or matrices.dtype != np.float64:
+            raise ValueError(f"transforms are {matrices.dtype} of shape {matrices.shape}; use float64 "
+                             f"of shape {(*numbers.shape, 4, 4)}")
+        if not np.array_equal(matrices[:, 3], np.broadcast_to((0, 0, 0, 1), (len(matrices), 4))):
+            raise ValueError("a transform's last row is not (0, 0, 0, 1); the rows of "
+                             "transforms[i] are those of Object.transform")
+        return SceneUpdate(*self._native.transform(np.ascontiguousarray(numbers, np.int32),
+                                                   np.ascontiguousarray(matrices)))
 
     def closest(self, origins: Any, directions: Any, t_min: Any = 0.0, t_max: Any = np.inf, *,
                 detail: Detail = "point", out: Optional[Hits] = None) -> Hits:

@@ -206,7 +206,7 @@ class TestArrays(unittest.TestCase):
                 self.rays.closest(*arguments)
         with self.assertRaisesRegex(ValueError, "detail is 'most'; use one of 't', 'normal'"):
             self.rays.closest(good, good, detail="most")
-        with self.assertRaisesRegex(ValueError, "object is 3 for ray 4; use -1 to 2"):
+        with self.assertRaisesRegex(ValueError, "object of ray 4 is 3; use -1 to 2"):
             self.rays.bounds(good, good, np.array([0, 0, 0, 0, 3]))
         with self.assertRaisesRegex(ValueError, "object is float64"):
             self.rays.bounds(good, good, np.zeros(5))
@@ -229,6 +229,63 @@ class TestArrays(unittest.TestCase):
         hits = self.rays.closest(origins, directions)
         self.assertFalse(hits.hit[::2].any())
         self.assertTrue(hits.hit[1::2].any())
+
+
+class TestMoving(unittest.TestCase):
+    """Answers after a move are those of a scene made anew."""
+
+    def setUp(self):
+        self.scene = pt.generate_random_spheres(200, 0.02)
+        self.rays = {dtype: random_rays(20_000, dtype) for dtype in DTYPES}
+
+    def assert_like_new(self, moved):
+        for dtype in DTYPES:
+            found = moved.closest(*self.rays[dtype])
+            expected = pt.RayScene(self.scene).closest(*self.rays[dtype])
+            np.testing.assert_array_equal(found.object, expected.object)
+            np.testing.assert_array_equal(found.t, expected.t)
+            self.assertTrue(found.hit.any())
+
+    def test_update(self):
+        rays = pt.RayScene(self.scene)
+        self.assert_like_new(rays)
+        for number in range(3):
+            for i, item in enumerate(self.scene.objects):
+                self.scene.objects[i] = item.translate((0.01 * number, 0.02, 0))
+            done = rays.update(self.scene)
+            self.assert_like_new(rays)
+        self.assertFalse(done.rebuilt)
+        self.assertGreater(done.cost, 0)
+
+    def test_transforms(self):
+        rays = pt.RayScene(self.scene)
+        self.assert_like_new(rays)
+        random = np.random.default_rng(5)
+        for _ in range(3):
+            objects = np.arange(0, 200, 3)
+            transforms = np.tile(np.eye(4), (len(objects), 1, 1))
+            transforms[:, :3, 3] = random.uniform(-0.05, 0.05, (len(objects), 3))
+            done = rays.transform(objects, transforms)
+            for number, transform in zip(objects, transforms):
+                self.scene.objects[number].transform = transform
+            self.assert_like_new(rays)
+        self.assertFalse(done.rebuilt)
+
+    def test_wrong_moves_change_nothing(self):
+        rays = pt.RayScene(self.scene)
+        self.assert_like_new(rays)
+        flat = np.diag((1.0, 0, 1, 1))
+        with self.assertRaisesRegex(pt.SceneError, "sphere 5: the transform is singular"):
+            rays.transform([3, 4], [np.diag((2.0, 2, 2, 1)), flat])
+        for message, arguments in (("objects are float64", ([1.5], np.eye(4)[None])),
+                                   (r"transforms are float64 of shape \(4, 4\)", ([1], np.eye(4))),
+                                   ("last row", ([1], np.ones((1, 4, 4)))),
+                                   ("object number 0 is 200; use 0 to 199", ([200], np.eye(4)[None]))):
+            with self.subTest(message), self.assertRaisesRegex(ValueError, message):
+                rays.transform(*arguments)
+        with self.assertRaisesRegex(ValueError, "object"):
+            rays.update(hand_scene())
+        self.assert_like_new(rays)
 
 
 class TestInterrupts(unittest.TestCase):
