@@ -2,11 +2,13 @@
 
 import ast
 import inspect
+import re
 import unittest
 from pathlib import Path
 
 import packtrace as pt
 from packtrace import _packtrace
+from support import SOURCE
 
 PACKAGE = Path(pt.__file__).parent
 
@@ -46,6 +48,18 @@ class TestPackage(unittest.TestCase):
 
     def test_the_instruction_sets(self):
         self.assertTrue(any(isa["supported"] for isa in pt.isas()))
+
+    def test_what_pip_is_told_is_so(self):
+        project = (SOURCE / "pyproject.toml").read_text()
+        pattern = re.search(r"^regex = '(.*)'$", project, re.MULTILINE)[1]
+        version = re.search(pattern, (SOURCE / "CMakeLists.txt").read_text())["value"]
+        self.assertEqual(version, pt.__version__)
+        options = re.findall(r"^(PACKTRACE_\w+) =", project, re.MULTILINE)
+        self.assertGreater(len(options), 3)
+        for option in options:
+            self.assertIn(f"option({option} ", (SOURCE / "CMakeLists.txt").read_text())
+        target = re.search(r'^build.targets = \["(\w+)"\]', project, re.MULTILINE)[1]
+        self.assertIn(f"pybind11_add_module({target} ", (SOURCE / "python/CMakeLists.txt").read_text())
 
     def test_the_version(self):
         self.assertRegex(pt.__version__, r"^\d+\.\d+\.\d+$")
