@@ -1,14 +1,13 @@
 #!/usr/bin/env python3
-"""What `exact` costs: results/exact_cost.json, and its tables in docs/numerics_results.md.
+"""What `exact` costs: results/exact_cost.json.
 
 Rates of a caller's rays and times of frames, one thread, in `exact`, in `fast`, in double precision,
 with the notes' rule for self-hits and, with BEFORE, in the default mode of an earlier build of the
 program, all by turns.
 
 Usage: results/exact_cost.py BUILD [BEFORE [REPETITIONS]]
-       results/exact_cost.py --tables
-BUILD and BEFORE are build folders with `packtrace` and `bench/scaling/packtrace_rays`. --tables only
-writes the tables anew from the JSON.
+BUILD and BEFORE are build folders with `packtrace` and `bench/scaling/packtrace_rays`. docs/write_figures.py
+then writes its tables anew.
 """
 import json
 import pathlib
@@ -30,7 +29,6 @@ FAST = {"rays": ["--fast"], "frame": ["--accuracy", "fast"]}
 DOUBLE = {"rays": ["--double"], "frame": ["--precision", "double"]}
 # Rays of a caller's own start where the caller says.
 NOTE = {"rays": None, "frame": ["--self-hits", "note"]}
-DOCUMENT = ROOT / "docs/numerics_results.md"
 FRAMES = ["four_spheres", "whitted", "flight", "general", "mirror_room", "quadrics", "sketch"]
 
 
@@ -64,45 +62,9 @@ def row_of(of, times, speed):
     return row
 
 
-def shown(ratio):
-    if ratio is None:
-        return "–"
-    return f"{ratio['median']:.2f} ({ratio['lowest']:.2f} … {ratio['highest']:.2f})"
-
-
-def table_of(rows, what, modes):
-    """Markdown: a line a row, with the speed of `exact` over that of each of `modes`."""
-    lines = ["| scene | ISA | " + what + " | `exact` | " +
-             " | ".join(f"over {name}" for name in modes.values()) + " |",
-             "|---|---|---|---:|" + "---:|" * len(modes)]
-    for row in rows:
-        ratios = [shown(row.get(f"exact_over_{mode}")) for mode in modes]
-        lines.append(f"| {row['scene']} | {row['isa']} | {row['rays']} | {row['exact']:.1f} | " +
-                     " | ".join(ratios) + " |")
-    return "\n".join(lines)
-
-
-def write_tables():
-    report = json.loads((ROOT / "results/exact_cost.json").read_text())
-    rays = [row for row in report["rows"] if row["unit"] != "milliseconds"]
-    frames = [row for row in report["rows"] if row["unit"] == "milliseconds"]
-    modes = {"fast": "`fast`", "double": "double", "before": "before"}
-    block = "\n\n".join([
-        f"Commit {report['commit']}, {report['machine']}, {report['repetitions']} repetitions. "
-        f"Before is {report['before']}.",
-        table_of(rays, "rays, million a second", modes),
-        table_of(frames, "frame, ms", {**modes, "note": "`note`"})])
-    text = DOCUMENT.read_text()
-    begin, end = "<!-- exact_cost.json -->\n", "<!-- end of exact_cost.json -->\n"
-    head, rest = text.split(begin)
-    DOCUMENT.write_text(head + begin + block + "\n" + end + rest.split(end)[1])
-
-
 def main():
     if len(sys.argv) < 2:
         sys.exit(__doc__)
-    if sys.argv[1] == "--tables":
-        return write_tables()
     built_of = commit()
     before = None
     builds = {"exact": (sys.argv[1], DEFAULT), "fast": (sys.argv[1], FAST),
@@ -139,7 +101,7 @@ def main():
            "before": before,
            "machine": load, "machine_after": machine(), "repetitions": repetitions, "rows": rows},
           "exact_cost.json")
-    write_tables()
+    subprocess.run([ROOT / "docs/write_figures.py"], check=True)
 
 
 if __name__ == "__main__":

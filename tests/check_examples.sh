@@ -25,6 +25,10 @@ picture() {
 
 case $example in
 picture) picture picture.png ;;
+first_hit)
+    grep -q '^object 0 at t = 4\.0[0-9]*, proven to lie in \[4\.0[0-9]*, 4\.0[0-9]*\]$' printed ||
+        fail "$example prints: $(cat printed)"
+    ;;
 million_rays)
     # t counts in lengths of the direction (…, …, 4): the front of the lattice's first layer, whose
     # spheres of radius 0.03 lie at z = 0.05, is 2.02 ahead of the origin.

@@ -49,7 +49,7 @@ if("sse42" IN_LIST PACKTRACE_KERNELS AND "avx2" IN_LIST PACKTRACE_KERNELS)
                           "${emulated}" ${fail_on_none})
 endif()
 
-foreach(example IN ITEMS picture million_rays animation)
+foreach(example IN ITEMS picture first_hit million_rays animation)
     packtrace_script_test(example.${example} fast check_examples.sh ${example}
                           $<TARGET_FILE:packtrace_example_${example}>
                           "$<$<STREQUAL:${example},animation>:3>")
@@ -82,3 +82,20 @@ if(TARGET packtrace_shared)
                           $<TARGET_FILE:packtrace_shared> ${PROJECT_SOURCE_DIR}/include/packtrace)
 endif()
 packtrace_script_test(completion fast check_completion.sh $<TARGET_FILE:packtrace_cli>)
+
+# Documents against what they are made from, and the public headers' comments.
+find_package(Python3 COMPONENTS Interpreter)
+if(Python3_Interpreter_FOUND)
+    add_test(NAME figures COMMAND ${Python3_EXECUTABLE} -B
+             ${CMAKE_CURRENT_SOURCE_DIR}/check_figures.py ${PROJECT_SOURCE_DIR})
+    set_tests_properties(figures PROPERTIES LABELS fast)
+    if(PACKTRACE_BUILD_STUDY)
+        add_test(NAME commands COMMAND ${Python3_EXECUTABLE} -B
+                 ${PROJECT_SOURCE_DIR}/docs/write_commands.py --check $<TARGET_FILE:packtrace_cli>)
+        set_tests_properties(commands PROPERTIES LABELS fast)
+    endif()
+endif()
+if(PACKTRACE_DOXYGEN)
+    packtrace_script_test(api_comments fast check_api_comments.sh ${PACKTRACE_DOXYGEN}
+                          ${PROJECT_BINARY_DIR}/documents/Doxyfile)
+endif()

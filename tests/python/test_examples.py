@@ -32,6 +32,10 @@ class TestExamples(unittest.TestCase):
         self.assertEqual((self.folder / "picture.png").read_bytes(), ours)
         self.assertEqual(pt.read_image(self.folder / "picture.png").shape, (512, 512, 3))
 
+    def test_first_hit_prints_a_hit_and_a_miss(self):
+        printed = self.run_example("first_hit.py")
+        self.assertRegex(printed, r"^\[4\.0\d+ +inf\] \[ ?0 -1\]")
+
     def test_million_rays_prints_what_cpp_does(self):
         ours = self.run_example("million_rays.py")
         self.assertRegex(ours, r"^\d+ of 1000000 rays hit\nray \d+ hits object \d+ at t = 0.50")

@@ -43,8 +43,9 @@ void add_intersect_options(CLI::App& command, IntersectArguments& arguments)
         command.add_flag("--any", arguments.any, "Write only whether a ray hits anything: hit")
             ->excludes(all);
     command
-        .add_flag("--bounds", arguments.bounds,
-                  "Write proven bounds of each t, too: t_low,t_high; some 10 µs a hit")
+        .add_flag(
+            "--bounds", arguments.bounds,
+            "Add columns t_low,t_high: proven bounds of each t, which take longer than the hits")
         ->excludes(any);
     add_options(command, arguments.kernel);
 }

@@ -1,0 +1,243 @@
+"""The tables of README.md and docs/ that come from measurements: one function for each block, from
+the content of its file in results/ to Markdown. write_figures.py puts them in their places."""
+import statistics
+
+# The default mode of accuracy, and the one that had its place before.
+DEFAULT_MODES = ("exact", "auto")
+
+
+def table(head, rows, left=1):
+    """A Markdown table whose first `left` columns hold words."""
+    rule = ["---"] * left + ["---:"] * (len(head) - left)
+    return "\n".join("| " + " | ".join(line) + " |" for line in [head, rule, *rows])
+
+
+def digits(value, count=3):
+    """`count` significant digits, without an exponent."""
+    if value == 0:
+        return "0"
+    rounded = float(f"{value:.{count - 1}e}")
+    whole = len(str(int(abs(rounded))))
+    return f"{rounded:.{max(count - whole, 0)}f}" if abs(rounded) >= 1 else f"{rounded:.{count}g}"
+
+
+def spread(values):
+    """Median, with the lowest and the highest."""
+    return f"{statistics.median(values):.2f} ({min(values):.2f} … {max(values):.2f})"
+
+
+def source(context):
+    return f"Commit {context['commit']}, {context['processor']}, {context['compiler']}."
+
+
+# Races against Embree: peers.json
+
+def fastest(tracers, start, end=""):
+    """The fastest tracer, by the median, whose name begins and ends so; None where there is none."""
+    found = [t for t in tracers if t["tracer"].startswith(start) and t["tracer"].endswith(end)]
+    return max(found, key=lambda t: t["mrays_median"], default=None)
+
+
+def over(tracer, peer):
+    """How many times as fast as a peer, pass by pass."""
+    if tracer is None:
+        return "–"
+    return spread([theirs / ours for ours, theirs in zip(tracer["seconds"], peer["seconds"])])
+
+
+def default_mode(report):
+    names = {t["tracer"].split()[2] for race in report["races"] for t in race["tracers"]
+             if t["tracer"].startswith("packtrace")}
+    return next(mode for mode in DEFAULT_MODES if mode in names)
+
+
+def about_mode(mode):
+    if mode == DEFAULT_MODES[0]:
+        return f"The default mode is `{mode}`."
+    return f"The default mode was `{mode}` at this commit; `{DEFAULT_MODES[0]}` has replaced it since."
+
+
+def peers_rows(report, isa):
+    mode = default_mode(report)
+    for race in report["races"]:
+        tracers = race["tracers"]
+        user = fastest(tracers, "embree user")
+        ours = fastest(tracers, f"packtrace {isa} {mode} stream")
+        yield ([race["scene"], race["kind"], digits(user["mrays_median"]),
+                digits(ours["mrays_median"]), over(ours, user),
+                over(fastest(tracers, f"packtrace {isa} fast stream"), user)],
+               [over(fastest(tracers, f"packtrace {isa} {mode} tiles"), user),
+                over(fastest(tracers, f"packtrace {isa} fast tiles"), user),
+                over(ours, fastest(tracers, "embree sphere"))])
+
+
+def peers_summary(report):
+    head = ["scene", "rays", "Embree", "packtrace, default mode", "ratio", "ratio of `fast`"]
+    rows = [short for short, _ in peers_rows(report, "avx512")]
+    return f"{source(report['context'])} {about_mode(default_mode(report))}\n\n" + table(head, rows, 2)
+
+
+def peers_rates(report):
+    mode = default_mode(report)
+    head = ["scene", "rays", "Embree `user`", f"`{mode}` stream", "× user", "`fast` stream × user",
+            f"`{mode}` tiles × user", "`fast` tiles × user", f"`{mode}` stream × sphere"]
+    parts = [f"{source(report['context'])} {about_mode(mode)}"]
+    for isa in ("avx512", "avx2"):
+        parts += [f"With `{isa}`:", table(head, [a + b for a, b in peers_rows(report, isa)], 2)]
+    return "\n\n".join(parts)
+
+
+def peers_builds(report):
+    rows = [[b["side"], str(b["threads"]), digits(b["seconds"]),
+             f"{min(b['seconds_of_all']):.3g} … {max(b['seconds_of_all']):.3g}",
+             digits(b["bytes_an_object"])] for b in report["builds"]]
+    return table(["side", "threads", "seconds", "lowest … highest", "bytes an object"], rows)
+
+
+def peers_frames(report):
+    head = ["scene", "objects", "Tachyon, s", "POV-Ray, s", "packtrace, s", "× Tachyon", "× POV-Ray",
+            "packtrace again, s"]
+    rows = []
+    for scene in report["scenes"]:
+        tracers = scene["tracers"]
+        ours = tracers["packtrace"]["trace_seconds"]
+        theirs = [tracers[name]["trace_seconds"] for name in ("tachyon", "povray")]
+        ratios = [spread([a / b for a, b in zip(peer["all"], ours["all"])]) for peer in theirs]
+        rows.append([scene["scene"], str(scene["objects"]),
+                     *(digits(peer["median"]) for peer in theirs), digits(ours["median"]), *ratios,
+                     digits(tracers["packtrace"]["trace_again_seconds"]["median"])])
+    return f"{source(report['context'])}\n\n" + table(head, rows)
+
+
+# What `exact` costs: exact_cost.json
+
+def exact_ratio(row, mode):
+    ratio = row.get(f"exact_over_{mode}")
+    if ratio is None:
+        return "–"
+    return f"{ratio['median']:.2f} ({ratio['lowest']:.2f} … {ratio['highest']:.2f})"
+
+
+def exact_table(rows, what, modes):
+    head = ["scene", "ISA", what, "`exact`", *(f"over {name}" for name in modes.values())]
+    return table(head, [[row["scene"], row["isa"], row["rays"], f"{row['exact']:.1f}",
+                         *(exact_ratio(row, mode) for mode in modes)] for row in rows], 3)
+
+
+def exact_cost(report):
+    rays = [row for row in report["rows"] if row["unit"] != "milliseconds"]
+    frames = [row for row in report["rows"] if row["unit"] == "milliseconds"]
+    modes = {"fast": "`fast`", "double": "double", "before": "before"}
+    return "\n\n".join([
+        f"Commit {report['commit']}, {report['machine']}, {report['repetitions']} repetitions. "
+        f"Before is {report['before']}.",
+        exact_table(rays, "rays, million a second", modes),
+        exact_table(frames, "frame, ms", {**modes, "note": "`note`"})])
+
+
+def exact_range(rows, mode):
+    medians = [row[f"exact_over_{mode}"]["median"] for row in rows if f"exact_over_{mode}" in row]
+    return f"{min(medians):.2f} to {max(medians):.2f}"
+
+
+def exact_cost_ranges(report):
+    lines = []
+    for name, unit in (("A caller's rays", "million rays a second"), ("Frames", "milliseconds")):
+        rows = [row for row in report["rows"] if row["unit"] == unit]
+        lines.append(f"- {name} in `exact` run at {exact_range(rows, 'fast')} times the speed of `fast`,\n"
+                     f"  {exact_range(rows, 'double')} times that of double precision, and "
+                     f"{exact_range(rows, 'before')} times that of the version before\n"
+                     f"  ({report['before']}).")
+    return f"Commit {report['commit']}:\n\n" + "\n".join(lines)
+
+
+# Growth: scaling.json
+
+def at(points, study, **wanted):
+    return next((p for p in points if p["study"] == study and
+                 all(p[key] == value for key, value in wanted.items())), None)
+
+
+def faster_by_two(points, one, key):
+    two = at(points, one["study"], threads=2, **{key: one[key]})
+    return f"{one['frame_seconds'] / two['frame_seconds']:.2f}×" if two else "–"
+
+
+def scaling_objects(report):
+    points = report["points"]
+    ones = sorted((p for p in points if p["study"] == "objects" and p["threads"] == 1),
+                  key=lambda p: p["objects"])
+    rows, before = [], None
+    for p in ones:
+        growth = f"{p['nanoseconds_a_ray'] / before:.2f}" if before else ""
+        before = p["nanoseconds_a_ray"]
+        rows.append([f"{p['objects']:,}".replace(",", " "), f"{p['build_seconds']:.4g}",
+                     f"{p['scene_bytes_an_object']:.0f}", f"{p['frame_seconds'] * 1e3:.1f}",
+                     faster_by_two(points, p, "objects"), f"{before:.1f}", growth])
+    return f"{source(report['context'])}\n\n" + table(
+        ["objects", "build, s", "bytes an object", "frame, ms", "two threads", "ns a ray",
+         "over ten times fewer"], rows, 0)
+
+
+def scaling_pixels(report):
+    points = report["points"]
+    ones = sorted((p for p in points if p["study"] == "size" and p["threads"] == 1),
+                  key=lambda p: p["size"])
+    rows = [[str(p["size"]), f"{p['frame_seconds'] * 1e3:.2f}", faster_by_two(points, p, "size"),
+             f"{p['mrays_a_second']:.1f}", f"{p['peak_bytes'] / 2**20:.0f}"] for p in ones]
+    return table(["edge", "frame, ms", "two threads", "million rays a second", "peak memory, MiB"],
+                 rows, 0)
+
+
+# features.json, stress_exact.json, stress.json
+
+def features(report):
+    rows = [[s["scene"], s["kernel"], f"{s['special_ms']:.2f}", f"{s['general_ms']:.2f}",
+             f"{s['general_over_special']:.2f}"] for s in report["scenes"]]
+    return f"Commit {report['commit']}, {report['machine']}, {report['compiler']}.\n\n" + table(
+        ["scene", "kernel", "special, ms", "general, ms", "general / special"], rows, 2)
+
+
+def few_digits(value):
+    if value >= 1e5:
+        return f"{value:.0e}".replace("e+0", "e")
+    return f"{value:.0f}" if value >= 10 else f"{value:.2g}"
+
+
+def stress_exact(report):
+    rows = [[r["family"], str(r["hits"] - r["undecided"]), str(r["t_at_doubles_limit"]),
+             f"{r['ulp']['p99']:.2f}", few_digits(r["ulp"]["max"])]
+            for r in report["rows"] if r["t_at_doubles_limit"] > 0]
+    return (f"Commit {report['commit']}, `{report['command']}`:\n\n> {report['verdict']}\n\n" +
+            table(["family", "decided hits", "t beyond 1 ulp", "t 99%", "t most"], rows))
+
+
+def stress_textbook(report):
+    rows = [[r["family"], str(r["wrong"]), few_digits(r["ulp_p99"])] for r in report["rows"]
+            if r["kernel"] == "naive" and r["ulp_p99"] >= 7.5]
+    return table(["family", "wrong", "t 99%"], rows)
+
+
+def stress_note(report):
+    rows = [[r["family"], str(r["secondary_rays"]), str(r["note_self_hits"]), str(r["note_lost_hits"])]
+            for r in report["rows"] if r["kernel"] == "packet" and
+            r["mode"] == "fast" and
+            r["note_self_hits"] + r["note_lost_hits"] >= 50]
+    return table(["family", "rays", "self-hits", "lost"], rows)
+
+
+# The name of a block after its file, as markers give it: results/peers.json: summary.
+TABLES = {
+    "results/peers.json: summary": peers_summary,
+    "results/peers.json: rates": peers_rates,
+    "results/peers.json: builds": peers_builds,
+    "results/peers_frames.json: frames": peers_frames,
+    "results/exact_cost.json: tables": exact_cost,
+    "results/exact_cost.json: ranges": exact_cost_ranges,
+    "results/scaling.json: objects": scaling_objects,
+    "results/scaling.json: pixels": scaling_pixels,
+    "results/features.json: scenes": features,
+    "results/stress_exact.json: verdict": stress_exact,
+    "results/stress.json: textbook": stress_textbook,
+    "results/stress.json: note": stress_note,
+}

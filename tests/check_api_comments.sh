@@ -1,0 +1,26 @@
+#!/bin/sh
+# check_api_comments.sh DOXYGEN DOXYFILE
+#
+# Doxygen reads the public headers without a warning, and finds a comment that names a parameter
+# which its function has not.
+set -eu
+doxygen=$1
+doxyfile=$2
+folder=$(mktemp -d)
+trap 'rm -rf "$folder"' EXIT
+
+# warnings [SETTING]: what Doxygen warns of. The reference itself is not kept.
+warnings() {
+    { cat "$doxyfile"
+      printf '%s\n' "OUTPUT_DIRECTORY = $folder" "WARN_LOGFILE = $folder/warnings.txt" "$@"
+    } >"$folder/Doxyfile"
+    "$doxygen" "$folder/Doxyfile" >/dev/null
+    cat "$folder/warnings.txt"
+}
+
+found=$(warnings)
+[ -z "$found" ] || { printf '%s\n' "$found"; exit 1; }
+
+printf '/// Adds.\n/// @param c is none of them\nint add(int a, int b);\n' >"$folder/planted.hpp"
+warnings "INPUT = $folder/planted.hpp" | grep -q planted.hpp ||
+    { echo "Doxygen does not find a planted fault"; exit 1; }
