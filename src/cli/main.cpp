@@ -50,7 +50,8 @@ int parse_and_run(CLI::App& app, int argc, char** argv)
     return exit_ok;
 }
 
-int run(int argc, char** argv)
+/// The commands take memory, too, as they are set up.
+int set_up_and_run(int argc, char** argv)
 {
     CLI::App app{"packtrace: a SIMD ray-packet tracer for spheres, planes, quadrics and polygons"};
     app.set_version_flag("--version", "packtrace " PACKTRACE_VERSION_STRING);
@@ -72,8 +73,13 @@ int run(int argc, char** argv)
     add_soak(app);
     add_stress(app);
     clean_up_when_interrupted();
+    return parse_and_run(app, argc, argv);
+}
+
+int run(int argc, char** argv)
+{
     try {
-        return parse_and_run(app, argc, argv);
+        return set_up_and_run(argc, argv);
     } catch (const Failed& failed) {
         return failed.exit_code;
     } catch (const std::bad_alloc&) {

@@ -13,6 +13,7 @@
 #include <utility>
 #include <vector>
 
+#include <dirent.h>
 #include <fcntl.h>
 #include <sys/file.h>
 #include <sys/stat.h>
@@ -66,6 +67,13 @@ bool is_left_over(const std::filesystem::path& file, pid_t writer)
     return free;
 }
 
+struct CloseFolder {
+    void operator()(DIR* folder) const
+    {
+        closedir(folder);
+    }
+};
+
 /// The names in a folder that may be of temporary files, read once: a run that writes many files
 /// into one folder looks through it a single time.
 std::vector<std::string> temporaries_in(const std::filesystem::path& folder)
@@ -74,12 +82,13 @@ std::vector<std::string> temporaries_in(const std::filesystem::path& folder)
     static std::map<std::filesystem::path, std::vector<std::string>> known;
     const std::scoped_lock lock(mutex);
     const auto [place, is_new] = known.try_emplace(folder);
-    std::error_code error;
-    if (is_new)
-        for (std::filesystem::directory_iterator entry(folder, error), end; !error && entry != end;
-             entry.increment(error))
-            if (std::string name = entry->path().filename().string(); name.ends_with(ending))
-                place->second.push_back(std::move(name));
+    if (!is_new)
+        return place->second;
+    // The standard library's iterators end the program where there is no memory for a name.
+    const std::unique_ptr<DIR, CloseFolder> opened(opendir(folder.c_str()));
+    while (const dirent* const entry = opened ? readdir(opened.get()) : nullptr)
+        if (const std::string_view name = entry->d_name; name.ends_with(ending))
+            place->second.emplace_back(name);
     return place->second;
 }
 

@@ -1,0 +1,57 @@
+// Each allocation of a render fails once: the program ends with one line, or does without.
+#include <algorithm>
+
+#include "catch.hpp"
+#include "run_program.hpp"
+
+namespace packtrace::test {
+namespace {
+
+/// Renders with the allocation of that number failing; returns whether it did fail.
+bool render_without(long allocation, const std::string& expected)
+{
+    const TempFolder folder;
+    const std::string picture = (folder / "a.pfm").string();
+    const ProgramResult result = run_packtrace(
+        {"render", four_spheres_file, "--size", "24x18", "-q", "--threads", "2", "-o", picture},
+        "FAIL_MALLOC_AT=" + std::to_string(allocation) + " LD_PRELOAD=" PACKTRACE_FAIL_MALLOC);
+    CAPTURE(allocation, result.err);
+    if (result.exit_code == 0) {
+        CHECK(read_text(picture) == expected);
+        return false;
+    }
+    CHECK(result.exit_code == 1);
+    CHECK(std::count(result.err.begin(), result.err.end(), '\n') == 1);
+    // No picture, whole or half, and nothing else.
+    CHECK(folder.names().empty());
+    return true;
+}
+
+std::string whole_picture()
+{
+    const TempFolder folder;
+    const std::string picture = (folder / "a.pfm").string();
+    REQUIRE(run_packtrace({"render", four_spheres_file, "--size", "24x18", "-q", "-o", picture})
+                .exit_code == 0);
+    return read_text(picture);
+}
+
+}  // namespace
+
+TEST_CASE("a render that runs out of memory says so and leaves nothing", "[no_memory]")
+{
+    const std::string expected = whole_picture();
+    long failed = 0;
+    for (long allocation = 1; allocation < 12000; allocation += 331)
+        failed += render_without(allocation, expected) ? 1 : 0;
+    CHECK(failed > 3);
+}
+
+TEST_CASE("each of the first ten thousand allocations of a render may fail", "[no_memory][slow]")
+{
+    const std::string expected = whole_picture();
+    for (long allocation = 1; allocation <= 10000; ++allocation)
+        render_without(allocation, expected);
+}
+
+}  // namespace packtrace::test
