@@ -321,8 +321,8 @@ Vec3 point_near(StressRandom& random, const Object& object)
               random.between(-3.0, 3.0) * plane->v;
     } else if (const auto* const polygon = std::get_if<Polygon>(&object.surface)) {
         const auto& corners = polygon->contours[0];
-        const auto corner =
-            static_cast<std::size_t>(random.below(static_cast<int>(corners.size())));
+        const auto others = static_cast<int>(corners.size()) - 2;
+        const auto corner = static_cast<std::size_t>(2 + random.below(others));
         // Next to no edge: rounding decides what a ray at one hits.
         const Vec3 middle = 0.5 * (corners[1] + corners[corner]);
         own = glm::mix(corners[0], middle, random.between(0.03, 1.3));
