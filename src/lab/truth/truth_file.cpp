@@ -53,7 +53,10 @@ std::optional<Truth> read_truth(const std::filesystem::path& file)
         return std::nullopt;
     const std::string_view data = std::string_view(bytes).substr(end + 1);
     const auto pixels = static_cast<std::size_t>(width) * static_cast<std::size_t>(height);
-    if (data.size() != pixels * 3 * sizeof(double) || text_hash(data) != hash)
+    constexpr std::size_t pixel_bytes = 3 * sizeof(double);
+    // Not by multiplying: a file may name sizes whose product is beyond 64 bits.
+    if (data.size() % pixel_bytes != 0 || data.size() / pixel_bytes != pixels ||
+        text_hash(data) != hash)
         return std::nullopt;
     truth.image = Image<double>(width, height);
     std::memcpy(truth.image.rgb.data(), data.data(), data.size());

@@ -1,0 +1,32 @@
+// Any bytes as PNG, PFM and Radiance HDR: a picture of as many values as its sizes say, or an
+// error.
+#include <packtrace/image_io.hpp>
+
+#include "fuzzer.hpp"
+#include "image/hdr.hpp"
+#include "image/pfm.hpp"
+#include "image/png.hpp"
+
+namespace {
+
+template <class Decode>
+void decode_any(const Decode& decode, packtrace::fuzz::Bytes bytes)
+{
+    try {
+        const packtrace::Image<float> image = decode(bytes);
+        const auto pixels =
+            static_cast<std::size_t>(image.width) * static_cast<std::size_t>(image.height);
+        packtrace::fuzz::require(image.width > 0 && image.height > 0, "a picture has pixels");
+        packtrace::fuzz::require(image.rgb.size() == 3 * pixels, "a picture has all its values");
+    } catch (const packtrace::ImageError&) {
+    }
+}
+
+}  // namespace
+
+PACKTRACE_FUZZER(pictures)
+{
+    decode_any(packtrace::decode_png, bytes);
+    decode_any(packtrace::decode_pfm, bytes);
+    decode_any(packtrace::decode_hdr, bytes);
+}

@@ -1,0 +1,41 @@
+// Any text as a CSV of rays: as many rays in every column, or one line that says why not.
+#include <string>
+
+#include "cli/intersect/ray_blocks.hpp"
+#include "cli/intersect/ray_reader.hpp"
+#include "core/file_error.hpp"
+#include "input_file.hpp"
+
+namespace {
+
+template <class Real>
+std::size_t count_rays(const std::string& file)
+{
+    using namespace packtrace::cli;
+    RayBlocks blocks(file);
+    RayArrays<Real> rays;
+    std::size_t count = 0;
+    for (RayBlock block = blocks.next(); !block.text.empty(); block = blocks.next()) {
+        read_rays(block.format, block.text, block.first_line, rays);
+        for (const auto& column : rays.columns)
+            packtrace::fuzz::require(column.size() == rays.columns[0].size(),
+                                     "columns of rays are as long as each other");
+        count += rays.columns[0].size();
+    }
+    return count;
+}
+
+}  // namespace
+
+PACKTRACE_FUZZER(rays)
+{
+    const packtrace::fuzz::InputFile file(bytes);
+    try {
+        const std::size_t count = count_rays<double>(file.name());
+        packtrace::fuzz::require(count_rays<float>(file.name()) == count,
+                                 "both precisions read the same rays");
+    } catch (const packtrace::FileError& error) {
+        const std::string what = error.what();
+        packtrace::fuzz::require(what.find('\n') == std::string::npos, "a message is one line");
+    }
+}

@@ -1,0 +1,27 @@
+#!/bin/bash
+# run_fuzzers.sh FOLDER SECONDS [OPTION…]: runs each fuzzer in FOLDER for so long, from its corpus on
+# and from what earlier runs found, and prints how many inputs it tried. Options go to libFuzzer.
+# New inputs and those that fail are kept in build/fuzzed/.
+set -euo pipefail
+folder=$1
+seconds=$2
+shift 2
+here=$(dirname "$(readlink -f "$0")")
+kept=$(dirname "$(dirname "$here")")/build/fuzzed
+failed=0
+for source in "$here"/fuzz_*.cpp; do
+    name=$(basename "$source" .cpp)
+    corpus=${name#fuzz_}
+    mkdir -p "$kept/$corpus" "$kept/failed"
+    log=$kept/$corpus.log
+    if "$folder/$name" -max_total_time="$seconds" -max_len=8192 -timeout=60 -rss_limit_mb=2048 \
+        -malloc_limit_mb=1024 -print_final_stats=1 -artifact_prefix="$kept/failed/$corpus-" "$@" \
+        "$kept/$corpus" "$here/corpus/$corpus" >"$log" 2>&1; then
+        echo "$corpus: $(sed -n 's/^stat::number_of_executed_units: *//p' "$log") inputs, no finding"
+    else
+        failed=1
+        grep -E '^broken|ERROR|SUMMARY|Test unit' "$log" >&2 || tail -5 "$log" >&2
+        echo "$corpus: FAILED; see $log" >&2
+    fi
+done
+exit $failed
