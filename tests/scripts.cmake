@@ -81,7 +81,7 @@ if(TARGET packtrace_shared)
     packtrace_script_test(exports fast check_exports.sh ${CMAKE_NM} ${CMAKE_OBJDUMP}
                           $<TARGET_FILE:packtrace_shared> ${PROJECT_SOURCE_DIR}/include/packtrace)
 endif()
-packtrace_script_test(completion fast check_completion.sh $<TARGET_FILE:packtrace_cli>)
+packtrace_script_test(completion fast check_completion.sh ${packtrace_program})
 
 # Documents against what they are made from, and the public headers' comments.
 find_package(Python3 COMPONENTS Interpreter)

@@ -17,7 +17,7 @@ for source in "$here"/fuzz_*.cpp; do
     if "$folder/$name" -max_total_time="$seconds" -max_len=8192 -timeout=60 -rss_limit_mb=2048 \
         -malloc_limit_mb=1024 -print_final_stats=1 -artifact_prefix="$kept/failed/$corpus-" "$@" \
         "$kept/$corpus" "$here/corpus/$corpus" >"$log" 2>&1; then
-        echo "$corpus: $(sed -n 's/^stat::number_of_executed_units: *//p' "$log") inputs, no finding"
+        echo "$corpus: $(sed -n 's/^stat::number_of_executed_units: *//p' "$log" | tail -1) inputs, no finding"
     else
         failed=1
         grep -E '^broken|ERROR|SUMMARY|Test unit' "$log" >&2 || tail -5 "$log" >&2

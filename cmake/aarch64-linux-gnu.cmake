@@ -1,0 +1,19 @@
+# For CMAKE_TOOLCHAIN_FILE: builds for 64-bit Arm with Debian's cross compiler, against the packages
+# unpacked in the folder PACKTRACE_SYSROOT; tests run under qemu-aarch64. tests/check_arm.sh does all
+# of it.
+set(CMAKE_SYSTEM_NAME Linux)
+set(CMAKE_SYSTEM_PROCESSOR aarch64)
+set(CMAKE_TRY_COMPILE_PLATFORM_VARIABLES PACKTRACE_SYSROOT)
+set(PACKTRACE_SYSROOT "" CACHE PATH "Folder with a system's packages for the target")
+
+set(CMAKE_CXX_COMPILER aarch64-linux-gnu-g++)
+set(CMAKE_LIBRARY_ARCHITECTURE aarch64-linux-gnu)
+set(CMAKE_SYSROOT ${PACKTRACE_SYSROOT})
+set(CMAKE_FIND_ROOT_PATH ${PACKTRACE_SYSROOT})
+set(CMAKE_FIND_ROOT_PATH_MODE_PROGRAM NEVER)
+set(CMAKE_FIND_ROOT_PATH_MODE_LIBRARY ONLY)
+set(CMAKE_FIND_ROOT_PATH_MODE_INCLUDE ONLY)
+set(CMAKE_FIND_ROOT_PATH_MODE_PACKAGE ONLY)
+
+find_program(PACKTRACE_QEMU_ARM NAMES qemu-aarch64 qemu-aarch64-static)
+set(CMAKE_CROSSCOMPILING_EMULATOR ${PACKTRACE_QEMU_ARM} -L ${PACKTRACE_SYSROOT})
