@@ -75,6 +75,15 @@ if(PACKTRACE_PYTHON)
     endif()
 endif()
 
+# Not among what is needed: without it, packtrace-mpi is left out.
+if(PACKTRACE_BUILD_PROGRAM AND PACKTRACE_BUILD_MPI)
+    find_package(MPI QUIET COMPONENTS CXX)
+    if(NOT MPI_CXX_FOUND)
+        message(STATUS "packtrace: no MPI here, so packtrace-mpi is left out; to build it, type: "
+                       "sudo apt-get install libopenmpi-dev openmpi-bin")
+    endif()
+endif()
+
 if(missing_packages)
     list(JOIN missing_packages " " packages)
     message(FATAL_ERROR "packtrace: missing ${packages}; type: sudo apt-get install ${packages}")

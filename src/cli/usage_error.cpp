@@ -16,11 +16,13 @@ const CLI::App& innermost(const CLI::App& app)
     return used.empty() ? app : innermost(*used.front());
 }
 
-/// "packtrace generate lattice".
+/// "packtrace generate lattice", or of another program what it is called.
 std::string full_name(const CLI::App& command)
 {
     const CLI::App* const parent = command.get_parent();
-    return parent == nullptr ? "packtrace" : full_name(*parent) + " " + command.get_name();
+    if (parent == nullptr)
+        return command.get_name().empty() ? "packtrace" : command.get_name();
+    return full_name(*parent) + " " + command.get_name();
 }
 
 std::vector<std::string> subcommands_of(const CLI::App& command)

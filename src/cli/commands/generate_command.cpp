@@ -7,6 +7,7 @@
 #include <packtrace/write_scene.hpp>
 
 #include "cli/command.hpp"
+#include "cli/commands/generators.hpp"
 #include "cli/options/common_options.hpp"
 #include "cli/options/validators.hpp"
 #include "cli/output/text_output.hpp"
@@ -16,7 +17,6 @@ namespace {
 
 /// What every generator's command takes.
 struct Common {
-    std::string output;
     PictureArguments picture{.size = "1024x1024", .depth = {}, .min_weight = {}};
 };
 
@@ -25,34 +25,26 @@ struct Arguments : Common {
     Options options;
 };
 
-template <class Options>
-void run_generator(const Arguments<Options>& arguments, Scene (*generate)(const Options&))
-{
-    TextOutput output(arguments.output);
-    Scene scene = generate(arguments.options);
-    apply(arguments.picture, scene);
-    output.write(scene_text(scene));
-    output.finish();
-}
-
 // Options end where a scene file would have more keys than its reader takes: a sphere has four.
 
 /// The generator's command with the options all have; the caller adds its own.
 template <class Options>
 CLI::App* add_generator(CLI::App& generate, const std::string& name, const std::string& help,
                         const std::shared_ptr<Arguments<Options>>& arguments,
-                        Scene (*generator)(const Options&))
+                        Scene (*generator)(const Options&), const TakeScene& take)
 {
     CLI::App* command = generate.add_subcommand(name, help);
-    command->add_option("-o,--output", arguments->output, "Scene file (default standard output)")
-        ->type_name("FILE");
     command
         ->add_option("--reflective", arguments->options.reflective,
                      "Mirrored light of the spheres, 0 to 1 (default 0)")
         ->check(non_negative_number())
         ->type_name("R");
     add_size_option(*command, arguments->picture);
-    command->callback([arguments, generator] { run_generator(*arguments, generator); });
+    command->callback([arguments, generator, take] {
+        Scene scene = generator(arguments->options);
+        apply(arguments->picture, scene);
+        take(std::move(scene));
+    });
     return command;
 }
 
@@ -61,12 +53,12 @@ void add_radius(CLI::App& command, double& radius, const std::string& help)
     command.add_option("--radius", radius, help)->check(positive_number())->type_name("R");
 }
 
-void add_sphereflake(CLI::App& generate)
+void add_sphereflake(CLI::App& generate, const TakeScene& take)
 {
     const auto arguments = std::make_shared<Arguments<SphereflakeOptions>>();
     CLI::App* command =
         add_generator(generate, "sphereflake", "Spheres that bear nine smaller ones, and so on",
-                      arguments, generate_sphereflake);
+                      arguments, generate_sphereflake, take);
     command
         ->add_option("--depth", arguments->options.depth,
                      "Generations, 0 to 6 (default 4: 7381 spheres; 6: 597871)")
@@ -76,12 +68,12 @@ void add_sphereflake(CLI::App& generate)
                       "Add a plane to stand on, and two more lights");
 }
 
-void add_random(CLI::App& generate)
+void add_random(CLI::App& generate, const TakeScene& take)
 {
     const auto arguments = std::make_shared<Arguments<RandomSpheresOptions>>();
     CLI::App* command =
         add_generator(generate, "random", "Spheres spread evenly over the unit cube", arguments,
-                      generate_random_spheres);
+                      generate_random_spheres, take);
     command
         ->add_option("--count", arguments->options.count,
                      "How many, up to 1990000 (default 1000000)")
@@ -93,11 +85,11 @@ void add_random(CLI::App& generate)
         ->type_name("N");
 }
 
-void add_lattice(CLI::App& generate)
+void add_lattice(CLI::App& generate, const TakeScene& take)
 {
     const auto arguments = std::make_shared<Arguments<LatticeOptions>>();
     CLI::App* command = add_generator(generate, "lattice", "Spheres in rows, columns and layers",
-                                      arguments, generate_lattice);
+                                      arguments, generate_lattice, take);
     command
         ->add_option("--edge", arguments->options.edge,
                      "Spheres along each edge, 1 to 125 (default 10)")
@@ -109,13 +101,32 @@ void add_lattice(CLI::App& generate)
 
 }  // namespace
 
+void add_generators(CLI::App& generate, const TakeScene& take)
+{
+    generate.require_subcommand(1);
+    add_sphereflake(generate, take);
+    add_random(generate, take);
+    add_lattice(generate, take);
+}
+
 void add_generate(CLI::App& app)
 {
     CLI::App* generate = app.add_subcommand("generate", "Write a procedural scene");
-    generate->require_subcommand(1);
-    add_sphereflake(*generate);
-    add_random(*generate);
-    add_lattice(*generate);
+    const auto file = std::make_shared<std::string>();
+    add_generators(*generate, [file](const Scene& scene) {
+        TextOutput output(*file);
+        output.write(scene_text(scene));
+        output.finish();
+    });
+    for (CLI::App* command : generate->get_subcommands({})) {
+        command->add_option("-o,--output", *file, "Scene file (default standard output)")
+            ->type_name("FILE");
+        // Before the work, so that a wrong name doesn't cost it.
+        command->parse_complete_callback([file] {
+            if (!file->empty())
+                check_writable(*file);
+        });
+    }
 }
 
 }  // namespace packtrace::cli

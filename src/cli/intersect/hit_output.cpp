@@ -67,29 +67,27 @@ HitOutput::Progress HitOutput::find_finished(std::string_view header) const
     return done;
 }
 
-void HitOutput::skip_finished(RayBlocks& rays)
+void HitOutput::skip_finished(const std::function<std::string()>& next)
 {
     std::uint32_t sum = 0;
     for (std::uint64_t i = 0; i < done_.blocks; ++i)
-        sum = checksum(bytes_of(rays.next().text), sum);
+        sum = checksum(bytes_of(next()), sum);
     if (sum != done_.rays)
         throw FileError(name_ +
                         ".journal: was begun with other rays; use what it was begun with, or "
                         "remove this file to begin again");
 }
 
-void HitOutput::take(const RayBlock& block, std::string_view rows)
+void HitOutput::take(std::string_view block, std::string_view rows)
 {
     if (text_)
         return text_->write(rows);
     journal_->write(done_.bytes, bytes_of(rows));
-    done_ = {done_.blocks + 1, checksum(bytes_of(block.text), done_.rays),
-             done_.bytes + rows.size(), checksum(bytes_of(rows), done_.rows)};
+    done_ = {done_.blocks + 1, checksum(bytes_of(block), done_.rays), done_.bytes + rows.size(),
+             checksum(bytes_of(rows), done_.rows)};
     journal_->add({done_.blocks, done_.rays, done_.bytes, done_.rows});
-    set_interrupt_line("packtrace: interrupted after " + std::to_string(block.first_ray) +
-                       " rays and more; the same command goes on "
-                       "with " +
-                       name_);
+    set_interrupt_line("packtrace: interrupted; the same command goes on after the " +
+                       std::to_string(done_.blocks) + " finished blocks of rays of " + name_);
 }
 
 void HitOutput::finish()

@@ -1,12 +1,12 @@
 #pragma once
 
+#include <functional>
 #include <memory>
 #include <optional>
 #include <string>
 #include <string_view>
 
 #include "cli/intersect/intersect_arguments.hpp"
-#include "cli/intersect/ray_blocks.hpp"
 #include "cli/output/journal.hpp"
 #include "cli/output/text_output.hpp"
 
@@ -20,12 +20,18 @@ public:
     HitOutput(const IntersectArguments& arguments, const std::string& recipe,
               std::string_view header);
 
-    /// Passes over the blocks that an earlier run finished. Throws FileError where their rays have
-    /// changed since.
-    void skip_finished(RayBlocks& rays);
+    /// Blocks that an earlier run finished.
+    [[nodiscard]] std::uint64_t finished() const
+    {
+        return done_.blocks;
+    }
 
-    /// Rows of the next block. Throws FileError.
-    void take(const RayBlock& block, std::string_view rows);
+    /// Passes over them: `next` gives the text of one after the other. Throws FileError where that
+    /// has changed since.
+    void skip_finished(const std::function<std::string()>& next);
+
+    /// Rows of the next block of rays, which has this text. Throws FileError.
+    void take(std::string_view block, std::string_view rows);
 
     /// After the last rows.
     void finish();

@@ -36,7 +36,7 @@ void run(const IntersectArguments& arguments, const Scene& scene, const RenderOp
 {
     BlockTracer<Real> tracer(scene, options, arguments.query(), arguments.ray_bounds());
     intersect_rays<Real>(tracer, rays, [&](const RayBlock& block, std::string_view rows) {
-        output.take(block, rows);
+        output.take(block.text, rows);
     });
     output.finish();
 }
@@ -62,7 +62,7 @@ void run_intersect(const IntersectArguments& arguments)
     }
     RayBlocks rays(arguments.rays, range);
     HitOutput output(arguments, recipe, header);
-    output.skip_finished(rays);
+    output.skip_finished([&] { return rays.next().text; });
     if (arguments.kernel.precision == "single")
         run<float>(arguments, scene, options, rays, output);
     else

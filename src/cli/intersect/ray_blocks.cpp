@@ -35,6 +35,7 @@ RayBlock RayBlocks::next()
             ++ray_;
     }
     line_ = lines.number();
+    block.rays = ray_ - block.first_ray;
     block.format = format_;
     return block;
 }

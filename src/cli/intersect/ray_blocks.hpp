@@ -16,6 +16,7 @@ struct RayBlock {
     RayFormat format;
     std::size_t first_line = 1;
     std::uint64_t first_ray = 0;
+    std::uint64_t rays = 0;  ///< in it
 };
 
 /// Cuts a file of rays into blocks that can be read in any order.

@@ -38,4 +38,14 @@ struct RenderArguments {
     bool quiet = false;
 };
 
+void add_render_options(CLI::App& command, RenderArguments& arguments);
+
+/// Throws CLI::ValidationError for options that contradict each other, ImageError where a picture
+/// can't be written.
+[[nodiscard]] RenderOptions checked_options(const RenderArguments& arguments);
+
+/// Says on standard error what a picture took, in seconds.
+void print_summary(const RenderArguments& arguments, const RenderOptions& options,
+                   const Scene& scene, double seconds, double writing);
+
 }  // namespace packtrace::cli

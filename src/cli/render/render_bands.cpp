@@ -12,9 +12,6 @@
 namespace packtrace::cli {
 namespace {
 
-/// Of a band: enough for all threads, little memory.
-constexpr std::int64_t band_pixels = std::int64_t{1} << 20;
-
 /// Says what an interrupted run leaves.
 void note_progress(const RenderArguments& arguments, int done, int bands)
 {

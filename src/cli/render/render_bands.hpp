@@ -9,6 +9,9 @@
 
 namespace packtrace::cli {
 
+/// Of a band: enough for all threads, little memory. Journals depend on it.
+inline constexpr std::int64_t band_pixels = std::int64_t{1} << 18;
+
 /// Pictures of more pixels are not held whole.
 inline constexpr std::int64_t most_whole_pixels = std::int64_t{1} << 24;
 

@@ -1,0 +1,357 @@
+#include "mpi/job.hpp"
+
+#include <array>
+#include <chrono>
+#include <cstring>
+#include <exception>
+#include <new>
+#include <stdexcept>
+#include <thread>
+#include <utility>
+
+namespace packtrace::mpi {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+// A count of MPI is an int.
+constexpr std::size_t largest_message = std::size_t{1} << 30;
+/// How long a rank sleeps where MPI has nothing for it.
+constexpr std::chrono::microseconds nap{200};
+
+double seconds_since(Clock::time_point start)
+{
+    return std::chrono::duration<double>(Clock::now() - start).count();
+}
+
+/// What goes ahead of a piece's bytes.
+struct Head {
+    std::uint64_t bytes = 0;
+    std::uint64_t error_bytes = 0;
+    std::uint64_t cut_rays = 0;
+    double cut_bound = 0.0;
+};
+
+/// Calls `use` for each message that so many bytes are sent in.
+template <class Use>
+void in_messages(std::size_t bytes, const Use& use)
+{
+    for (std::size_t at = 0; at < bytes; at += largest_message)
+        use(at, static_cast<int>(std::min(largest_message, bytes - at)));
+}
+
+std::string what_of(const std::exception_ptr& error)
+{
+    try {
+        std::rethrow_exception(error);
+    } catch (const std::bad_alloc&) {
+        return "packtrace-mpi: not enough memory";
+    } catch (const std::exception& known) {
+        return known.what();
+    }
+}
+
+}  // namespace
+
+/// A piece on its way to rank 0.
+struct Job::Sending {
+    Piece piece;
+    Head head;
+    std::vector<MPI_Request> requests;
+
+    explicit Sending(Piece sent) : piece(std::move(sent))
+    {
+        head = {piece.bytes.size(), piece.error.size(), piece.cut_rays, piece.cut_bound};
+        const auto send = [&](const void* bytes, int count, bool waits) {
+            requests.emplace_back();
+            // Bytes leave only when rank 0 has room for them.
+            (waits ? MPI_Issend : MPI_Isend)(bytes, count, MPI_BYTE, 0, piece.number,
+                                             MPI_COMM_WORLD, &requests.back());
+        };
+        send(&head, sizeof head, false);
+        in_messages(piece.bytes.size(),
+                    [&](std::size_t at, int count) { send(piece.bytes.data() + at, count, true); });
+        if (!piece.error.empty())
+            send(piece.error.data(), static_cast<int>(piece.error.size()), true);
+    }
+
+    [[nodiscard]] bool is_over()
+    {
+        int over = 0;
+        MPI_Testall(static_cast<int>(requests.size()), requests.data(), &over, MPI_STATUSES_IGNORE);
+        return over != 0;
+    }
+};
+
+Job::Job(const World& world, int pieces, std::size_t piece_bytes)
+    : world_(world),
+      counter_(world),
+      window_(pieces, window_of(world.size(), piece_bytes)),
+      ranks_at_work_(world.size() - 1)
+{
+}
+
+Job::~Job() = default;
+
+std::vector<RankReport> Job::run(const Make& make, const Take& take)
+{
+    const Work work = [&](const Next& next, RankReport& report) {
+        for (std::int64_t number; (number = next()) < window_.count();) {
+            const auto start = Clock::now();
+            Piece piece;
+            try {
+                piece = make(static_cast<int>(number), report);
+            } catch (...) {
+                piece.error = what_of(std::current_exception());
+            }
+            piece.number = static_cast<int>(number);
+            report.busy += seconds_since(start);
+            ++report.pieces;
+            hand_over(std::move(piece));
+        }
+    };
+    return run(work, take);
+}
+
+std::vector<RankReport> Job::run(const Work& work)
+{
+    return run(work, [](const Piece&) {});
+}
+
+std::vector<RankReport> Job::run(const Work& work, const Take& take)
+{
+    const auto start = Clock::now();
+    std::thread worker([&] { work_all(work); });
+    std::thread writer;
+    if (world_.is_first())
+        writer = std::thread([&] { write_all(take); });
+    while (!is_over())
+        if (!step()) {
+            std::unique_lock lock(mutex_);
+            changed_.wait_for(lock, nap, [&] { return asks_ || !finished_.empty(); });
+        }
+    worker.join();
+    if (writer.joinable())
+        writer.join();
+    // Rank 0 waits for the others' work.
+    if (!world_.is_first()) {
+        const char over = 0;
+        MPI_Send(&over, 1, MPI_BYTE, 0, window_.count(), MPI_COMM_WORLD);
+    }
+    report_.waiting = seconds_since(start) - report_.busy;
+    world_.together([&] {
+        if (failed_)
+            throw std::runtime_error(failure_);
+    });
+    std::vector<RankReport> reports(static_cast<std::size_t>(world_.size()));
+    MPI_Allgather(&report_, sizeof report_, MPI_BYTE, reports.data(), sizeof report_, MPI_BYTE,
+                  MPI_COMM_WORLD);
+    return reports;
+}
+
+void Job::work_all(const Work& work)
+{
+    std::string error;
+    try {
+        work([this] { return ask(); }, report_);
+    } catch (...) {
+        error = what_of(std::current_exception());
+    }
+    const std::scoped_lock lock(mutex_);
+    works_ = false;
+    if (!error.empty())
+        fail(error);
+    changed_.notify_all();
+}
+
+/// For who holds the mutex.
+void Job::fail(const std::string& why)
+{
+    if (!failed_)
+        failure_ = why;
+    failed_ = true;
+}
+
+std::int64_t Job::ask()
+{
+    std::unique_lock lock(mutex_);
+    asks_ = true;
+    given_.reset();
+    changed_.notify_all();
+    changed_.wait(lock, [&] { return given_.has_value(); });
+    return *given_;
+}
+
+void Job::hand_over(Piece piece)
+{
+    std::unique_lock lock(mutex_);
+    if (world_.is_first()) {
+        changed_.wait(lock, [&] { return failed_ || window_.admits(piece.number); });
+        if (failed_)
+            return;
+        const int number = piece.number;
+        here_[number] = std::move(piece);
+        window_.arrive(number);
+    } else {
+        changed_.wait(lock, [&] { return on_their_way_ < most_on_their_way; });
+        ++on_their_way_;
+        finished_.push_back(std::move(piece));
+    }
+    changed_.notify_all();
+}
+
+/// On rank 0: gives pieces to `take` in order.
+void Job::write_all(const Take& take)
+{
+    std::unique_lock lock(mutex_);
+    while (!window_.empty()) {
+        changed_.wait(lock, [&] { return failed_ || window_.ready(); });
+        if (failed_)
+            return;
+        const Piece piece = std::move(here_[window_.first()]);
+        here_.erase(window_.first());
+        if (!piece.error.empty())
+            return fail(piece.error);
+        lock.unlock();
+        std::string error;
+        try {
+            take(piece);
+        } catch (...) {
+            error = what_of(std::current_exception());
+        }
+        lock.lock();
+        if (!error.empty())
+            return fail(error);
+        window_.leave();
+        changed_.notify_all();
+    }
+}
+
+/// Does what there is to do for MPI; returns whether there was anything.
+bool Job::step()
+{
+    bool stop = false;
+    bool busy = false;
+    {
+        std::unique_lock lock(mutex_);
+        busy = answer(lock);
+        busy = send_finished(lock) || busy;
+        stop = failed_ && !std::exchange(stopped_, failed_);
+    }
+    if (stop)
+        counter_.stop();
+    return (world_.is_first() && receive_pieces()) || busy;
+}
+
+/// Gets a number for the thread that works.
+bool Job::answer(std::unique_lock<std::mutex>& lock)
+{
+    if (!asks_)
+        return false;
+    asks_ = false;
+    lock.unlock();
+    const std::int64_t number = counter_.next();
+    lock.lock();
+    given_ = number;
+    changed_.notify_all();
+    return true;
+}
+
+bool Job::send_finished(std::unique_lock<std::mutex>& lock)
+{
+    bool busy = false;
+    while (!finished_.empty()) {
+        Piece piece = std::move(finished_.front());
+        finished_.pop_front();
+        report_.bytes_sent += piece.bytes.size() + sizeof(Head);
+        lock.unlock();
+        sending_.push_back(std::make_unique<Sending>(std::move(piece)));
+        lock.lock();
+        busy = true;
+    }
+    for (std::size_t i = 0; i < sending_.size();) {
+        if (!sending_[i]->is_over()) {
+            ++i;
+            continue;
+        }
+        sending_.erase(sending_.begin() + static_cast<std::ptrdiff_t>(i));
+        --on_their_way_;
+        changed_.notify_all();
+        busy = true;
+    }
+    return busy;
+}
+
+/// On rank 0: what other ranks have sent, of the pieces that may come.
+bool Job::receive_pieces()
+{
+    int first = 0;
+    int end = 0;
+    bool failed = false;
+    {
+        const std::scoped_lock lock(mutex_);
+        first = window_.first();
+        end = window_.end();
+        failed = failed_;
+    }
+    bool busy = false;
+    // After a failure, whatever comes: nobody may be left waiting.
+    if (failed)
+        busy = receive_one(MPI_ANY_TAG);
+    for (int piece = first; piece < end && !failed; ++piece)
+        busy = receive_one(piece) || busy;
+    while (!failed && receive_one(window_.count()))
+        busy = true;
+    return busy;
+}
+
+bool Job::receive_one(int tag)
+{
+    int there = 0;
+    MPI_Status status;
+    MPI_Iprobe(MPI_ANY_SOURCE, tag, MPI_COMM_WORLD, &there, &status);
+    if (there == 0)
+        return false;
+    const int source = status.MPI_SOURCE;
+    tag = status.MPI_TAG;
+    if (tag == window_.count()) {
+        char over = 0;
+        MPI_Recv(&over, 1, MPI_BYTE, source, tag, MPI_COMM_WORLD, MPI_STATUS_IGNORE);
+        --ranks_at_work_;
+        return true;
+    }
+    Head head;
+    MPI_Recv(&head, sizeof head, MPI_BYTE, source, tag, MPI_COMM_WORLD, MPI_STATUS_IGNORE);
+    Piece piece;
+    piece.number = tag;
+    piece.cut_rays = head.cut_rays;
+    piece.cut_bound = head.cut_bound;
+    piece.bytes.resize(head.bytes);
+    piece.error.resize(head.error_bytes);
+    in_messages(piece.bytes.size(), [&](std::size_t at, int count) {
+        MPI_Recv(piece.bytes.data() + at, count, MPI_BYTE, source, tag, MPI_COMM_WORLD,
+                 MPI_STATUS_IGNORE);
+    });
+    if (!piece.error.empty())
+        MPI_Recv(piece.error.data(), static_cast<int>(head.error_bytes), MPI_BYTE, source, tag,
+                 MPI_COMM_WORLD, MPI_STATUS_IGNORE);
+    const std::scoped_lock lock(mutex_);
+    if (!failed_) {
+        window_.arrive(tag);
+        here_[tag] = std::move(piece);
+    }
+    changed_.notify_all();
+    return true;
+}
+
+/// Whether this rank has nothing more to do for MPI.
+bool Job::is_over()
+{
+    const std::scoped_lock lock(mutex_);
+    const bool own = !works_ && finished_.empty() && sending_.empty() && (!failed_ || stopped_);
+    if (!world_.is_first())
+        return own;
+    return own && ranks_at_work_ == 0 && (failed_ || window_.empty());
+}
+
+}  // namespace packtrace::mpi

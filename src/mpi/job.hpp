@@ -1,0 +1,106 @@
+#pragma once
+
+#include <condition_variable>
+#include <cstdint>
+#include <deque>
+#include <functional>
+#include <map>
+#include <memory>
+#include <mutex>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "image/bytes.hpp"
+#include "mpi/counter.hpp"
+#include "mpi/hand_out.hpp"
+#include "mpi/world.hpp"
+
+namespace packtrace::mpi {
+
+/// A finished piece of work.
+struct Piece {
+    int number = 0;
+    Bytes bytes;
+    std::uint64_t cut_rays = 0;
+    double cut_bound = 0.0;
+    /// Why there are no bytes; empty where there are. The first piece in order that has one ends
+    /// the job.
+    std::string error;
+};
+
+/// What one rank did.
+struct RankReport {
+    std::int64_t pieces = 0;
+    std::uint64_t rays = 0;
+    std::uint64_t bytes_sent = 0;
+    double busy = 0.0;     ///< seconds of work
+    double waiting = 0.0;  ///< seconds besides
+};
+
+/// Pieces of work handed out to all ranks, made on a thread of each rank's own, and brought to rank
+/// 0 in order. The thread that runs it, and no other, calls MPI. Made by all ranks together, for
+/// one run.
+class Job {
+public:
+    /// `piece_bytes` is about the size of a piece; 0 pieces where none come to rank 0.
+    Job(const World& world, int pieces, std::size_t piece_bytes);
+    ~Job();
+
+    /// Gives the next number, from 0 on over all ranks, to the thread that works.
+    using Next = std::function<std::int64_t()>;
+    /// Makes a piece. Adds its rays to the report.
+    using Make = std::function<Piece(int number, RankReport& report)>;
+    /// Takes the pieces on rank 0, in order, on a thread of its own.
+    using Take = std::function<void(const Piece& piece)>;
+    /// Works until Next gives no more work; fills the report's pieces, rays and busy seconds.
+    using Work = std::function<void(const Next& next, RankReport& report)>;
+
+    /// Makes all pieces. Returns every rank's report on every rank. Where a rank fails, one line
+    /// says why, and all ranks throw JobFailed.
+    std::vector<RankReport> run(const Make& make, const Take& take);
+
+    /// The same for work whose results do not come to rank 0.
+    std::vector<RankReport> run(const Work& work);
+
+private:
+    struct Sending;
+
+    std::vector<RankReport> run(const Work& work, const Take& take);
+    void work_all(const Work& work);
+    void write_all(const Take& take);
+    std::int64_t ask();
+    void hand_over(Piece piece);
+
+    bool step();
+    bool answer(std::unique_lock<std::mutex>& lock);
+    bool send_finished(std::unique_lock<std::mutex>& lock);
+    bool receive_pieces();
+    bool receive_one(int tag);
+    bool is_over();
+    void fail(const std::string& why);
+
+    const World& world_;
+    Counter counter_;
+    std::mutex mutex_;
+    std::condition_variable changed_;
+    RankReport report_;
+
+    // Between the thread that works and the one that calls MPI.
+    bool asks_ = false;
+    std::optional<std::int64_t> given_;
+    std::deque<Piece> finished_;
+    int on_their_way_ = 0;
+    bool works_ = true;
+    std::vector<std::unique_ptr<Sending>> sending_;
+
+    // On rank 0.
+    PieceWindow window_;
+    std::map<int, Piece> here_;
+    int ranks_at_work_;
+    bool stopped_ = false;
+    std::string failure_;
+    bool failed_ = false;
+};
+
+}  // namespace packtrace::mpi

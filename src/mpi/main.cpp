@@ -1,0 +1,121 @@
+// packtrace-mpi: the work of packtrace on many ranks.
+#include <csignal>
+#include <cstdio>
+#include <cstdlib>
+#include <exception>
+#include <iostream>
+#include <new>
+#include <string>
+#include <vector>
+
+#include <unistd.h>
+
+#include <packtrace/version.hpp>
+
+#include "cli/command.hpp"
+#include "cli/interrupts.hpp"
+#include "cli/usage_error.hpp"
+#include "core/atomic_file.hpp"
+#include "mpi/commands.hpp"
+
+namespace packtrace::mpi {
+namespace {
+
+/// Of rank 0, on this host; 0 elsewhere.
+volatile pid_t first_process = 0;
+
+// Calls nothing but what signal handlers may call.
+void end_quietly(int signal)
+{
+    // Rank 0 says what is missing, unless it is the one that died.
+    if (first_process != 0 && kill(first_process, 0) != 0) {
+        constexpr char line[] =
+            "\npacktrace-mpi: rank 0 died; finished work is kept where --resume was given, and "
+            "of --frames: start the same command again\n";
+        [[maybe_unused]] const ssize_t written = write(STDERR_FILENO, line, sizeof line - 1);
+    }
+    remove_all_temporaries();
+    std::signal(signal, SIG_DFL);
+    std::raise(signal);
+}
+
+/// A job that ends by a signal says so once.
+void clean_up_when_ended(const World& world)
+{
+    const std::string process = std::to_string(getpid());
+    const std::vector<std::string> hosts = world.gather(world.host());
+    const std::vector<std::string> processes = world.gather(process);
+    if (world.is_first())
+        return cli::clean_up_when_interrupted();
+    if (world.rank() == 1 && hosts[0] == hosts[1])
+        first_process = static_cast<pid_t>(std::stol(processes[0]));
+    for (const int number : {SIGINT, SIGTERM, SIGHUP})
+        std::signal(number, end_quietly);
+}
+
+/// Help, version or a wrong use: rank 0 says so.
+int report_parse_end(const World& world, const CLI::App& app, const CLI::ParseError& end, int argc,
+                     char** argv)
+{
+    if (!world.is_first())
+        return end.get_exit_code() == 0 ? cli::exit_ok : cli::exit_usage;
+    if (end.get_exit_code() == 0)
+        return app.exit(end);
+    std::cerr << cli::usage_error(app, end, argc, argv) << '\n';
+    return cli::exit_usage;
+}
+
+int run(const World& world, int argc, char** argv)
+{
+    CLI::App app{"packtrace-mpi: packtrace on many ranks; SCENE is a file, - or 'generate NAME …'",
+                 "packtrace-mpi"};
+    app.set_version_flag("--version", "packtrace-mpi " PACKTRACE_VERSION_STRING);
+    app.require_subcommand(0, 1);
+    add_render(app, world);
+    add_intersect(app, world);
+    clean_up_when_ended(world);
+    try {
+        app.parse(argc, argv);
+        if (app.get_subcommands().empty())
+            throw CLI::RequiredError::Subcommand(1);
+    } catch (const CLI::ParseError& end) {
+        return report_parse_end(world, app, end, argc, argv);
+    } catch (const JobFailed& failed) {
+        return failed.exit_code;
+    }
+    return cli::exit_ok;
+}
+
+/// Work is over. The first rank that ends with an error has all others ended by a signal, which is
+/// no news any more.
+int end_together(int exit_code)
+{
+    for (const int number : {SIGINT, SIGTERM, SIGHUP})
+        std::signal(number, SIG_IGN);
+    MPI_Barrier(MPI_COMM_WORLD);
+    return exit_code;
+}
+
+/// What went wrong on one rank alone ends all.
+[[noreturn]] void abort_job(const World& world, const std::string& why)
+{
+    std::cerr << "packtrace-mpi: rank " << world.rank() << ": " << why << std::endl;
+    remove_all_temporaries();
+    MPI_Abort(MPI_COMM_WORLD, cli::exit_failed);
+    std::_Exit(cli::exit_failed);
+}
+
+}  // namespace
+}  // namespace packtrace::mpi
+
+int main(int argc, char** argv)
+{
+    const packtrace::mpi::World world(argc, argv);
+    try {
+        return packtrace::mpi::end_together(packtrace::mpi::run(world, argc, argv));
+    } catch (const std::bad_alloc&) {
+        packtrace::mpi::abort_job(world, "not enough memory");
+    } catch (const std::exception& error) {
+        packtrace::mpi::abort_job(world, error.what());
+    }
+}

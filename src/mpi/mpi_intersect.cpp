@@ -1,0 +1,238 @@
+#include <algorithm>
+#include <chrono>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "cli/interrupts.hpp"
+#include "cli/intersect/hit_output.hpp"
+#include "cli/intersect/intersect_arguments.hpp"
+#include "cli/intersect/intersect_rays.hpp"
+#include "cli/options/thread_limit.hpp"
+#include "core/checksum.hpp"
+#include "mpi/commands.hpp"
+#include "mpi/job_report.hpp"
+#include "mpi/shared_scene.hpp"
+
+namespace packtrace::mpi {
+namespace {
+
+using cli::RayCount;
+using cli::RayRange;
+
+struct Arguments : cli::IntersectArguments {
+    JobArguments job;
+
+    [[nodiscard]] bool json_on_rows() const
+    {
+        return job.json && output.empty();
+    }
+};
+
+/// The file of rays in ranges, whose number depends on the file alone.
+class RayPieces {
+public:
+    explicit RayPieces(const std::string& file) : file_(file)
+    {
+        constexpr std::uint64_t least = std::uint64_t{1} << 16;
+        constexpr std::uint64_t most = std::uint64_t{1} << 23;
+        constexpr std::uint64_t most_pieces = 30000;
+        const std::uint64_t size = cli::ray_file_size(file);
+        const std::uint64_t piece = std::clamp(size / 1024, least, most);
+        count_ = std::clamp<std::uint64_t>(size / piece, 1, most_pieces);
+        format_ = cli::format_of_rays(file);
+    }
+
+    [[nodiscard]] int count() const
+    {
+        return static_cast<int>(count_);
+    }
+
+    /// Counts the lines and rays before each, all ranks together, each a share of the file.
+    void number(const World& world)
+    {
+        std::vector<std::uint64_t> counts(2 * count_);
+        world.together([&] {
+            for (auto i = static_cast<std::uint64_t>(world.rank()); i < count_;
+                 i += static_cast<std::uint64_t>(world.size())) {
+                const RayCount count = cli::count_rays(file_, range(i));
+                counts[2 * i] = count.lines;
+                counts[2 * i + 1] = count.rays;
+            }
+        });
+        before_.resize(2 * count_);
+        MPI_Allreduce(counts.data(), before_.data(), static_cast<int>(counts.size()), MPI_UINT64_T,
+                      MPI_SUM, MPI_COMM_WORLD);
+        std::uint64_t sums[2] = {};
+        for (std::size_t i = 0; i < before_.size(); ++i) {
+            const std::uint64_t own = before_[i];
+            before_[i] = sums[i % 2];
+            sums[i % 2] += own;
+        }
+    }
+
+    /// With its numbers, where they have been counted.
+    [[nodiscard]] RayRange range(std::uint64_t i) const
+    {
+        RayRange range = cli::cut_rays(file_, i, count_);
+        if (range.begin > 0)
+            range.format = format_;
+        // Lines that have no numbers yet are no header.
+        if (before_.empty()) {
+            range.format.header_line = 0;
+        } else {
+            range.first_line += before_[2 * i];
+            range.first_ray = before_[2 * i + 1];
+        }
+        return range;
+    }
+
+    /// The same with numbers counted by this rank alone.
+    [[nodiscard]] RayRange numbered(std::uint64_t i) const
+    {
+        RayRange numbered = range(i);
+        if (numbered.begin > 0)
+            numbered.format = format_;
+        RayRange before;
+        before.end = numbered.begin;
+        const RayCount count = numbered.begin > 0 ? cli::count_rays(file_, before) : RayCount();
+        numbered.first_line = 1 + count.lines;
+        numbered.first_ray = count.rays;
+        return numbered;
+    }
+
+    /// Tells the text of a range from another.
+    [[nodiscard]] std::string mark(std::uint64_t i) const
+    {
+        const RayRange part = range(i);
+        cli::TextBlocks blocks(file_, part.begin, part.end);
+        std::uint32_t sum = 0;
+        for (std::string text = blocks.next(); !text.empty(); text = blocks.next())
+            sum = checksum({reinterpret_cast<const std::uint8_t*>(text.data()), text.size()}, sum);
+        return std::to_string(sum);
+    }
+
+private:
+    std::string file_;
+    std::uint64_t count_ = 1;
+    cli::RayFormat format_;
+    std::vector<std::uint64_t> before_;  ///< lines and rays in turn
+};
+
+/// The rows of a range.
+template <class Real>
+std::string rows_of(cli::BlockTracer<Real>& tracer, const std::string& file, const RayRange& range,
+                    RankReport& report)
+{
+    cli::RayBlocks blocks(file, range);
+    std::string all;
+    std::uint64_t rays = 0;
+    cli::intersect_rays<Real>(tracer, blocks,
+                              [&](const cli::RayBlock& block, std::string_view rows) {
+                                  all += rows;
+                                  rays += block.rays;
+                              });
+    report.rays += rays;
+    return all;
+}
+
+template <class Real>
+std::vector<RankReport> trace(const World& world, const Arguments& arguments, const Scene& scene,
+                              const RenderOptions& options, const RayPieces& pieces,
+                              cli::HitOutput* output, int finished)
+{
+    std::unique_ptr<cli::BlockTracer<Real>> tracer;
+    world.together([&] {
+        tracer = std::make_unique<cli::BlockTracer<Real>>(scene, options, arguments.query(),
+                                                          arguments.ray_bounds());
+    });
+    Job job(world, pieces.count() - finished, std::size_t{1} << 23);
+    const auto make = [&](int number, RankReport& report) {
+        const auto i = static_cast<std::uint64_t>(number + finished);
+        std::string rows;
+        try {
+            rows = rows_of(*tracer, arguments.rays, pieces.range(i), report);
+        } catch (const FileError&) {
+            // Again, so that the message has the right line.
+            rows = rows_of(*tracer, arguments.rays, pieces.numbered(i), report);
+        }
+        Piece piece;
+        piece.bytes.assign(rows.begin(), rows.end());
+        return piece;
+    };
+    return job.run(make, [&](const Piece& piece) {
+        const std::string mark =
+            arguments.resume ? pieces.mark(static_cast<std::uint64_t>(piece.number + finished))
+                             : std::string();
+        output->take(mark, {reinterpret_cast<const char*>(piece.bytes.data()), piece.bytes.size()});
+    });
+}
+
+void run(const World& world, const Arguments& arguments)
+{
+    const auto start = std::chrono::steady_clock::now();
+    RenderOptions options;
+    std::unique_ptr<RayPieces> pieces;
+    world.together([&] {
+        options = checked_options(arguments);
+        if (arguments.json_on_rows())
+            throw CLI::ValidationError("--json: standard output has the rows; give -o FILE");
+        if (world.is_first() && !arguments.output.empty())
+            check_writable(arguments.output);
+        pieces = std::make_unique<RayPieces>(arguments.rays);
+    });
+    check_ranks(world, options, arguments.job.mixing());
+    const Scene scene = shared_scene(world, arguments.scene);
+    const cli::ThreadLimit limit(options.threads, 2);
+    if (arguments.all)
+        pieces->number(world);
+
+    std::unique_ptr<cli::HitOutput> output;
+    std::vector<int> finished{0};
+    world.together([&] {
+        if (!world.is_first())
+            return;
+        output = std::make_unique<cli::HitOutput>(
+            arguments,
+            cli::hits_recipe(arguments, scene, options) + ", in " +
+                std::to_string(pieces->count()) + " pieces",
+            cli::header_of(arguments.query(), arguments.ray_bounds()));
+        std::uint64_t number = 0;
+        output->skip_finished([&] { return pieces->mark(number++); });
+        finished[0] = static_cast<int>(output->finished());
+        if (!arguments.resume)
+            cli::set_interrupt_line(
+                "packtrace-mpi: the job ended before all rays were answered; "
+                "with --resume finished rows are kept");
+    });
+    world.broadcast(finished);
+    const std::vector<RankReport> reports =
+        arguments.kernel.precision == "single"
+            ? trace<float>(world, arguments, scene, options, *pieces, output.get(), finished[0])
+            : trace<double>(world, arguments, scene, options, *pieces, output.get(), finished[0]);
+    world.together([&] {
+        if (output)
+            output->finish();
+    });
+    cli::set_interrupt_line("");
+    print_report(world, arguments.job, arguments.output.empty(), arguments.output, "pieces of rays",
+                 reports,
+                 std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count());
+}
+
+}  // namespace
+
+void add_intersect(CLI::App& app, const World& world)
+{
+    CLI::App* command = app.add_subcommand(
+        "intersect", "Say where rays of your own meet a scene's objects, on all ranks");
+    const auto arguments = std::make_shared<Arguments>();
+    cli::add_intersect_options(*command, *arguments);
+    command->add_flag("--resume", arguments->resume,
+                      "Keep finished rows beside FILE until it is complete; after an "
+                      "interruption, the same command goes on with them");
+    add_job_options(*command, arguments->job);
+    command->callback([arguments, &world] { run(world, *arguments); });
+}
+
+}  // namespace packtrace::mpi

@@ -1,0 +1,266 @@
+#include <algorithm>
+#include <chrono>
+#include <iostream>
+#include <memory>
+#include <optional>
+#include <vector>
+
+#include "cli/interrupts.hpp"
+#include "cli/options/thread_limit.hpp"
+#include "cli/output/progress_bar.hpp"
+#include "cli/render/band_file.hpp"
+#include "cli/render/cut_rays.hpp"
+#include "cli/render/render_animation.hpp"
+#include "cli/render/render_arguments.hpp"
+#include "cli/render/render_bands.hpp"
+#include "mpi/commands.hpp"
+#include "mpi/job_report.hpp"
+#include "mpi/shared_scene.hpp"
+#include "scene/quote.hpp"
+
+namespace packtrace::mpi {
+namespace {
+
+using cli::BandFile;
+using cli::Bands;
+using cli::FinishedBand;
+using cli::RenderArguments;
+
+struct Arguments : RenderArguments {
+    JobArguments job;
+};
+
+double seconds_since(std::chrono::steady_clock::time_point start)
+{
+    return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+}
+
+/// The picture on rank 0: bands that an earlier run kept, and those that come.
+class Assembly {
+public:
+    Assembly(const Arguments& arguments, const Scene& scene, const RenderOptions& options)
+        : arguments_(arguments),
+          file_(arguments, scene, options, cli::band_pixels),
+          bar_(arguments.quiet ? cli::Verbosity::quiet : cli::Verbosity::normal)
+    {
+        for (int number = 0; number < file_.bands().count(); ++number)
+            if (!file_.kept(number))
+                missing_.push_back(number);
+        note_progress();
+    }
+
+    /// The numbers of bands to render.
+    [[nodiscard]] const std::vector<int>& missing() const
+    {
+        return missing_;
+    }
+
+    /// The next of those.
+    void take(const Piece& piece)
+    {
+        const int number = missing_[static_cast<std::size_t>(piece.number)];
+        write_kept(number);
+        const FinishedBand band{piece.bytes, {piece.cut_rays, piece.cut_bound}};
+        file_.keep(number, band);
+        write(band);
+        note_progress();
+    }
+
+    void finish()
+    {
+        write_kept(file_.bands().count());
+        file_.commit();
+        cli::set_interrupt_line("");
+    }
+
+    [[nodiscard]] const CutRays& cut() const
+    {
+        return cut_;
+    }
+    [[nodiscard]] int kept() const
+    {
+        return file_.bands().count() - static_cast<int>(missing_.size());
+    }
+
+private:
+    void write(const FinishedBand& band)
+    {
+        cut_.rays += band.cut.rays;
+        cut_.bound = std::max(cut_.bound, band.cut.bound);
+        file_.write(band.samples);
+        bar_.update(static_cast<double>(++written_) / file_.bands().count());
+    }
+
+    /// Bands of an earlier run, up to that one.
+    void write_kept(int end)
+    {
+        while (written_ < end)
+            if (const std::optional<FinishedBand> band = file_.kept(written_))
+                write(*band);
+            else
+                throw FileError(arguments_.output +
+                                ".part: has changed since this run began; start the run again");
+    }
+
+    void note_progress() const
+    {
+        const std::string bands =
+            std::to_string(written_) + " of " + std::to_string(file_.bands().count()) + " bands";
+        cli::set_interrupt_line(
+            arguments_.resume
+                ? "packtrace-mpi: the job ended with " + bands + " of " + arguments_.output +
+                      " written; the same command goes on with them"
+                : "packtrace-mpi: the job ended after " + bands + " of " + arguments_.output +
+                      ", which are lost; with --resume they are kept");
+    }
+
+    const Arguments& arguments_;
+    BandFile file_;
+    cli::ProgressBar bar_;
+    std::vector<int> missing_;
+    CutRays cut_;
+    int written_ = 0;
+};
+
+void render_picture(const World& world, const Arguments& arguments, const Scene& scene,
+                    const RenderOptions& options)
+{
+    const auto start = std::chrono::steady_clock::now();
+    std::unique_ptr<Assembly> assembly;
+    world.together([&] {
+        if (world.is_first())
+            assembly = std::make_unique<Assembly>(arguments, scene, options);
+    });
+    std::vector<int> missing = assembly ? assembly->missing() : std::vector<int>();
+    world.broadcast(missing);
+
+    std::optional<RowSamples> samples;
+    std::unique_ptr<cli::BandSource> source;
+    world.together([&] {
+        samples.emplace(arguments.output, scene.width, arguments.write.gamma);
+        source = cli::band_source(scene, arguments.kernel.precision, options, *samples);
+    });
+    const Bands bands =
+        cli::cut_into_bands(scene.width, scene.height, samples->format(), cli::band_pixels);
+    Job job(world, static_cast<int>(missing.size()),
+            samples->row_bytes() * static_cast<std::size_t>(bands.rows));
+    const auto make = [&](int number, RankReport& report) {
+        const Bands::Band band = bands.band(missing[static_cast<std::size_t>(number)]);
+        Piece piece;
+        piece.bytes.resize(samples->row_bytes() * static_cast<std::size_t>(band.rows));
+        const FrameCounts counts = source->render(band, piece.bytes);
+        piece.cut_rays = counts.cut.rays;
+        piece.cut_bound = counts.cut.bound;
+        report.rays += counts.total();
+        return piece;
+    };
+    const std::vector<RankReport> reports =
+        job.run(make, [&](const Piece& piece) { assembly->take(piece); });
+    world.together([&] {
+        if (assembly)
+            assembly->finish();
+    });
+    if (assembly && !arguments.quiet) {
+        if (assembly->kept() > 0)
+            std::cerr << language::escape(arguments.output) << ": " << assembly->kept() << " of "
+                      << bands.count() << " bands were finished by an earlier run\n";
+        cli::print_cut_rays(arguments.output, scene, options, assembly->cut());
+    }
+    print_report(world, arguments.job, arguments.quiet, arguments.output, "bands", reports,
+                 seconds_since(start));
+}
+
+void render_frames(const World& world, const Arguments& arguments, const Scene& scene,
+                   const RenderOptions& options)
+{
+    const auto start = std::chrono::steady_clock::now();
+    FrameRange range;
+    std::unique_ptr<cli::FrameOutput> output;
+    world.together([&] {
+        range = cli::frames_of(arguments.animation, scene);
+        output = cli::frame_files(arguments, scene, options);
+    });
+    if (world.is_first())
+        cli::set_interrupt_line("packtrace-mpi: the job ended before all frames of " +
+                                arguments.output +
+                                " were written; the same command renders the missing ones");
+    cli::ProgressBar bar(arguments.quiet || !world.is_first() ? cli::Verbosity::quiet
+                                                              : cli::Verbosity::normal);
+    Job job(world, 0, 0);
+    cli::FrameTally tally;
+    const std::vector<RankReport> reports = job.run([&](const Job::Next& next, RankReport& report) {
+        const auto next_frame = [&]() -> std::optional<int> {
+            const std::int64_t number = next();
+            if (number >= range.count())
+                return std::nullopt;
+            return range.first + static_cast<int>(number);
+        };
+        // Frames are handed out in order: the share of this rank's is that of the animation.
+        const auto show = [&](int frame, double share) {
+            bar.update((frame - range.first + share) / range.count());
+        };
+        tally = cli::render_frames(arguments, scene, options, *output, next_frame, show);
+        report.pieces = tally.rendered;
+        report.busy = tally.rendering;
+    });
+    cli::set_interrupt_line("");
+    const int mine[3] = {tally.rendered, tally.skipped, tally.replaced};
+    int all[3] = {};
+    MPI_Reduce(mine, all, 3, MPI_INT, MPI_SUM, 0, MPI_COMM_WORLD);
+    if (world.is_first() && !arguments.quiet && all[1] + all[2] > 0)
+        std::cerr << language::escape(arguments.output) << ": " << all[1]
+                  << " frames were there already, " << all[2]
+                  << " were rendered in place of other pictures\n";
+    print_report(world, arguments.job, arguments.quiet, arguments.output, "frames", reports,
+                 seconds_since(start));
+}
+
+/// Throws CLI::ValidationError for what a job of many ranks does not do.
+void check_job(const Arguments& arguments)
+{
+    const auto refuse = [](const std::string& option, const std::string& why) {
+        throw CLI::ValidationError(option + ": " + why);
+    };
+    if (arguments.certainty)
+        refuse("--certainty", "packtrace render writes it");
+    if (arguments.animation.y4m)
+        refuse("--y4m", "ranks write frames; give --frames, and make a video of the pictures");
+    if (arguments.animation.shard)
+        refuse("--shard", "ranks share the frames by themselves; leave it out");
+}
+
+void run(const World& world, const Arguments& arguments)
+{
+    RenderOptions options;
+    world.together([&] {
+        check_job(arguments);
+        options = checked_options(arguments);
+        if (world.is_first() && !arguments.animation.many())
+            check_image_writable(arguments.output);
+    });
+    check_ranks(world, options, arguments.job.mixing());
+    Scene scene = shared_scene(world, arguments.scene);
+    world.together([&] {
+        cli::apply(arguments.picture, scene);
+        if (arguments.animation.frame)
+            cli::go_to_frame(scene, *arguments.animation.frame);
+    });
+    const cli::ThreadLimit limit(options.threads, 2);
+    if (arguments.animation.many())
+        render_frames(world, arguments, scene, options);
+    else
+        render_picture(world, arguments, scene, options);
+}
+
+}  // namespace
+
+void add_render(CLI::App& app, const World& world)
+{
+    CLI::App* command = app.add_subcommand("render", "Render a scene to a picture on all ranks");
+    const auto arguments = std::make_shared<Arguments>();
+    cli::add_render_options(*command, *arguments);
+    add_job_options(*command, arguments->job);
+    command->callback([arguments, &world] { run(world, *arguments); });
+}
+
+}  // namespace packtrace::mpi

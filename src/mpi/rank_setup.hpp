@@ -1,0 +1,41 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+namespace packtrace::mpi {
+
+/// What of a rank the bits of its results depend on.
+struct RankSetup {
+    std::string version;
+    bool fma = true;  ///< its packets use fused multiply-add
+
+    [[nodiscard]] std::string text() const
+    {
+        return version + (fma ? " fma" : " no fma");
+    }
+};
+
+enum class Mixing { refused, allowed };
+
+/// Why ranks of these setups may not work on one result, in one line; empty if they may.
+[[nodiscard]] inline std::string why_not_together(const std::vector<std::string>& setups,
+                                                  Mixing mixing)
+{
+    const auto version = [](const std::string& setup) { return setup.substr(0, setup.find(' ')); };
+    for (std::size_t rank = 1; rank < setups.size(); ++rank) {
+        const std::string& first = setups.front();
+        const std::string& other = setups[rank];
+        const std::string ranks = "packtrace-mpi: rank " + std::to_string(rank);
+        if (version(first) != version(other))
+            return ranks + " is version " + version(other) + " and rank 0 is version " +
+                   version(first) + "; install one version on all machines";
+        if (first != other && mixing == Mixing::refused)
+            return ranks +
+                   " and rank 0 differ in fused multiply-add, and so would their bits; give "
+                   "--isa sse42 to all, or --allow-mixed";
+    }
+    return {};
+}
+
+}  // namespace packtrace::mpi

@@ -1,0 +1,134 @@
+#include "mpi/world.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cstdint>
+#include <exception>
+#include <iostream>
+#include <new>
+
+#include <CLI/CLI.hpp>
+
+namespace packtrace::mpi {
+namespace {
+
+// A count of MPI is an int.
+constexpr std::size_t largest_message = std::size_t{1} << 30;
+
+/// Why a step failed; empty where it did not.
+struct Failure {
+    std::string why;
+    int exit_code = 0;
+};
+
+Failure attempt(const std::function<void()>& step)
+{
+    try {
+        step();
+    } catch (const JobFailed& failed) {
+        throw;
+    } catch (const CLI::Error& error) {
+        return {std::string("packtrace-mpi: ") + error.what(), 2};
+    } catch (const std::bad_alloc&) {
+        return {"packtrace-mpi: not enough memory", 1};
+    } catch (const std::exception& error) {
+        return {error.what(), 1};
+    }
+    return {};
+}
+
+}  // namespace
+
+World::World(int& argc, char**& argv)
+{
+    int provided = 0;
+    MPI_Init_thread(&argc, &argv, MPI_THREAD_FUNNELED, &provided);
+    MPI_Comm_rank(MPI_COMM_WORLD, &rank_);
+    MPI_Comm_size(MPI_COMM_WORLD, &size_);
+    if (provided < MPI_THREAD_FUNNELED) {
+        if (is_first())
+            std::cerr << "packtrace-mpi: this MPI allows no threads; use one with "
+                         "MPI_THREAD_FUNNELED\n";
+        MPI_Finalize();
+        std::exit(1);
+    }
+}
+
+World::~World()
+{
+    MPI_Finalize();
+}
+
+void World::together(const std::function<void()>& step) const
+{
+    const Failure failure = attempt(step);
+    const int mine = failure.exit_code != 0 ? rank_ : size_;
+    int first = size_;
+    MPI_Allreduce(&mine, &first, 1, MPI_INT, MPI_MIN, MPI_COMM_WORLD);
+    if (first == size_)
+        return;
+    if (rank_ == first)
+        std::cerr << failure.why << '\n';
+    int code = failure.exit_code;
+    MPI_Bcast(&code, 1, MPI_INT, first, MPI_COMM_WORLD);
+    throw JobFailed{code};
+}
+
+void World::broadcast(std::string& text) const
+{
+    std::uint64_t length = text.size();
+    MPI_Bcast(&length, 1, MPI_UINT64_T, 0, MPI_COMM_WORLD);
+    text.resize(length);
+    for (std::size_t at = 0; at < length; at += largest_message)
+        MPI_Bcast(text.data() + at, static_cast<int>(std::min(largest_message, length - at)),
+                  MPI_BYTE, 0, MPI_COMM_WORLD);
+}
+
+void World::broadcast(std::vector<int>& numbers) const
+{
+    int count = static_cast<int>(numbers.size());
+    MPI_Bcast(&count, 1, MPI_INT, 0, MPI_COMM_WORLD);
+    numbers.resize(static_cast<std::size_t>(count));
+    MPI_Bcast(numbers.data(), count, MPI_INT, 0, MPI_COMM_WORLD);
+}
+
+std::vector<std::string> World::gather(const std::string& text) const
+{
+    const int length = static_cast<int>(text.size());
+    std::vector<int> lengths(static_cast<std::size_t>(size_));
+    MPI_Allgather(&length, 1, MPI_INT, lengths.data(), 1, MPI_INT, MPI_COMM_WORLD);
+    std::vector<int> places(lengths.size());
+    int total = 0;
+    for (std::size_t i = 0; i < lengths.size(); ++i) {
+        places[i] = total;
+        total += lengths[i];
+    }
+    std::string all(static_cast<std::size_t>(total), '\0');
+    MPI_Allgatherv(text.data(), length, MPI_BYTE, all.data(), lengths.data(), places.data(),
+                   MPI_BYTE, MPI_COMM_WORLD);
+    std::vector<std::string> texts;
+    for (std::size_t i = 0; i < lengths.size(); ++i)
+        texts.push_back(
+            all.substr(static_cast<std::size_t>(places[i]), static_cast<std::size_t>(lengths[i])));
+    return texts;
+}
+
+bool World::leads_node() const
+{
+    MPI_Comm node;
+    MPI_Comm_split_type(MPI_COMM_WORLD, MPI_COMM_TYPE_SHARED, rank_, MPI_INFO_NULL, &node);
+    int rank = 0;
+    MPI_Comm_rank(node, &rank);
+    MPI_Comm_free(&node);
+    return rank == 0;
+}
+
+std::string World::host() const
+{
+    std::array<char, MPI_MAX_PROCESSOR_NAME> name{};
+    int length = 0;
+    MPI_Get_processor_name(name.data(), &length);
+    return {name.data(), static_cast<std::size_t>(length)};
+}
+
+}  // namespace packtrace::mpi

@@ -1,0 +1,421 @@
+// packtrace-mpi: the bytes of one process, whatever the number of ranks; ranks that die.
+#include <algorithm>
+#include <cstdlib>
+#include <filesystem>
+#include <string>
+#include <thread>
+#include <vector>
+
+#include <nlohmann/json.hpp>
+
+#include "catch.hpp"
+#include "killed_program.hpp"
+#include "mpi/hand_out.hpp"
+#include "mpi/rank_setup.hpp"
+
+namespace packtrace::test {
+namespace {
+
+using Words = std::vector<std::string>;
+using mpi::Mixing;
+using mpi::PieceWindow;
+
+#ifdef PACKTRACE_MPI
+
+/// mpirun with so many ranks, more than there are processors.
+Words mpirun(int ranks)
+{
+    return {
+        PACKTRACE_MPIEXEC,     "--allow-run-as-root", "--oversubscribe", "--bind-to", "none", "-n",
+        std::to_string(ranks), PACKTRACE_MPI};
+}
+
+ProgramResult run_words(const Words& words)
+{
+    const TempFolder folder;
+    std::string command;
+    for (const std::string& word : words)
+        command += shell_quoted(word) + " ";
+    command += "</dev/null >" + shell_quoted((folder / "out").string()) + " 2>" +
+               shell_quoted((folder / "err").string());
+    ProgramResult result;
+    const int status = std::system(command.c_str());
+    if (WIFEXITED(status))
+        result.exit_code = WEXITSTATUS(status);
+    result.out = read_text(folder / "out");
+    result.err = read_text(folder / "err");
+    return result;
+}
+
+ProgramResult run_ranks(int ranks, const Words& words)
+{
+    Words all = mpirun(ranks);
+    all.insert(all.end(), words.begin(), words.end());
+    return run_words(all);
+}
+
+/// The lines of packtrace-mpi itself: mpirun adds some about exit codes.
+Words own_lines(const std::string& text)
+{
+    Words lines;
+    bool ours = true;
+    for (std::size_t at = 0; at < text.size();) {
+        const std::size_t end = std::min(text.find('\n', at), text.size());
+        const std::string line = text.substr(at, end - at);
+        at = end + 1;
+        if (line.starts_with("-----"))
+            ours = !ours;
+        else if (ours && !line.empty())
+            lines.push_back(line);
+    }
+    return lines;
+}
+
+constexpr int ranks_tested[] = {1, 2, 3, 5};
+
+/// Children of a process: the ranks of mpirun.
+std::vector<pid_t> children_of(pid_t parent)
+{
+    std::vector<pid_t> children;
+    for (const auto& entry : std::filesystem::directory_iterator("/proc")) {
+        const std::string name = entry.path().filename().string();
+        if (name.find_first_not_of("0123456789") != std::string::npos)
+            continue;
+        const std::string stat = read_text(entry.path() / "stat");
+        const std::size_t end = stat.rfind(')');
+        if (end != std::string::npos && stat.size() > end + 4 &&
+            std::atoi(stat.c_str() + end + 4) == parent)
+            children.push_back(std::atoi(name.c_str()));
+    }
+    std::sort(children.begin(), children.end());
+    return children;
+}
+
+/// Starts a job and kills one of its ranks by SIGKILL once `when` holds. Returns its exit code, -1
+/// where it ended before.
+int kill_rank(int ranks, const Words& words, std::size_t victim,
+              const std::filesystem::path& errors, const std::function<bool()>& when)
+{
+    Words all = mpirun(ranks);
+    all.insert(all.end(), words.begin(), words.end());
+    const pid_t job = fork();
+    if (job == 0) {
+        const int nowhere = open("/dev/null", O_RDWR);
+        const int err = open(errors.c_str(), O_WRONLY | O_CREAT | O_TRUNC, 0600);
+        dup2(nowhere, 0);
+        dup2(nowhere, 1);
+        dup2(err, 2);
+        std::vector<char*> arguments;
+        for (const std::string& word : all)
+            arguments.push_back(const_cast<char*>(word.c_str()));
+        arguments.push_back(nullptr);
+        execvp(arguments.front(), arguments.data());
+        _exit(127);
+    }
+    int status = 0;
+    bool killed = false;
+    while (waitpid(job, &status, killed ? 0 : WNOHANG) == 0) {
+        const std::vector<pid_t> children = children_of(job);
+        if (children.size() == static_cast<std::size_t>(ranks) && when()) {
+            kill(children[victim % children.size()], SIGKILL);
+            killed = true;
+        }
+        std::this_thread::sleep_for(std::chrono::milliseconds(2));
+    }
+    return killed ? WEXITSTATUS(status) : -1;
+}
+
+std::string mpi_scene(const std::string& name)
+{
+    return PACKTRACE_SOURCE_DIR "/scenes/" + name + ".scene";
+}
+
+#endif
+
+}  // namespace
+
+TEST_CASE("pieces leave in order and come only within the window", "[mpi]")
+{
+    PieceWindow window(10, 3);
+    CHECK(window.admits(2));
+    CHECK_FALSE(window.admits(3));
+    window.arrive(1);
+    window.arrive(2);
+    CHECK_FALSE(window.ready());
+    CHECK_FALSE(window.admits(1));
+    window.arrive(0);
+    CHECK(window.ready());
+    window.leave();
+    CHECK(window.admits(3));
+    for (int i = 3; i < 10; ++i) {
+        REQUIRE(window.admits(i));
+        window.arrive(i);
+        window.leave();
+    }
+    CHECK(window.ready());
+    window.leave();
+    window.leave();
+    CHECK(window.empty());
+    CHECK(PieceWindow(0, 3).empty());
+    // Rank 0 holds a bounded part of a large picture.
+    CHECK(static_cast<std::size_t>(mpi::window_of(4096, std::size_t{12} << 20)) <=
+          mpi::window_bytes / (std::size_t{12} << 20));
+}
+
+TEST_CASE("ranks of other versions or without FMA are told from others", "[mpi]")
+{
+    const std::string one = mpi::RankSetup{"1.0", true}.text();
+    const std::string plain = mpi::RankSetup{"1.0", false}.text();
+    const std::string two = mpi::RankSetup{"2.0", true}.text();
+    CHECK(mpi::why_not_together({one, one, one}, Mixing::refused).empty());
+    CHECK(mpi::why_not_together({plain, plain}, Mixing::refused).empty());
+    CHECK_THAT(mpi::why_not_together({one, one, plain}, Mixing::refused),
+               ContainsSubstring("rank 2 and rank 0 differ in fused multiply-add"));
+    CHECK(mpi::why_not_together({one, plain}, Mixing::allowed).empty());
+    CHECK_THAT(mpi::why_not_together({one, two}, Mixing::allowed),
+               ContainsSubstring("rank 1 is version 2.0 and rank 0 is version 1.0"));
+}
+
+#ifdef PACKTRACE_MPI
+
+TEST_CASE("a picture has the bytes of one process whatever the ranks", "[mpi]")
+{
+    struct Case {
+        std::string scene, ending;
+        Words more;
+    };
+    const std::vector<Case> cases = {
+        {mpi_scene("four_spheres"), ".png", {"--gamma", "2.2"}},
+        {mpi_scene("whitted"), ".pfm", {"--precision", "double", "--depth", "1"}},
+        {four_spheres_file, ".hdr", {"--adaptive", "0.5", "--spp", "2", "--depth", "1"}},
+        {"generate random --count 300", ".png", {"--accuracy", "fast"}},
+    };
+    for (const Case& one : cases) {
+        const TempFolder folder;
+        std::string scene = one.scene;
+        if (scene.starts_with("generate")) {
+            scene = folder / "made.scene";
+            REQUIRE(
+                run_packtrace({"generate", "random", "--count", "300", "-o", scene}).exit_code ==
+                0);
+        }
+        Words words{"render", scene, "--size", "500x1300", "-q", "-o", folder / ("w" + one.ending)};
+        words.insert(words.end(), one.more.begin(), one.more.end());
+        REQUIRE(run_packtrace(words).exit_code == 0);
+        for (const int ranks : ranks_tested) {
+            CAPTURE(one.scene, one.ending, ranks);
+            words[1] = one.scene;
+            words[6] = folder / ("m" + one.ending);
+            const ProgramResult result = run_ranks(ranks, words);
+            CHECK(result.exit_code == 0);
+            CHECK(result.err.empty());
+            CHECK(
+                (read_text(folder / ("m" + one.ending)) == read_text(folder / ("w" + one.ending))));
+        }
+    }
+}
+
+TEST_CASE("every scene has the bytes of one process in every format and precision", "[mpi][slow]")
+{
+    for (const auto& entry : std::filesystem::directory_iterator(PACKTRACE_SOURCE_DIR "/scenes")) {
+        if (entry.path().extension() != ".scene")
+            continue;
+        for (const std::string ending : {".png", ".pfm", ".hdr"})
+            for (const std::string precision : {"single", "double"}) {
+                const TempFolder folder;
+                Words words{"render",   entry.path(), "--size",
+                            "500x1100", "-q",         "--precision",
+                            precision,  "-o",         folder / ("w" + ending)};
+                REQUIRE(run_packtrace(words).exit_code == 0);
+                words.back() = folder / ("m" + ending);
+                for (const int ranks : ranks_tested) {
+                    CAPTURE(entry.path().string(), ending, precision, ranks);
+                    CHECK(run_ranks(ranks, words).exit_code == 0);
+                    CHECK(
+                        (read_text(folder / ("m" + ending)) == read_text(folder / ("w" + ending))));
+                }
+            }
+    }
+}
+
+TEST_CASE("a job tells in JSON what each rank did", "[mpi]")
+{
+    const TempFolder folder;
+    const ProgramResult result = run_ranks(
+        3, {"render", four_spheres_file, "--size", "1000x2000", "--json", "-o", folder / "a.png"});
+    REQUIRE(result.exit_code == 0);
+    const auto json = nlohmann::json::parse(result.out);
+    std::uint64_t rays = 0;
+    int pieces = 0;
+    for (const auto& rank : json["ranks"]) {
+        rays += rank["rays"].get<std::uint64_t>();
+        pieces += rank["pieces"].get<int>();
+        CHECK(rank["busy_seconds"].get<double>() >= 0.0);
+        CHECK(rank["waiting_seconds"].is_number());
+    }
+    CHECK(json["ranks"].size() == 3);
+    CHECK(rays > 2000000u);
+    CHECK(pieces == 8);
+}
+
+TEST_CASE("frames are shared by ranks, and a second job renders the missing ones", "[mpi]")
+{
+    const TempFolder folder;
+    write_text(folder / "a.scene",
+               "image_size = 19 x 13\nanimation { frames = 7  orbit { center = (0, 0, 3) } }\n"
+               "sphere { center = (0, 1, 3)  radius = 1  color = (200, 40, 30) }\n"
+               "light { type = ambient  intensity = 0.5 }\n");
+    const auto words = [&](const std::string& name) {
+        return Words{"render", folder / "a.scene", "--frames", "0..6", "-o", folder / name};
+    };
+    REQUIRE(run_packtrace(words("w%d.pfm")).exit_code == 0);
+    for (const int ranks : ranks_tested) {
+        CAPTURE(ranks);
+        CHECK(run_ranks(ranks, words("m%d.pfm")).exit_code == 0);
+        for (int frame = 0; frame < 7; ++frame)
+            CHECK(read_text(folder / ("m" + std::to_string(frame) + ".pfm")) ==
+                  read_text(folder / ("w" + std::to_string(frame) + ".pfm")));
+        std::filesystem::remove(folder / "m3.pfm");
+        const ProgramResult again = run_ranks(ranks, words("m%d.pfm"));
+        CHECK(again.exit_code == 0);
+        CHECK_THAT(again.err, ContainsSubstring("6 frames were there already"));
+        for (int frame = 0; frame < 7; ++frame)
+            std::filesystem::remove(folder / ("m" + std::to_string(frame) + ".pfm"));
+    }
+    std::filesystem::create_directory(folder / "m3.pfm");
+    const ProgramResult result = run_ranks(3, words("m%d.pfm"));
+    CHECK(result.exit_code == 1);
+    REQUIRE(own_lines(result.err).size() == 1);
+    CHECK_THAT(result.err, ContainsSubstring("m3.pfm: can't write"));
+}
+
+TEST_CASE("hits have the bytes of one process whatever the ranks", "[mpi]")
+{
+    const TempFolder folder;
+    std::string rays = "# rays\nox,oy,oz,dx,dy,dz\n";
+    for (int i = 0; i < 12000; ++i)
+        rays += std::to_string(0.01 * (i % 200) - 1.0) + ",0," + std::to_string(-(i % 7)) + ",0," +
+                std::to_string(0.001 * (i % 300) - 0.1) + ",1\n" + (i % 999 == 7 ? "\n#\n" : "");
+    write_text(folder / "rays.csv", rays);
+    for (const Words& query : {Words{}, Words{"--all"}, Words{"--any", "--precision", "single"}}) {
+        Words words{"intersect", four_spheres_file, folder / "rays.csv", "-o", folder / "w.csv"};
+        words.insert(words.end(), query.begin(), query.end());
+        REQUIRE(run_packtrace(words).exit_code == 0);
+        for (const int ranks : ranks_tested) {
+            CAPTURE(query, ranks);
+            words[4] = folder / "m.csv";
+            CHECK(run_ranks(ranks, words).exit_code == 0);
+            CHECK((read_text(folder / "m.csv") == read_text(folder / "w.csv")));
+        }
+    }
+    // The first of two wrong lines is the one that is named.
+    rays += "1,2,3,0,0,0\n1,2,3,0,0,four\n";
+    write_text(folder / "rays.csv", "1,2,3,0,0,1\n" + rays.substr(rays.find('\n', 10) + 1));
+    const Words words{"intersect", four_spheres_file, folder / "rays.csv", "-o", folder / "x.csv"};
+    const ProgramResult one = run_packtrace(words);
+    for (const int ranks : {1, 3}) {
+        const ProgramResult many = run_ranks(ranks, words);
+        CHECK(many.exit_code == 1);
+        CHECK((own_lines(many.err) == own_lines(one.err)));
+        CHECK_FALSE(std::filesystem::exists(folder / "x.csv"));
+    }
+}
+
+TEST_CASE("what a job can't do it says in one line, once", "[mpi]")
+{
+    const TempFolder folder;
+    struct Wrong {
+        Words words;
+        int exit_code;
+        std::string message;
+    };
+    const std::string picture = folder / "a.png";
+    std::filesystem::create_symlink("/dev/full", folder / "full.pfm");
+    write_text(folder / "bad.scene", "sphere { radius = -1 }\n");
+    const std::vector<Wrong> wrongs = {
+        {{"render", folder / "none.scene", "-o", picture}, 1, "none.scene: can't be opened"},
+        {{"render", folder / "bad.scene", "-o", picture}, 1, "bad.scene:1"},
+        {{"render", "generate randm", "-o", picture}, 1, "did you mean random?"},
+        {{"render", four_spheres_file, "-o", folder / "none/a.png"}, 1, "a.png: can't write"},
+        {{"render", four_spheres_file, "-o", folder / "full.pfm", "--size", "1000x2000"},
+         1,
+         "full: can't write"},
+        {{"render", four_spheres_file, "-o", picture, "--gama", "2"}, 2, "did you mean --gamma?"},
+        {{"render", four_spheres_file, "-o", picture, "--isa", "mmx"}, 2, "mmx"},
+        {{"render", four_spheres_file, "-o", picture, "--y4m"}, 2, "--y4m: "},
+        {{"render", four_spheres_file, "-o", picture, "--certainty", "c.png"}, 2, "--certainty: "},
+        {{"intersect", four_spheres_file, folder / "none.csv"}, 1, "none.csv: can't read"},
+        {{}, 2, "subcommand"},
+    };
+    for (const Wrong& wrong : wrongs) {
+        CAPTURE(wrong.words);
+        const ProgramResult result = run_ranks(3, wrong.words);
+        CHECK(result.exit_code == wrong.exit_code);
+        CHECK_THAT(result.err, ContainsSubstring(wrong.message));
+        CHECK(own_lines(result.err).size() == 1);
+        CHECK(result.out.empty());
+        CHECK_FALSE(std::filesystem::exists(picture));
+    }
+    CHECK(run_ranks(2, {"--version"}).exit_code == 0);
+}
+
+TEST_CASE("a rank that dies ends the job with a line, and --resume goes on", "[mpi]")
+{
+    const TempFolder folder;
+    const auto words = [&](const std::string& name) {
+        return Words{"render",      mpi_scene("nested_glass"),
+                     "--size",      "600x6000",
+                     "-q",          "-o",
+                     folder / name, "--threads",
+                     "1",           "--resume"};
+    };
+    REQUIRE(run_packtrace(words("w.png")).exit_code == 0);
+    for (std::size_t victim = 0; victim < 3; ++victim) {
+        CAPTURE(victim);
+        const int code = kill_rank(3, words("m.png"), victim, folder / "err",
+                                   [&] { return lines_of(folder / "m.png.journal") >= 3; });
+        REQUIRE(code > 0);
+        CHECK_FALSE(std::filesystem::exists(folder / "m.png"));
+        const std::string err = read_text(folder / "err");
+        CAPTURE(err);
+        CHECK((err.find("packtrace-mpi: the job ended with ") != std::string::npos ||
+               err.find("packtrace-mpi: rank 0 died") != std::string::npos));
+        const ProgramResult result = run_ranks(victim == 0 ? 2 : 1, words("m.png"));
+        CHECK(result.exit_code == 0);
+        CHECK((read_text(folder / "m.png") == read_text(folder / "w.png")));
+        std::filesystem::remove(folder / "m.png");
+        CHECK((folder.names() == Words{"err", "w.png"}));
+    }
+}
+
+TEST_CASE("ranks killed at random moments lose nothing", "[mpi][slow]")
+{
+    const TempFolder folder;
+    const auto words = [&](const std::string& name) {
+        return Words{"render",      mpi_scene("nested_glass"),
+                     "--size",      "600x6000",
+                     "-q",          "-o",
+                     folder / name, "--threads",
+                     "1",           "--resume"};
+    };
+    REQUIRE(run_packtrace(words("w.png")).exit_code == 0);
+    std::uint32_t random = 1;
+    for (std::size_t i = 0; i < 50; ++i) {
+        random = random * 1664525u + 1013904223u;
+        const auto end = std::chrono::steady_clock::now() + std::chrono::milliseconds(random >> 21);
+        (void)kill_rank(3, words("m.png"), random >> 8, folder / "err",
+                        [&] { return std::chrono::steady_clock::now() > end; });
+        CHECK((!std::filesystem::exists(folder / "m.png") ||
+               read_text(folder / "m.png") == read_text(folder / "w.png")));
+        if (i % 5 != 4)
+            continue;
+        CHECK(run_ranks(2, words("m.png")).exit_code == 0);
+        CHECK((read_text(folder / "m.png") == read_text(folder / "w.png")));
+        std::filesystem::remove(folder / "m.png");
+        CHECK((folder.names() == Words{"err", "w.png"}));
+    }
+}
+
+#endif
+
+}  // namespace packtrace::test
