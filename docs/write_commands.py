@@ -17,7 +17,8 @@ HEAD = """# Commands
 
 All commands of `packtrace` with their options, as `--help` of each prints them. `docs/write_commands.py` writes this page.
 """
-# Descriptions begin at column 30; what names an option, further left.
+# Descriptions begin at this column; what names an option, left of the other.
+COLUMN = 30
 CONTINUED = 20
 
 
@@ -26,17 +27,24 @@ def help_of(program, command):
     return done.stdout
 
 
+def is_continued(line):
+    return len(line) - len(line.lstrip()) >= CONTINUED
+
+
 def entries(lines):
     """[name, description] of each option or command under a heading."""
     found = []
-    for line in lines:
-        if not line.strip():
-            continue
-        if len(line) - len(line.lstrip()) >= CONTINUED:
+    lines = [line for line in lines if line.strip()]
+    for line, following in zip(lines, [*lines[1:], ""]):
+        if is_continued(line):
             found[-1][1] = f"{found[-1][1]} {line.strip()}".strip()
             continue
-        name, _, description = re.sub(r"^(-\w), *--", r"\1, --", line.strip()).partition("  ")
-        found.append([name, description.strip()])
+        # At least two spaces stand before a description, or one where its name just fits.
+        fits = (len(line) > COLUMN and line[COLUMN - 1] == " " and line[COLUMN] != " "
+                and not is_continued(following))
+        name, description = ((line[:COLUMN], line[COLUMN:]) if fits
+                             else re.split(r"(?<=\S\S)  |$", line.rstrip(), maxsplit=1)[:2])
+        found.append([re.sub(r"^(-\w), *--", r"\1, --", name.strip()), description.strip()])
     return found
 
 
@@ -47,6 +55,15 @@ def parts(text):
     headings = {name.capitalize(): entries(body.splitlines())
                 for name, body in zip(sections[1::2], sections[2::2])}
     return sections[0].splitlines()[0].strip(), headings
+
+
+def row(name, meaning):
+    """A line of the table. CLI11 names what an option excludes beside its name."""
+    name, _, excluded = name.partition(" Excludes: ")
+    required = " (required)" if " REQUIRED" in name else ""
+    if excluded:
+        meaning += f"; not with {excluded}"
+    return f"| `{cell(name).replace(' REQUIRED', '')}`{required} | {cell(meaning)} |\n"
 
 
 def cell(text):
@@ -62,9 +79,7 @@ def section(program, command):
     if command:
         text = f"\n{'#' * (1 + len(command))} packtrace {' '.join(command)}\n\n{what}.\n"
     if rows:
-        text += "\n| argument | meaning |\n| --- | --- |\n" + "".join(
-            f"| `{cell(name).replace(' REQUIRED', '')}`{' (required)' if 'REQUIRED' in name else ''} "
-            f"| {cell(meaning)} |\n" for name, meaning in rows)
+        text += "\n| argument | meaning |\n| --- | --- |\n" + "".join(row(*each) for each in rows)
     for name, _ in headings.get("Subcommands", []):
         text += section(program, [*command, name])
     return text
