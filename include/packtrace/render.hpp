@@ -3,11 +3,13 @@
 #include <cstdint>
 #include <functional>
 #include <optional>
+#include <stop_token>
 #include <string>
 
 #include <packtrace/export.hpp>
 #include <packtrace/image.hpp>
 #include <packtrace/scene.hpp>
+#include <packtrace/stop.hpp>
 #include <packtrace/traversal.hpp>
 
 namespace packtrace {
@@ -32,6 +34,20 @@ enum class SelfHits {
 /// What counts where nothing is said, in packets and the scalar reference alike.
 inline constexpr SelfHits default_self_hits = SelfHits::exact;
 
+/// A part of a picture, pixels, counted from its upper left corner.
+struct Region {
+    int x = 0;
+    int y = 0;
+    int width = 1;   ///< 1 or more
+    int height = 1;  ///< 1 or more
+
+    [[nodiscard]] bool contains(int column, int row) const
+    {
+        return column >= x && column < x + width && row >= y && row < y + height;
+    }
+    [[nodiscard]] bool operator==(const Region&) const = default;
+};
+
 struct RenderOptions {
     Kernel kernel = Kernel::packet;
     std::string isa = "auto";  ///< packet kernel: see choose_isa
@@ -54,6 +70,13 @@ struct RenderOptions {
     /// Called now and then with the share of the picture done, in [0, 1]; may be called from
     /// any thread, one at a time.
     std::function<void(double)> progress = {};
+    /// When a stop is requested rendering throws StopError, some tiles later. A scene is made ready
+    /// to the end.
+    std::stop_token stop = {};
+    /// Within the picture. Not set: all of it. The image has the region's size, and its pixels have
+    /// the bits they have in the whole picture. Rays are counted of all tiles of 16 x 16 pixels
+    /// that it has a part of.
+    std::optional<Region> region = {};
 };
 
 /// The rays of a picture that are not traced, as Scene::min_weight asks.

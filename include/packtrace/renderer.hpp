@@ -38,7 +38,8 @@ public:
     PACKTRACE_API Renderer(Renderer&&) noexcept;
     PACKTRACE_API Renderer& operator=(Renderer&&) noexcept;
 
-    /// Renders into `image`, whose size is the scene's; an image of another size is replaced.
+    /// Renders into `image`, whose size is the scene's, or the region's; an image of another size
+    /// is replaced. Throws StopError as RenderOptions::stop has it; `image` is then of no use.
     PACKTRACE_API FrameCounts render(Image<Real>& image) const;
 
     /// Memory held for the scene, its hierarchy included and threads' working memory not.

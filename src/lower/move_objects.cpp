@@ -48,7 +48,8 @@ private:
     int lower_shape(const Scene& scene, const MovedShape& shape, std::int32_t surface)
     {
         if (shape.plain) {
-            lower_sphere(shape.sphere, Mat4(1.0), surface, now_);
+            // As lower_sphere() has it, where -0 becomes 0.
+            now_.spheres.push_back({shape.sphere.center + Vec3(0.0), shape.sphere.radius, surface});
             return 1;
         }
         const Object& object = scene.objects[static_cast<std::size_t>(shape.object)];

@@ -47,13 +47,13 @@ Color<Real> Reference<Real, Recorder>::trace_pixel(int i, int j) const
 
 // The last lines of note 001, one row of them.
 template <class Real, class Recorder>
-void Reference<Real, Recorder>::trace_row(int j, Image<Real>& image, CutCounter* cuts,
-                                          int first) const
+void Reference<Real, Recorder>::trace_row(int j, const Region& region, Image<Real>& image,
+                                          CutCounter* cuts) const
 {
-    for (int i = 0; i < image.width; ++i) {
+    for (int i = region.x; i < region.x + region.width; ++i) {
         const Vec3<Real> D = world_.canvas.canvas_to_viewport(i, j);
         const Color<Real> color = trace_ray(world_.canvas.position, D, cuts);
-        put_pixel(image, i, j - first, color);
+        put_pixel(image, i - region.x, j - region.y, color);
     }
 }
 

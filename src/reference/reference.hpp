@@ -36,8 +36,9 @@ public:
     [[nodiscard]] Color<Real> trace_ray(const Vec3<Real>& org, const Vec3<Real>& dir,
                                         CutCounter* cuts = nullptr) const;
 
-    /// Fills row `j` of the picture, of which `image` holds those from `first` on.
-    void trace_row(int j, Image<Real>& image, CutCounter* cuts = nullptr, int first = 0) const;
+    /// Fills row `j` of `region`, the part of the picture that `image` holds.
+    void trace_row(int j, const Region& region, Image<Real>& image,
+                   CutCounter* cuts = nullptr) const;
 
     /// The mean colour of the pixel over samples at `places`, as Camera::pixel_sample has them.
     [[nodiscard]] Color<Real> trace_samples(int i, int j, const std::vector<Vec2>& places,

@@ -1,6 +1,7 @@
 #include "reference/render_reference.hpp"
 
 #include "image/contrast.hpp"
+#include "image/region_parts.hpp"
 #include "reference/reference.hpp"
 #include "scene/sample_pattern.hpp"
 
@@ -54,93 +55,88 @@ void run_on_threads(int threads, const Work& work)
     tbb::task_arena(threads).execute(work);
 }
 
-/// Some rows of a picture: those asked for, or with those beside them that contrast looks at.
-struct Rows {
-    int first = 0;
-    int end = 0;
-
-    [[nodiscard]] int count() const
-    {
-        return end - first;
-    }
-    [[nodiscard]] bool has(int j) const
-    {
-        return j >= first && j < end;
-    }
-};
-
 template <class Real>
-class RowTracer {
+class RegionTracer {
 public:
-    RowTracer(const reference::Reference<Real>& reference, const RenderOptions& options,
-              const Rows& rows, reference::CutCounter* cuts)
+    RegionTracer(const reference::Reference<Real>& reference, const RenderOptions& options,
+                 const Region& region, reference::CutCounter* cuts)
         : reference_(reference),
           options_(options),
-          rows_(rows),
+          region_(region),
           cuts_(cuts),
-          counter_(options.adaptive ? 2 * rows.count() : rows.count(), options.progress)
+          counter_(options.adaptive ? 2 * region.height : region.height, options.progress)
     {
     }
 
     void trace(Image<Real>& image)
     {
         if (options_.samples == 1)
-            each_row(rows_,
-                     [&](int j, Cuts* cuts) { reference_.trace_row(j, image, cuts, rows_.first); });
+            each_row(region_,
+                     [&](int j, Cuts* cuts) { reference_.trace_row(j, region_, image, cuts); });
         else
-            trace_all(image, rows_, sample_pattern(options_.samples));
+            trace_all(image, region_, sample_pattern(options_.samples));
     }
 
-    /// All pixels once, those of `around` too; then those with contrast in full.
-    void trace_adaptive(Image<Real>& image, const Rows& around)
+    /// All pixels once, those `around` too; then those with contrast in full.
+    void trace_adaptive(Image<Real>& image, const Region& around)
     {
-        Image<Real> wide(image.width, around.count());
+        Image<Real> wide(around.width, around.height);
         trace_all(wide, around, {Vec2(0.5)});
         ContrastMap<Real> contrast(wide, *options_.adaptive);
         for (int row = 0; row < wide.height; ++row)
             contrast.mark_row(row);
         const std::vector<Vec2> pattern = sample_pattern(options_.samples);
-        each_row(rows_, [&](int j, Cuts* cuts) {
-            for (int i = 0; i < wide.width; ++i)
-                if (contrast(i, j - around.first))
-                    put_pixel(wide, i, j - around.first,
+        each_row(region_, [&](int j, Cuts* cuts) {
+            for (int i = region_.x; i < region_.x + region_.width; ++i)
+                if (contrast(i - around.x, j - around.y))
+                    put_pixel(wide, i - around.x, j - around.y,
                               reference_.trace_samples(i, j, pattern, cuts));
         });
-        std::copy_n(wide.pixel(0, rows_.first - around.first), image.rgb.size(), image.rgb.begin());
+        copy_region({region_.x - around.x, region_.y - around.y, region_.width, region_.height},
+                    wide, image);
     }
 
 private:
     using Cuts = reference::CutCounter;
 
-    /// `image` holds `rows`.
-    void trace_all(Image<Real>& image, const Rows& rows, const std::vector<Vec2>& places)
+    /// `image` holds `part`. Of its pixels those asked for count.
+    void trace_all(Image<Real>& image, const Region& part, const std::vector<Vec2>& places)
     {
-        each_row(rows, [&](int j, Cuts* cuts) {
-            for (int i = 0; i < image.width; ++i)
-                put_pixel(image, i, j - rows.first, reference_.trace_samples(i, j, places, cuts));
+        each_row(part, [&](int j, Cuts* cuts) {
+            for (int i = part.x; i < part.x + part.width; ++i)
+                put_pixel(image, i - part.x, j - part.y,
+                          reference_.trace_samples(i, j, places,
+                                                   region_.contains(i, j) ? cuts : nullptr));
         });
     }
 
-    // Rows count by themselves: their sums do not depend on threads. Only those asked for do.
+    // Rows count by themselves: their sums do not depend on threads.
     template <class Work>
-    void each_row(const Rows& rows, const Work& work)
+    void each_row(const Region& part, const Work& work)
     {
         tbb::parallel_for(
-            tbb::blocked_range<int>(rows.first, rows.end, 1),
+            tbb::blocked_range<int>(part.y, part.y + part.height, 1),
             [&](const tbb::blocked_range<int>& some) {
-                for (int j = some.begin(); j != some.end(); ++j) {
+                for (int j = some.begin(); j != some.end() && !is_stopped(); ++j) {
                     work_on(j, work);
-                    if (rows_.has(j))
+                    if (region_.contains(region_.x, j))
                         counter_.row_done();
                 }
             },
             tbb::simple_partitioner());
+        if (is_stopped())
+            throw StopError("rendering was asked to stop");
+    }
+
+    [[nodiscard]] bool is_stopped() const
+    {
+        return options_.stop.stop_requested();
     }
 
     template <class Work>
     void work_on(int j, const Work& work)
     {
-        if (cuts_ == nullptr || !rows_.has(j))
+        if (cuts_ == nullptr)
             return work(j, nullptr);
         Cuts row = cuts_->fresh();
         work(j, &row);
@@ -150,11 +146,26 @@ private:
 
     const reference::Reference<Real>& reference_;
     const RenderOptions& options_;
-    Rows rows_;
+    Region region_;
     Cuts* cuts_;
     RowCounter counter_;
     std::mutex adding_;
 };
+
+/// `image` has the region's size.
+template <class Real>
+void trace_region(const reference::Reference<Real>& reference, const Region& picture,
+                  const RenderOptions& options, const Region& region, Image<Real>& image,
+                  reference::CutCounter* cuts)
+{
+    RegionTracer<Real> tracer(reference, options, region, cuts);
+    run_on_threads(options.threads, [&] {
+        if (options.adaptive)
+            tracer.trace_adaptive(image, with_neighbours(region, picture.width, picture.height));
+        else
+            tracer.trace(image);
+    });
+}
 
 }  // namespace
 
@@ -163,24 +174,19 @@ void render_reference_rows(const reference::Reference<Real>& reference, int pict
                            const RenderOptions& options, int first, Image<Real>& image,
                            reference::CutCounter* cuts)
 {
-    const Rows rows{first, first + image.height};
-    RowTracer<Real> tracer(reference, options, rows, cuts);
-    run_on_threads(options.threads, [&] {
-        if (options.adaptive)
-            tracer.trace_adaptive(
-                image, {std::max(0, rows.first - 1), std::min(picture_height, rows.end + 1)});
-        else
-            tracer.trace(image);
-    });
+    trace_region(reference, {0, 0, image.width, picture_height}, options,
+                 {0, first, image.width, image.height}, image, cuts);
 }
 
 template <class Real>
 Image<Real> render_reference(const Scene& scene, const RenderOptions& options,
                              reference::CutCounter* cuts)
 {
-    Image<Real> image(scene.width, scene.height);
+    const Region picture{0, 0, scene.width, scene.height};
+    const Region region = options.region.value_or(picture);
+    Image<Real> image(region.width, region.height);
     const reference::Reference<Real> reference(scene, {}, options.self_hits);
-    render_reference_rows(reference, scene.height, options, 0, image, cuts);
+    trace_region(reference, picture, options, region, image, cuts);
     return image;
 }
 

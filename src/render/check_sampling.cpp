@@ -20,4 +20,22 @@ const RenderOptions& checked_sampling(const RenderOptions& options)
     return options;
 }
 
+Region checked_region(const RenderOptions& options, const Scene& scene)
+{
+    if (!options.region)
+        return {0, 0, scene.width, scene.height};
+    const Region& region = *options.region;
+    const bool within = region.x >= 0 && region.y >= 0 && region.width >= 1 && region.height >= 1 &&
+                        region.x < scene.width && region.y < scene.height &&
+                        region.width <= scene.width - region.x &&
+                        region.height <= scene.height - region.y;
+    if (!within)
+        throw std::invalid_argument(
+            "region: " + std::to_string(region.width) + " x " + std::to_string(region.height) +
+            " pixels from (" + std::to_string(region.x) + ", " + std::to_string(region.y) +
+            ") on are not within the picture of " + std::to_string(scene.width) + " x " +
+            std::to_string(scene.height) + "; stay inside it");
+    return region;
+}
+
 }  // namespace packtrace

@@ -5,6 +5,7 @@
 
 #include <tbb/task_arena.h>
 
+#include "image/region_parts.hpp"
 #include "render/check_sampling.hpp"
 
 namespace packtrace {
@@ -25,69 +26,94 @@ FrameRenderer<Real>::FrameRenderer(const Scene& scene, LoweredScene lowered,
                                    const abi::KernelTable& table, const RenderOptions& options)
     : width_(scene.width),
       height_(scene.height),
+      region_(checked_region(options, scene)),
       options_(options),
       tiles_(scene, std::move(lowered), table, checked_sampling(options))
 {
 }
 
+/// The tiles that the region has a part of.
 template <class Real>
-FrameCounts FrameRenderer<Real>::render_tiles(int first, Image<Real>& image) const
+Region FrameRenderer<Real>::whole_tiles(const Region& region) const
 {
-    if (options_.adaptive)
-        return render_adaptive(first, image);
-    const TileGrid grid(width_, image.height, first);
-    const Canvas<Real> canvas(image, first);
-    Progress done(grid.count, options_.progress);
+    const auto down = [](int pixel) { return pixel / abi::tile_size * abi::tile_size; };
+    const auto up = [&](int pixel) { return down(pixel + abi::tile_size - 1); };
+    const int x = down(region.x);
+    const int y = down(region.y);
+    return {x, y, std::min(width_, up(region.x + region.width)) - x,
+            std::min(height_, up(region.y + region.height)) - y};
+}
+
+/// `image` holds the tiles.
+template <class Real>
+FrameCounts FrameRenderer<Real>::render_tiles(const Region& tiles, Image<Real>& image) const
+{
+    const TileGrid grid(tiles);
+    const Canvas<Real> canvas(image, tiles.x, tiles.y);
+    Progress done(grid.count, options_.progress, options_.stop);
     return for_each_tile(grid, done, [&](int x, int y) {
         return options_.samples > 1 ? tiles_.render_mean(canvas, x, y)
                                     : tiles_.render_once(canvas, x, y);
     });
 }
 
-// All tiles once, then the pixels with contrast in full. Contrast also looks at the rows beside
-// those asked for: a tile more on either side.
+/// The tiles `around` once, which `image` holds, then the pixels of `tiles` with contrast in full.
 template <class Real>
-FrameCounts FrameRenderer<Real>::render_adaptive(int first, Image<Real>& image) const
+FrameCounts FrameRenderer<Real>::render_adaptive(const Region& tiles, const Region& around,
+                                                 Image<Real>& image) const
 {
-    const int end = first + image.height;
-    const int above = std::min(first, abi::tile_size);
-    const int below = std::min(height_ - end, abi::tile_size);
-    Image<Real> wider;
-    if (above + below > 0)
-        wider = Image<Real>::unset(width_, above + image.height + below);
-    Image<Real>& all = above + below > 0 ? wider : image;
-    const Canvas<Real> canvas(all, first - above);
-    const TileGrid grid(width_, image.height, first);
-    const TileGrid around(width_, all.height, first - above);
-    Progress done(around.count + grid.count, options_.progress);
-    const FrameCounts once = for_each_tile(around, done, [&](int x, int y) {
+    const Canvas<Real> canvas(image, around.x, around.y);
+    const TileGrid all(around);
+    const TileGrid grid(tiles);
+    Progress done(all.count + grid.count, options_.progress, options_.stop);
+    const FrameCounts once = for_each_tile(all, done, [&](int x, int y) {
         const abi::RayCounts counts = tiles_.render_once(canvas, x, y);
-        return y >= first && y < end ? counts : abi::RayCounts();
+        return tiles.contains(x, y) ? counts : abi::RayCounts();
     });
-    ContrastMap<Real> contrast(all, *options_.adaptive);
-    tbb::parallel_for(0, all.height, [&](int row) { contrast.mark_row(row); });
-    const FrameCounts more = for_each_tile(
-        grid, done, [&](int x, int y) { return tiles_.refine(canvas, contrast, x, y); });
-    if (above + below > 0)
-        std::copy_n(all.pixel(0, above), image.rgb.size(), image.rgb.begin());
-    return once + more;
+    ContrastMap<Real> contrast(image, *options_.adaptive);
+    tbb::parallel_for(0, image.height, [&](int row) { contrast.mark_row(row); });
+    return once + for_each_tile(grid, done, [&](int x, int y) {
+               return tiles_.refine(canvas, contrast, x, y);
+           });
+}
+
+template <class Real>
+FrameCounts FrameRenderer<Real>::render_region(const Region& region, Image<Real>& image) const
+{
+    const Region tiles = whole_tiles(region);
+    const Region held =
+        options_.adaptive ? whole_tiles(with_neighbours(region, width_, height_)) : tiles;
+    Image<Real> larger;
+    if (held != region)
+        larger = Image<Real>::unset(held.width, held.height);
+    Image<Real>& all = held != region ? larger : image;
+    const FrameCounts counts =
+        options_.adaptive ? render_adaptive(tiles, held, all) : render_tiles(tiles, all);
+    if (held != region)
+        copy_region({region.x - held.x, region.y - held.y, region.width, region.height}, larger,
+                    image);
+    return counts;
 }
 
 template <class Real>
 FrameCounts FrameRenderer<Real>::render(Image<Real>& image) const
 {
-    if (image.width != width_ || image.height != height_)
-        image = Image<Real>::unset(width_, height_);
-    return render_rows(0, image);
+    if (image.width != region_.width || image.height != region_.height)
+        image = Image<Real>::unset(region_.width, region_.height);
+    if (options_.threads == 0)
+        return render_region(region_, image);
+    tbb::task_arena arena(options_.threads);
+    return arena.execute([&] { return render_region(region_, image); });
 }
 
 template <class Real>
 FrameCounts FrameRenderer<Real>::render_rows(int first, Image<Real>& image) const
 {
+    const Region rows{0, first, width_, image.height};
     if (options_.threads == 0)
-        return render_tiles(first, image);
+        return render_region(rows, image);
     tbb::task_arena arena(options_.threads);
-    return arena.execute([&] { return render_tiles(first, image); });
+    return arena.execute([&] { return render_region(rows, image); });
 }
 
 template class FrameRenderer<float>;

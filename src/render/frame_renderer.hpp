@@ -11,8 +11,8 @@ namespace packtrace {
 template <class Real>
 class FrameRenderer {
 public:
-    /// Of the options threads, sampling and progress count. Throws std::invalid_argument for
-    /// impossible sampling.
+    /// Of the options threads, sampling, progress, stop and region count. Throws
+    /// std::invalid_argument for impossible ones.
     FrameRenderer(const Scene& scene, LoweredScene lowered, const abi::KernelTable& table,
                   const RenderOptions& options);
 
@@ -31,11 +31,15 @@ public:
     }
 
 private:
-    [[nodiscard]] FrameCounts render_tiles(int first, Image<Real>& image) const;
-    [[nodiscard]] FrameCounts render_adaptive(int first, Image<Real>& image) const;
+    FrameCounts render_region(const Region& region, Image<Real>& image) const;
+    [[nodiscard]] FrameCounts render_tiles(const Region& tiles, Image<Real>& image) const;
+    [[nodiscard]] FrameCounts render_adaptive(const Region& tiles, const Region& around,
+                                              Image<Real>& image) const;
+    [[nodiscard]] Region whole_tiles(const Region& region) const;
 
     int width_;
     int height_;
+    Region region_;
     RenderOptions options_;
     TileRenderer<Real> tiles_;
 };

@@ -26,6 +26,7 @@ struct RayScene<Real>::State {
     SceneUpdate update(const Scene& scene, const std::vector<std::int32_t>& moved);
 
     bounds::BoundedScene bounded;
+    std::vector<MovedShape> shapes;  ///< of the last update, kept for its memory
     std::unique_ptr<RayBackend<Real>> backend;
 };
 
@@ -54,7 +55,6 @@ SceneUpdate RayScene<Real>::State::update(const Scene& scene,
 {
     if (moved.empty())
         return {};
-    std::vector<MovedShape> shapes;
     if (const auto fault = language::fault_of_shapes(scene, moved, shapes))
         throw SceneError(fault->text());
     const SceneUpdate done = backend->update(scene, shapes);

@@ -19,6 +19,7 @@ template <class Real>
 Image<Real> render_scalar(const Scene& scene, const RenderOptions& options, CutRays* cut)
 {
     validate(scene);
+    (void)checked_region(options, scene);
     if (cut == nullptr || scene.min_weight <= 0.0) {
         if (cut != nullptr)
             *cut = {};

@@ -87,7 +87,7 @@ abi::RayCounts TileRenderer<Real>::render_once(const Canvas<Real>& canvas, int x
 {
     abi::TileJob<Real> job = job_at(once_, x, y, observation);
     job.rgb = canvas.pixel(x, y);
-    job.row_stride = std::ptrdiff_t{3} * width_;
+    job.row_stride = std::ptrdiff_t{3} * canvas.image.width;
     return kernels_.render_tile(job);
 }
 
@@ -132,7 +132,7 @@ abi::RayCounts TileRenderer<Real>::refine(const Canvas<Real>& canvas,
     for (int number = 0; number < abi::tile_pixels; ++number) {
         const auto [column, row] = z_order_place(number);
         if (column < job.width && row < job.height &&
-            contrast(x + column, y + row - canvas.first_row))
+            contrast(x + column - canvas.first_column, y + row - canvas.first_row))
             batch.add_pixel(column, row, canvas.pixel(x + column, y + row));
     }
     batch.finish();

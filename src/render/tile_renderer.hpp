@@ -12,19 +12,21 @@
 
 namespace packtrace {
 
-/// Where tiles go: an image that holds rows of a picture from `first_row` on.
+/// Where tiles go: an image that holds a part of a picture.
 template <class Real>
 struct Canvas {
     Image<Real>& image;
+    int first_column = 0;
     int first_row = 0;
 
-    Canvas(Image<Real>& rows, int first = 0) : image(rows), first_row(first)
+    Canvas(Image<Real>& part, int column = 0, int row = 0)
+        : image(part), first_column(column), first_row(row)
     {
     }
     /// By column and row of the picture.
     [[nodiscard]] Real* pixel(int x, int y) const
     {
-        return image.pixel(x, y - first_row);
+        return image.pixel(x - first_column, y - first_row);
     }
 };
 
@@ -58,7 +60,7 @@ public:
     /// The same with the mean of all samples.
     abi::RayCounts render_mean(const Canvas<Real>& canvas, int x, int y) const;
 
-    /// `contrast` is that of the canvas' rows. Gives the pixels where `contrast` says so what
+    /// `contrast` is that of the canvas. Gives the pixels where `contrast` says so what
     /// render_mean() gives them, bit for bit.
     abi::RayCounts refine(const Canvas<Real>& canvas, const ContrastMap<Real>& contrast, int x,
                           int y) const;

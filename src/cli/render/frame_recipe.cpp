@@ -41,6 +41,8 @@ std::string text_of(const RenderArguments& arguments, const RenderOptions& optio
     text += ", samples " + std::to_string(options.samples);
     if (options.adaptive)
         text += ", adaptive " + exactly(*options.adaptive);
+    if (arguments.region)
+        text += ", region " + *arguments.region;
     return text + ", gamma " + exactly(arguments.write.gamma);
 }
 

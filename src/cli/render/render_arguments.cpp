@@ -63,13 +63,14 @@ RenderOptions checked_options(const RenderArguments& arguments)
 void print_summary(const RenderArguments& arguments, const RenderOptions& options,
                    const Scene& scene, double seconds, double writing)
 {
+    const Region part = options.region.value_or(Region{0, 0, scene.width, scene.height});
     const std::string kernel =
         options.kernel == Kernel::scalar ? "scalar" : "packet, " + options.isa;
-    const double pixels = static_cast<double>(scene.width) * scene.height;
+    const double pixels = static_cast<double>(part.width) * part.height;
     char text[192];
     std::snprintf(text, sizeof text,
-                  ": %d x %d, %s, %s, %.1f ms, %.1f Mpixel/s; written in %.1f ms\n", scene.width,
-                  scene.height, kernel.c_str(), arguments.kernel.precision.c_str(), 1e3 * seconds,
+                  ": %d x %d, %s, %s, %.1f ms, %.1f Mpixel/s; written in %.1f ms\n", part.width,
+                  part.height, kernel.c_str(), arguments.kernel.precision.c_str(), 1e3 * seconds,
                   1e-6 * pixels / seconds, 1e3 * writing);
     std::cerr << language::escape(arguments.output) << text;
 }

@@ -32,6 +32,7 @@ struct RenderArguments {
     KernelArguments kernel;
     PictureArguments picture;
     SamplingArguments sampling;
+    std::optional<std::string> region;  ///< what of the picture is rendered
     AnimationArguments animation;
     ImageWriteOptions write;
     bool resume = false;  ///< keep finished bands, and go on with those of an earlier run

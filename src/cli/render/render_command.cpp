@@ -13,6 +13,7 @@
 #include "cli/options/thread_limit.hpp"
 #include "cli/output/progress_bar.hpp"
 #include "cli/render/cut_rays.hpp"
+#include "cli/render/region_option.hpp"
 #include "cli/render/render_animation.hpp"
 #include "cli/render/render_bands.hpp"
 #include "cli/render/render_picture.hpp"
@@ -59,7 +60,7 @@ void render_whole(const RenderArguments& arguments, const Scene& scene, RenderOp
 void render_one(const RenderArguments& arguments, const Scene& scene, const RenderOptions& options)
 {
     const std::int64_t pixels = std::int64_t{scene.width} * scene.height;
-    if (pixels <= most_whole_pixels && !arguments.resume) {
+    if (options.region || (pixels <= most_whole_pixels && !arguments.resume)) {
         render_whole(arguments, scene, options);
     } else {
         const BandTally tally = render_bands(arguments, scene, options);
@@ -78,11 +79,13 @@ void render_one(const RenderArguments& arguments, const Scene& scene, const Rend
 
 void run_render(const RenderArguments& arguments)
 {
-    const RenderOptions options = checked_options(arguments);
+    RenderOptions options = checked_options(arguments);
+    check_region_options(arguments);
     if (!arguments.animation.many())
         check_image_writable(arguments.output);
     Scene scene = read_scene_input(arguments.scene).scene;
     apply(arguments.picture, scene);
+    options.region = region_of(arguments, scene);
     // Frames of an animation and bands of a picture are written by one more.
     const ThreadLimit limit(options.threads, 1);
     if (arguments.animation.many())
@@ -99,6 +102,7 @@ void add_render(CLI::App& app)
     CLI::App* command = app.add_subcommand("render", "Render a scene to a picture");
     const auto arguments = std::make_shared<RenderArguments>();
     add_render_options(*command, *arguments);
+    add_region_option(*command, *arguments);
     command->callback([arguments] { run_render(*arguments); });
 }
 
