@@ -75,8 +75,10 @@ if(PACKTRACE_PYTHON)
     endif()
 endif()
 
-# Not among what is needed: without it, packtrace-mpi is left out.
-if(PACKTRACE_BUILD_PROGRAM AND PACKTRACE_BUILD_MPI)
+# Not among what is needed: without it, packtrace-mpi is left out. Another machine's MPI is not this
+# one's, and sanitizers find leaks in MPI itself.
+if(PACKTRACE_BUILD_PROGRAM AND PACKTRACE_BUILD_MPI AND NOT CMAKE_CROSSCOMPILING AND
+   NOT PACKTRACE_SANITIZE)
     find_package(MPI QUIET COMPONENTS CXX)
     if(NOT MPI_CXX_FOUND)
         message(STATUS "packtrace: no MPI here, so packtrace-mpi is left out; to build it, type: "
