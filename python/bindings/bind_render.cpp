@@ -45,6 +45,14 @@ RenderOptions render_options(const py::kwargs& arguments)
     from_python(arguments["force_general"], "force_general", options.force_general);
     from_python(arguments["samples"], "samples", options.samples);
     options.adaptive = optional_of<double>(arguments["adaptive"], "adaptive");
+    if (const py::object region = arguments["region"]; !region.is_none()) {
+        const std::vector<py::object> numbers = elements_of(region, "region");
+        if (numbers.size() != 4)
+            throw_wrong("region", region, "four whole numbers (x, y, width, height)");
+        options.region =
+            Region{value_of<int>(numbers[0], "region"), value_of<int>(numbers[1], "region"),
+                   value_of<int>(numbers[2], "region"), value_of<int>(numbers[3], "region")};
+    }
     return options;
 }
 
@@ -53,14 +61,16 @@ py::tuple render_scene(py::handle value, const py::kwargs& arguments)
     const Scene scene = scene_to_render(value, arguments);
     RenderOptions options = render_options(arguments);
     Progress progress(arguments["progress"]);
-    if (progress.wanted())
-        options.progress = [&progress](double share) { progress(share); };
+    options.progress = [&progress](double share) { progress(share); };
+    options.stop = progress.stop();
     return with_real(py::dtype::from_args(arguments["dtype"]), [&](auto real) {
         Image<decltype(real)> image;
         CutRays cut;
-        {
+        try {
             const py::gil_scoped_release release;
             image = render<decltype(real)>(scene, options, &cut);
+        } catch (const StopError&) {
+            progress.raise();
         }
         progress.raise();
         return py::make_tuple(to_array(std::move(image)), py::make_tuple(cut.rays, cut.bound));

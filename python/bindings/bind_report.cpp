@@ -82,8 +82,7 @@ py::list report_scene(py::handle value, py::handle name, py::handle threads, py:
     from_python(truth_samples, "truth_samples", options.truth_samples);
     from_python(threshold, "threshold", options.threshold);
     Progress progress(call);
-    if (progress.wanted())
-        options.progress = [&](const std::string& what, double share) { progress(what, share); };
+    options.progress = [&](const std::string& what, double share) { progress(what, share); };
     const ReportScene scene{value_of<std::string>(name, "name"), scene_of(value)};
     SceneReport made;
     {

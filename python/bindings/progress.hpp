@@ -3,34 +3,45 @@
 #include <pybind11/pybind11.h>
 
 #include <optional>
+#include <stop_token>
+#include <thread>
 #include <utility>
 
 namespace packtrace::python {
 
 namespace py = pybind11;
 
-/// Calls a Python function from any thread; what it raises first is kept, and ends the calls.
+/// Calls a Python function, or None, with the share of work done, from any thread, and looks for
+/// Ctrl-C on the thread that made this. What is raised first is kept, and asks the work to stop.
 class Progress {
 public:
-    explicit Progress(py::object call) : call_(std::move(call))
+    explicit Progress(py::object call) : call_(std::move(call)), wanted_(!call_.is_none())
     {
     }
 
-    [[nodiscard]] bool wanted() const
+    [[nodiscard]] std::stop_token stop() const
     {
-        return !call_.is_none();
+        return stop_.get_token();
     }
 
     template <class... Arguments>
     void operator()(const Arguments&... arguments)
     {
+        const bool sees_signals = std::this_thread::get_id() == maker_;
+        // Waiting for the GIL is left out where nobody asks for it.
+        if ((!wanted_ && !sees_signals) || stop_.stop_requested())
+            return;
         const py::gil_scoped_acquire acquire;
         if (raised_)
             return;
         try {
-            call_(arguments...);
+            if (sees_signals && PyErr_CheckSignals() != 0)
+                throw py::error_already_set();
+            if (wanted_)
+                call_(arguments...);
         } catch (py::error_already_set& error) {
             raised_.emplace(error);
+            stop_.request_stop();
         }
     }
 
@@ -43,6 +54,9 @@ public:
 
 private:
     py::object call_;
+    bool wanted_;
+    std::thread::id maker_ = std::this_thread::get_id();
+    std::stop_source stop_;
     std::optional<py::error_already_set> raised_;
 };
 

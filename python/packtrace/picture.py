@@ -65,6 +65,7 @@ def render(scene: Scene, *, width: Optional[int] = None, height: Optional[int] =
            self_hits: Literal["note", "exact"] = "exact",
            traversal: Literal["auto", "list", "tree"] = "auto", force_general: bool = False,
            threads: int = 0, samples: int = 1, adaptive: Optional[float] = None,
+           region: Optional[Tuple[int, int, int, int]] = None,
            progress: Optional[Callable[[float], Any]] = None) -> Picture:
     """Renders a scene: an array (height, width, 3) of float32, or of float64 with dtype=np.float64.
 
@@ -75,17 +76,19 @@ def render(scene: Scene, *, width: Optional[int] = None, height: Optional[int] =
     threads: 0 is one a processor. The picture is the same whatever their number.
     samples: a pixel, 1 to 1024, whose mean is its colour.
     adaptive: contrast of 0 or more above which a pixel gets its samples; others get one.
-    progress: called now and then with the share done, 0 to 1, from any thread.
+    region: (x, y, width, height) of a part of the picture, pixels from its upper left corner; the
+        array then has that part alone.
+    progress: called now and then with the share done, 0 to 1, from any thread. What it raises ends
+        the rendering, as Ctrl-C does.
 
     The array is the renderer's own memory, not a copy. Raises SceneError for a scene that cannot be
-    used, ValueError for an impossible option. What `progress` raises is raised when the picture is
-    done.
+    used, ValueError for an impossible option.
     """
     array, cut = _packtrace.render(
         scene, width=width, height=height, dtype=_picture_dtype(dtype), frame=frame, kernel=kernel,
         isa=isa, lanes=lanes, accuracy=accuracy, self_hits=self_hits, traversal=traversal,
         force_general=force_general, threads=threads, samples=samples, adaptive=adaptive,
-        progress=progress)
+        region=region, progress=progress)
     picture: Picture = array.view(Picture)
     if scene.min_weight > 0:
         picture.cut = CutRays(*cut)

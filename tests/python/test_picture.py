@@ -1,5 +1,6 @@
 """Pictures: what render gives, files, comparison, and what notebooks show."""
 
+import signal
 import struct
 import tempfile
 import threading
@@ -75,8 +76,29 @@ class TestRender(unittest.TestCase):
         pt.render(lit_scene(), width=256, progress=shares.append)
         self.assertEqual(shares, sorted(shares))
         self.assertEqual(shares[-1], 1)
-        with self.assertRaisesRegex(ZeroDivisionError, "division"):
-            pt.render(lit_scene(), width=256, progress=lambda share: 1 / 0)
+        calls = []
+
+        def stop(share):
+            calls.append(share)
+            raise ZeroDivisionError("enough")
+
+        with self.assertRaisesRegex(ZeroDivisionError, "enough"):
+            pt.render(lit_scene(), width=1024, progress=stop)
+        self.assertEqual(len(calls), 1)
+        self.assertLess(calls[0], 1)
+
+    def test_ctrl_c_stops_rendering(self):
+        timer = threading.Timer(0.05, signal.raise_signal, (signal.SIGINT,))
+        timer.start()
+        # Takes seconds; the signal comes long before the end.
+        with self.assertRaises(KeyboardInterrupt):
+            pt.render(lit_scene(), width=2048, samples=64)
+        timer.join()
+
+    def test_regions(self):
+        scene = lit_scene(width=100, height=80)
+        whole = pt.render(scene)
+        np.testing.assert_array_equal(pt.render(scene, region=(30, 20, 50, 7)), whole[20:27, 30:80])
 
     def test_other_threads_run_meanwhile(self):
         ends = []
@@ -104,6 +126,8 @@ class TestRender(unittest.TestCase):
                                  ("adaptive", {"adaptive": -1.0, "samples": 4}),
                                  ("accuracy is 'auto'; use one of 'fast', 'exact'",
                                   {"accuracy": "auto"}),
+                                 ("region is .*use four whole numbers", {"region": (1, 2)}),
+                                 ("region", {"region": (500, 0, 50, 1)}),
                                  ("no animation", {"frame": 0})):
             with self.subTest(message), self.assertRaisesRegex(ValueError, message):
                 pt.render(scene, **options)
