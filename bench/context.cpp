@@ -27,11 +27,15 @@ std::string compiler()
 #endif
 }
 
-// Asked when the benchmark runs: a commit kept from configuring would be out of date.
+// Asked when the benchmark runs: a commit kept from configuring would be out of date. Results and
+// documents may differ from it.
 std::string commit()
 {
     constexpr const char* command =
-        "git -C '" PACKTRACE_SOURCE_DIR "' describe --always --dirty 2>/dev/null";
+        "cd '" PACKTRACE_SOURCE_DIR
+        "' && { commit=$(git rev-parse --short HEAD) && "
+        "{ git diff --quiet HEAD -- . ':(exclude)results' ':(exclude)docs' ':(exclude)*.md' || "
+        "commit=$commit-dirty; }; echo ${commit:-unknown}; } 2>/dev/null";
     const std::unique_ptr<std::FILE, int (*)(std::FILE*)> pipe(popen(command, "r"), pclose);
     char text[64] = {};
     if (!pipe || std::fgets(text, sizeof(text), pipe.get()) == nullptr)

@@ -1,4 +1,11 @@
-"""Where a file of results comes from, and how it is put in its place."""
+#!/usr/bin/env python3
+"""Where a file of results comes from, and how it is put in its place.
+
+As a program it exits 1 where files of the program differ from the commit that is checked out; with
+`load_after FILE` it adds the machine's load to the context of a JSON file.
+
+Results are of a clean commit. PACKTRACE_ALLOW_DIRTY=1 in the environment allows another state, say to
+try a script; the file then names its commit with "-dirty" at the end."""
 import json
 import os
 import pathlib
@@ -9,14 +16,23 @@ import sys
 FOLDER = pathlib.Path(__file__).resolve().parent
 
 
-def commit(folder=FOLDER):
-    """The commit that is checked out; ends the script where files differ from it."""
-    described = subprocess.run(["git", "describe", "--always", "--dirty"], cwd=folder,
-                               capture_output=True, text=True, check=True).stdout.strip()
-    if described.endswith("-dirty"):
-        sys.exit(f"{pathlib.Path(sys.argv[0]).name}: the tree has changes that are not committed; "
-                 "commit them first")
+def check_commit(described):
+    """Ends the script where a commit's name says that files differed from it, unless allowed."""
+    if described.endswith("-dirty") and os.environ.get("PACKTRACE_ALLOW_DIRTY") != "1":
+        sys.exit(f"{pathlib.Path(sys.argv[0]).name}: files differ from the commit, so no result can "
+                 "name what it is of; commit them and build again, or set PACKTRACE_ALLOW_DIRTY=1")
     return described
+
+
+def commit(folder=FOLDER):
+    """The commit that is checked out, with "-dirty" at its end where files of the program
+    differ from it and that is allowed; else ends the script."""
+    git = ["git", "-C", folder]
+    head = subprocess.run([*git, "rev-parse", "--short", "HEAD"], capture_output=True, text=True,
+                          check=True).stdout.strip()
+    differs = subprocess.run([*git, "diff", "--quiet", "HEAD", "--", ":/", ":(top,exclude)results",
+                              ":(top,exclude)docs", ":(top,exclude)*.md"])
+    return check_commit(head + ("-dirty" if differs.returncode else ""))
 
 
 def commit_of_build(build):
@@ -37,3 +53,17 @@ def write(report, name):
     part = target.with_suffix(".json.part")
     part.write_text(json.dumps(report, indent=1) + "\n")
     part.replace(target)
+
+
+def add_load_after(file):
+    path = pathlib.Path(file)
+    report = json.loads(path.read_text())
+    report["context"]["load_after"] = f"{os.getloadavg()[0]:.2f}"
+    path.write_text(json.dumps(report, indent=1) + "\n")
+
+
+if __name__ == "__main__":
+    if sys.argv[1:2] == ["load_after"]:
+        add_load_after(sys.argv[2])
+    else:
+        commit()

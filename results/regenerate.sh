@@ -5,6 +5,7 @@ set -euo pipefail
 program=$(readlink -f "$1/packtrace")
 features=$(readlink -f "$1/bench/features/packtrace_features")
 cd "$(dirname "$(readlink -f "${BASH_SOURCE[0]}")")/.."
+python3 -B results/provenance.py
 
 scenes=()
 for name in four_spheres quadrics transparent_shadows whitted shader sketch; do

@@ -15,6 +15,9 @@ import subprocess
 import sys
 import tempfile
 
+sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[2] / "results"))
+from provenance import commit
+
 from pictures import difference, read_pfm, read_ppm
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
@@ -191,12 +194,15 @@ def main():
     with tempfile.TemporaryDirectory() as folder:
         frames = Frames(options.build.resolve(), pathlib.Path(folder), options.size)
         context = json.loads(run([frames.frames, "context"]))
+        if options.json:
+            context["commit"] = commit()
         context["command"] = "bench/peers/frames.py " + " ".join(sys.argv[1:])
         report = {"context": context, "size": options.size, "scenes": []}
         for name in options.scenes:
             report["scenes"].append(measure(frames, name, options))
             show(report["scenes"][-1])
     if options.json:
+        context["load_after"] = f"{os.getloadavg()[0]:.2f}"
         part = options.json.with_name(options.json.name + ".part")
         part.write_text(json.dumps(report, indent=2) + "\n")
         os.replace(part, options.json)

@@ -9,6 +9,9 @@ import statistics
 import subprocess
 import sys
 
+sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[2] / "results"))
+from provenance import commit
+
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 
 
@@ -101,7 +104,10 @@ def main():
     for _ in range(options.repetitions):
         for point in measured:
             result = run_point(program, point, options.frames)
-            context = result.pop("context")
+            context = context or result["context"]
+            del result["context"]
+            if options.json:
+                context["commit"] = commit()
             add_run(point, result)
     print(f"{'study':8} {'objects':>9} {'size':>6} {'threads':>7} {'build s':>10} "
           f"{'B/object':>9} {'peak MiB':>9} {'frame s':>10} {'Mrays/s':>9}")
@@ -110,6 +116,7 @@ def main():
         show(point)
     if options.json:
         context["command"] = "bench/scaling/scaling.py " + " ".join(sys.argv[1:])
+        context["load_after"] = f"{os.getloadavg()[0]:.2f}"
         report = {"context": context, "points": measured, "growth": growth(measured)}
         part = options.json.with_name(options.json.name + ".part")
         part.write_text(json.dumps(report, indent=2) + "\n")
