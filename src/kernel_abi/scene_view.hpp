@@ -1,6 +1,7 @@
 #pragma once
 
 #include "kernel_abi/bvh_view.hpp"
+#include "kernel_abi/light_buffer.hpp"
 #include "kernel_abi/lists.hpp"
 #include "kernel_abi/shading.hpp"
 
@@ -41,6 +42,8 @@ struct MaterialsView {
 template <class Real>
 struct LightingView {
     RecordList<LightRecord<Real>> lights;  ///< ambient light is in the materials
+    /// By light, its own view of the hierarchy of exact mode; null where there is none.
+    const LightBuffer* buffers = nullptr;
     /// No light reaches anything and nothing is mirrored or refracted: hits show their ambient
     /// light, and need no normals.
     bool flat = false;

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <limits>
 
+#include <tbb/parallel_for.h>
+
 #include "geometry/round_to.hpp"
 #include "lower/in_parallel.hpp"
 #include "lower/most_light.hpp"
@@ -20,6 +22,9 @@ constexpr std::size_t frame_tree_objects(int lanes)
 {
     return lanes >= 16 ? 160 : lanes >= 8 ? 128 : 96;
 }
+
+/// So many shadow rays to a block of spheres pay for a light's buffer: results/light_buffers.json.
+constexpr double light_buffer_rays = 40.0;
 
 /// How many roundoffs rays start off a surface by. Hits in single precision are refined in double
 /// and rounded once, their offset start once more; those in double are as the search found them.
@@ -204,6 +209,39 @@ void PackedScene<Real>::pack_casters(const LoweredScene& lowered)
     casters_ = std::make_unique<PackedScene>(
         casters, tree_.view().empty() ? Traversal::list : Traversal::automatic);
     view_.casters = &casters_->view();
+}
+
+template <class Real>
+std::size_t PackedScene<Real>::light_buffer_bytes() const
+{
+    std::size_t bytes = light_buffer_views_.bytes();
+    for (const PackedLightBuffer& buffer : light_buffers_)
+        bytes += buffer.bytes();
+    return bytes;
+}
+
+template <class Real>
+void PackedScene<Real>::add_light_buffers(double shadow_rays)
+{
+    if (casters_)
+        return casters_->add_light_buffers(shadow_rays);
+    if constexpr (sizeof(Real) == sizeof(float)) {
+        const abi::BvhView<float>& tree = view_.tree;
+        if (view_.wide == nullptr || tree.empty() || !tree_.holds_spheres_alone() ||
+            view_.lighting.transparent_shadows ||
+            shadow_rays < light_buffer_rays * static_cast<double>(tree_.block_count()))
+            return;
+        light_buffers_.resize(lights_.size());
+        light_buffer_views_ = AlignedArray<abi::LightBuffer>(lights_.size());
+        tbb::parallel_for(std::size_t{0}, lights_.size(), [&](std::size_t light) {
+            if (lights_[light].kind != abi::LightKind::point || !lights_[light].casts_shadow)
+                return;
+            light_buffers_[light] =
+                PackedLightBuffer(lights_[light].vector, tree, tree_.block_count());
+            light_buffer_views_[light] = light_buffers_[light].view();
+        });
+        view_.lighting.buffers = light_buffer_views_.data();
+    }
 }
 
 template class PackedScene<float>;

@@ -1,12 +1,14 @@
 #pragma once
 
 #include <memory>
+#include <vector>
 
 #include <packtrace/traversal.hpp>
 
 #include "core/aligned_array.hpp"
 #include "kernel_abi/scene_view.hpp"
 #include "lower/lowered_scene.hpp"
+#include "lower/packed_light_buffers.hpp"
 #include "lower/packed_lists.hpp"
 #include "lower/packed_shapes.hpp"
 #include "lower/packed_tree.hpp"
@@ -40,13 +42,23 @@ public:
         return view_;
     }
 
+    /// Gives the point lights that cast shadows their own views of a hierarchy of spheres, where
+    /// shadow rays are then looked for in single precision and exact mode. They pay for themselves
+    /// where about `shadow_rays` follow.
+    void add_light_buffers(double shadow_rays);
+
+    [[nodiscard]] bool has_light_buffers() const
+    {
+        return casters_ ? casters_->has_light_buffers() : !light_buffers_.empty();
+    }
+
     /// What is held all in all.
     [[nodiscard]] std::size_t bytes() const
     {
         return sizeof *this + tree_.bytes() + lists_.bytes() + shapes_.bytes() +
                (wide_lists_ ? wide_lists_->bytes() : 0) + material_index_.bytes() +
                materials_.bytes() + checkers_.bytes() + ior_.bytes() + lights_.bytes() +
-               most_light_.bytes() + (casters_ ? casters_->bytes() : 0);
+               most_light_.bytes() + light_buffer_bytes() + (casters_ ? casters_->bytes() : 0);
     }
 
 private:
@@ -56,6 +68,7 @@ private:
     void pack_min_weight(const LoweredScene& lowered);
     void pack_lights(const LoweredScene& lowered);
     void pack_casters(const LoweredScene& lowered);
+    [[nodiscard]] std::size_t light_buffer_bytes() const;
 
     PackedTree<Real> tree_;
     PackedLists<Real> lists_;
@@ -67,8 +80,10 @@ private:
     AlignedArray<abi::CheckerRecord<Real>> checkers_;
     AlignedArray<Real> ior_;
     AlignedArray<abi::LightRecord<Real>> lights_;
-    AlignedArray<abi::MostLight> most_light_;  // where some rays are not traced
-    std::unique_ptr<PackedScene> casters_;     // where some objects cast no shadow, the others
+    AlignedArray<abi::MostLight> most_light_;       // where some rays are not traced
+    std::vector<PackedLightBuffer> light_buffers_;  // by light; none where none pays
+    AlignedArray<abi::LightBuffer> light_buffer_views_;
+    std::unique_ptr<PackedScene> casters_;  // where some objects cast no shadow, the others
     abi::SceneView<Real> view_;
 };
 

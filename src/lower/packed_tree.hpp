@@ -40,6 +40,17 @@ public:
         view_.shapes = &shapes;
     }
 
+    [[nodiscard]] bool holds_spheres_alone() const
+    {
+        return run_surfaces_.size() == 0;
+    }
+
+    /// Of spheres, eight each.
+    [[nodiscard]] int block_count() const
+    {
+        return static_cast<int>(blocks_.size());
+    }
+
     [[nodiscard]] std::size_t bytes() const
     {
         return nodes_.bytes() + blocks_.bytes() + block_surfaces_.bytes() + quadrics_.bytes() +

@@ -47,7 +47,11 @@ SceneFeatures scene_features(const Scene& scene, const IsaInfo& isa)
     features.uses = used_features(lowered, traversal);
     features.kernel =
         kernels_for(precision<float>(kernels_of(isa.name)), lowered.features).set.name;
-    features.bytes = PackedScene<float>(lowered, traversal).bytes();
+    PackedScene<float> packed(lowered, traversal);
+    packed.add_light_buffers(static_cast<double>(scene.width) * scene.height);
+    if (packed.has_light_buffers())
+        features.uses.emplace_back("light buffers");
+    features.bytes = packed.bytes();
     return features;
 }
 

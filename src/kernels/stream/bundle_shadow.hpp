@@ -38,6 +38,14 @@ inline void gather_shadow_rays(const ShadeContext<F, Real>& context, const HitSt
     end_bundle(bundle, hits.count);
 }
 
+/// The light's own view of the hierarchy; null where it has none.
+template <class Real>
+inline const abi::LightBuffer* light_buffer(const abi::SceneView<Real>& casters, int light)
+{
+    const abi::LightBuffer* const buffers = casters.lighting.buffers;
+    return buffers != nullptr && buffers[light].cells != nullptr ? buffers + light : nullptr;
+}
+
 template <abi::Features F, class Real, class Occluder>
 inline void visit_shadow_occluders(const ShadeContext<F, Real>& context, int light,
                                    RayBundle<Real>& bundle, const Occluder& occluder)
@@ -46,7 +54,8 @@ inline void visit_shadow_occluders(const ShadeContext<F, Real>& context, int lig
     const abi::SceneView<Real>& casters = casters_of(scene);
     const bool closed = has_closed_reach(scene, light);
     with_light_objects(context, light, [&](const auto& objects) {
-        visit_occluders_of_bundle<F>(casters, objects, bundle, closed, occluder);
+        visit_occluders_of_bundle<F>(casters, objects, bundle, closed, occluder,
+                                     light_buffer(casters, light));
     });
 }
 

@@ -42,6 +42,14 @@ inline void doubt_lanes(RayBundle<Real>& bundle, int first, std::uint32_t unsure
     bundle.unsure[first / cell_rays] |= static_cast<std::uint16_t>(unsure << first % cell_rays);
 }
 
+/// A single ray becomes unsure, for what was noted of `lanes_of` of it in every lane.
+template <class Real>
+inline void doubt_ray(RayBundle<Real>& bundle, int ray, std::uint32_t lanes_of)
+{
+    keep_noted_of_ray(ray, lanes_of);
+    bundle.unsure[ray / cell_rays] |= static_cast<std::uint16_t>(1u << ray % cell_rays);
+}
+
 /// The unsure lanes of the packet at `first`.
 template <class Real>
 inline std::uint32_t unsure_of(const RayBundle<Real>& bundle, int first)

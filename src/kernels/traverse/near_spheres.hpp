@@ -143,8 +143,7 @@ inline void keep_doubt(RayBundle<float>& bundle, int ray, float low, std::int32_
             blocking |= 1u << slot;
         } else if (in_double == InTheWay::undecided) {
             note_in_the_way(1u, at.sure ? abi::Cause::range : abi::Cause::tangent);
-            keep_noted_of_ray(ray, 1u);
-            bundle.unsure[ray / cell_rays] |= static_cast<std::uint16_t>(1u << ray % cell_rays);
+            doubt_ray(bundle, ray, 1u);
         }
     }
     return blocking;

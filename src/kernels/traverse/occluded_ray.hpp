@@ -66,10 +66,8 @@ inline bool goes_behind_run(const abi::BvhView<Real>& tree, RayBundle<Real>& bun
         count_tests(kind, 1);
         const Occlusion occlusion =
             object_occludes<F>(tree, number, bundle, rays, vreal<Real>(bundle.t[ray]), own, closed);
-        if (occlusion.unsure != 0) {
-            keep_noted_of_ray(ray, occlusion.unsure);
-            bundle.unsure[ray / cell_rays] |= static_cast<std::uint16_t>(1u << ray % cell_rays);
-        }
+        if (occlusion.unsure != 0)
+            doubt_ray(bundle, ray, occlusion.unsure);
         if (occlusion.blocked != 0 &&
             !goes_behind(bundle, ray, tree.run_surfaces[number], occluder))
             return false;

@@ -1,0 +1,67 @@
+#!/usr/bin/env python3
+"""What lights' own views of a hierarchy are worth: results/light_buffers.json.
+
+Times of frames of 1024 x 1024 pixels, one thread, avx512, in the default mode, by turns with an earlier build
+that looks for all shadows in the hierarchy. `render` counts the building of both.
+
+Usage: results/light_buffers.py BUILD BEFORE [REPETITIONS]
+BUILD and BEFORE are build folders with `packtrace`.
+"""
+import json
+import re
+import statistics
+import subprocess
+import sys
+import tempfile
+
+from provenance import commit, commit_of_build, machine, write
+
+SCENES = {
+    "flake4": ["sphereflake", "--depth", "4"],
+    "flake5": ["sphereflake", "--depth", "5"],
+    "mirrored flake4": ["sphereflake", "--depth", "4", "--reflective", "0.3", "--ground"],
+    "mirrored flake5": ["sphereflake", "--depth", "5", "--reflective", "0.3", "--ground"],
+    "mirrored flake6": ["sphereflake", "--depth", "6", "--reflective", "0.3", "--ground"],
+    "random100k": ["random", "--count", "100000"],
+}
+
+
+def milliseconds(build, scene, folder):
+    command = [f"{build}/packtrace", "render", scene, "--size", "1024x1024", "--threads", "1", "--isa", "avx512",
+               "-o", f"{folder}/frame.pfm", "--overwrite"]
+    done = subprocess.run(command, capture_output=True, text=True, check=True)
+    return float(re.search(r"([\d.]+) ms", done.stdout + done.stderr).group(1))
+
+
+def row_of(name, times):
+    ratios = [now / before for now, before in zip(times["now"], times["before"])]
+    row = {"scene": name, "ms": statistics.median(times["now"]), "before_ms": statistics.median(times["before"]),
+           "share": {"median": statistics.median(ratios), "lowest": min(ratios), "highest": max(ratios)}}
+    print(json.dumps(row))
+    return row
+
+
+def main():
+    if len(sys.argv) < 3:
+        sys.exit(__doc__)
+    built_of = commit()
+    builds = {"now": sys.argv[1], "before": sys.argv[2]}
+    repetitions = int(sys.argv[3]) if len(sys.argv) > 3 else 9
+    load = machine()
+    rows = []
+    with tempfile.TemporaryDirectory() as folder:
+        for name, options in SCENES.items():
+            scene = f"{folder}/scene.scene"
+            subprocess.run([f"{sys.argv[1]}/packtrace", "generate", *options, "-o", scene], check=True)
+            times = {build: [] for build in builds}
+            for _ in range(repetitions):
+                for build, path in builds.items():
+                    times[build].append(milliseconds(path, scene, folder))
+            rows.append(row_of(name, times))
+    write({"command": "results/light_buffers.py build/release BEFORE", "commit": built_of,
+           "before": commit_of_build(sys.argv[2]), "machine": load, "machine_after": machine(),
+           "repetitions": repetitions, "frames": rows}, "light_buffers.json")
+
+
+if __name__ == "__main__":
+    main()

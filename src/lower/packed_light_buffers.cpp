@@ -1,0 +1,285 @@
+#include "lower/packed_light_buffers.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <span>
+#include <vector>
+
+#include <glm/geometric.hpp>
+
+#include <tbb/parallel_for.h>
+
+#include <packtrace/vec.hpp>
+
+namespace packtrace {
+namespace {
+
+/// Share of a cell that a sphere reaches beyond what it covers: far more than rounding does to
+/// where a ray lies in the grid.
+constexpr double cell_margin = 0.02;
+
+/// Share by which a sphere is taken to be larger than it is, and smaller where it hides others.
+constexpr double size_margin = 1e-4;
+
+/// Lights from which the spheres' ball has a wider tangent than this see cells too unlike in size.
+constexpr double widest = 3.0;
+
+/// About as many cells as spheres stand side by side: results/light_buffers.json.
+int grid_size(int blocks)
+{
+    const int spheres = blocks * abi::node_width;
+    return spheres < 20000 ? 64 : spheres < 200000 ? 128 : 256;
+}
+
+/// The light's axes, and how many cells there are to a tangent of 1.
+struct LightAxes {
+    Vec3 position;
+    Vec3 across;
+    Vec3 up;
+    Vec3 forward;
+    double scale;
+    int size;
+
+    [[nodiscard]] Vec3 seen(const Vec3& point) const
+    {
+        const Vec3 d = point - position;
+        return {glm::dot(across, d), glm::dot(up, d), glm::dot(forward, d)};
+    }
+};
+
+/// A sphere as the light sees it.
+struct SeenSphere {
+    Vec3 center;
+    double distance = 0.0;  ///< of the centre
+    double radius = -1.0;   ///< negative: none
+    double larger = 0.0;    ///< a radius that holds what rounding does, too
+    std::int16_t low[2] = {0, 0};
+    std::int16_t high[2] = {-1, -1};  ///< its cells, the last ones included
+
+    [[nodiscard]] double near() const
+    {
+        return distance - larger;
+    }
+};
+
+/// The range of cells along one axis, for a circle of the plane of that axis and the way ahead.
+void set_range(SeenSphere& sphere, int axis, const LightAxes& axes)
+{
+    const double x = sphere.center[axis];
+    const double z = sphere.center.z;
+    const double r = sphere.larger;
+    const double root = r * std::sqrt(std::max(0.0, x * x + z * z - r * r));
+    const double below = z * z - r * r;
+    const double half = 0.5 * axes.size;
+    const double low = (x * z - root) / below * axes.scale + half - cell_margin;
+    const double high = (x * z + root) / below * axes.scale + half + cell_margin;
+    const double last = axes.size - 1;
+    sphere.low[axis] = static_cast<std::int16_t>(std::clamp(std::floor(low), 0.0, last));
+    sphere.high[axis] = static_cast<std::int16_t>(std::clamp(std::floor(high), 0.0, last));
+}
+
+SeenSphere see(const LightAxes& axes, const abi::BvhView<float>& tree, int place)
+{
+    const abi::SphereBlock<float>& block = tree.blocks[place / abi::node_width];
+    const int slot = place % abi::node_width;
+    SeenSphere sphere;
+    if (!(block.radius[slot] > 0.0f))
+        return sphere;
+    sphere.center = axes.seen({double{block.center[0][slot]}, double{block.center[1][slot]},
+                               double{block.center[2][slot]}});
+    sphere.distance = glm::length(sphere.center);
+    sphere.radius = double{block.radius[slot]};
+    sphere.larger = sphere.radius * (1.0 + size_margin) + 2.0 * double{tree.center_error} +
+                    1e-6 * sphere.distance;
+    set_range(sphere, 0, axes);
+    set_range(sphere, 1, axes);
+    return sphere;
+}
+
+/// Calls `visit(cell)` for the cells of a sphere.
+template <class Visit>
+void for_each_cell(const SeenSphere& sphere, int size, const Visit& visit)
+{
+    for (int row = sphere.low[1]; row <= sphere.high[1]; ++row)
+        for (int column = sphere.low[0]; column <= sphere.high[0]; ++column)
+            visit(row * size + column);
+}
+
+/// Whether all rays of a cell go through a sphere: those through its corners do.
+bool fills(const SeenSphere& sphere, const LightAxes& axes, int cell)
+{
+    const double smaller =
+        sphere.radius * (1.0 - size_margin) - 2.0 * (sphere.larger - sphere.radius);
+    if (!(smaller > 0.0))
+        return false;
+    const double half = 0.5 * axes.size;
+    for (int corner = 0; corner < 4; ++corner) {
+        const double column = cell % axes.size + (corner % 2 == 0 ? -cell_margin : 1 + cell_margin);
+        const double row = cell / axes.size + (corner / 2 == 0 ? -cell_margin : 1 + cell_margin);
+        const Vec3 way((column - half) / axes.scale, (row - half) / axes.scale, 1.0);
+        const Vec3 moment = glm::cross(sphere.center, way);
+        if (glm::dot(moment, moment) > smaller * smaller * glm::dot(way, way))
+            return false;
+    }
+    return true;
+}
+
+/// By cell, where the nearest sphere that fills it ends: nothing is lit behind that.
+std::vector<float> dark_depths(const std::vector<SeenSphere>& spheres, const LightAxes& axes)
+{
+    std::vector<float> dark(static_cast<std::size_t>(axes.size * axes.size),
+                            std::numeric_limits<float>::infinity());
+    for (const SeenSphere& sphere : spheres) {
+        // None of a smaller sphere's cells is filled.
+        if (sphere.high[0] - sphere.low[0] < 2 || sphere.high[1] - sphere.low[1] < 2)
+            continue;
+        const auto back = static_cast<float>((sphere.distance + sphere.larger) * 1.000001);
+        for_each_cell(sphere, axes.size, [&](int cell) {
+            float& depth = dark[static_cast<std::size_t>(cell)];
+            if (back < depth && fills(sphere, axes, cell))
+                depth = back;
+        });
+    }
+    return dark;
+}
+
+/// The spheres of each cell, one cell's after the other's.
+struct CellSpheres {
+    std::vector<int> first;  ///< by cell, and the end of the last
+    std::vector<int> place;
+};
+
+CellSpheres sort_into_cells(const std::vector<SeenSphere>& spheres, const LightAxes& axes)
+{
+    const std::vector<float> dark = dark_depths(spheres, axes);
+    const auto for_each_lit = [&](const SeenSphere& sphere, const auto& visit) {
+        const double near = sphere.radius < 0.0 ? 0.0 : sphere.near();
+        for_each_cell(sphere, axes.size, [&](int cell) {
+            if (near <= double{dark[static_cast<std::size_t>(cell)]})
+                visit(static_cast<std::size_t>(cell));
+        });
+    };
+    CellSpheres cells;
+    cells.first.assign(dark.size() + 1, 0);
+    for (const SeenSphere& sphere : spheres)
+        for_each_lit(sphere, [&](std::size_t cell) { ++cells.first[cell + 1]; });
+    for (std::size_t cell = 0; cell < dark.size(); ++cell)
+        cells.first[cell + 1] += cells.first[cell];
+    cells.place.resize(static_cast<std::size_t>(cells.first.back()));
+    std::vector<int> next(cells.first.begin(), cells.first.end() - 1);
+    for (const SeenSphere& sphere : spheres)
+        for_each_lit(sphere, [&](std::size_t cell) {
+            cells.place[static_cast<std::size_t>(next[cell]++)] =
+                static_cast<int>(&sphere - spheres.data());
+        });
+    return cells;
+}
+
+LightAxes axes_of(const float (&position)[3], const abi::BvhView<float>& tree, int size)
+{
+    LightAxes axes{};
+    axes.position = {double{position[0]}, double{position[1]}, double{position[2]}};
+    const Vec3 middle(double{tree.middle[0]}, double{tree.middle[1]}, double{tree.middle[2]});
+    const Vec3 way = middle - axes.position;
+    const double distance = glm::length(way);
+    const double radius = double{tree.radius} * 1.001;
+    const double tangent = radius / std::sqrt(std::max(0.0, distance * distance - radius * radius));
+    if (!(tangent < widest))
+        return axes;
+    axes.forward = way / distance;
+    const Vec3 side = std::abs(axes.forward.x) < 0.5 ? Vec3(1, 0, 0) : Vec3(0, 1, 0);
+    axes.across = glm::normalize(glm::cross(axes.forward, side));
+    axes.up = glm::cross(axes.forward, axes.across);
+    axes.size = size;
+    axes.scale = 0.5 * size / (1.001 * tangent);
+    return axes;
+}
+
+/// What looks largest from the light blocks most of its rays.
+void sort_by_size(std::span<int> places, const std::vector<SeenSphere>& spheres)
+{
+    std::sort(places.begin(), places.end(), [&](int a, int b) {
+        const SeenSphere& one = spheres[static_cast<std::size_t>(a)];
+        const SeenSphere& other = spheres[static_cast<std::size_t>(b)];
+        const double larger = one.radius * other.distance;
+        const double smaller = other.radius * one.distance;
+        return larger != smaller ? larger > smaller : a < b;
+    });
+}
+
+float nearest2(std::span<const int> places, const std::vector<SeenSphere>& spheres)
+{
+    double nearest = 1e18;
+    for (const int place : places)
+        nearest = std::min(nearest, spheres[static_cast<std::size_t>(place)].near());
+    nearest = std::max(0.0, nearest * (1.0 - size_margin));
+    return static_cast<float>(nearest * nearest);
+}
+
+void fill_blocks(std::span<abi::LightBlock> blocks, std::span<const int> places,
+                 const abi::BvhView<float>& tree)
+{
+    for (std::size_t i = 0; i < blocks.size() * abi::light_block_width; ++i) {
+        abi::LightBlock& block = blocks[i / abi::light_block_width];
+        const std::size_t slot = i % abi::light_block_width;
+        const bool used = i < places.size();
+        const int place = used ? places[i] : 0;
+        const abi::SphereBlock<float>& from = tree.blocks[place / abi::node_width];
+        const int there = place % abi::node_width;
+        for (int axis = 0; axis < 3; ++axis)
+            block.center[axis][slot] = used ? from.center[axis][there] : 1e15f;
+        block.radius[slot] = used ? from.radius[there] : -1.0f;
+        block.surface[slot] = used ? tree.block_surfaces[place] : -1;
+    }
+}
+
+void round_axis(float (&rounded)[3], const Vec3& axis)
+{
+    for (int i = 0; i < 3; ++i)
+        rounded[i] = static_cast<float>(axis[i]);
+}
+
+}  // namespace
+
+PackedLightBuffer::PackedLightBuffer(const float (&position)[3], const abi::BvhView<float>& tree,
+                                     int blocks)
+{
+    const LightAxes axes = axes_of(position, tree, grid_size(blocks));
+    if (axes.size == 0)
+        return;
+    std::vector<SeenSphere> spheres(static_cast<std::size_t>(blocks) * abi::node_width);
+    tbb::parallel_for(std::size_t{0}, spheres.size(), [&](std::size_t place) {
+        spheres[place] = see(axes, tree, static_cast<int>(place));
+    });
+    CellSpheres sorted = sort_into_cells(spheres, axes);
+
+    const std::size_t count = sorted.first.size() - 1;
+    cells_ = AlignedArray<abi::LightCell>(count);
+    std::int32_t used = 0;
+    for (std::size_t cell = 0; cell < count; ++cell) {
+        const int spheres_there = sorted.first[cell + 1] - sorted.first[cell];
+        cells_[cell].first = used;
+        cells_[cell].count = (spheres_there + abi::light_block_width - 1) / abi::light_block_width;
+        used += cells_[cell].count;
+    }
+    blocks_ = AlignedArray<abi::LightBlock>::unset(static_cast<std::size_t>(used));
+    tbb::parallel_for(std::size_t{0}, count, [&](std::size_t cell) {
+        const std::span<int> places(sorted.place.data() + sorted.first[cell],
+                                    sorted.place.data() + sorted.first[cell + 1]);
+        sort_by_size(places, spheres);
+        cells_[cell].near2 = nearest2(places, spheres);
+        fill_blocks(
+            {blocks_.data() + cells_[cell].first, static_cast<std::size_t>(cells_[cell].count)},
+            places, tree);
+    });
+
+    round_axis(view_.across, axes.across * axes.scale);
+    round_axis(view_.up, axes.up * axes.scale);
+    round_axis(view_.forward, axes.forward);
+    view_.size = axes.size;
+    view_.cells = cells_.data();
+    view_.blocks = blocks_.data();
+}
+
+}  // namespace packtrace

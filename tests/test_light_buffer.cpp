@@ -1,0 +1,115 @@
+#include <cmath>
+#include <random>
+
+#include <packtrace/generate.hpp>
+#include <packtrace/isa.hpp>
+#include <packtrace/render.hpp>
+
+#include "catch.hpp"
+#include "lower/packed_scene.hpp"
+#include "scenes.hpp"
+
+// A light's own view of the spheres of a hierarchy gives the shadows that lists give, bit for bit.
+namespace packtrace::test {
+namespace {
+
+/// Spheres of sizes from 0.01 to 1 around (0, 0, 6), some in each other, over a ground.
+Scene crowd(int count, unsigned seed)
+{
+    std::mt19937 random(seed);
+    std::uniform_real_distribution<double> unit(-1.0, 1.0);
+    Scene scene;
+    set_size(scene, 120, 90);
+    const Material material = scratch(Rgb(0.5), 50, 0.3);
+    for (int i = 0; i < count; ++i) {
+        const double x = 3.0 * unit(random);
+        const double y = 3.0 * unit(random);
+        const double z = 6.0 + 3.0 * unit(random);
+        add_sphere(scene, {x, y, z}, std::pow(10.0, -1.0 + unit(random)), material);
+    }
+    add_sphere(scene, {0, -5004, 0}, 5000, material);
+    return scene;
+}
+
+void light_from(Scene& scene, const Vec3& position)
+{
+    scene.lights = {Light{.type = LightType::point, .intensity = Rgb(0.6), .vector = position}};
+}
+
+/// Of the only light.
+bool has_buffer(const Scene& scene)
+{
+    PackedScene<float> packed(lower(scene), Traversal::tree);
+    packed.add_light_buffers(static_cast<double>(scene.width) * scene.height);
+    return packed.has_light_buffers() &&
+           (packed.view().casters != nullptr ? *packed.view().casters : packed.view())
+                   .lighting.buffers[0]
+                   .cells != nullptr;
+}
+
+void check_against_lists(const Scene& scene, SelfHits self_hits)
+{
+    for (const IsaInfo& isa : list_isas()) {
+        if (!isa.supported)
+            continue;
+        INFO(isa.name);
+        RenderOptions options;
+        options.isa = isa.name;
+        options.self_hits = self_hits;
+        options.traversal = Traversal::list;
+        const Image<float> by_lists = render<float>(scene, options);
+        options.traversal = Traversal::tree;
+        const Image<float> by_buffer = render<float>(scene, options);
+        CHECK(by_lists.rgb == by_buffer.rgb);
+    }
+}
+
+}  // namespace
+
+TEST_CASE("A light's view of a crowd of spheres gives the shadows of lists", "[light_buffer]")
+{
+    const Vec3 positions[] = {{9, 12, -7}, {0, 30, 6}, {0, 0, -3}, {4000, 7000, -5000}};
+    for (const Vec3& position : positions)
+        for (const SelfHits self_hits : {SelfHits::exact, SelfHits::note}) {
+            INFO(position.x << ' ' << position.y << ' ' << position.z);
+            Scene scene = crowd(400, 7);
+            light_from(scene, position);
+            REQUIRE(has_buffer(scene));
+            check_against_lists(scene, self_hits);
+        }
+}
+
+TEST_CASE("A light's view leaves out what casts no shadow", "[light_buffer]")
+{
+    Scene scene = crowd(400, 8);
+    light_from(scene, {9, 12, -7});
+    for (std::size_t i = 0; i < scene.objects.size(); i += 3)
+        scene.objects[i].casts_shadow = false;
+    REQUIRE(has_buffer(scene));
+    check_against_lists(scene, SelfHits::exact);
+}
+
+TEST_CASE("A light among the spheres, or few rays, make no view", "[light_buffer]")
+{
+    Scene scene = crowd(400, 9);
+    light_from(scene, {0.3, 0.4, 6});
+    CHECK_FALSE(has_buffer(scene));
+    check_against_lists(scene, SelfHits::exact);
+
+    light_from(scene, {9, 12, -7});
+    CHECK(has_buffer(scene));
+    set_size(scene, 16, 16);
+    CHECK_FALSE(has_buffer(scene));
+}
+
+TEST_CASE("Spheres side by side and one that hides others have the shadows of lists",
+          "[light_buffer]")
+{
+    Scene scene = generate_sphereflake({.depth = 3, .reflective = 0.3});
+    set_size(scene, 120, 120);
+    light_from(scene, {4, 3, 2});
+    REQUIRE(has_buffer(scene));
+    check_against_lists(scene, SelfHits::exact);
+}
+
+}  // namespace packtrace::test
