@@ -10,6 +10,7 @@
 
 #include "catch.hpp"
 #include "lower/packed_scene.hpp"
+#include "scenes.hpp"
 
 // Large scenes are lowered in runs of objects, several at once.
 namespace packtrace {
@@ -174,12 +175,28 @@ TEST_CASE("a sphere among many costs a hundred bytes at most", "[lowering]")
         for (const Accuracy accuracy : {Accuracy::fast, Accuracy::exact}) {
             RenderOptions options;
             options.accuracy = accuracy;
-            const Renderer<float> renderer(
-                generate_random_spheres({.count = count, .radius = radius}), options);
+            Scene scene = generate_random_spheres({.count = count, .radius = radius});
+            // Too few pixels for lights' own views of the spheres.
+            test::set_size(scene, 64, 64);
+            const Renderer<float> renderer(scene, options);
             INFO("radius " << radius);
             CHECK(static_cast<double>(renderer.scene_bytes()) / count < 100.0);
             CHECK(static_cast<double>(renderer.scene_bytes()) / count > 50.0);
         }
+}
+
+TEST_CASE("a light's own view of many spheres costs a few hundred bytes a sphere", "[lowering]")
+{
+    constexpr int count = 50'000;
+    for (const double radius : {0.001, 0.01}) {
+        Scene scene = generate_random_spheres({.count = count, .radius = radius});
+        test::set_size(scene, 64, 64);
+        const std::size_t few = Renderer<float>(scene, {}).scene_bytes();
+        test::set_size(scene, 1024, 1024);
+        const std::size_t many = Renderer<float>(scene, {}).scene_bytes();
+        CHECK(many > few);
+        CHECK(static_cast<double>(many - few) / count < 200.0);
+    }
 }
 
 /// A picture of `count` spheres and a plane, the later spheres where the first hundred are.

@@ -1,6 +1,7 @@
 #include "cli/usage_error.hpp"
 
 #include <algorithm>
+#include <filesystem>
 #include <string_view>
 #include <vector>
 
@@ -16,12 +17,14 @@ const CLI::App& innermost(const CLI::App& app)
     return used.empty() ? app : innermost(*used.front());
 }
 
-/// "packtrace generate lattice", or of another program what it is called.
+/// "packtrace generate lattice", or of another program what its file is called.
 std::string full_name(const CLI::App& command)
 {
     const CLI::App* const parent = command.get_parent();
     if (parent == nullptr)
-        return command.get_name().empty() ? "packtrace" : command.get_name();
+        return command.get_name().empty()
+                   ? "packtrace"
+                   : std::filesystem::path(command.get_name()).filename().string();
     return full_name(*parent) + " " + command.get_name();
 }
 
