@@ -363,8 +363,8 @@ TEST_CASE("a rank that dies ends the job with a line, and --resume goes on", "[m
 {
     const TempFolder folder;
     const auto words = [&](const std::string& name) {
-        return Words{"render",      mpi_scene("nested_glass"),
-                     "--size",      "600x6000",
+        return Words{"render",      mpi_scene("mirror_room"),
+                     "--size",      "800x8000",
                      "-q",          "-o",
                      folder / name, "--threads",
                      "1",           "--resume"};
@@ -384,7 +384,7 @@ TEST_CASE("a rank that dies ends the job with a line, and --resume goes on", "[m
         CHECK(result.exit_code == 0);
         CHECK((read_text(folder / "m.png") == read_text(folder / "w.png")));
         std::filesystem::remove(folder / "m.png");
-        CHECK((folder.names() == Words{"err", "w.png"}));
+        CHECK(folder.names() == Words{"err", "w.png"});
     }
 }
 
@@ -392,8 +392,8 @@ TEST_CASE("ranks killed at random moments lose nothing", "[mpi][slow]")
 {
     const TempFolder folder;
     const auto words = [&](const std::string& name) {
-        return Words{"render",      mpi_scene("nested_glass"),
-                     "--size",      "600x6000",
+        return Words{"render",      mpi_scene("mirror_room"),
+                     "--size",      "800x8000",
                      "-q",          "-o",
                      folder / name, "--threads",
                      "1",           "--resume"};
