@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <condition_variable>
 #include <cstdio>
+#include <exception>
 #include <mutex>
-#include <system_error>
 #include <thread>
 #include <vector>
 
@@ -26,8 +26,8 @@ int startable_threads(int wanted)
                 std::unique_lock lock(mutex);
                 changed.wait(lock, [&] { return end; });
             });
-    } catch (const std::system_error&) {
-        // As many as there are.
+    } catch (const std::exception&) {
+        // As many as there are: the system allows no more, or has no memory for them.
     }
     {
         const std::scoped_lock lock(mutex);
