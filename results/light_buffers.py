@@ -28,7 +28,7 @@ SCENES = {
 
 def milliseconds(build, scene, folder):
     command = [f"{build}/packtrace", "render", scene, "--size", "1024x1024", "--threads", "1", "--isa", "avx512",
-               "-o", f"{folder}/frame.pfm", "--overwrite"]
+               "-o", f"{folder}/frame.pfm"]
     done = subprocess.run(command, capture_output=True, text=True, check=True)
     return float(re.search(r"([\d.]+) ms", done.stdout + done.stderr).group(1))
 
