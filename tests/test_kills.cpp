@@ -11,6 +11,7 @@
 #include <unistd.h>
 
 #include "catch.hpp"
+#include "core/atomic_file.hpp"
 #include "run_program.hpp"
 
 namespace packtrace::test {
@@ -73,14 +74,24 @@ void start_and_end(const Work& work, const TempFolder& folder, int number, int m
     for (const std::string& word : words)
         arguments.push_back(const_cast<char*>(word.c_str()));
     arguments.push_back(nullptr);
+    // No signal reaches the copy of this program before it has become the other: the handlers of
+    // the test framework would answer.
+    sigset_t all;
+    sigset_t before;
+    sigfillset(&all);
+    sigprocmask(SIG_SETMASK, &all, &before);
     const pid_t process = fork();
     if (process == 0) {
+        for (const int ending : {SIGTERM, SIGINT})
+            std::signal(ending, SIG_DFL);
+        sigprocmask(SIG_SETMASK, &before, nullptr);
         const int nothing = open("/dev/null", O_RDWR);
         for (const int stream : {STDIN_FILENO, STDOUT_FILENO, STDERR_FILENO})
             dup2(nothing, stream);
         execv(PACKTRACE_CLI, arguments.data());
         _exit(127);
     }
+    sigprocmask(SIG_SETMASK, &before, nullptr);
     std::this_thread::sleep_for(std::chrono::microseconds(microseconds));
     kill(process, number);
     int status = 0;
@@ -121,7 +132,41 @@ void end_at_any_moment(int moments, unsigned seed)
     }
 }
 
+/// Creates one file after another, until the process ends.
+void write_without_end(const std::filesystem::path& target)
+{
+    while (true) {
+        AtomicFile file(target);
+        file.write("text");
+        file.commit();
+    }
+}
+
+/// A process of two writers that ends as the handler of signals ends it.
+[[noreturn]] void write_and_end(const TempFolder& folder, int microseconds)
+{
+    for (const char* const name : {"a", "b"})
+        std::thread(write_without_end, folder / name).detach();
+    std::this_thread::sleep_for(std::chrono::microseconds(microseconds));
+    remove_all_temporaries();
+    _exit(0);
+}
+
 }  // namespace
+
+TEST_CASE("no temporary file appears behind a program's clearing up", "[kills]")
+{
+    const TempFolder folder;
+    for (int i = 0; i < 300; ++i) {
+        const pid_t process = fork();
+        if (process == 0)
+            write_and_end(folder, 100 + 7 * i);
+        int status = 0;
+        waitpid(process, &status, 0);
+        REQUIRE(status == 0);
+        REQUIRE(temporaries(folder) == 0);
+    }
+}
 
 TEST_CASE("a program ended at any moment leaves whole files or none", "[kills]")
 {

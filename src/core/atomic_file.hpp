@@ -38,6 +38,7 @@ private:
 
     void open_directly();
     void open_temporary();
+    bool create_temporary(int attempt);
     void remove_temporary();
 
     std::filesystem::path target_;
