@@ -39,8 +39,9 @@ void light_from(Scene& scene, const Vec3& position)
 /// Of the only light.
 bool has_buffer(const Scene& scene)
 {
-    PackedScene<float> packed(lower(scene), Traversal::tree);
-    packed.add_light_buffers(static_cast<double>(scene.width) * scene.height);
+    const LoweredScene lowered = lower(scene);
+    PackedScene<float> packed(lowered, Traversal::tree);
+    packed.add_light_buffers(lowered, static_cast<double>(scene.width) * scene.height);
     return packed.has_light_buffers() &&
            (packed.view().casters != nullptr ? *packed.view().casters : packed.view())
                    .lighting.buffers[0]
@@ -106,7 +107,7 @@ TEST_CASE("Spheres side by side and one that hides others have the shadows of li
           "[light_buffer]")
 {
     Scene scene = generate_sphereflake({.depth = 3, .reflective = 0.3});
-    set_size(scene, 120, 120);
+    set_size(scene, 200, 160);
     light_from(scene, {4, 3, 2});
     REQUIRE(has_buffer(scene));
     check_against_lists(scene, SelfHits::exact);

@@ -23,8 +23,12 @@ constexpr std::size_t frame_tree_objects(int lanes)
     return lanes >= 16 ? 160 : lanes >= 8 ? 128 : 96;
 }
 
-/// So many shadow rays to a block of spheres pay for a light's buffer: results/light_buffers.json.
-constexpr double light_buffer_rays = 40.0;
+/// So many shadow rays that run apart, to a block of spheres, pay for a light's buffer within one
+/// frame: results/light_buffers.json.
+constexpr double light_buffer_rays = 100.0;
+
+/// About the share of shadow rays from what the eye sees that run apart; those from mirrors do.
+constexpr double spread_share_of_eye = 0.05;
 
 /// How many roundoffs rays start off a surface by. Hits in single precision are refined in double
 /// and rounded once, their offset start once more; those in double are as the search found them.
@@ -221,15 +225,16 @@ std::size_t PackedScene<Real>::light_buffer_bytes() const
 }
 
 template <class Real>
-void PackedScene<Real>::add_light_buffers(double shadow_rays)
+void PackedScene<Real>::add_light_buffers(const LoweredScene& lowered, double camera_rays)
 {
     if (casters_)
-        return casters_->add_light_buffers(shadow_rays);
+        return casters_->add_light_buffers(lowered, camera_rays);
+    const double spread_rays = camera_rays * (lowered.features.bounces ? 1 : spread_share_of_eye);
     if constexpr (sizeof(Real) == sizeof(float)) {
         const abi::BvhView<float>& tree = view_.tree;
         if (view_.wide == nullptr || tree.empty() || !tree_.holds_spheres_alone() ||
             view_.lighting.transparent_shadows ||
-            shadow_rays < light_buffer_rays * static_cast<double>(tree_.block_count()))
+            spread_rays < light_buffer_rays * static_cast<double>(tree_.block_count()))
             return;
         light_buffers_.resize(lights_.size());
         light_buffer_views_ = AlignedArray<abi::LightBuffer>(lights_.size());

@@ -43,9 +43,9 @@ public:
     }
 
     /// Gives the point lights that cast shadows their own views of a hierarchy of spheres, where
-    /// shadow rays are then looked for in single precision and exact mode. They pay for themselves
-    /// where about `shadow_rays` follow.
-    void add_light_buffers(double shadow_rays);
+    /// shadow rays are then looked for in single precision and exact mode, if they pay for
+    /// themselves in a frame of so many camera rays.
+    void add_light_buffers(const LoweredScene& lowered, double camera_rays);
 
     [[nodiscard]] bool has_light_buffers() const
     {

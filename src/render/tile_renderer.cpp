@@ -43,7 +43,8 @@ TileRenderer<Real>::TileRenderer(const Scene& scene, LoweredScene lowered,
       scratch_bytes_(kernels_.scratch_bytes(packed_.view())),
       scratch_([this] { return AlignedArray<std::byte>(scratch_bytes_); })
 {
-    packed_.add_light_buffers(static_cast<double>(scene.width) * scene.height * options.samples);
+    packed_.add_light_buffers(lowered,
+                              static_cast<double>(scene.width) * scene.height * options.samples);
 }
 
 template <class Real>

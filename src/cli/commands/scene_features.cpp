@@ -48,7 +48,7 @@ SceneFeatures scene_features(const Scene& scene, const IsaInfo& isa)
     features.kernel =
         kernels_for(precision<float>(kernels_of(isa.name)), lowered.features).set.name;
     PackedScene<float> packed(lowered, traversal);
-    packed.add_light_buffers(static_cast<double>(scene.width) * scene.height);
+    packed.add_light_buffers(lowered, static_cast<double>(scene.width) * scene.height);
     if (packed.has_light_buffers())
         features.uses.emplace_back("light buffers");
     features.bytes = packed.bytes();
