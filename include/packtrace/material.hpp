@@ -19,6 +19,8 @@ struct ScratchMaterial {
     double specular = -1.0;
     /// Share of the mirrored light, in [0, 1].
     double reflective = 0.0;
+
+    bool operator==(const ScratchMaterial&) const = default;
 };
 
 /// Note 000. `ambient` and `diffuse` multiply the colour, the others are white.
@@ -29,6 +31,8 @@ struct SketchMaterial {
     Rgb refractive{0.0};  ///< transmitted share
     double shininess = 1.0;
     double ior = 1.0;
+
+    bool operator==(const SketchMaterial&) const = default;
 };
 
 /// Note 002 (Whitted 1980). `ambient` and `diffuse` multiply the colour, the others are white.
@@ -39,11 +43,15 @@ struct WhittedMaterial {
     Rgb transmissive{0.0};  ///< transmitted share
     double shininess = 1.0;
     double ior = 1.0;
+
+    bool operator==(const WhittedMaterial&) const = default;
 };
 
 /// Note 004: f = r0 + r1 * Id + r2 * Is^r3.
 struct ShaderMaterial {
     std::array<double, 4> reflectance{0.0, 0.0, 0.0, 1.0};
+
+    bool operator==(const ShaderMaterial&) const = default;
 };
 
 /// The engine's own equation; every coefficient is absolute, the colour is not used.
@@ -55,12 +63,16 @@ struct GeneralMaterial {
     Rgb transmit{0.0};
     double shininess = 1.0;
     double ior = 1.0;
+
+    bool operator==(const GeneralMaterial&) const = default;
 };
 
 /// Squares of two colours on a plane; `Material::color` is the square at the plane's point.
 struct Checker {
     Rgb other{0.0};
     double size = 1.0;  ///< edge of a square, scene units, > 0
+
+    bool operator==(const Checker&) const = default;
 };
 
 struct Material {
@@ -70,6 +82,8 @@ struct Material {
     /// The alternative in use always belongs to the scene's `Illumination`.
     std::variant<ScratchMaterial, SketchMaterial, WhittedMaterial, ShaderMaterial, GeneralMaterial>
         model;
+
+    bool operator==(const Material&) const = default;
 };
 
 }  // namespace packtrace

@@ -161,16 +161,25 @@ std::size_t first_faulty(std::size_t count, const IsFaulty& is_faulty)
     return first;
 }
 
+/// Whether two objects have the same faults of looks, if any. False is always right.
+bool looks_like(const Object& object, const Object& other)
+{
+    return object.name.empty() && other.name.empty() && !object.material.checker &&
+           !other.material.checker && object.material == other.material;
+}
+
 std::optional<SceneFault> fault_of_objects(const Scene& scene)
 {
-    const auto fault_at = [&](std::size_t i) {
-        return fault_of_object(scene.objects[i], scene.illumination);
-    };
-    const std::size_t first =
-        first_faulty(scene.objects.size(), [&](std::size_t i) { return fault_at(i).has_value(); });
+    const std::size_t first = first_faulty(scene.objects.size(), [&](std::size_t i) {
+        const Object& object = scene.objects[i];
+        if (fault_of_shape(object))
+            return true;
+        return !(i > 0 && looks_like(object, scene.objects[i - 1])) &&
+               fault_of_looks(object, scene.illumination).has_value();
+    });
     if (first == scene.objects.size())
         return std::nullopt;
-    const OwnerFault fault = fault_at(first);
+    const OwnerFault fault = fault_of_object(scene.objects[first], scene.illumination);
     return SceneFault{subject_of(scene, first, *fault), fault->message, first, fault->key};
 }
 
@@ -244,8 +253,12 @@ OwnerFault fault_of_shape(const Object& object)
 OwnerFault fault_of_object(const Object& object, Illumination illumination)
 {
     OwnerFault fault = fault_of_shape(object);
-    if (!fault)
-        fault = fault_of_names(object);
+    return fault ? fault : fault_of_looks(object, illumination);
+}
+
+OwnerFault fault_of_looks(const Object& object, Illumination illumination)
+{
+    OwnerFault fault = fault_of_names(object);
     if (!fault)
         fault = fault_at("material", fault_of_model(object.material, illumination));
     if (!fault)
