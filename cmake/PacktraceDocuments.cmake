@@ -31,10 +31,23 @@ if(NOT PACKTRACE_HELP2MAN)
     message(STATUS "packtrace: no man pages, which need help2man")
     return()
 endif()
-add_custom_command(OUTPUT ${documents}/man1/packtrace.1
-    COMMAND sh ${CMAKE_CURRENT_LIST_DIR}/write_man_pages.sh ${PACKTRACE_HELP2MAN}
-            $<TARGET_FILE:packtrace_cli> ${PROJECT_VERSION} ${documents}/man1
-    DEPENDS packtrace_cli ${CMAKE_CURRENT_LIST_DIR}/write_man_pages.sh
-    COMMENT "Writing man pages" VERBATIM)
-add_custom_target(packtrace_man_pages ALL DEPENDS ${documents}/man1/packtrace.1)
-install(DIRECTORY ${documents}/man1 DESTINATION ${CMAKE_INSTALL_MANDIR} COMPONENT runtime)
+# packtrace_man_pages(NAME TARGET COMPONENT DESCRIPTION [PAGE…]): pages of a program, which is
+# installed as NAME, and of its commands. They refer to the further PAGEs.
+function(packtrace_man_pages name target component description)
+    set(folder ${documents}/${component}/man1)
+    add_custom_command(OUTPUT ${folder}/${name}.1
+        COMMAND ${CMAKE_COMMAND} -E env OMPI_MCA_ess_singleton_isolated=1
+                sh ${CMAKE_CURRENT_FUNCTION_LIST_DIR}/write_man_pages.sh ${PACKTRACE_HELP2MAN}
+                $<TARGET_FILE:${target}> ${name} ${PROJECT_VERSION} ${folder} ${description} ${ARGN}
+        DEPENDS ${target} ${CMAKE_CURRENT_FUNCTION_LIST_DIR}/write_man_pages.sh
+        COMMENT "Writing man pages of ${name}" VERBATIM)
+    add_custom_target(${target}_man_pages ALL DEPENDS ${folder}/${name}.1)
+    install(DIRECTORY ${folder} DESTINATION ${CMAKE_INSTALL_MANDIR} COMPONENT ${component})
+endfunction()
+packtrace_man_pages(packtrace packtrace_cli runtime
+                    "trace rays through scenes of analytic surfaces, in packets")
+# Asked for help, it needs no other process of MPI.
+if(TARGET packtrace_mpi)
+    packtrace_man_pages(packtrace-mpi packtrace_mpi mpi "packtrace on many machines, by MPI"
+                        packtrace)
+endif()

@@ -1,5 +1,5 @@
-# What `cmake --install` installs, in two components: `runtime`, which runs packtrace and programs
-# that were built with it, and `development`, which builds them.
+# What `cmake --install` installs, in components: `runtime`, which runs packtrace and programs that
+# were built with it, `development`, which builds them, and `mpi`, the program that needs MPI.
 include(GNUInstallDirs)
 include(CMakePackageConfigHelpers)
 
@@ -56,6 +56,9 @@ install(FILES ${packtrace_configured}/packtrace.pc
 
 if(PACKTRACE_BUILD_PROGRAM)
     install(TARGETS packtrace_cli RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR} COMPONENT runtime)
+    if(TARGET packtrace_mpi)
+        install(TARGETS packtrace_mpi RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR} COMPONENT mpi)
+    endif()
     include(PacktraceDocuments)
 endif()
 file(GLOB example_scenes CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/scenes/*.scene)

@@ -1,6 +1,7 @@
 # `cpack` in the build folder makes Debian packages: one of each component that is installed.
 #   packtrace          runtime: the program, the shared library, example scenes
 #   libpacktrace-dev   development: headers, the static library, what finds them
+#   packtrace-mpi      mpi: the program for many ranks, where MPI is installed
 #   python3-packtrace  python: the Python package, with PACKTRACE_PYTHON=ON
 # A package made on Debian 12 also installs on Debian 13, but for that of Python.
 set(CPACK_GENERATOR DEB)
@@ -37,6 +38,17 @@ set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_DEPENDS
     "packtrace (= ${PROJECT_VERSION}), libglm-dev, libtbb-dev, libpng-dev, libdeflate-dev")
 set(CPACK_COMPONENT_DEVELOPMENT_DESCRIPTION
     "Headers, the static library, and what CMake and pkg-config find them by.")
+
+set(CPACK_DEBIAN_MPI_PACKAGE_NAME packtrace-mpi)
+set(CPACK_DEBIAN_MPI_PACKAGE_SECTION graphics)
+# Who has mpirun of the MPI that it is linked to.
+set(CPACK_DEBIAN_MPI_PACKAGE_RECOMMENDS openmpi-bin)
+if("${MPI_CXX_LIBRARIES}" MATCHES mpich)
+    set(CPACK_DEBIAN_MPI_PACKAGE_RECOMMENDS mpich)
+endif()
+set(CPACK_DEBIAN_MPI_PACKAGE_SUGGESTS packtrace)
+set(CPACK_COMPONENT_MPI_DESCRIPTION
+    "The program packtrace-mpi, which renders, intersects and studies on many machines.")
 
 set(CPACK_DEBIAN_PYTHON_PACKAGE_NAME python3-packtrace)
 set(CPACK_DEBIAN_PYTHON_PACKAGE_SECTION python)

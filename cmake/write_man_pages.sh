@@ -1,57 +1,69 @@
 #!/bin/sh
-# write_man_pages.sh HELP2MAN PROGRAM VERSION FOLDER
+# write_man_pages.sh HELP2MAN PROGRAM NAME VERSION FOLDER DESCRIPTION [PAGE…]
 #
-# Writes FOLDER/packtrace.1, and FOLDER/packtrace-COMMAND.1 for each command, from their --help.
+# Writes FOLDER/NAME.1, and FOLDER/NAME-COMMAND.1 for each command, from their --help. NAME.1 refers
+# to the other PAGEs.
 set -eu
 help2man=$1
 program=$2
-version=$3
-folder=$4
+name=$3
+version=$4
+folder=$5
+about=$6
+shift 6
 work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT
 
 # The program under its installed name, with its help as help2man reads it best: "-h, --help", and
 # headings in small letters, which CLI11 2.5 capitalises. The terminal's width plays no part.
-cat >"$work/packtrace" <<TEXT
+cat >"$work/$name" <<TEXT
 #!/bin/sh
-"$program" "\$@" | sed -e 's/^\(  -[A-Za-z0-9]\),--/\1, --/' -e 's/^Usage: [^ ]*/Usage: packtrace/' \
+"$program" "\$@" | sed -e 's/^\(  -[A-Za-z0-9]\),--/\1, --/' -e 's/^Usage: [^ ]*/Usage: $name/' \
     -e 's/^OPTIONS:/Options:/' -e 's/^SUBCOMMANDS:/Subcommands:/' \
     -e 's/^POSITIONALS:/Positionals:/' -e 's/^  \([A-Za-z]*\) REQUIRED /  \1 /'
 TEXT
-chmod +x "$work/packtrace"
+chmod +x "$work/$name"
 PATH=$work:$PATH
 export PATH
 
-# commands_of NAME: "  render     Render a scene to a picture" in the help of NAME becomes "NAME-render
-# Render …"; those of that command follow. Builds without studies name the commands that they leave
-# out; these have no page.
+# words_of PAGE: "packtrace-generate-random" as it is typed, "packtrace generate random".
+words_of() {
+    echo "$name$(echo "${1#"$name"}" | tr - ' ')"
+}
+
+# commands_of PAGE: "  render     Render a scene to a picture" in the help of PAGE becomes
+# "PAGE-render Render …"; those of that command follow. Builds without studies name the commands that
+# they leave out; these have no page.
 commands_of() {
-    $(echo "$1" | tr - ' ') --help |
+    $(words_of "$1") --help |
         sed -n '/^Subcommands:/,$s/^  \([a-z][a-z]*\)  *\(.*\)/'"$1"'-\1 \2/p' |
-        grep -v ' (not in this build' | while read -r name description; do
-        echo "$name $description"
-        commands_of "$name"
+        grep -v ' (not in this build' | while read -r page description; do
+        echo "$page $description"
+        commands_of "$page"
     done
 }
-commands_of packtrace >"$work/commands"
-[ -s "$work/commands" ] || { echo "packtrace --help lists no commands" >&2; exit 1; }
+commands_of "$name" >"$work/commands"
+[ -s "$work/commands" ] || { echo "$name --help lists no commands" >&2; exit 1; }
 
-# write_page NAME DESCRIPTION PROGRAM: `also` are the pages that it refers to.
+# write_page PAGE DESCRIPTION: `also` are the pages that it refers to.
 write_page() {
     printf '[see also]\n%s\n' "$also" >"$work/also"
-    "$help2man" --no-info --section 1 --name "$2" --version-string "packtrace $version" \
-        --include "$work/also" --output "$work/$1.1" "$3"
+    "$help2man" --no-info --section 1 --name "$2" --version-string "$name $version" \
+        --include "$work/also" --output "$work/$1.1" "$(words_of "$1")"
     # What help2man makes of "packtrace render" in its first lines is "packtrace".
-    sed -i -e "s/^\.TH PACKTRACE /.TH $(echo "$1" | tr '[:lower:]' '[:upper:]') /" \
-        -e "/^\.SH NAME/,/^\.SH SYNOPSIS/s/^packtrace\(\\\\*\)\{0,1\} /$1 /" "$work/$1.1"
+    upper=$(echo "$name" | tr '[:lower:]' '[:upper:]')
+    sed -i -e "s/^\.TH $upper /.TH $(echo "$1" | tr '[:lower:]' '[:upper:]') /" \
+        -e "/^\.SH NAME/,/^\.SH SYNOPSIS/s/^$(echo "$name" | sed 's/-/\\\\*-/')\(\\\\*\)\{0,1\} /$1 /" \
+        "$work/$1.1"
 }
 
 mkdir -p "$folder"
-also=$(sed 's/^\([a-z-]*\) .*/.BR \1 (1)/; $!s/$/,/' "$work/commands")
-write_page packtrace "trace rays through scenes of analytic surfaces, in packets" packtrace
-also='.BR packtrace (1)'
-while read -r name description; do
-    write_page "$name" "$description" "$(echo "$name" | tr - ' ')"
+also=$({ sed 's/ .*//' "$work/commands"; [ $# = 0 ] || printf '%s\n' "$@"; } |
+    sed 's/.*/.BR & (1)/; $!s/$/,/')
+write_page "$name" "$about"
+also=".BR $name (1)"
+while read -r page description; do
+    write_page "$page" "$description"
 done <"$work/commands"
-rm -f "$folder"/packtrace*.1
+rm -f "$folder/$name"*.1
 cp "$work"/*.1 "$folder"

@@ -48,6 +48,23 @@ install_prefix() {
         sed -n '/^S[Uu][Bb]/,$s/^  \([a-z][a-z]*\) .*/-\1/p') ''; do
         [ -s "$prefix/share/man/man1/packtrace$command.1" ] || fail "no packtrace$command.1 is installed"
     done
+    # The program for many ranks, where it is built, and its pages.
+    if [ -x "$build/packtrace-mpi" ]; then
+        quietly "$prefix/bin/packtrace-mpi" render "$prefix/share/packtrace/scenes/four_spheres.scene" \
+            --size 16x16 -o "$folder/ranks.png"
+        cmp "$folder/picture.png" "$folder/ranks.png" || fail "packtrace-mpi renders another picture"
+        for page in '' $("$prefix/bin/packtrace-mpi" --help |
+            sed -n '/^S[Uu][Bb]/,$s/^  \([a-z][a-z]*\) .*/-\1/p'); do
+            file=$prefix/share/man/man1/packtrace-mpi$page.1
+            [ -s "$file" ] || fail "no packtrace-mpi$page.1 is installed"
+            [ "$(grep -c "^packtrace-mpi$page " "$file")" = 1 ] || fail "$file has another name: $(cat "$file")"
+        done
+    fi
+    # What runs packtrace does without MPI.
+    quietly "$cmake" --install "$build" --prefix "$folder/runtime" --component runtime
+    [ -x "$folder/runtime/bin/packtrace" ] || fail "the component runtime lacks packtrace"
+    ! find "$folder/runtime" -name '*mpi*' | grep . || fail "the component runtime has these"
+    ! ldd "$folder/runtime/bin/packtrace" | grep -i libmpi || fail "packtrace needs MPI"
     # An installation moves as a whole.
     ! grep -rlI -e "$build" -e "$source" "$prefix" || fail "these files name the build folder"
 }

@@ -44,6 +44,15 @@ has libpacktrace-dev include/packtrace/render.hpp include/packtrace/version.hpp 
 dpkg-deb -f "$package" Depends | grep -q "packtrace (= $version).*libtbb-dev" ||
     fail "libpacktrace-dev does not depend on packtrace: $(dpkg-deb -f "$package")"
 
+if [ -x "$build/packtrace-mpi" ]; then
+    ! dpkg-deb -f "$folder/made/packtrace_${version}"_*.deb Depends | grep -i -e openmpi -e mpich ||
+        fail "packtrace depends on MPI"
+    has packtrace-mpi bin/packtrace-mpi share/man/man1/packtrace-mpi.1.gz \
+        share/man/man1/packtrace-mpi-render.1.gz share/doc/packtrace-mpi/copyright
+    dpkg-deb -f "$package" Depends | grep -q -e libopenmpi -e libmpich ||
+        fail "packtrace-mpi does not depend on MPI: $(dpkg-deb -f "$package")"
+fi
+
 root/usr/bin/packtrace render root/usr/share/packtrace/scenes/four_spheres.scene --size 16x16 \
     -o picture.png >log 2>&1 || fail "the packaged program fails: $(cat log)"
 [ -s picture.png ] || fail "the packaged program writes no picture"

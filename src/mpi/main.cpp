@@ -67,7 +67,7 @@ int report_parse_end(const World& world, const CLI::App& app, const CLI::ParseEr
 
 int run(const World& world, int argc, char** argv)
 {
-    CLI::App app{"packtrace-mpi: packtrace on many ranks; SCENE is a file, - or 'generate NAME …'",
+    CLI::App app{"packtrace on many ranks, by MPI; SCENE is a file, - or 'generate NAME OPTION...'",
                  "packtrace-mpi"};
     app.set_version_flag("--version", "packtrace-mpi " PACKTRACE_VERSION_STRING);
     app.require_subcommand(0, 1);
