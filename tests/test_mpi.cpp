@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <cstdlib>
 #include <filesystem>
+#include <map>
 #include <string>
 #include <thread>
 #include <vector>
@@ -12,6 +13,7 @@
 #include "killed_program.hpp"
 #include "mpi/hand_out.hpp"
 #include "mpi/rank_setup.hpp"
+#include "mpi/wire.hpp"
 
 namespace packtrace::test {
 namespace {
@@ -130,6 +132,43 @@ int kill_rank(int ranks, const Words& words, std::size_t victim,
     return killed ? WEXITSTATUS(status) : -1;
 }
 
+/// The first families of stress tests.
+Words first_families(std::size_t count)
+{
+    const std::string list = run_packtrace({"stress", "--list"}).out;
+    Words families;
+    for (std::size_t at = list.find('\n'); families.size() < count && at != std::string::npos;
+         at = list.find('\n', at + 1)) {
+        const std::string name = list.substr(at + 1, list.find(' ', at + 1) - at - 1);
+        if (!name.empty() && name.front() != '-')
+            families.push_back(name);
+    }
+    return families;
+}
+
+/// Takes out, at all depths, what differs from run to run: times and what follows from them.
+void without_times(nlohmann::ordered_json& json)
+{
+    if (json.is_object())
+        for (const char* const key :
+             {"ns_per_ray", "pareto", "seconds", "median_s", "spread", "cached", "command",
+              "judgement", "cheapest_within_max_error", "most_exact_within_max_time"})
+            json.erase(key);
+    if (json.is_structured())
+        for (auto& part : json)
+            without_times(part);
+}
+
+/// The PNG files below a folder by name, each with its bytes.
+std::map<std::string, std::string> pictures_of(const std::filesystem::path& folder)
+{
+    std::map<std::string, std::string> pictures;
+    for (const auto& entry : std::filesystem::recursive_directory_iterator(folder))
+        if (entry.path().extension() == ".png")
+            pictures[entry.path().lexically_relative(folder)] = read_text(entry.path());
+    return pictures;
+}
+
 std::string mpi_scene(const std::string& name)
 {
     return PACKTRACE_SOURCE_DIR "/scenes/" + name + ".scene";
@@ -179,6 +218,37 @@ TEST_CASE("ranks of other versions or without FMA are told from others", "[mpi]"
     CHECK(mpi::why_not_together({one, plain}, Mixing::allowed).empty());
     CHECK_THAT(mpi::why_not_together({one, two}, Mixing::allowed),
                ContainsSubstring("rank 1 is version 2.0 and rank 0 is version 1.0"));
+}
+
+TEST_CASE("ranks with other instruction sets share no study", "[mpi]")
+{
+    CHECK(mpi::why_rows_differ({"sse42, avx2", "sse42, avx2"}).empty());
+    CHECK_THAT(mpi::why_rows_differ({"sse42, avx2", "sse42, avx2", "sse42"}),
+               ContainsSubstring("rank 2 runs sse42 and rank 0 runs sse42, avx2"));
+}
+
+TEST_CASE("messages hold values of all kinds", "[mpi]")
+{
+    const std::vector<std::string> words{"a", "", "three"};
+    const std::vector<double> numbers{1.5, -0.0};
+    const bool flag = true;
+    mpi::WireWriter writer;
+    writer(words, numbers, flag);
+    std::vector<std::string> read_words;
+    std::vector<double> read_numbers;
+    bool read_flag = false;
+    mpi::WireReader reader(writer.bytes);
+    reader(read_words, read_numbers, read_flag);
+    CHECK(read_words == words);
+    CHECK(read_numbers == numbers);
+    CHECK(read_flag);
+    // Every message that is cut short is told from a whole one.
+    for (std::size_t size = 0; size < writer.bytes.size(); ++size) {
+        const Bytes part(writer.bytes.begin(),
+                         writer.bytes.begin() + static_cast<std::ptrdiff_t>(size));
+        mpi::WireReader cut(part);
+        CHECK_THROWS_AS(cut(read_words, read_numbers, read_flag), std::runtime_error);
+    }
 }
 
 #ifdef PACKTRACE_MPI
@@ -273,6 +343,80 @@ TEST_CASE("a job tells in JSON what each rank did", "[mpi]")
     CHECK(pieces == 8);
 }
 
+TEST_CASE("a stress test has the rows of one process whatever the ranks", "[mpi]")
+{
+    const Words families = first_families(6);
+    Words words{"stress", "--json", "--rays", "48", "--threads", "1"};
+    for (const std::string& family : families)
+        words.insert(words.end(), {"--family", family});
+    words.insert(words.end(), {"--family", "exponents", "--family", "mirror-room"});
+    const ProgramResult one = run_packtrace(words);
+    auto expected = nlohmann::ordered_json::parse(one.out);
+    without_times(expected);
+    CHECK(expected["rows"].size() > 16);
+    for (const int ranks : {1, 2, 3}) {
+        CAPTURE(ranks);
+        const ProgramResult many = run_ranks(ranks, words);
+        CHECK(many.exit_code == one.exit_code);
+        auto json = nlohmann::ordered_json::parse(many.out);
+        without_times(json);
+        CHECK(json.dump() == expected.dump());
+        CHECK_THAT(many.err, ContainsSubstring("16 families in one precision on " +
+                                               std::to_string(ranks) + " ranks"));
+    }
+    CHECK(run_ranks(2, {"stress", "--list"}).out == run_packtrace({"stress", "--list"}).out);
+}
+
+TEST_CASE("a report has the errors of one process whatever the ranks", "[mpi]")
+{
+    const TempFolder folder;
+    write_text(folder / "a.scene",
+               "image_size = 24 x 20  max_depth = 1\n"
+               "sphere { center = (0, 0, 3)  radius = 1  color = (200, 40, 30) }\n"
+               "light { type = ambient  intensity = 0.5 }\n");
+    const auto words = [&](const std::string& name) {
+        return Words{"report",
+                     folder / "a.scene",
+                     mpi_scene("four_spheres"),
+                     "--size",
+                     "24x20",
+                     "--quick",
+                     "--repetitions",
+                     "1",
+                     "-q",
+                     "--cache",
+                     folder / (name + "_cache"),
+                     "-o",
+                     folder / name};
+    };
+    REQUIRE(run_packtrace(words("w")).exit_code == 0);
+    auto expected = nlohmann::ordered_json::parse(read_text(folder / "w/report.json"));
+    without_times(expected);
+    CHECK(expected["scenes"].size() == 2);
+    for (const int ranks : {1, 2, 3}) {
+        CAPTURE(ranks);
+        const std::string name = "m" + std::to_string(ranks);
+        const ProgramResult result = run_ranks(ranks, words(name));
+        CHECK(result.exit_code == 0);
+        CHECK(result.err.empty());
+        auto json = nlohmann::ordered_json::parse(read_text(folder / (name + "/report.json")));
+        // Each run has been timed.
+        CHECK(json.dump().find("\"seconds\":[]") == std::string::npos);
+        without_times(json);
+        CHECK(json.dump() == expected.dump());
+        CHECK(pictures_of(folder / name) == pictures_of(folder / "w"));
+        // The truths of a report that was made are there for the next.
+        Words again = words("again" + name);
+        again[10] = folder / (name + "_cache");
+        CHECK(run_ranks(ranks, again).exit_code == 0);
+        auto cached =
+            nlohmann::ordered_json::parse(read_text(folder / ("again" + name + "/report.json")));
+        CHECK(cached.dump().find("\"cached\":false") == std::string::npos);
+        without_times(cached);
+        CHECK(cached.dump() == expected.dump());
+    }
+}
+
 TEST_CASE("frames are shared by ranks, and a second job renders the missing ones", "[mpi]")
 {
     const TempFolder folder;
@@ -360,6 +504,12 @@ TEST_CASE("what a job can't do it says in one line, once", "[mpi]")
         {{"render", four_spheres_file, "-o", picture, "--y4m"}, 2, "--y4m: "},
         {{"render", four_spheres_file, "-o", picture, "--certainty", "c.png"}, 2, "--certainty: "},
         {{"intersect", four_spheres_file, folder / "none.csv"}, 1, "none.csv: can't read"},
+        {{"stress", "--family", "none"}, 2, "--family: "},
+        {{"stress", "--isa", "mmx"}, 2, "mmx"},
+        {{"report", folder / "none.scene", "-o", folder / "r"}, 1, "none.scene: can't be opened"},
+        {{"report", "-", "-", "-o", folder / "r"}, 1, "give - for one scene only"},
+        {{"report", four_spheres_file, "-o", folder / "bad.scene/r"}, 1, "can't make this folder"},
+        {{"report", four_spheres_file, "-o", folder / "r", "--truth-spp", "2"}, 1, "cannot judge"},
         {{}, 2, "subcommand"},
     };
     for (const Wrong& wrong : wrongs) {

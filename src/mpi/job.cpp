@@ -83,11 +83,8 @@ struct Job::Sending {
     }
 };
 
-Job::Job(const World& world, int pieces, std::size_t piece_bytes)
-    : world_(world),
-      counter_(world),
-      window_(pieces, window_of(world.size(), piece_bytes)),
-      ranks_at_work_(world.size() - 1)
+Job::Job(const World& world, int pieces, int window)
+    : world_(world), counter_(world), window_(pieces, window), ranks_at_work_(world.size() - 1)
 {
 }
 
@@ -294,6 +291,11 @@ bool Job::receive_pieces()
         end = window_.end();
         failed = failed_;
     }
+    // Mostly nothing is there: one question instead of one a piece.
+    int there = 0;
+    MPI_Iprobe(MPI_ANY_SOURCE, MPI_ANY_TAG, MPI_COMM_WORLD, &there, MPI_STATUS_IGNORE);
+    if (there == 0)
+        return false;
     bool busy = false;
     // After a failure, whatever comes: nobody may be left waiting.
     if (failed)

@@ -43,8 +43,9 @@ struct RankReport {
 /// one run.
 class Job {
 public:
-    /// `piece_bytes` is about the size of a piece; 0 pieces where none come to rank 0.
-    Job(const World& world, int pieces, std::size_t piece_bytes);
+    /// 0 pieces where none come to rank 0. Of those that come it holds a `window` at most
+    /// (window_of).
+    Job(const World& world, int pieces, int window);
     ~Job();
 
     /// Gives the next number, from 0 on over all ranks, to the thread that works.

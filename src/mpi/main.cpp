@@ -73,6 +73,8 @@ int run(const World& world, int argc, char** argv)
     app.require_subcommand(0, 1);
     add_render(app, world);
     add_intersect(app, world);
+    add_report(app, world);
+    add_stress(app, world);
     clean_up_when_ended(world);
     try {
         app.parse(argc, argv);

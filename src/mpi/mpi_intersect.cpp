@@ -146,7 +146,7 @@ std::vector<RankReport> trace(const World& world, const Arguments& arguments, co
         tracer = std::make_unique<cli::BlockTracer<Real>>(scene, options, arguments.query(),
                                                           arguments.ray_bounds());
     });
-    Job job(world, pieces.count() - finished, std::size_t{1} << 23);
+    Job job(world, pieces.count() - finished, window_of(world.size(), std::size_t{1} << 23));
     const auto make = [&](int number, RankReport& report) {
         const auto i = static_cast<std::uint64_t>(number + finished);
         std::string rows;

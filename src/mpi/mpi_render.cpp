@@ -142,8 +142,8 @@ void render_picture(const World& world, const Arguments& arguments, const Scene&
     });
     const Bands bands =
         cli::cut_into_bands(scene.width, scene.height, samples->format(), cli::band_pixels);
-    Job job(world, static_cast<int>(missing.size()),
-            samples->row_bytes() * static_cast<std::size_t>(bands.rows));
+    const std::size_t band_bytes = samples->row_bytes() * static_cast<std::size_t>(bands.rows);
+    Job job(world, static_cast<int>(missing.size()), window_of(world.size(), band_bytes));
     const auto make = [&](int number, RankReport& report) {
         const Bands::Band band = bands.band(missing[static_cast<std::size_t>(number)]);
         Piece piece;

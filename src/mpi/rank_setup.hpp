@@ -38,4 +38,15 @@ enum class Mixing { refused, allowed };
     return {};
 }
 
+/// Why ranks that run these instruction sets may not share a study, in one line; empty if they may.
+[[nodiscard]] inline std::string why_rows_differ(const std::vector<std::string>& isas)
+{
+    for (std::size_t rank = 1; rank < isas.size(); ++rank)
+        if (isas[rank] != isas.front())
+            return "packtrace-mpi: rank " + std::to_string(rank) + " runs " + isas[rank] +
+                   " and rank 0 runs " + isas.front() +
+                   ", and so would their rows differ; use machines of one kind";
+    return {};
+}
+
 }  // namespace packtrace::mpi

@@ -4,6 +4,7 @@
 #include <stdexcept>
 #include <utility>
 
+#include <packtrace/isa.hpp>
 #include <packtrace/read_scene.hpp>
 #include <packtrace/version.hpp>
 
@@ -63,6 +64,26 @@ void check_ranks(const World& world, const RenderOptions& options, Mixing mixing
                           options.kernel == Kernel::scalar || options.isa != "sse42"};
     const std::string why = why_not_together(world.gather(setup.text()), mixing);
     world.together([&] {
+        if (!why.empty())
+            throw std::runtime_error(why);
+    });
+}
+
+void check_same_isas(const World& world, std::vector<std::string> isas)
+{
+    if (isas.empty())
+        for (const IsaInfo& isa : list_isas())
+            if (isa.supported)
+                isas.push_back(isa.name);
+    std::string names;
+    for (const std::string& isa : isas)
+        names += (names.empty() ? "" : ", ") + isa;
+    const std::vector<std::string> versions = world.gather(PACKTRACE_VERSION_STRING);
+    const std::vector<std::string> all = world.gather(names);
+    world.together([&] {
+        std::string why = why_not_together(versions, Mixing::allowed);
+        if (why.empty())
+            why = why_rows_differ(all);
         if (!why.empty())
             throw std::runtime_error(why);
     });

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <string>
+#include <vector>
 
 #include <packtrace/render.hpp>
 #include <packtrace/scene.hpp>
@@ -16,5 +17,9 @@ namespace packtrace::mpi {
 
 /// Throws JobFailed where ranks may not work on one result.
 void check_ranks(const World& world, const RenderOptions& options, Mixing mixing);
+
+/// Throws JobFailed where ranks are of unequal versions, or run other instruction sets: rows of
+/// studies would differ. No names are all that run on this machine.
+void check_same_isas(const World& world, std::vector<std::string> isas);
 
 }  // namespace packtrace::mpi

@@ -2,10 +2,12 @@
 
 #include <algorithm>
 #include <array>
+#include <chrono>
 #include <cstdint>
 #include <exception>
 #include <iostream>
 #include <new>
+#include <thread>
 
 #include <CLI/CLI.hpp>
 
@@ -59,9 +61,25 @@ World::~World()
     MPI_Finalize();
 }
 
+// MPI's own waiting takes all of a processor, which others may work with or time on.
+void World::sleep_until_all_are_here() const
+{
+    constexpr std::chrono::microseconds longest{2000};
+    MPI_Request all;
+    MPI_Ibarrier(MPI_COMM_WORLD, &all);
+    int here = 0;
+    for (std::chrono::microseconds nap{20};; nap = std::min(2 * nap, longest)) {
+        MPI_Test(&all, &here, MPI_STATUS_IGNORE);
+        if (here != 0)
+            return;
+        std::this_thread::sleep_for(nap);
+    }
+}
+
 void World::together(const std::function<void()>& step) const
 {
     const Failure failure = attempt(step);
+    sleep_until_all_are_here();
     const int mine = failure.exit_code != 0 ? rank_ : size_;
     int first = size_;
     MPI_Allreduce(&mine, &first, 1, MPI_INT, MPI_MIN, MPI_COMM_WORLD);
@@ -113,14 +131,20 @@ std::vector<std::string> World::gather(const std::string& text) const
     return texts;
 }
 
-bool World::leads_node() const
+std::vector<int> World::node_leaders() const
 {
     MPI_Comm node;
     MPI_Comm_split_type(MPI_COMM_WORLD, MPI_COMM_TYPE_SHARED, rank_, MPI_INFO_NULL, &node);
-    int rank = 0;
-    MPI_Comm_rank(node, &rank);
+    int number = 0;
+    MPI_Comm_rank(node, &number);
     MPI_Comm_free(&node);
-    return rank == 0;
+    std::vector<int> numbers(static_cast<std::size_t>(size_));
+    MPI_Allgather(&number, 1, MPI_INT, numbers.data(), 1, MPI_INT, MPI_COMM_WORLD);
+    std::vector<int> leaders;
+    for (int rank = 0; rank < size_; ++rank)
+        if (numbers[static_cast<std::size_t>(rank)] == 0)
+            leaders.push_back(rank);
+    return leaders;
 }
 
 std::string World::host() const

@@ -35,8 +35,8 @@ public:
         return rank_ == 0;
     }
 
-    /// Runs `step` on every rank and waits for all. Where it throws, the lowest rank that failed
-    /// says why in one line, and all throw JobFailed.
+    /// Runs `step` on every rank and sleeps until all have done so. Where it throws, the lowest
+    /// rank that failed says why in one line, and all throw JobFailed.
     void together(const std::function<void()>& step) const;
 
     /// Rank 0's text, on every rank.
@@ -45,11 +45,13 @@ public:
     /// Every rank's text, on every rank.
     [[nodiscard]] std::vector<std::string> gather(const std::string& text) const;
 
-    /// Whether this is the first rank on its node.
-    [[nodiscard]] bool leads_node() const;
+    /// The first rank of each node, in order. Called by all ranks together.
+    [[nodiscard]] std::vector<int> node_leaders() const;
     [[nodiscard]] std::string host() const;
 
 private:
+    void sleep_until_all_are_here() const;
+
     int rank_ = 0;
     int size_ = 1;
 };

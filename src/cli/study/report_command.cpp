@@ -1,8 +1,3 @@
-#include <packtrace/report.hpp>
-
-#include <cstdlib>
-#include <filesystem>
-#include <iostream>
 #include <memory>
 #include <mutex>
 #include <set>
@@ -10,71 +5,14 @@
 
 #include <packtrace/write_report.hpp>
 
-#include <tbb/info.h>
-
 #include "cli/command.hpp"
-#include "cli/options/common_options.hpp"
 #include "cli/options/scene_input.hpp"
 #include "cli/options/thread_limit.hpp"
-#include "cli/options/validators.hpp"
 #include "cli/output/progress_bar.hpp"
-#include "core/atomic_file.hpp"
-#include "lab/harness/machine.hpp"
-#include "lab/report/plot.hpp"
-#include "lab/report/report_text.hpp"
+#include "cli/study/report_arguments.hpp"
 
 namespace packtrace::cli {
 namespace {
-
-struct ReportArguments {
-    std::vector<std::string> scenes;
-    std::filesystem::path folder;
-    PictureArguments picture;
-    std::optional<int> repetitions;
-    std::optional<int> truth_samples;
-    std::optional<std::string> cache;
-    ReportOptions options;
-    double max_time_ms = 20.0;
-    bool quick = false;
-    bool quiet = false;
-    std::string command;
-};
-
-std::filesystem::path default_cache()
-{
-    if (const char* folder = std::getenv("XDG_CACHE_HOME"); folder != nullptr && *folder != '\0')
-        return std::filesystem::path(folder) / "packtrace";
-    if (const char* home = std::getenv("HOME"); home != nullptr && *home != '\0')
-        return std::filesystem::path(home) / ".cache" / "packtrace";
-    return {};
-}
-
-ReportOptions report_options(const ReportArguments& arguments)
-{
-    ReportOptions options = arguments.options;
-    if (arguments.quick) {
-        options.repetitions = 3;
-        options.truth_samples = 64;
-        options.min_weights = {0.03, 0.002, 0.0};
-        options.samples = {1, 4, 16};
-        options.adaptive = {{16, 0.02}};
-        options.isas = {choose_isa().name};
-    }
-    options.repetitions = arguments.repetitions.value_or(options.repetitions);
-    options.truth_samples = arguments.truth_samples.value_or(options.truth_samples);
-    options.cache = arguments.cache ? std::filesystem::path(*arguments.cache) : default_cache();
-    options.max_time = 1e-3 * arguments.max_time_ms;
-    return options;
-}
-
-// The file's name without its ending, and a number where it is taken.
-std::string free_name(const std::string& stem, std::set<std::string>& taken)
-{
-    std::string name = stem;
-    for (int number = 2; !taken.insert(name).second; ++number)
-        name = stem + "_" + std::to_string(number);
-    return name;
-}
 
 std::vector<ReportScene> read_scenes(const ReportArguments& arguments)
 {
@@ -82,7 +20,8 @@ std::vector<ReportScene> read_scenes(const ReportArguments& arguments)
     std::set<std::string> taken;
     for (const std::string& file : arguments.scenes) {
         SceneInput input = read_scene_input(file);
-        ReportScene scene{free_name(report_folder_name(input.stem), taken), std::move(input.scene)};
+        ReportScene scene{free_scene_name(report_folder_name(input.stem), taken),
+                          std::move(input.scene)};
         apply(arguments.picture, scene.scene);
         scenes.push_back(std::move(scene));
     }
@@ -121,76 +60,20 @@ SceneReport report_scene(const ReportScene& scene, ReportOptions options,
     return report(scene, options);
 }
 
-void print_judgement(const SceneReport& scene, const ReportOptions& options)
-{
-    for (const StudyReport& study : scene.studies)
-        for (const std::string& line : judgement(study, options))
-            std::cout << scene.name << ", " << name_of(study.study) << ": " << line << '\n';
-}
-
 void run_report(const ReportArguments& arguments)
 {
     const ReportOptions options = report_options(arguments);
-    check_plots();
     const std::vector<ReportScene> scenes = read_scenes(arguments);
     // Before the work, so that a wrong name doesn't cost it.
-    make_folders(arguments.folder);
-    check_writable(arguments.folder / "report.md");
+    check_report_target(arguments);
     // The runs have arenas of their own sizes.
-    const ThreadLimit limit(
-        std::max(tbb::info::default_concurrency(),
-                 *std::max_element(options.threads.begin(), options.threads.end())));
+    const ThreadLimit limit(report_threads(options));
     std::vector<SceneReport> reports;
     for (const ReportScene& scene : scenes) {
         reports.push_back(report_scene(scene, options, arguments));
         print_judgement(reports.back(), options);
     }
-    const ReportConditions conditions{processor_name(), tbb::info::default_concurrency(),
-                                      compiler_name(), commit_name(), arguments.command};
-    write_report(reports, options, conditions, arguments.folder);
-}
-
-// The command as it was typed, its program by its bare name.
-std::string command_of(const CLI::App& app, const ReportArguments& arguments)
-{
-    std::string command = "packtrace " + app.get_name();
-    for (const std::string& scene : arguments.scenes)
-        command += " " + scene;
-    command += " -o " + arguments.folder.string();
-    for (const CLI::Option* option : app.get_options())
-        if (option->count() > 0 && !option->get_lnames().empty() &&
-            option->get_lnames().front() != "output") {
-            command += " --" + option->get_lnames().front();
-            if (option->get_items_expected_max() > 0)
-                for (const std::string& word : option->results())
-                    command += " " + word;
-        }
-    return command;
-}
-
-void add_measure_options(CLI::App& command, ReportArguments& arguments)
-{
-    command.add_option("--repetitions", arguments.repetitions, "Frames of each run (default 9)")
-        ->check(whole_number(1, 1000))
-        ->type_name("N");
-    command
-        .add_option("--truth-spp", arguments.truth_samples,
-                    "Samples a pixel of the truth where samples are studied (default 256)")
-        ->check(whole_number(2, 1024))
-        ->type_name("N");
-    command
-        .add_option("--threshold", arguments.options.threshold,
-                    "Error above which a pixel counts as off (default 1/255)")
-        ->check(non_negative_number())
-        ->type_name("T");
-    command.add_option("--threads", arguments.options.threads, "Numbers of threads (default 1,2)")
-        ->check(whole_number(1, 1024))
-        ->delimiter(',')
-        ->type_name("N,N…");
-    command
-        .add_option("--cache", arguments.cache,
-                    "Folder that keeps truths (default packtrace in the user's cache)")
-        ->type_name("DIR");
+    write_whole_report(reports, options, arguments);
 }
 
 }  // namespace
@@ -200,29 +83,9 @@ void add_report(CLI::App& app)
     CLI::App* command = app.add_subcommand(
         "report", "Render scenes in many ways; report each way's error against its run time");
     const auto arguments = std::make_shared<ReportArguments>();
-    command->add_option("SCENE", arguments->scenes, "Scene files; - is standard input")
-        ->required()
-        ->type_name("");
-    command->add_option("-o,--output", arguments->folder, "Folder for the report")
-        ->required()
-        ->type_name("DIR");
-    add_picture_options(*command, arguments->picture);
-    add_measure_options(*command, *arguments);
-    command
-        ->add_option("--max-error", arguments->options.max_error,
-                     "RMSE to name the cheapest run for (default 0.001)")
-        ->check(positive_number())
-        ->type_name("E");
-    command
-        ->add_option("--max-time", arguments->max_time_ms,
-                     "Milliseconds to name the most exact run for (default 20)")
-        ->check(positive_number())
-        ->type_name("MS");
-    command->add_flag("--quick", arguments->quick,
-                      "Fewer runs: the widest packets, 3 repetitions, up to 16 samples");
-    command->add_flag("-q,--quiet", arguments->quiet, "No progress bar");
+    add_report_options(*command, *arguments);
     command->callback([arguments, command] {
-        arguments->command = command_of(*command, *arguments);
+        arguments->command = report_command("packtrace", *command, *arguments);
         run_report(*arguments);
     });
 }

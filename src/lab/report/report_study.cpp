@@ -1,6 +1,7 @@
 #include "lab/report/report_study.hpp"
 
 #include <algorithm>
+#include <stdexcept>
 #include <utility>
 
 #include "lab/harness/statistics.hpp"
@@ -24,28 +25,57 @@ std::string file_name_of(const std::string& name)
     return result;
 }
 
-void take_times(const std::vector<Subject>& subjects, const ReportOptions& options,
-                std::vector<ReportRun>& runs)
+// Runs of equal pictures and trees are off for the same reasons.
+const ReportRun* same_picture(const StudyReport& report, std::size_t picture)
 {
-    const auto total =
-        static_cast<double>(options.repetitions) * static_cast<double>(subjects.size());
-    double done = 0.0;
-    auto seconds = time_in_turns(subjects.size(), options.repetitions, [&](std::size_t i) {
-        if (options.progress)
-            options.progress("timing", done++ / total);
-        return seconds_of(subjects[i].variant.threads, subjects[i].render);
-    });
-    for (std::size_t i = 0; i < runs.size(); ++i) {
-        runs[i].seconds = std::move(seconds[i]);
-        runs[i].median = median_of(runs[i].seconds);
-        runs[i].spread = relative_spread(runs[i].seconds);
+    for (const ReportRun& run : report.runs)
+        if (run.picture == picture)
+            return &run;
+    return nullptr;
+}
+
+// A run with the samples of the truth would seem to have no error.
+void check_truth(const ReportOptions& options)
+{
+    int most = 0;
+    for (const int samples : options.samples)
+        most = std::max(most, samples);
+    for (const auto& [samples, contrast] : options.adaptive)
+        most = std::max(most, samples);
+    if (options.truth_samples <= most)
+        throw std::invalid_argument("report: a truth of " + std::to_string(options.truth_samples) +
+                                    " samples a pixel cannot judge runs of " +
+                                    std::to_string(most) + "; give it more");
+}
+
+}  // namespace
+
+std::vector<StudyPlan> plan_studies(const Scene& scene, const ReportOptions& options)
+{
+    check_truth(options);
+    const std::vector<Variant> variants = report_variants(scene, options);
+    std::vector<StudyPlan> plans;
+    for (const Study study : {Study::arithmetic, Study::depth, Study::weight, Study::sampling}) {
+        StudyPlan plan{study, {}, study == Study::sampling ? options.truth_samples : 1};
+        for (const Variant& variant : variants)
+            if (variant.study == study)
+                plan.variants.push_back(variant);
+        plans.push_back(std::move(plan));
     }
+    return plans;
+}
+
+Scene scene_of_truth(const Scene& scene)
+{
+    Scene whole = scene;
+    whole.min_weight = 0.0;
+    return whole;
 }
 
 // The trees of a pixel, each asked for once.
-class StudyClassifier {
+class StudyErrors::Classifier {
 public:
-    StudyClassifier(const Scene& scene, Study study)
+    Classifier(const Scene& scene, Study study)
         : classifier_(scene),
           sampling_(study == Study::sampling),
           truth_(reference_trees<double>(scene)),
@@ -81,49 +111,39 @@ private:
     TreesOfPixel samples_;
 };
 
-// The index of the picture among those there are, or that of a new one.
-std::size_t keep_picture(StudyReport& report, const std::string& name, Image<double>&& image)
+StudyErrors::StudyErrors(const Scene& scene_of_truth, Study study, const Truth& truth,
+                         const ReportOptions& options)
+    : study_(study),
+      truth_(truth),
+      options_(options),
+      classifier_(std::make_unique<Classifier>(scene_of_truth, study))
 {
-    for (std::size_t i = 0; i < report.pictures.size(); ++i)
-        if (report.pictures[i].image.rgb == image.rgb)
-            return i;
-    report.pictures.push_back({file_name_of(name), name, std::move(image)});
-    return report.pictures.size() - 1;
 }
 
-// Runs of equal pictures and trees are off for the same reasons.
-const ReportRun* same_picture(const StudyReport& report, std::size_t picture)
+StudyErrors::~StudyErrors() = default;
+
+StudyLook StudyErrors::render(const Subject& subject)
 {
-    for (const ReportRun& run : report.runs)
-        if (run.picture == picture)
-            return &run;
-    return nullptr;
+    StudyLook look;
+    look.run.variant = subject.variant;
+    subject.render();
+    look.run.rays = subject.rays();
+    look.run.cut = subject.cut();
+    look.picture = subject.picture();
+    return look;
 }
 
-void measure_error(StudyReport& report, ReportRun& run, const Subject& subject,
-                   const StudyClassifier& classifier, const ReportOptions& options)
+void StudyErrors::measure(const Subject& subject, StudyLook& look) const
 {
-    run.picture = keep_picture(report, subject.variant.name, subject.picture());
-    if (const ReportRun* twin = same_picture(report, run.picture)) {
-        run.error = twin->error;
-        run.shares = twin->shares;
-        run.looked_at = twin->looked_at;
-        run.looked_at_off = twin->looked_at_off;
-        return;
-    }
-    const Image<double>& picture = report.pictures[run.picture].image;
-    const Image<double>& truth = report.pictures.front().image;
     CompareOptions compared;
-    compared.threshold = options.threshold;
-    run.error = compare(picture, truth, compared);
-    if (report.study == Study::sampling || subject.tree)
-        find_shares(run, truth, picture, options, classifier.for_tree(subject.tree));
+    compared.threshold = options_.threshold;
+    look.run.error = compare(look.picture, truth_.image, compared);
+    if (study_ == Study::sampling || subject.tree)
+        find_shares(look.run, truth_.image, look.picture, options_,
+                    classifier_->for_tree(subject.tree));
 }
 
-}  // namespace
-
-StudyReport run_study(const Scene& scene, Study study, const Truth& truth,
-                      const std::vector<Subject>& subjects, const ReportOptions& options)
+StudyReport study_report(Study study, const Truth& truth)
 {
     StudyReport report;
     report.study = study;
@@ -131,23 +151,68 @@ StudyReport run_study(const Scene& scene, Study study, const Truth& truth,
     report.truth_seconds = truth.seconds;
     report.truth_cached = truth.cached;
     report.pictures.push_back({"truth", "truth", truth.image});
+    return report;
+}
 
+void add_run(StudyReport& report, StudyLook look,
+             const std::function<void(StudyLook& look)>& measure)
+{
+    const auto known =
+        std::find_if(report.pictures.begin(), report.pictures.end(),
+                     [&](const auto& other) { return other.image.rgb == look.picture.rgb; });
+    look.run.picture = static_cast<std::size_t>(known - report.pictures.begin());
+    if (const ReportRun* twin = same_picture(report, look.run.picture)) {
+        look.run.error = twin->error;
+        look.run.shares = twin->shares;
+        look.run.looked_at = twin->looked_at;
+        look.run.looked_at_off = twin->looked_at_off;
+    } else {
+        measure(look);
+    }
+    const std::string& name = look.run.variant.name;
+    if (known == report.pictures.end())
+        report.pictures.push_back({file_name_of(name), name, std::move(look.picture)});
+    report.runs.push_back(std::move(look.run));
+}
+
+std::vector<std::vector<double>> times_of(const std::vector<Subject>& subjects,
+                                          const ReportOptions& options)
+{
+    const auto total =
+        static_cast<double>(options.repetitions) * static_cast<double>(subjects.size());
+    double done = 0.0;
+    return time_in_turns(subjects.size(), options.repetitions, [&](std::size_t i) {
+        if (options.progress)
+            options.progress("timing", done++ / total);
+        return seconds_of(subjects[i].variant.threads, subjects[i].render);
+    });
+}
+
+void set_times(StudyReport& report, std::vector<std::vector<double>> seconds)
+{
+    for (std::size_t i = 0; i < report.runs.size(); ++i) {
+        ReportRun& run = report.runs[i];
+        run.seconds = std::move(seconds[i]);
+        run.median = median_of(run.seconds);
+        run.spread = relative_spread(run.seconds);
+    }
+    mark_pareto(report.runs);
+}
+
+StudyReport run_study(const Scene& scene_of_truth, Study study, const Truth& truth,
+                      const std::vector<Subject>& subjects, const ReportOptions& options)
+{
+    StudyReport report = study_report(study, truth);
+    const StudyErrors errors(scene_of_truth, study, truth, options);
     // A first frame pays for the memory that later ones reuse, and gives the picture.
-    std::vector<ReportRun> runs(subjects.size());
-    const StudyClassifier classifier(scene, study);
     for (std::size_t i = 0; i < subjects.size(); ++i) {
-        runs[i].variant = subjects[i].variant;
-        subjects[i].render();
-        runs[i].rays = subjects[i].rays();
-        runs[i].cut = subjects[i].cut();
-        measure_error(report, runs[i], subjects[i], classifier, options);
-        report.runs.push_back(runs[i]);
+        add_run(report, StudyErrors::render(subjects[i]),
+                [&](StudyLook& look) { errors.measure(subjects[i], look); });
         if (options.progress)
             options.progress("comparing",
                              static_cast<double>(i + 1) / static_cast<double>(subjects.size()));
     }
-    take_times(subjects, options, report.runs);
-    mark_pareto(report.runs);
+    set_times(report, times_of(subjects, options));
     return report;
 }
 

@@ -38,13 +38,17 @@ Powers<Real> make_powers(const StressOptions& options, double least, double most
 }
 
 template <class Real>
-MeasureRun ask(const Powers<Real>& powers, const StressSubject& subject)
+MeasureRun ask(const Powers<Real>& powers, const StressSubject& subject, const Alone& alone)
 {
     const auto& table = precision<Real>(kernels_of(subject.isa));
     std::vector<Real> y(powers.x.size());
-    const auto start = std::chrono::steady_clock::now();
-    table.highlight_power(powers.x.data(), powers.n.data(), y.data(), static_cast<int>(y.size()));
-    const std::chrono::duration<double> took = std::chrono::steady_clock::now() - start;
+    std::chrono::duration<double> took{};
+    run_alone(alone, [&] {
+        const auto start = std::chrono::steady_clock::now();
+        table.highlight_power(powers.x.data(), powers.n.data(), y.data(),
+                              static_cast<int>(y.size()));
+        took = std::chrono::steady_clock::now() - start;
+    });
 
     MeasureRun run;
     run.seconds = took.count();
@@ -65,7 +69,9 @@ template <class Real>
 StressMeasure::Ask prepared(const StressOptions& options, double least, double most)
 {
     const auto powers = std::make_shared<Powers<Real>>(make_powers<Real>(options, least, most));
-    return [powers](const StressSubject& subject) { return ask(*powers, subject); };
+    return [powers, alone = options.alone](const StressSubject& subject) {
+        return ask(*powers, subject, alone);
+    };
 }
 
 StressMeasure measure(const char* name, const char* what, double least, double most)

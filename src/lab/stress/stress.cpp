@@ -177,8 +177,10 @@ void add_rows(const StressFamily& family, const StressOptions& options,
         if (packet_of_doubles && subject.mode != subjects.back().mode)
             continue;
         std::vector<StressRun> runs;
-        for (const StressGroup& group : groups)
-            runs.push_back(run_subject<Real>(subject, group));
+        run_alone(options.alone, [&] {
+            for (const StressGroup& group : groups)
+                runs.push_back(run_subject<Real>(subject, group));
+        });
         const auto twin =
             std::find_if(evaluated.begin(), evaluated.end(), [&](const Evaluated& other) {
                 const StressRow& row = rows[other.row];
@@ -291,6 +293,22 @@ void run_stress(const StressOptions& options,
         mark_pareto(rows);
         take(rows);
     }
+}
+
+std::vector<StressOptions> stress_parts(const StressOptions& options)
+{
+    check_families(options);
+    std::vector<StressOptions> parts;
+    for (const StressFamilyInfo& family : list_stress_families())
+        for (const std::string precision : {"single", "double"}) {
+            if (!wanted(options.families, family.name) || !wanted(options.precisions, precision))
+                continue;
+            StressOptions part = options;
+            part.families = {family.name};
+            part.precisions = {precision};
+            parts.push_back(part);
+        }
+    return parts;
 }
 
 std::vector<StressMeasure> stress_measures()

@@ -7,6 +7,8 @@
 
 #include <packtrace/render.hpp>
 
+#include "lab/harness/alone.hpp"
+
 namespace packtrace::lab {
 
 struct StressOptions {
@@ -21,6 +23,7 @@ struct StressOptions {
     std::uint64_t seed = 1;
     int first_family = 0;  ///< of those wanted, begin with this one
     int family_step = 1;   ///< and take each so many-th
+    Alone alone;           ///< for what is timed
 };
 
 /// How many, and quantiles of their errors.
@@ -85,6 +88,10 @@ struct StressRow {
 /// that is none.
 void run_stress(const StressOptions& options,
                 const std::function<void(const std::vector<StressRow>&)>& take);
+
+/// The same work in parts, each a family in one precision, whose rows in turn are those of the
+/// whole.
+[[nodiscard]] std::vector<StressOptions> stress_parts(const StressOptions& options);
 
 /// Names and descriptions of all families.
 struct StressFamilyInfo {

@@ -58,44 +58,62 @@ bool still_true(const Truth& truth, const Scene& scene, int samples)
     return true;
 }
 
-Truth make_truth(const Scene& scene, const TruthRequest& request)
+Image<double> trace_truth(const Scene& scene, int samples, const RenderOptions& usual)
 {
-    RenderOptions options;
-    options.samples = request.samples;
-    options.progress = request.progress;
-    Truth truth;
-    truth.seconds = seconds_of(options.threads, [&] {
-        if (request.samples > 1)
-            truth.image = render_reference<double>(scene, options);
-        else
-            truth.image = convert<double>(render_reference<long double>(scene, options));
-    });
-    return truth;
+    RenderOptions options = usual;
+    options.samples = samples;
+    if (samples > 1)
+        return render_reference<double>(scene, options);
+    return convert<double>(render_reference<long double>(scene, options));
+}
+
+std::string what_of(const TruthRequest& request)
+{
+    return request.samples > 1
+               ? "scalar reference, double, " + std::to_string(request.samples) + " samples a pixel"
+               : "scalar reference, long double, the scene's one sample a pixel";
 }
 
 }  // namespace
 
+std::optional<Truth> kept_truth(const Scene& scene, const TruthRequest& request)
+{
+    if (request.cache.empty())
+        return std::nullopt;
+    std::optional<Truth> truth = read_truth(file_of(scene, request));
+    if (!truth || !still_true(*truth, scene, request.samples))
+        return std::nullopt;
+    truth->what = what_of(request);
+    return truth;
+}
+
+Image<double> truth_rows(const Scene& scene, int samples, int first, int rows)
+{
+    RenderOptions options;
+    options.region = Region{0, first, scene.width, rows};
+    return trace_truth(scene, samples, options);
+}
+
+void keep_truth(const Scene& scene, const TruthRequest& request, Truth& truth)
+{
+    truth.what = what_of(request);
+    if (request.cache.empty())
+        return;
+    make_folders(request.cache);
+    write_truth(file_of(scene, request), truth);
+}
+
 Truth find_truth(const Scene& scene, const TruthRequest& request)
 {
-    const std::string what =
-        request.samples > 1
-            ? "scalar reference, double, " + std::to_string(request.samples) + " samples a pixel"
-            : "scalar reference, long double, the scene's one sample a pixel";
-    std::filesystem::path file;
-    std::optional<Truth> truth;
-    if (!request.cache.empty()) {
-        file = file_of(scene, request);
-        truth = read_truth(file);
-    }
-    if (!truth || !still_true(*truth, scene, request.samples)) {
-        truth = make_truth(scene, request);
-        if (!request.cache.empty()) {
-            make_folders(request.cache);
-            write_truth(file, *truth);
-        }
-    }
-    truth->what = what;
-    return *truth;
+    if (std::optional<Truth> kept = kept_truth(scene, request))
+        return *kept;
+    RenderOptions options;
+    options.progress = request.progress;
+    Truth truth;
+    truth.seconds = seconds_of(options.threads,
+                               [&] { truth.image = trace_truth(scene, request.samples, options); });
+    keep_truth(scene, request, truth);
+    return truth;
 }
 
 }  // namespace packtrace

@@ -2,6 +2,7 @@
 
 #include <filesystem>
 #include <functional>
+#include <optional>
 #include <string>
 
 #include <packtrace/image.hpp>
@@ -28,5 +29,16 @@ struct TruthRequest {
 /// reference gives now; else it is made anew. Throws FileError when it can't be kept, and
 /// std::invalid_argument for a scene to be kept that has no text (write_scene.hpp).
 [[nodiscard]] Truth find_truth(const Scene& scene, const TruthRequest& request);
+
+// The steps of find_truth(), for a truth whose rows are traced by several programs.
+
+/// A truth of the cache that may be used.
+[[nodiscard]] std::optional<Truth> kept_truth(const Scene& scene, const TruthRequest& request);
+
+/// So many rows of a truth from `first` on. They have the bits of the whole truth.
+[[nodiscard]] Image<double> truth_rows(const Scene& scene, int samples, int first, int rows);
+
+/// Names a truth that was made, and keeps it in the cache.
+void keep_truth(const Scene& scene, const TruthRequest& request, Truth& truth);
 
 }  // namespace packtrace

@@ -1,0 +1,189 @@
+#include "cli/study/stress_output.hpp"
+
+#include <filesystem>
+#include <iostream>
+#include <string>
+
+#include <nlohmann/json.hpp>
+
+#include "cli/output/text_table.hpp"
+#include "core/atomic_file.hpp"
+#include "core/json_text.hpp"
+#include "lab/stress/stress_verdict.hpp"
+
+namespace packtrace::cli {
+namespace {
+
+using lab::StressRow;
+
+TextTable make_table()
+{
+    return {5, {"family",     "precision",     "kernel", "mode",     "instruction sets",
+                "rays",       "hits",          "wrong",  "lost",     "false",
+                "object",     "root",          "other",  "own band", "self",
+                "2nd lost",   "bounds missed", "t 50%",  "99%",      "max",
+                "normal 99%", "max",           "side",   "none",     "2nd t 99%",
+                "ns",         "best"}};
+}
+
+void add_row(TextTable& table, const StressRow& row)
+{
+    const auto count = [](std::uint64_t number) { return std::to_string(number); };
+    table.add({row.family,
+               row.precision,
+               row.kernel,
+               row.mode,
+               row.isa,
+               count(row.rays),
+               count(row.hits),
+               count(row.wrong),
+               count(row.lost),
+               count(row.false_hits),
+               count(row.wrong_object),
+               count(row.wrong_root),
+               count(row.occluded + row.order + row.not_closed),
+               count(row.beyond_own_band),
+               count(row.self_hits),
+               count(row.second_lost),
+               row.held ? count(row.bounds_missed) : "",
+               brief(row.ulp.median),
+               brief(row.ulp.p99),
+               brief(row.ulp.max),
+               brief(row.normal.p99),
+               brief(row.normal.max),
+               count(row.wrong_side),
+               count(row.no_normal + row.not_finite),
+               brief(row.second.p99),
+               fixed(row.ns, 1),
+               row.pareto ? "*" : ""});
+}
+
+nlohmann::ordered_json spread_json(const lab::ErrorSpread& spread)
+{
+    return {{"median", spread.median}, {"p99", spread.p99}, {"max", spread.max}};
+}
+
+nlohmann::ordered_json row_json(const StressRow& row)
+{
+    return {{"family", row.family},
+            {"precision", row.precision},
+            {"kernel", row.kernel},
+            {"mode", row.mode},
+            {"isa", row.isa},
+            {"held", row.held},
+            {"rays", row.rays},
+            {"hits", row.hits},
+            {"undecided", row.undecided},
+            {"wrong", row.wrong},
+            {"lost", row.lost},
+            {"false_hits", row.false_hits},
+            {"wrong_object", row.wrong_object},
+            {"wrong_root", row.wrong_root},
+            {"any_hit_wrong", row.occluded},
+            {"first_of_all_wrong", row.order},
+            {"not_closed", row.not_closed},
+            {"wrong_beyond_own_band", row.beyond_own_band},
+            {"not_finite", row.not_finite},
+            {"no_normal", row.no_normal},
+            {"wrong_side", row.wrong_side},
+            {"t_beyond_ulp", row.t_beyond},
+            {"t_beyond_half_ulp", row.t_beyond_half},
+            {"t_at_doubles_limit", row.t_at_limit},
+            {"ulp", spread_json(row.ulp)},
+            {"normal_error", spread_json(row.normal)},
+            {"normal_beyond_1e-6", row.normal_beyond},
+            {"rho", row.rho},
+            {"distance_roundoffs", row.distance},
+            {"second_rays", row.second_rays},
+            {"self_hits", row.self_hits},
+            {"second_lost", row.second_lost},
+            {"second_inexact", row.second_inexact},
+            {"second_error", spread_json(row.second)},
+            {"bounds", row.bounds},
+            {"bounds_missed", row.bounds_missed},
+            {"bounds_ulp", spread_json(row.bounds_ulp)},
+            {"ns_per_ray", row.ns},
+            {"pareto", row.pareto},
+            {"first_wrong", row.example},
+            {"faults", row.faults}};
+}
+
+void print_rows(const std::vector<StressRow>& rows)
+{
+    TextTable table = make_table();
+    for (const StressRow& row : rows)
+        add_row(table, row);
+    table.print(std::cout);
+}
+
+/// One line for each row that has faults, and its first wrong ray.
+void print_faults(const std::vector<StressRow>& rows)
+{
+    for (const StressRow& row : rows) {
+        if (row.faults.empty())
+            continue;
+        std::cout << row.family << ", " << row.precision << ' ' << row.mode << " (" << row.isa
+                  << "): ";
+        for (std::size_t i = 0; i < row.faults.size(); ++i)
+            std::cout << (i == 0 ? "" : ", ") << row.faults[i];
+        std::cout << '\n';
+        if (!row.example.empty())
+            std::cout << "    " << row.example << '\n';
+    }
+}
+
+void print_json(const StressArguments& arguments, const std::vector<StressRow>& rows)
+{
+    const lab::StressOptions& options = arguments.options;
+    nlohmann::ordered_json json;
+    if (arguments.shard)
+        json["shard"] = *arguments.shard;
+    json["seed"] = options.seed;
+    json["rays_per_family"] = options.rays;
+    json["verdict"] = lab::stress_verdict(rows);
+    json["rows"] = nlohmann::ordered_json::array();
+    for (const StressRow& row : rows)
+        json["rows"].push_back(row_json(row));
+    std::cout << json_text(json);
+}
+
+/// The first wrong ray of each row and its scene, for `packtrace intersect`.
+void write_cases(const std::filesystem::path& folder, const std::vector<StressRow>& rows)
+{
+    for (const StressRow& row : rows) {
+        if (row.example.empty())
+            continue;
+        std::string name = row.family + "-" + row.precision + "-" + row.kernel;
+        for (const std::string& part : {row.mode, row.isa.substr(0, row.isa.find(' '))})
+            name += part.empty() ? "" : "-" + part;
+        AtomicFile scene(folder / (name + ".scene"));
+        scene.write("# " + row.example + "\n" + row.example_scene);
+        scene.commit();
+        AtomicFile rays(folder / (name + ".csv"));
+        rays.write("ox,oy,oz,dx,dy,dz,t_min,t_max\n" + row.example_ray + "\n");
+        rays.commit();
+    }
+}
+
+}  // namespace
+
+void print_stress_families()
+{
+    TextTable table(2, {"family", "rays"});
+    for (const auto& family : lab::list_stress_families())
+        table.add({family.name, family.what});
+    table.print(std::cout);
+}
+
+void print_stress(const StressArguments& arguments, const std::vector<StressRow>& rows)
+{
+    if (arguments.cases)
+        write_cases(*arguments.cases, rows);
+    if (arguments.json)
+        return print_json(arguments, rows);
+    print_rows(rows);
+    print_faults(rows);
+    std::cout << lab::stress_verdict(rows) << '\n';
+}
+
+}  // namespace packtrace::cli

@@ -1,0 +1,103 @@
+#include <chrono>
+#include <memory>
+#include <vector>
+
+#include "cli/interrupts.hpp"
+#include "cli/options/thread_limit.hpp"
+#include "cli/study/stress_output.hpp"
+#include "lab/stress/stress_verdict.hpp"
+#include "mpi/commands.hpp"
+#include "mpi/job_report.hpp"
+#include "mpi/quiet_node.hpp"
+#include "mpi/shared_scene.hpp"
+#include "mpi/study/study_wire.hpp"
+
+namespace packtrace::mpi {
+namespace {
+
+using lab::StressOptions;
+using lab::StressRow;
+
+std::vector<StressRow> rows_of(const StressOptions& part)
+{
+    std::vector<StressRow> rows;
+    lab::run_stress(part, [&](const std::vector<StressRow>& some) {
+        rows.insert(rows.end(), some.begin(), some.end());
+    });
+    return rows;
+}
+
+/// Runs all parts. Returns the rows on rank 0.
+std::vector<StressRow> run_parts(const World& world, std::vector<StressOptions> parts,
+                                 std::vector<RankReport>& reports)
+{
+    const QuietNode node;
+    for (StressOptions& part : parts)
+        part.alone = [&](const std::function<void()>& timed) { node.alone(timed); };
+    const auto make = [&](int number, RankReport& report) {
+        WireWriter wire;
+        node.side_by_side([&] {
+            const std::vector<StressRow> rows = rows_of(parts[static_cast<std::size_t>(number)]);
+            for (const StressRow& row : rows)
+                report.rays += row.rays;
+            wire(rows);
+        });
+        Piece piece;
+        piece.bytes = std::move(wire.bytes);
+        return piece;
+    };
+    std::vector<StressRow> all;
+    const int count = static_cast<int>(parts.size());
+    Job job(world, count, count);
+    reports = job.run(make, [&](const Piece& piece) {
+        std::vector<StressRow> rows;
+        WireReader wire(piece.bytes);
+        wire(rows);
+        all.insert(all.end(), rows.begin(), rows.end());
+    });
+    return all;
+}
+
+void run_stress_on_ranks(const World& world, const cli::StressArguments& arguments)
+{
+    if (arguments.list) {
+        if (world.is_first())
+            cli::print_stress_families();
+        return;
+    }
+    const auto start = std::chrono::steady_clock::now();
+    std::vector<StressOptions> parts;
+    world.together([&] { parts = lab::stress_parts(cli::stress_options(arguments)); });
+    check_same_isas(world,
+                    arguments.isa ? std::vector{parts.front().isa} : std::vector<std::string>());
+    if (world.is_first())
+        cli::set_interrupt_line(
+            "packtrace-mpi: the job ended before all families were run; start it again");
+    const cli::ThreadLimit limit(arguments.threads, 2);
+    std::vector<RankReport> reports;
+    const std::vector<StressRow> rows = run_parts(world, std::move(parts), reports);
+    cli::set_interrupt_line("");
+    world.together([&] {
+        if (world.is_first())
+            cli::print_stress(arguments, rows);
+    });
+    print_report(world, {}, false, "stress", "families in one precision", reports,
+                 std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count());
+    int failed = lab::without_faults(rows) ? 0 : 1;
+    MPI_Bcast(&failed, 1, MPI_INT, 0, MPI_COMM_WORLD);
+    if (failed != 0)
+        throw JobFailed{};
+}
+
+}  // namespace
+
+void add_stress(CLI::App& app, const World& world)
+{
+    CLI::App* command = app.add_subcommand(
+        "stress", "Hold the kernels against extreme rays, families shared by all ranks");
+    const auto arguments = std::make_shared<cli::StressArguments>();
+    cli::add_stress_options(*command, *arguments);
+    command->callback([arguments, &world] { run_stress_on_ranks(world, *arguments); });
+}
+
+}  // namespace packtrace::mpi

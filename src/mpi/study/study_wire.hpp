@@ -1,0 +1,61 @@
+#pragma once
+
+#include <type_traits>
+
+#include "lab/report/report_study.hpp"
+#include "lab/stress/stress.hpp"
+#include "mpi/wire.hpp"
+
+// What ranks send each other of reports and stress tests.
+namespace packtrace {
+
+template <class Wire, class Share>
+requires std::is_same_v<std::remove_const_t<Share>, ErrorShare>
+void each_field(Wire& wire, Share& share)
+{
+    wire(share.kind, share.meaning, share.pixels, share.squared_error);
+}
+
+template <class Wire, class Error>
+requires std::is_same_v<std::remove_const_t<Error>, Comparison>
+void each_field(Wire& wire, Error& error)
+{
+    wire(error.max_abs, error.rmse, error.psnr, error.pixels, error.pixels_off, error.worst);
+}
+
+template <class Wire, class Picture>
+requires std::is_same_v<std::remove_const_t<Picture>, Image<double>>
+void each_field(Wire& wire, Picture& picture)
+{
+    wire(picture.width, picture.height, picture.rgb);
+}
+
+/// All but the variant, which rank 0 knows, and what follows from other runs.
+template <class Wire, class Look>
+requires std::is_same_v<std::remove_const_t<Look>, StudyLook>
+void each_field(Wire& wire, Look& look)
+{
+    wire(look.run.rays, look.run.cut, look.run.error, look.run.looked_at, look.run.looked_at_off,
+         look.run.shares, look.picture);
+}
+
+}  // namespace packtrace
+
+namespace packtrace::lab {
+
+/// All of a row.
+template <class Wire, class Row>
+requires std::is_same_v<std::remove_const_t<Row>, StressRow>
+void each_field(Wire& wire, Row& row)
+{
+    wire(row.family, row.precision, row.kernel, row.mode, row.isa, row.held, row.rays, row.hits,
+         row.undecided, row.wrong, row.lost, row.false_hits, row.wrong_object, row.wrong_root,
+         row.occluded, row.order, row.not_closed, row.beyond_own_band, row.not_finite,
+         row.no_normal, row.wrong_side, row.t_beyond, row.t_beyond_half, row.t_at_limit,
+         row.normal_beyond, row.ulp, row.normal, row.rho, row.distance, row.second_rays,
+         row.self_hits, row.second_lost, row.second_inexact, row.second, row.bounds,
+         row.bounds_missed, row.bounds_ulp, row.ns, row.pareto, row.example_scene, row.example_ray,
+         row.example, row.faults);
+}
+
+}  // namespace packtrace::lab
