@@ -2,6 +2,7 @@
 
 #include <pybind11/numpy.h>
 
+#include <algorithm>
 #include <array>
 #include <cstddef>
 #include <cstdint>
@@ -38,7 +39,9 @@ template <class Real>
 
 /// How many rays are sorted into columns at a time, and traced at a time where they need not be.
 inline constexpr std::size_t gathered_rays = 4096;
-inline constexpr std::size_t direct_rays = 16384;
+inline constexpr std::size_t direct_rays = 65536;
+/// Where a column is one number for all rays: written once, it has to stay in the cache.
+inline constexpr std::size_t constant_rays = 16384;
 
 /// Columns of `count` elements, of which blocks are asked for. A column that is contiguous is used
 /// where it is, one that is the same for all rays is written once, others are gathered.
@@ -53,6 +56,8 @@ public:
         for (const Column& source : sources_)
             if (source.stride != 0 && !is_contiguous<Real>(source))
                 block_ = gathered_rays;
+            else if (source.stride == 0 && source.data != nullptr)
+                block_ = std::min(block_, constant_rays);
         for (std::size_t i = 0; i < columns; ++i)
             if (sources_[i].stride == 0 && sources_[i].data != nullptr)
                 constant_[i].assign(block_, element(sources_[i], 0));
@@ -115,11 +120,29 @@ private:
             to[axis] = room(x + axis, buffer);
         }
         const std::ptrdiff_t stride = sources_[x].stride;
+        constexpr std::ptrdiff_t size = sizeof(Real);
+        if (stride == 3 * size && from[1] == from[0] + size && from[2] == from[1] + size &&
+            reinterpret_cast<std::uintptr_t>(from[0]) % alignof(Real) == 0)
+            return split_vectors(reinterpret_cast<const Real*>(from[0]), count, to);
         for (std::size_t i = 0; i < count; ++i) {
             const std::ptrdiff_t at = static_cast<std::ptrdiff_t>(i) * stride;
             std::memcpy(to[0] + i, from[0] + at, sizeof(Real));
             std::memcpy(to[1] + i, from[1] + at, sizeof(Real));
             std::memcpy(to[2] + i, from[2] + at, sizeof(Real));
+        }
+    }
+
+    /// Of vectors one right behind the other, as most arrays (n, 3) are: their distance is known
+    /// to the compiler.
+    static void split_vectors(const Real* from, std::size_t count, Real* const (&to)[3])
+    {
+        Real* const x = to[0];
+        Real* const y = to[1];
+        Real* const z = to[2];
+        for (std::size_t i = 0; i < count; ++i) {
+            x[i] = from[3 * i];
+            y[i] = from[3 * i + 1];
+            z[i] = from[3 * i + 2];
         }
     }
 

@@ -161,11 +161,10 @@ std::size_t first_faulty(std::size_t count, const IsFaulty& is_faulty)
     return first;
 }
 
-/// Whether two objects have the same faults of looks, if any. False is always right.
-bool looks_like(const Object& object, const Object& other)
+/// Whether an object's material has no fault if the other's has none. False is always right.
+bool shares_material(const Object& object, const Object& other)
 {
-    return object.name.empty() && other.name.empty() && !object.material.checker &&
-           !other.material.checker && object.material == other.material;
+    return !object.material.checker && object.material == other.material;
 }
 
 std::optional<SceneFault> fault_of_objects(const Scene& scene)
@@ -174,8 +173,9 @@ std::optional<SceneFault> fault_of_objects(const Scene& scene)
         const Object& object = scene.objects[i];
         if (fault_of_shape(object))
             return true;
-        return !(i > 0 && looks_like(object, scene.objects[i - 1])) &&
-               fault_of_looks(object, scene.illumination).has_value();
+        if (i > 0 && shares_material(object, scene.objects[i - 1]))
+            return !object.name.empty() && name().check("name", object.name).has_value();
+        return fault_of_looks(object, scene.illumination).has_value();
     });
     if (first == scene.objects.size())
         return std::nullopt;
