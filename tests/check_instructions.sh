@@ -36,7 +36,7 @@ sse42 | host)
         failed=1
     fi
     ;;
-sse_fma | avx2 | avx512 | library)
+one_lane | sse_fma | avx2 | avx512 | library)
     if [ "$fused" = 0 ]; then
         echo "$name: no fused operation found; is objdump's output understood?"
         failed=1

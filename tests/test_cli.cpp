@@ -191,7 +191,7 @@ TEST_CASE("wrong use exits 2 with one line and leaves no file", "[cli]")
         {{"render", four_spheres, "-o", out, "--isa", "mmx"},
          "--isa: unknown instruction set 'mmx'"},
         {{"render", four_spheres, "-o", out, "--isa", ""}, "--isa: unknown instruction set ''"},
-        {{"render", four_spheres, "-o", out, "--width", "5"}, "'5' is not 4, 8 or 16"},
+        {{"render", four_spheres, "-o", out, "--width", "5"}, "'5' is not 1, 4, 8 or 16"},
         {{"render", four_spheres, "-o", out, "--kernel", "scalar", "--isa", "auto"},
          "--isa: only packets have one"},
         {{"render", four_spheres, "-o", out, "--kernel", "scalar", "--width", "4"},

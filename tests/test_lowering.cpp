@@ -189,7 +189,8 @@ TEST_CASE("a light's own view of many spheres costs a few hundred bytes a sphere
 {
     constexpr int count = 50'000;
     for (const double radius : {0.001, 0.01}) {
-        Scene scene = generate_random_spheres({.count = count, .radius = radius});
+        Scene scene =
+            generate_random_spheres({.count = count, .radius = radius, .reflective = 0.3});
         test::set_size(scene, 64, 64);
         const std::size_t few = Renderer<float>(scene, {}).scene_bytes();
         test::set_size(scene, 1024, 1024);

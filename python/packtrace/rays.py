@@ -96,7 +96,7 @@ class RayScene:
 
     kernel: "packet", or "scalar" for the reference.
     isa: instruction set of the packet kernel, see `packtrace.isas()`; "auto" takes the widest.
-    lanes: 4, 8 or 16 rays of floats in a packet; 0 is any.
+    lanes: 1, 4, 8 or 16 rays of floats in a packet; 0 is any.
     accuracy: "exact", or "fast" for single precision alone in rays of float32.
     self_hits: "exact", or "note" for rays that start 0.001 along their direction.
     traversal: "auto", "list" or "tree".

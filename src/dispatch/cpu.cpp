@@ -17,11 +17,11 @@ bool cpu_runs(std::string_view isa)
                         __builtin_cpu_supports("avx512bw") && __builtin_cpu_supports("avx512vl");
     if (isa == "sse42")
         return sse42;
-    if (isa == "sse_fma" || isa == "avx2")
+    if (isa == "one_lane" || isa == "sse_fma" || isa == "avx2")
         return avx2;
     return isa == "avx512" && avx512;
 #else
-    return isa == "neon64";
+    return isa == "one_lane" || isa == "neon64";
 #endif
 }
 

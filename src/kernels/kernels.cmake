@@ -57,7 +57,12 @@ function(packtrace_kernel isa lanes)
     set(PACKTRACE_KERNELS ${PACKTRACE_KERNELS} ${isa} CACHE INTERNAL "")
 endfunction()
 
+# The same kernels in packets of one lane, which no compiler makes wider: what lanes give is told
+# apart from what the algorithm gives.
+set(not_vectorised -fno-tree-vectorize -fno-tree-slp-vectorize)
+
 if(CMAKE_SYSTEM_PROCESSOR MATCHES "x86_64|AMD64")
+    packtrace_kernel(one_lane 1 -mavx2 -mfma -mbmi -mbmi2 -mpopcnt ${not_vectorised})
     packtrace_kernel(sse42 4 -msse4.2 -mpopcnt)
     packtrace_kernel(sse_fma 4 -mavx2 -mfma -mbmi -mbmi2 -mpopcnt)
     packtrace_kernel(avx2 8 -mavx2 -mfma -mbmi -mbmi2 -mpopcnt)
@@ -65,6 +70,7 @@ if(CMAKE_SYSTEM_PROCESSOR MATCHES "x86_64|AMD64")
                      -mavx2 -mfma -mbmi -mbmi2 -mpopcnt -mprefer-vector-width=512)
 elseif(CMAKE_SYSTEM_PROCESSOR MATCHES "aarch64|arm64")
     # GCC notes that it passes some structs otherwise than GCC 9 did.
+    packtrace_kernel(one_lane 1 -Wno-psabi ${not_vectorised})
     packtrace_kernel(neon64 4 -Wno-psabi)
 else()
     message(FATAL_ERROR "packtrace: no kernels for ${CMAKE_SYSTEM_PROCESSOR}; "

@@ -10,7 +10,7 @@
 namespace packtrace::PACKTRACE_ISA {
 namespace {
 
-inline constexpr int register_words = PACKTRACE_LANES / 2;
+inline constexpr int register_words = (PACKTRACE_LANES + 1) / 2;
 
 /// Words of 64 bits; as many bits as the instruction set has in a register.
 typedef std::uint64_t vbits __attribute__((vector_size(register_words * sizeof(std::uint64_t))));

@@ -80,6 +80,32 @@ void print_table(const std::vector<DemoEntry>& entries)
     table.print(std::cout);
 }
 
+/// What the widest packets gain over the reference, told apart: the same kernels one lane at a time
+/// have the algorithm and no SIMD.
+void print_split(const std::vector<DemoEntry>& entries)
+{
+    for (const bool single : {false, true}) {
+        const DemoEntry* one = nullptr;
+        const DemoEntry* widest = nullptr;
+        for (const DemoEntry& entry : entries) {
+            if (!entry.packet || entry.single != single || entry.threads != 1)
+                continue;
+            widest = &entry;
+            if (entry.lanes == 1)
+                one = &entry;
+        }
+        if (one == nullptr || widest == one)
+            continue;
+        const double alone = median_of(one->seconds);
+        const double all = median_of(widest->seconds);
+        std::cout << (single ? "single" : "double") << ": " << widest->lanes << " lanes are "
+                  << fixed(alone / all, 2)
+                  << " times as fast as the same kernels with one, which are "
+                  << fixed(median_of(scalar_of(*one, entries).seconds) / alone, 2)
+                  << " times as fast as the reference\n";
+    }
+}
+
 void write_pictures(const std::filesystem::path& folder, const std::string& stem,
                     const std::vector<DemoEntry>& entries)
 {
@@ -106,6 +132,8 @@ void run_demo(const DemoArguments& arguments)
               << ", median of " << arguments.rounds
               << " renders; errors against the scalar reference in double\n\n";
     print_table(entries);
+    std::cout << '\n';
+    print_split(entries);
     std::cout << '\n';
     write_pictures(arguments.folder, input.stem, entries);
 }

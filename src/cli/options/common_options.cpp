@@ -85,8 +85,8 @@ void add_isa_options(CLI::App& command, IsaArguments& arguments)
         ->type_name("NAME");
     command
         .add_option("--width", arguments.width,
-                    "Lanes of a packet of floats: 4, 8 or 16 (default any)")
-        ->check(one_of({"4", "8", "16"}))
+                    "Lanes of a packet of floats: 1, 4, 8 or 16 (default the most)")
+        ->check(one_of({"1", "4", "8", "16"}))
         ->type_name("N");
 }
 

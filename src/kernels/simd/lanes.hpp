@@ -8,17 +8,28 @@
 #include <cstddef>
 #include <cstdint>
 
-#include <xsimd/xsimd.hpp>
-
 #include "kernel_abi/lists.hpp"
 
 #if !defined(PACKTRACE_ISA) || !defined(PACKTRACE_LANES)
 #error "kernel sources are compiled once per instruction set; see kernels.cmake"
 #endif
 
+#if PACKTRACE_LANES == 1
+#include "kernels/simd/native/one_lane.hpp"
+#else
+#include <xsimd/xsimd.hpp>
+#endif
+
 namespace packtrace::PACKTRACE_ISA {
 namespace {
 
+#if PACKTRACE_LANES == 1
+template <class T>
+using batch = OneLane<T>;
+template <class T>
+using batch_bool = OneMask<T>;
+namespace operations = one_lane_operations;
+#else
 #if defined(__aarch64__)
 using Arch = xsimd::neon64;
 #elif PACKTRACE_LANES == 16
@@ -28,19 +39,26 @@ using Arch = xsimd::fma3<xsimd::avx2>;
 #else
 using Arch = xsimd::sse4_2;
 #endif
+// Template functions cannot deduce a Real through vreal<Real>, so they take the batch itself.
+template <class T>
+using batch = xsimd::batch<T, Arch>;
+template <class T>
+using batch_bool = xsimd::batch_bool<T, Arch>;
+namespace operations = xsimd;
+#endif
 
 // The lane types. A mask is not a vector; a packet of doubles has half the lanes of one of
-// floats, and its integers are as wide as its reals.
+// floats, but for one lane, and its integers are as wide as its reals.
 
 template <class Real>
 using lane_int = abi::lane_int<Real>;
 
 template <class Real>
-using vreal = xsimd::batch<Real, Arch>;
+using vreal = batch<Real>;
 template <class Real>
-using vint = xsimd::batch<lane_int<Real>, Arch>;
+using vint = batch<lane_int<Real>>;
 template <class Real>
-using vmask = xsimd::batch_bool<Real, Arch>;
+using vmask = batch_bool<Real>;
 
 template <class Real>
 inline constexpr int lanes = static_cast<int>(vreal<Real>::size);
@@ -49,7 +67,7 @@ inline constexpr int lanes = static_cast<int>(vreal<Real>::size);
 template <class Real>
 inline constexpr std::uint32_t all_lanes = (1u << lanes<Real>)-1u;
 
-static_assert(lanes<float> == PACKTRACE_LANES && lanes<double> == PACKTRACE_LANES / 2);
+static_assert(lanes<float> == PACKTRACE_LANES && lanes<double> == (PACKTRACE_LANES + 1) / 2);
 
 }  // namespace
 }  // namespace packtrace::PACKTRACE_ISA

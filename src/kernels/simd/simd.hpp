@@ -4,7 +4,9 @@
 // and whatever differs between its versions, is in native/.
 
 #include "kernels/simd/lanes.hpp"
-#if defined(__aarch64__)
+#if PACKTRACE_LANES == 1
+#include "kernels/simd/native/one.hpp"
+#elif defined(__aarch64__)
 #include "kernels/simd/native/neon64.hpp"
 #elif PACKTRACE_LANES == 16
 #include "kernels/simd/native/avx512.hpp"
@@ -16,12 +18,6 @@
 
 namespace packtrace::PACKTRACE_ISA {
 namespace {
-
-// Template functions cannot deduce a Real through vreal<Real>, so they take the batch itself.
-template <class Real>
-using batch = xsimd::batch<Real, Arch>;
-template <class Real>
-using batch_bool = xsimd::batch_bool<Real, Arch>;
 
 template <class Real>
 inline vreal<Real> load(const Real* from)
@@ -53,42 +49,42 @@ inline void compress_store(lane_int<double>* to, std::uint32_t pattern, vint<dou
 template <class Real>
 inline batch<Real> select(batch_bool<Real> active, batch<Real> a, batch<Real> b)
 {
-    return xsimd::select(active, a, b);
+    return operations::select(active, a, b);
 }
 
 inline vint<float> select(vmask<float> active, vint<float> a, vint<float> b)
 {
-    return as_int(xsimd::select(active, as_real(a), as_real(b)));
+    return as_int(operations::select(active, as_real(a), as_real(b)));
 }
 inline vint<double> select(vmask<double> active, vint<double> a, vint<double> b)
 {
-    return as_int(xsimd::select(active, as_real(a), as_real(b)));
+    return as_int(operations::select(active, as_real(a), as_real(b)));
 }
 
 /// b where b < a, else a: with a NaN in either the result is a.
 template <class Real>
 inline batch<Real> min(batch<Real> a, batch<Real> b)
 {
-    return xsimd::select(b < a, b, a);
+    return operations::select(b < a, b, a);
 }
 
 /// b where b > a, else a: with a NaN in either the result is a.
 template <class Real>
 inline batch<Real> max(batch<Real> a, batch<Real> b)
 {
-    return xsimd::select(b > a, b, a);
+    return operations::select(b > a, b, a);
 }
 
 template <class Real>
 inline batch<Real> sqrt(batch<Real> x)
 {
-    return xsimd::sqrt(x);
+    return operations::sqrt(x);
 }
 
 template <class Real>
 inline batch<Real> abs(batch<Real> x)
 {
-    return xsimd::abs(x);
+    return operations::abs(x);
 }
 
 /// -x by its sign bit: xsimd's own is 0 - x with AVX-512, which gives +0 for +0.
@@ -109,7 +105,7 @@ inline batch<Real> with_sign_of(batch<Real> magnitude, batch<Real> sign)
 template <class Real>
 inline batch<Real> floor(batch<Real> x)
 {
-    return xsimd::floor(x);
+    return operations::floor(x);
 }
 
 template <class Real>

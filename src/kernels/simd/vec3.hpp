@@ -110,7 +110,7 @@ inline Vec3v<float> narrow(const Vec3v<double>& low, const Vec3v<double>& high)
 /// The bit pattern of a packet of floats from those of its halves.
 inline std::uint32_t narrow_bits(std::uint32_t low, std::uint32_t high)
 {
-    return low | (high << lanes<double>);
+    return (low | (high << lanes<double>)) & all_lanes<float>;
 }
 
 }  // namespace

@@ -91,6 +91,11 @@ inline void fill_pixels(TilePixelColors<Real>& pixels, const Real (&color)[3])
     for (int i = 0; i < pixel_elements * lanes<Real>; ++i)
         pattern[i] = i % pixel_elements < 3 ? color[i % pixel_elements] : Real(0);
     const vreal<Real> values = load(pattern);
+    if constexpr (lanes<Real> == 1) {
+        for (int i = 0; i < pixel_elements * abi::tile_pixels; ++i)
+            pixels[i] = pattern[i % pixel_elements];
+        return;
+    }
     constexpr int step = lanes<Real> >= 4 ? lanes<Real> : 2;
     const vreal<Real> more = load(pattern + step % pixel_elements);
     for (int i = 0; i < pixel_elements * abi::tile_pixels; i += 2 * step) {
