@@ -491,6 +491,11 @@ TEST_CASE("demo renders with every kernel and writes the picture", "[cli]")
     CHECK(rows("scalar  single") == 1);
     CHECK(rows("packet  double") == supported);
     CHECK(rows("packet  single") == supported + 1);
+    const std::vector<IsaInfo> isas = list_isas();
+    if (isas.front().lanes_single == 1 && isas.front().supported && supported > 1)
+        CHECK_THAT(result.out, ContainsSubstring(" lanes are ") &&
+                                   ContainsSubstring(
+                                       " times as fast as the same kernels with one, which are "));
     CHECK(read_image(folder / "out/four_spheres.png").width == 64);
     CHECK_THAT(result.out, ContainsSubstring((folder / "out/four_spheres.png").string()));
 }
