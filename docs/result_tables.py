@@ -189,6 +189,32 @@ def scaling_pixels(report):
                  rows, 0)
 
 
+# What lanes give and what the algorithm gives: bench.json
+
+def lanes(report):
+    context = report["context"]
+    times = {}
+    for run in report["benchmarks"]:
+        if run["run_type"] == "iteration" and "/threads:1/" in run["run_name"]:
+            family, kernel, precision = run["run_name"].split("/")[:3]
+            if family == "frame":
+                times.setdefault((precision, kernel), []).append(run["real_time"])
+    order = ("scalar", "one_lane", "sse42", "sse_fma", "avx2", "avx512")
+    rows = []
+    for precision in ("float", "double"):
+        one = statistics.median(times[precision, "one_lane"])
+        reference = statistics.median(times[precision, "scalar"])
+        for kernel in order:
+            if (precision, kernel) not in times:
+                continue
+            here = statistics.median(times[precision, kernel])
+            rows.append([precision, "reference" if kernel == "scalar" else f"`{kernel}`", digits(here),
+                         f"{reference / here:.2f}",
+                         "–" if kernel == "scalar" else spread([one / t for t in times[precision, kernel]])])
+    return f"Commit {context['commit']}, {context['processor']}.\n\n" + table(
+        ["precision", "kernels", "frame, ms", "× reference", "× one lane"], rows, 2)
+
+
 # features.json, stress_exact.json, stress.json
 
 def features(report):
@@ -236,6 +262,7 @@ TABLES = {
     "results/exact_cost.json: ranges": exact_cost_ranges,
     "results/scaling.json: objects": scaling_objects,
     "results/scaling.json: pixels": scaling_pixels,
+    "results/bench.json: lanes": lanes,
     "results/features.json: scenes": features,
     "results/stress_exact.json: verdict": stress_exact,
     "results/stress.json: textbook": stress_textbook,
