@@ -78,8 +78,9 @@ uses() {
     local name=$1 way=$2
     shift 2
     step "a program by $way"
-    inside "$name" sh -ec 'cp -r /packtrace/tests/consumer /user; cmake -S /user -B /user/build "$@" &&
-        cmake --build /user/build && /user/build/consumer; rm -rf /user' user -DWAY="$way" "$@"
+    inside "$name" sh -ec 'rm -rf /user; cp -r /packtrace/tests/consumer /user
+        cmake -S /user -B /user/build "$@"; cmake --build /user/build; /user/build/consumer' \
+        user -DWAY="$way" "$@"
 }
 
 uses_pkg_config() {

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "core/aligned_array.hpp"
+#include "kernel_abi/bvh_view.hpp"
 #include "kernel_abi/light_buffer.hpp"
 #include "kernel_abi/lists.hpp"
 #include "kernel_abi/shading.hpp"
