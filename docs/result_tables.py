@@ -215,6 +215,41 @@ def lanes(report):
         ["precision", "kernels", "frame, ms", "× reference", "× one lane"], rows, 2)
 
 
+# Many ranks: cluster.json
+
+SHOWN_RANKS = (2, 8, 32, 128, 512, 1024, 4096)
+
+
+def cluster_models(report):
+    rows = []
+    for study in report["studies"]:
+        speedups = {run["ranks"]: run["speedup"] for run in study["runs"]}
+        rows.append([study["name"], digits(1e3 * study["piece_seconds"]), digits(1e3 * study["write_seconds"]),
+                     *(digits(speedups[ranks]) for ranks in SHOWN_RANKS), str(study.get("scales_to", "all")),
+                     study.get("why", "–")])
+    head = ["job", "a piece, ms", "to write it, ms", *(str(ranks) for ranks in SHOWN_RANKS), "scales to",
+            "why not further"]
+    costs = report["costs"]
+    return (f"Commit {report['commit']}, {report['machine']}. Latency {digits(1e6 * costs['latency'])} µs, "
+            f"{digits(1e-9 * costs['bytes_per_second'])} GB/s, a number of the counter "
+            f"{digits(1e6 * costs['counter_seconds'])} µs on rank 0 and {digits(1e6 * costs['ask_seconds'])} µs besides.\n\n"
+            + table(head, rows))
+
+
+def cluster_efficiency(report):
+    race = report["efficiency"]
+    ratio = race["ranks_over_process"]
+    seconds = race["seconds"]
+    return (f"Commit {report['commit']}, {report['machine']}: `{race['scene']}` at {race['size']} x {race['size']}, "
+            f"{race['repetitions']} runs by turns.\n\n"
+            + table(["", "seconds"],
+                    [["one process, two threads", digits(statistics.median(seconds["process"]))],
+                     ["two ranks, one thread each", digits(statistics.median(seconds["ranks"]))],
+                     ["the second over the first", f"{ratio['median']:.3f} ({ratio['lowest']:.3f} … {ratio['highest']:.3f})"],
+                     ["what the model says of the ranks", digits(report["model_of_race_seconds"])]])
+            + f"\n\nRank 1 sent {race['bytes_a_sent_pixel']:.2f} bytes for each of its pixels.")
+
+
 # features.json, stress_exact.json, stress.json
 
 def features(report):
@@ -263,6 +298,8 @@ TABLES = {
     "results/scaling.json: objects": scaling_objects,
     "results/scaling.json: pixels": scaling_pixels,
     "results/bench.json: lanes": lanes,
+    "results/cluster.json: models": cluster_models,
+    "results/cluster.json: efficiency": cluster_efficiency,
     "results/features.json: scenes": features,
     "results/stress_exact.json: verdict": stress_exact,
     "results/stress.json: textbook": stress_textbook,

@@ -9,6 +9,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "../bench/cluster/job_model.hpp"
 #include "catch.hpp"
 #include "killed_program.hpp"
 #include "mpi/hand_out.hpp"
@@ -249,6 +250,47 @@ TEST_CASE("messages hold values of all kinds", "[mpi]")
         mpi::WireReader cut(part);
         CHECK_THROWS_AS(cut(read_words, read_numbers, read_flag), std::runtime_error);
     }
+}
+
+TEST_CASE("the model of a job keeps all parts busy that it can", "[mpi]")
+{
+    const auto seconds = [](bench::ModelJob job) {
+        const bench::ModelRun run = bench::JobModel(job).run();
+        CHECK(run.working == Approx(job.pieces * job.work(0)).margin(1e-6));
+        // Nothing is faster than its busiest part.
+        CHECK(run.seconds >= run.working / job.ranks - 1e-9);
+        CHECK(run.seconds >= run.writer_busy - 1e-9);
+        CHECK(run.seconds >= run.link_busy - 1e-9);
+        CHECK(run.seconds >= run.counter_busy - 1e-9);
+        return run.seconds;
+    };
+    bench::ModelJob job;
+    job.pieces = 1000;
+    job.work = [](int) { return 0.01; };
+    job.piece_bytes = 1e6;
+    job.bytes_per_second = 1e12;
+    CHECK(seconds(job) == Approx(10.0).margin(1e-3));
+    for (const int ranks : {2, 4, 8, 100}) {
+        CAPTURE(ranks);
+        job.ranks = ranks;
+        CHECK(seconds(job) == Approx(10.0 / ranks).margin(1e-2));
+    }
+    // One part that all wait for: the writer, the link, the counter.
+    bench::ModelJob slow = job;
+    slow.write = 0.001;
+    CHECK(seconds(slow) == Approx(1.0).margin(0.02));
+    slow = job;
+    slow.bytes_per_second = 1e9;
+    CHECK(seconds(slow) == Approx(1.0).margin(0.03));
+    slow = job;
+    slow.counter = 0.002;
+    CHECK(seconds(slow) == Approx(2.0).margin(0.3));
+    // Frames stay where they are made. No rank makes half a frame.
+    job.piece_bytes = 0.0;
+    job.ranks = 600;
+    CHECK(seconds(job) == Approx(0.02).margin(1e-6));
+    job.ranks = 4096;
+    CHECK(seconds(job) == Approx(0.01).margin(1e-6));
 }
 
 #ifdef PACKTRACE_MPI

@@ -1,0 +1,140 @@
+// packtrace_cluster: what results/cluster.py fits its model of many ranks by, and the model. Both
+// print JSON.
+#include <chrono>
+#include <exception>
+#include <iostream>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include <CLI/CLI.hpp>
+#include <nlohmann/json.hpp>
+#include <packtrace/read_scene.hpp>
+
+#include <tbb/global_control.h>
+
+#include "cli/render/band_source.hpp"
+#include "cli/render/render_bands.hpp"
+#include "job_model.hpp"
+
+namespace packtrace::bench {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+template <class Work>
+double seconds_of(const Work& work)
+{
+    const auto start = std::chrono::steady_clock::now();
+    work();
+    return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+}
+
+struct BandArguments {
+    std::string scene;
+    std::string output;
+    int size = 16384;
+    int bands = 64;
+};
+
+/// Renders some bands of a picture, spread over it, on one thread. Writes them, again and again, as
+/// a file so large that its rows are written one by one.
+Json measure_bands(const BandArguments& arguments)
+{
+    Scene scene = read_scene(arguments.scene);
+    scene.width = scene.height = arguments.size;
+    const tbb::global_control one(tbb::global_control::max_allowed_parallelism, 1);
+    const RowSamples samples(arguments.output, scene.width, 1.0);
+    const cli::Bands bands =
+        cli::cut_into_bands(scene.width, scene.height, samples.format(), cli::band_pixels);
+    const auto source = cli::band_source(scene, "single", {}, samples);
+    const int count = std::min(arguments.bands, bands.count());
+    const std::size_t band_bytes = samples.row_bytes() * static_cast<std::size_t>(bands.rows);
+
+    // The first one pays for memory and threads.
+    std::vector<Bytes> rendered(static_cast<std::size_t>(count), Bytes(band_bytes));
+    source->render(bands.band(0), rendered[0]);
+    Json work = Json::array();
+    for (int i = 0; i < count; ++i) {
+        const int number =
+            static_cast<int>((std::int64_t{2} * i + 1) * bands.count() / (2 * count));
+        work.push_back(seconds_of(
+            [&] { source->render(bands.band(number), rendered[static_cast<std::size_t>(i)]); }));
+    }
+
+    constexpr std::size_t beyond_whole = std::size_t{144} << 20;
+    const auto written = static_cast<int>(
+        std::max<std::size_t>(beyond_whole / band_bytes, static_cast<std::size_t>(count)));
+    const double writing = seconds_of([&] {
+        RowFile file(arguments.output, scene.width, written * bands.rows);
+        for (int i = 0; i < written; ++i)
+            file.write(rendered[static_cast<std::size_t>(i % count)]);
+        file.commit();
+    });
+    return {{"pieces", bands.count()},
+            {"band_bytes", band_bytes},
+            {"write_seconds", writing / written},
+            {"work_seconds", work}};
+}
+
+/// Runs of one job on several numbers of ranks.
+Json simulate(const Json& asked)
+{
+    const auto profile = asked.at("work_seconds").get<std::vector<double>>();
+    ModelJob job;
+    job.pieces = asked.at("pieces");
+    job.piece_bytes = asked.at("band_bytes");
+    job.write = asked.at("write_seconds");
+    job.latency = asked.at("latency");
+    job.bytes_per_second = asked.at("bytes_per_second");
+    job.ask = asked.at("ask_seconds");
+    job.counter = asked.at("counter_seconds");
+    job.work = [&](int piece) {
+        return profile[static_cast<std::size_t>(piece) * profile.size() /
+                       static_cast<std::size_t>(job.pieces)];
+    };
+    Json runs = Json::array();
+    for (const int ranks : asked.at("ranks")) {
+        job.ranks = ranks;
+        const ModelRun run = JobModel(job).run();
+        runs.push_back({{"ranks", ranks},
+                        {"seconds", run.seconds},
+                        {"working", run.working / (run.seconds * ranks)},
+                        {"writer", run.writer_busy / run.seconds},
+                        {"link", run.link_busy / run.seconds},
+                        {"counter", run.counter_busy / run.seconds}});
+    }
+    return runs;
+}
+
+int run(int argc, char** argv)
+{
+    CLI::App app("Measures bands of a picture, or simulates a job of many ranks",
+                 "packtrace_cluster");
+    app.require_subcommand(1);
+    BandArguments arguments;
+    CLI::App* bands = app.add_subcommand("bands", "Seconds to render and write bands");
+    bands->add_option("SCENE", arguments.scene)->required();
+    bands->add_option("-o", arguments.output, "Picture to write, .png or .pfm")->required();
+    bands->add_option("--size", arguments.size, "Edge of the picture in pixels");
+    bands->add_option("--bands", arguments.bands, "How many to render")->check(CLI::PositiveNumber);
+    CLI::App* model = app.add_subcommand("model", "Simulate a job that standard input describes");
+    CLI11_PARSE(app, argc, argv);
+    const Json result =
+        model->parsed() ? simulate(Json::parse(std::cin)) : measure_bands(arguments);
+    std::cout << result.dump(1) << '\n';
+    return 0;
+}
+
+}  // namespace
+}  // namespace packtrace::bench
+
+int main(int argc, char** argv)
+{
+    try {
+        return packtrace::bench::run(argc, argv);
+    } catch (const std::exception& error) {
+        std::cerr << "packtrace_cluster: " << error.what() << '\n';
+        return 1;
+    }
+}

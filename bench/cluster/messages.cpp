@@ -1,0 +1,101 @@
+// packtrace_cluster_messages: what two ranks of MPI take to talk, as JSON, for results/cluster.py.
+#include <chrono>
+#include <iostream>
+#include <vector>
+
+#include <nlohmann/json.hpp>
+
+#include "mpi/job.hpp"
+
+namespace packtrace::mpi {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+double seconds_since(Clock::time_point start)
+{
+    return std::chrono::duration<double>(Clock::now() - start).count();
+}
+
+/// A message goes from rank 0 to rank 1 and back, and so on. Seconds of one way.
+double one_way(const World& world, int bytes, int times)
+{
+    std::vector<char> text(static_cast<std::size_t>(bytes));
+    const auto go = [&] {
+        const bool first = world.is_first();
+        for (int step = 0; step < 2; ++step)
+            if ((step == 0) == first)
+                MPI_Send(text.data(), bytes, MPI_BYTE, first ? 1 : 0, 0, MPI_COMM_WORLD);
+            else
+                MPI_Recv(text.data(), bytes, MPI_BYTE, first ? 1 : 0, 0, MPI_COMM_WORLD,
+                         MPI_STATUS_IGNORE);
+    };
+    go();
+    MPI_Barrier(MPI_COMM_WORLD);
+    const auto start = Clock::now();
+    for (int i = 0; i < times; ++i)
+        go();
+    return seconds_since(start) / (2.0 * times);
+}
+
+/// Numbers that rank 1 takes while rank 0 waits within MPI, as fast as they come.
+double counter_seconds(const World& world, int times)
+{
+    Counter counter(world);
+    double seconds = 0.0;
+    if (!world.is_first()) {
+        const auto start = Clock::now();
+        for (int i = 0; i < times; ++i)
+            (void)counter.next();
+        seconds = seconds_since(start) / times;
+    }
+    MPI_Bcast(&seconds, 1, MPI_DOUBLE, 1, MPI_COMM_WORLD);
+    return seconds;
+}
+
+/// Numbers that rank 1 takes in a job, with the threads that this takes and with naps of rank 0.
+double job_seconds(const World& world, int times)
+{
+    double seconds = 0.0;
+    Job job(world, 0, 0);
+    (void)job.run([&](const Job::Next& next, RankReport&) {
+        if (world.is_first())
+            return;
+        const auto start = Clock::now();
+        for (int i = 0; i < times; ++i)
+            (void)next();
+        seconds = seconds_since(start) / times;
+    });
+    MPI_Bcast(&seconds, 1, MPI_DOUBLE, 1, MPI_COMM_WORLD);
+    return seconds;
+}
+
+void measure(const World& world, int band_bytes)
+{
+    const double latency = one_way(world, 8, 2000);
+    const double band = one_way(world, band_bytes, 100);
+    const double counter = counter_seconds(world, 2000);
+    const double job = job_seconds(world, 500);
+    if (world.is_first())
+        std::cout << nlohmann::ordered_json{{"latency", latency},
+                                            {"bytes_per_second", band_bytes / (band - latency)},
+                                            {"counter_round_trip", counter},
+                                            {"job_round_trip", job}}
+                         .dump(1)
+                  << '\n';
+}
+
+}  // namespace
+}  // namespace packtrace::mpi
+
+int main(int argc, char** argv)
+{
+    const packtrace::mpi::World world(argc, argv);
+    if (world.size() != 2 || argc != 2) {
+        if (world.is_first())
+            std::cerr << "usage: mpirun -n 2 packtrace_cluster_messages BYTES\n";
+        return 2;
+    }
+    packtrace::mpi::measure(world, std::stoi(argv[1]));
+    return 0;
+}
