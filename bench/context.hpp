@@ -6,7 +6,11 @@
 
 namespace packtrace::bench {
 
-/// What a measurement depends on besides the code it names: machine, compiler, flags, commit.
+/// What a measurement depends on besides the code it names: machine, compiler, flags of the kernels,
+/// the commit that was built, and the machine's load when the program started.
 [[nodiscard]] std::vector<std::pair<std::string, std::string>> context();
+
+/// The machine's load now, for the end of a measurement.
+[[nodiscard]] std::pair<std::string, std::string> load_after();
 
 }  // namespace packtrace::bench

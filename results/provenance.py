@@ -25,8 +25,8 @@ def check_commit(described):
 
 
 def commit(folder=FOLDER):
-    """The commit that is checked out, with "-dirty" at its end where files of the program
-    differ from it and that is allowed; else ends the script."""
+    """The commit that is checked out, as builds are stamped with it
+    (cmake/write_build_stamp.cmake); ends the script where files of the program differ from it."""
     git = ["git", "-C", folder]
     head = subprocess.run([*git, "rev-parse", "--short", "HEAD"], capture_output=True, text=True,
                           check=True).stdout.strip()

@@ -1,14 +1,23 @@
-"""check_provenance.py ROOT: scripts that measure refuse to while sources differ from the commit, unless
-told. Tried in a repository of its own."""
+"""check_provenance.py CMAKE ROOT: builds and scripts of results name a clean commit by its hash, call
+another state "-dirty", and scripts refuse to measure it unless told. Tried in a repository of its own."""
 import os
 import pathlib
+import re
 import shutil
 import subprocess
 import sys
 import tempfile
 
-ROOT = pathlib.Path(sys.argv[1])
+CMAKE, ROOT = sys.argv[1], pathlib.Path(sys.argv[2])
 IDENTITY = ["-c", "user.name=test", "-c", "user.email=test@localhost"]
+
+
+def stamped(repository):
+    """The commit that a build of the repository would be stamped with."""
+    stamp = repository.parent / "stamp.cpp"
+    subprocess.run([CMAKE, f"-DSOURCE={repository}", f"-DOUTPUT={stamp}", "-DFLAGS=-O3", "-P",
+                    ROOT / "cmake/write_build_stamp.cmake"], check=True)
+    return re.search('built_commit = "(.*)"', stamp.read_text())[1]
 
 
 def measuring(repository, allow=""):
@@ -34,13 +43,17 @@ def main():
         subprocess.run(["git", "init", "-q", repository], check=True)
         subprocess.run([*git, "add", "-A"], check=True)
         subprocess.run([*git, "commit", "-qm", "First"], check=True)
+        head = subprocess.run([*git, "rev-parse", "--short", "HEAD"], check=True,
+                              capture_output=True, text=True).stdout.strip()
 
-        expect("a clean commit", measuring(repository), 0)
+        expect("a clean commit", (stamped(repository), measuring(repository)), (head, 0))
         (repository / "results/some.json").write_text('{"a": 1}\n')
-        expect("a new result", measuring(repository), 0)
+        expect("a new result", (stamped(repository), measuring(repository)), (head, 0))
         (repository / "source.cpp").write_text("int b;\n")
-        expect("a changed source", measuring(repository), 1)
+        expect("a changed source", (stamped(repository), measuring(repository)), (head + "-dirty", 1))
         expect("a changed source that is allowed", measuring(repository, "1"), 0)
+        shutil.rmtree(repository / ".git")
+        expect("no repository", stamped(repository), "unknown")
 
 
 main()

@@ -89,7 +89,7 @@ if(Python3_Interpreter_FOUND)
     add_test(NAME figures COMMAND ${Python3_EXECUTABLE} -B
              ${CMAKE_CURRENT_SOURCE_DIR}/check_figures.py ${PROJECT_SOURCE_DIR})
     add_test(NAME provenance COMMAND ${Python3_EXECUTABLE} -B
-             ${CMAKE_CURRENT_SOURCE_DIR}/check_provenance.py ${PROJECT_SOURCE_DIR})
+             ${CMAKE_CURRENT_SOURCE_DIR}/check_provenance.py ${CMAKE_COMMAND} ${PROJECT_SOURCE_DIR})
     set_tests_properties(figures provenance PROPERTIES LABELS fast)
     if(PACKTRACE_BUILD_STUDY)
         add_test(NAME commands COMMAND ${Python3_EXECUTABLE} -B

@@ -45,6 +45,11 @@ TEST_CASE("bench writes each line's ratio to the scalar reference", "[bench_cli]
     const json bench = json::parse(read_text(file));
     CHECK(bench["packtrace_bench"] == 1);
     CHECK(bench["conditions"]["compiler"].is_string());
+    CHECK_THAT(bench["conditions"]["commit"].get<std::string>(),
+               Catch::Matchers::Matches("[0-9a-f]{7,40}(-dirty)?|unknown"));
+    CHECK_THAT(bench["conditions"]["flags"].get<std::string>(), ContainsSubstring("-ffp-contract=off"));
+    CHECK(bench["conditions"]["load_before"].is_number());
+    CHECK(bench["conditions"]["load_after"].is_number());
     REQUIRE(bench["lines"].size() == 3);
     for (const json& line : bench["lines"]) {
         CHECK(line["ratio"] > 0.0);

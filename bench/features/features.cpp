@@ -137,6 +137,9 @@ int run(const Arguments& arguments)
         same = same && row["same_bits"].get<bool>();
         report["scenes"].push_back(row);
     }
+    report["flags"] = flags_name();
+    report["load_before"] = load_at_start();
+    report["load_after"] = load_now();
     if (!arguments.json.empty()) {
         const std::string part = arguments.json + ".part";
         std::ofstream(part) << report.dump(1) << '\n';

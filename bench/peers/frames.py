@@ -16,7 +16,7 @@ import sys
 import tempfile
 
 sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[2] / "results"))
-from provenance import commit
+from provenance import check_commit
 
 from pictures import difference, read_pfm, read_ppm
 
@@ -195,7 +195,7 @@ def main():
         frames = Frames(options.build.resolve(), pathlib.Path(folder), options.size)
         context = json.loads(run([frames.frames, "context"]))
         if options.json:
-            context["commit"] = commit()
+            check_commit(context["commit"])
         context["command"] = "bench/peers/frames.py " + " ".join(sys.argv[1:])
         report = {"context": context, "size": options.size, "scenes": []}
         for name in options.scenes:

@@ -197,6 +197,8 @@ void run(const Arguments& arguments, nlohmann::ordered_json report)
     }
     if (!file)
         return;
+    const auto [name, load] = bench::load_after();
+    report["context"][name] = load;
     file->write(report.dump(2) + "\n");
     file->commit();
 }

@@ -294,6 +294,8 @@ void print_report(const Arguments& arguments, const std::string& command)
     const std::chrono::duration<double> passed = std::chrono::steady_clock::now() - start;
     // 1 on an idle machine; other programs had the rest.
     report["context"]["processor_share"] = work.seconds() / passed.count();
+    const auto [name, load] = bench::load_after();
+    report["context"][name] = load;
     report["curves"] = curves;
     std::cout << report.dump(2) << '\n';
 }

@@ -10,7 +10,7 @@ import subprocess
 import sys
 
 sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[2] / "results"))
-from provenance import commit
+from provenance import check_commit
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 
@@ -107,7 +107,7 @@ def main():
             context = context or result["context"]
             del result["context"]
             if options.json:
-                context["commit"] = commit()
+                check_commit(context["commit"])
             add_run(point, result)
     print(f"{'study':8} {'objects':>9} {'size':>6} {'threads':>7} {'build s':>10} "
           f"{'B/object':>9} {'peak MiB':>9} {'frame s':>10} {'Mrays/s':>9}")

@@ -92,7 +92,10 @@ std::string bench_text(const BenchFigures& figures)
               {"conditions",
                {{"processor", processor_name()},
                 {"compiler", compiler_name()},
-                {"commit", commit_name()}}},
+                {"flags", flags_name()},
+                {"commit", commit_name()},
+                {"load_before", load_at_start()},
+                {"load_after", load_now()}}},
               {"references", Json::array()},
               {"lines", Json::array()}};
     for (const BenchLine& reference : figures.references)

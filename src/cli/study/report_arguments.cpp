@@ -147,7 +147,8 @@ void write_whole_report(const std::vector<SceneReport>& reports, const ReportOpt
                         const ReportArguments& arguments)
 {
     const ReportConditions conditions{processor_name(), tbb::info::default_concurrency(),
-                                      compiler_name(), commit_name(), arguments.command};
+                                      compiler_name(), commit_name(), arguments.command,
+                                      flags_name(), load_at_start(), load_now()};
     write_report(reports, options, conditions, arguments.folder);
 }
 

@@ -1,10 +1,16 @@
 #include "lab/harness/machine.hpp"
 
+#include "lab/harness/build_stamp.hpp"
+
+#include <cstdlib>
 #include <fstream>
 
-#include "core/run_filter.hpp"
-
 namespace packtrace {
+namespace {
+
+const double load_before_main = load_now();
+
+}  // namespace
 
 std::string processor_name()
 {
@@ -26,11 +32,23 @@ std::string compiler_name()
 
 std::string commit_name()
 {
-    const FilterResult git =
-        run_filter({"git", "-C", PACKTRACE_SOURCE_DIR, "describe", "--always", "--dirty"}, "");
-    if (!git.started || git.exit_code != 0)
-        return "unknown";
-    return git.output.substr(0, git.output.find('\n'));
+    return built_commit;
+}
+
+std::string flags_name()
+{
+    return kernel_flags;
+}
+
+double load_now()
+{
+    double minute = 0.0;
+    return getloadavg(&minute, 1) == 1 ? minute : 0.0;
+}
+
+double load_at_start()
+{
+    return load_before_main;
 }
 
 }  // namespace packtrace

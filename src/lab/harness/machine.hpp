@@ -10,8 +10,13 @@ namespace packtrace {
 /// The compiler the library was built with.
 [[nodiscard]] std::string compiler_name();
 
-/// What git calls the state of the sources the library was built from, or "unknown" where they are
-/// gone. Asked now: a name kept from configuring would be out of date.
+/// The commit the library was built of, and the flags of its kernels: see build_stamp.hpp.
 [[nodiscard]] std::string commit_name();
+[[nodiscard]] std::string flags_name();
+
+/// Programs that ran or waited to run on the machine, on average over the last minute: now, and when
+/// this program started. 0 where the system does not say.
+[[nodiscard]] double load_now();
+[[nodiscard]] double load_at_start();
 
 }  // namespace packtrace

@@ -1,0 +1,28 @@
+# Writes OUTPUT: what a measurement says of the build it comes from. Called by every build, so that
+# the commit is that of the sources when they were built. Untouched where nothing changed.
+# Variables: SOURCE, OUTPUT, FLAGS.
+cmake_minimum_required(VERSION 3.22)
+execute_process(COMMAND git -C ${SOURCE} rev-parse --short HEAD
+                OUTPUT_VARIABLE commit OUTPUT_STRIP_TRAILING_WHITESPACE ERROR_QUIET
+                RESULT_VARIABLE failed)
+if(failed)
+    set(commit unknown)
+else()
+    # Results and documents may differ: the program does not depend on them.
+    execute_process(COMMAND git -C ${SOURCE} diff --quiet HEAD -- . ":(exclude)results"
+                            ":(exclude)docs" ":(exclude)*.md"
+                    RESULT_VARIABLE differs ERROR_QUIET)
+    if(differs)
+        string(APPEND commit -dirty)
+    endif()
+endif()
+file(CONFIGURE OUTPUT ${OUTPUT} @ONLY CONTENT
+"#include \"lab/harness/build_stamp.hpp\"
+
+namespace packtrace {
+
+const char* const built_commit = \"@commit@\";
+const char* const kernel_flags = \"@FLAGS@\";
+
+}  // namespace packtrace
+")
