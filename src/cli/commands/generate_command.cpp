@@ -56,9 +56,9 @@ void add_radius(CLI::App& command, double& radius, const std::string& help)
 void add_sphereflake(CLI::App& generate, const TakeScene& take)
 {
     const auto arguments = std::make_shared<Arguments<SphereflakeOptions>>();
-    CLI::App* command =
-        add_generator(generate, "sphereflake", "Spheres that bear nine smaller ones, and so on",
-                      arguments, generate_sphereflake, take);
+    CLI::App* command = add_generator(generate, "sphereflake",
+                                      "Spheres that each carry nine smaller ones, recursively",
+                                      arguments, generate_sphereflake, take);
     command
         ->add_option("--depth", arguments->options.depth,
                      "Generations, 0 to 6 (default 4: 7381 spheres; 6: 597871)")
@@ -80,7 +80,8 @@ void add_random(CLI::App& generate, const TakeScene& take)
         ->check(whole_number(1, 1'990'000))
         ->type_name("N");
     add_radius(*command, arguments->options.radius, "Radius of each (default 0.001)");
-    command->add_option("--seed", arguments->options.seed, "Another spread for each (default 1)")
+    command
+        ->add_option("--seed", arguments->options.seed, "Seed of the random positions (default 1)")
         ->check(whole_number(0, std::numeric_limits<int>::max()))
         ->type_name("N");
 }

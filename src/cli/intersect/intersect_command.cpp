@@ -74,7 +74,7 @@ void run_intersect(const IntersectArguments& arguments)
 void add_intersect(CLI::App& app)
 {
     CLI::App* command =
-        app.add_subcommand("intersect", "Say where rays of your own meet a scene's objects");
+        app.add_subcommand("intersect", "Find where rays of your own hit a scene's objects");
     const auto arguments = std::make_shared<IntersectArguments>();
     add_intersect_options(*command, *arguments);
     add_shard_option(*command, arguments->shard,

@@ -59,9 +59,9 @@ void add_accuracy_options(CLI::App& command, AccuracyArguments& arguments)
         ->type_name("fast|exact");
     command
         .add_option("--self-hits", arguments.self_hits,
-                    "How rays keep off the place they start at: 0.001 along their way, as the "
-                    "notes have it (note), or (exact) by solving their own surface as one they are "
-                    "on, and others from as far off as rounding can do (default " +
+                    "How secondary rays avoid hitting the surface they start on. note: they start "
+                    "0.001 along their direction. exact: no such distance; their own surface is "
+                    "solved for its other root (default " +
                         std::string(default_self_hits == SelfHits::note ? "note" : "exact") + ")")
         ->check(one_of({"note", "exact"}))
         ->type_name("note|exact");
@@ -71,8 +71,8 @@ void add_traversal_option(CLI::App& command, std::optional<std::string>& travers
 {
     command
         .add_option("--traversal", traversal,
-                    "How packets find objects: one by one, through a hierarchy of boxes, or "
-                    "(default) as their number suggests")
+                    "How packets find objects: one by one (list), through a hierarchy of "
+                    "boxes (tree), or as suits their number (auto, default)")
         ->check(one_of({"auto", "list", "tree"}))
         ->type_name("auto|list|tree");
 }
@@ -109,9 +109,9 @@ void add_picture_options(CLI::App& command, PictureArguments& arguments)
         ->type_name("N");
     command
         .add_option("--min-weight", arguments.min_weight,
-                    "Do not trace mirrored and refracted rays whose colour counts less than W of "
-                    "its pixel's in every channel (default the scene's, which is 0 unless it says "
-                    "otherwise: all are traced)")
+                    "Do not trace mirrored and refracted rays that add less than W of their "
+                    "colour to the pixel in every channel (default the scene's min_weight; 0 "
+                    "traces all)")
         ->check(share())
         ->type_name("W");
 }
@@ -150,8 +150,8 @@ void add_kernel_options(CLI::App& command, KernelArguments& arguments)
     add_traversal_option(command, arguments.traversal);
     add_accuracy_options(command, arguments.accuracy);
     command.add_flag("--force-general", arguments.force_general,
-                     "Run the packet kernel that knows everything, and leave nothing of the scene "
-                     "out; the picture is the same");
+                     "Run the general packet kernel, and keep objects and lights that cannot "
+                     "be seen; the picture is the same");
     add_isa_options(command, arguments.isa);
     add_threads_option(command, arguments.threads);
 }

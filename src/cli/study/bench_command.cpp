@@ -259,12 +259,13 @@ void add_comparing_options(CLI::App& command, BenchArguments& arguments)
     CLI::Option* const baseline =
         command
             .add_option("--baseline", arguments.baseline,
-                        "Compare with the JSON of an earlier -o; exits 1 if any line is slower, 3 "
-                        "if that can't be told")
+                        "Baseline JSON from an earlier -o; exits 1 if any line is slower, 3 if "
+                        "the measurements cannot tell")
             ->type_name("FILE");
     command
         .add_option("--against", arguments.against,
-                    "Compare likewise with another packtrace program, run by turns with this one")
+                    "Compare with another packtrace program, timed in turns with this one; "
+                    "exits as with --baseline")
         ->excludes(baseline)
         ->type_name("PROGRAM");
     command
@@ -289,11 +290,14 @@ void add_bench(CLI::App& app)
         ->add_option("--isa", arguments->isa, "Only this instruction set (default all there are)")
         ->type_name("NAME");
     command
-        ->add_option("--repetitions", arguments->repetitions,
-                     "Measurements of each line (default 9, with which slowdowns can be told)")
+        ->add_option(
+            "--repetitions", arguments->repetitions,
+            "Measurements of each line (default 9; fewer may be too few to detect a slowdown)")
         ->check(whole_number(1, 1000))
         ->type_name("N");
-    command->add_option("-o,--output", arguments->output, "JSON to write, a later run's baseline")
+    command
+        ->add_option("-o,--output", arguments->output,
+                     "Write the results as JSON, which later runs can take as --baseline")
         ->type_name("FILE");
     add_comparing_options(*command, *arguments);
     command->callback([arguments] { run_bench_command(*arguments); });

@@ -105,7 +105,7 @@ void run_explain(const ExplainArguments& arguments)
 void add_explain(CLI::App& app)
 {
     CLI::App* command = app.add_subcommand(
-        "explain", "Show the rays of one pixel, of the reference and of packets");
+        "explain", "Show the ray tree of one pixel, by the reference and by packets");
     const auto arguments = std::make_shared<ExplainArguments>();
     add_scene_option(*command, arguments->scene);
     command->add_option("--pixel", arguments->pixel, "Column and row, from 0 at the top left")

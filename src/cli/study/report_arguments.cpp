@@ -29,7 +29,8 @@ std::filesystem::path default_cache()
 
 void add_measure_options(CLI::App& command, ReportArguments& arguments)
 {
-    command.add_option("--repetitions", arguments.repetitions, "Frames of each run (default 9)")
+    command
+        .add_option("--repetitions", arguments.repetitions, "Frames timed for each run (default 9)")
         ->check(whole_number(1, 1000))
         ->type_name("N");
     command
@@ -47,8 +48,9 @@ void add_measure_options(CLI::App& command, ReportArguments& arguments)
         ->delimiter(',')
         ->type_name("N,N…");
     command
-        .add_option("--cache", arguments.cache,
-                    "Folder that keeps truths (default packtrace in the user's cache)")
+        .add_option(
+            "--cache", arguments.cache,
+            "Folder in which reference pictures are kept (default packtrace in the user's cache)")
         ->type_name("DIR");
 }
 
@@ -66,12 +68,12 @@ void add_report_options(CLI::App& command, ReportArguments& arguments)
     add_measure_options(command, arguments);
     command
         .add_option("--max-error", arguments.options.max_error,
-                    "RMSE to name the cheapest run for (default 0.001)")
+                    "Name the fastest run whose RMSE is at most E (default 0.001)")
         ->check(positive_number())
         ->type_name("E");
     command
         .add_option("--max-time", arguments.max_time_ms,
-                    "Milliseconds to name the most exact run for (default 20)")
+                    "Name the most exact run that takes at most MS milliseconds (default 20)")
         ->check(positive_number())
         ->type_name("MS");
     command.add_flag("--quick", arguments.quick,
@@ -146,9 +148,10 @@ void print_judgement(const SceneReport& scene, const ReportOptions& options)
 void write_whole_report(const std::vector<SceneReport>& reports, const ReportOptions& options,
                         const ReportArguments& arguments)
 {
-    const ReportConditions conditions{processor_name(), tbb::info::default_concurrency(),
-                                      compiler_name(), commit_name(), arguments.command,
-                                      flags_name(), load_at_start(), load_now()};
+    const ReportConditions conditions{processor_name(),  tbb::info::default_concurrency(),
+                                      compiler_name(),   commit_name(),
+                                      arguments.command, flags_name(),
+                                      load_at_start(),   load_now()};
     write_report(reports, options, conditions, arguments.folder);
 }
 

@@ -127,8 +127,7 @@ void run(const SoakArguments& arguments)
 void add_soak(CLI::App& app)
 {
     CLI::App* command = app.add_subcommand(
-        "soak",
-        "Trace random scenes in every way there is and hold the answers against each other");
+        "soak", "Trace random scenes with every kernel, mode and query, and compare the answers");
     const auto arguments = std::make_shared<SoakArguments>();
     command
         ->add_option("SCENE", arguments->files,
@@ -136,13 +135,13 @@ void add_soak(CLI::App& app)
         ->type_name("");
     command
         ->add_option("--minutes", arguments->minutes,
-                     "How long to go on (default 1; no end of its own with --scenes)")
+                     "Stop after N minutes (default 1; no limit with --scenes)")
         ->check(positive_number())
         ->type_name("N");
     command->add_option("--scenes", arguments->scenes, "How many scenes to trace at most")
         ->check(whole_number(1, most_scenes))
         ->type_name("N");
-    command->add_option("--seed", arguments->options.seed, "Other scenes (default 1)")
+    command->add_option("--seed", arguments->options.seed, "Seed of the random scenes (default 1)")
         ->type_name("N");
     command
         ->add_option("--first", arguments->first,

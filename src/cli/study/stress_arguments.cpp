@@ -39,12 +39,14 @@ void add_stress_options(CLI::App& command, StressArguments& arguments)
     command.add_option("--rays", options.rays, "Rays of each family (default 4096)")
         ->check(whole_number(1, most_rays))
         ->type_name("N");
-    command.add_option("--seed", options.seed, "Other rays of the same kind (default 1)")
+    command.add_option("--seed", options.seed, "Seed of the random rays (default 1)")
         ->type_name("N");
     command.add_option("--kernel", options.kernels, "Only this kernel (repeatable)")
         ->check(one_of({"packet", "scalar", "textbook"}))
         ->type_name("packet|scalar|textbook");
-    command.add_option("--mode", options.modes, "Only this accuracy of packets (repeatable)")
+    command
+        .add_option("--mode", options.modes,
+                    "Only this accuracy mode of packets: fast or exact (repeatable)")
         ->check(one_of(mode_names()))
         ->type_name("NAME");
     command.add_option("--precision", options.precisions, "Only this precision (repeatable)")
@@ -59,7 +61,7 @@ void add_stress_options(CLI::App& command, StressArguments& arguments)
             [&arguments](const std::string& rule) {
                 arguments.options.self_hits = rule == "note" ? SelfHits::note : SelfHits::exact;
             },
-            "How second rays keep from their own start (default exact)")
+            "How secondary rays avoid hitting the surface they start on (default exact)")
         ->check(one_of({"note", "exact"}))
         ->type_name("note|exact");
     add_threads_option(command, arguments.threads);

@@ -43,7 +43,7 @@ void run_stress_command(const StressArguments& arguments)
 void add_stress(CLI::App& app)
 {
     CLI::App* command = app.add_subcommand(
-        "stress", "Hold the kernels against extreme rays whose hits are known to 113 bits");
+        "stress", "Trace extreme rays, whose hits are known to 113 bits, with every kernel");
     const auto arguments = std::make_shared<StressArguments>();
     add_stress_options(*command, *arguments);
     add_shard_option(

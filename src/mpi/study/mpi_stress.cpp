@@ -94,7 +94,7 @@ void run_stress_on_ranks(const World& world, const cli::StressArguments& argumen
 void add_stress(CLI::App& app, const World& world)
 {
     CLI::App* command = app.add_subcommand(
-        "stress", "Hold the kernels against extreme rays, families shared by all ranks");
+        "stress", "Trace extreme rays, whose hits are known to 113 bits; ranks share the families");
     const auto arguments = std::make_shared<cli::StressArguments>();
     cli::add_stress_options(*command, *arguments);
     command->callback([arguments, &world] { run_stress_on_ranks(world, *arguments); });
