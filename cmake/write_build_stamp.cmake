@@ -16,12 +16,25 @@ else()
         string(APPEND commit -dirty)
     endif()
 endif()
+# Of the files themselves: a commit says nothing of changes that are not committed. Kernels are left
+# out: kept truths do not depend on them, and they change most often.
+file(GLOB_RECURSE sources RELATIVE ${SOURCE} ${SOURCE}/src/* ${SOURCE}/include/*)
+list(FILTER sources EXCLUDE REGEX "^src/kernels/")
+list(SORT sources)
+set(digests "")
+foreach(source IN LISTS sources)
+    file(SHA256 ${SOURCE}/${source} digest)
+    string(APPEND digests "${source} ${digest}\n")
+endforeach()
+string(SHA256 sources_digest "${digests}")
+
 file(CONFIGURE OUTPUT ${OUTPUT} @ONLY CONTENT
 "#include \"lab/harness/build_stamp.hpp\"
 
 namespace packtrace {
 
 const char* const built_commit = \"@commit@\";
+const char* const built_sources = \"@sources_digest@\";
 const char* const kernel_flags = \"@FLAGS@\";
 
 }  // namespace packtrace

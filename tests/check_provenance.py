@@ -1,5 +1,5 @@
 """check_provenance.py CMAKE ROOT: builds and scripts of results name a clean commit by its hash, call
-another state "-dirty", and scripts refuse to measure it unless told. Tried in a repository of its own."""
+another state "-dirty", and scripts refuse to measure it unless told; builds name their sources by a digest. Tried in a repository of its own."""
 import os
 import pathlib
 import re
@@ -18,6 +18,12 @@ def stamped(repository):
     subprocess.run([CMAKE, f"-DSOURCE={repository}", f"-DOUTPUT={stamp}", "-DFLAGS=-O3", "-P",
                     ROOT / "cmake/write_build_stamp.cmake"], check=True)
     return re.search('built_commit = "(.*)"', stamp.read_text())[1]
+
+
+def sources_digest(repository):
+    """The digest of the sources that a build of the repository would be stamped with."""
+    stamped(repository)
+    return re.search('built_sources = "(.*)"', (repository.parent / "stamp.cpp").read_text())[1]
 
 
 def measuring(repository, allow=""):
@@ -52,6 +58,15 @@ def main():
         (repository / "source.cpp").write_text("int b;\n")
         expect("a changed source", (stamped(repository), measuring(repository)), (head + "-dirty", 1))
         expect("a changed source that is allowed", measuring(repository, "1"), 0)
+        clean = sources_digest(repository)
+        (repository / "src/kernels").mkdir(parents=True)
+        (repository / "src/kernels/kernel.hpp").write_text("int k;\n")
+        expect("a kernel's source", sources_digest(repository) == clean, True)
+        (repository / "src/reference.hpp").write_text("int a;\n")
+        one = sources_digest(repository)
+        (repository / "src/reference.hpp").write_text("int b;\n")
+        other = sources_digest(repository)
+        expect("three states of the sources", len({clean, one, other}), 3)
         shutil.rmtree(repository / ".git")
         expect("no repository", stamped(repository), "unknown")
 

@@ -19,6 +19,7 @@
 #include "lab/report/report_study.hpp"
 #include "lab/report/report_text.hpp"
 #include "lab/truth/truth_file.hpp"
+#include "lab/truth/truth_key.hpp"
 #include "render_scene.hpp"
 #include "scenes.hpp"
 #include "temp_folder.hpp"
@@ -62,6 +63,14 @@ ReportRun timed_run(const std::string& name, const std::vector<double>& seconds,
     run.seconds = seconds;
     run.spread = relative_spread(seconds);
     return run;
+}
+
+/// Every value off by less than a picture shows.
+Truth other_picture(Truth truth)
+{
+    for (double& value : truth.image.rgb)
+        value += 1e-9;
+    return truth;
 }
 
 std::string names_of(const std::vector<const ReportRun*>& runs)
@@ -425,13 +434,58 @@ TEST_CASE("a truth is kept, found again, and made anew when it is not whole or n
     flipped[flipped.size() - 3] ^= 1;
     write_text(file, flipped);
     CHECK_FALSE(find_truth(scene, request).cached);
-    Truth wrong = made;
-    for (double& value : wrong.image.rgb)
-        value += 1e-9;
-    write_truth(file, wrong);
+    write_truth(file, truth_key(scene, 1).text(), other_picture(made));
     const Truth anew = find_truth(scene, request);
     CHECK_FALSE(anew.cached);
     CHECK((anew.image.rgb == made.image.rgb));
+}
+
+TEST_CASE("a stale truth in the place of the one asked for is found by its key and made anew",
+          "[report]")
+{
+    const TempFolder folder;
+    const Scene scene = four_spheres(24, 20);
+    TruthRequest request;
+    request.cache = folder / "cache";
+    const Truth made = find_truth(scene, request);
+    const auto file = std::filesystem::directory_iterator(request.cache)->path();
+    const TruthKey key = truth_key(scene, request.samples);
+    // The very picture: only the key says that it is of something else.
+    const auto is_found_stale = [&](const auto& change) {
+        TruthKey planted = key;
+        change(planted);
+        write_truth(file, planted.text(), made);
+        const Truth anew = find_truth(scene, request);
+        return !anew.cached && anew.image.rgb == made.image.rgb &&
+               find_truth(scene, request).cached;
+    };
+    CHECK(is_found_stale([](TruthKey& planted) { planted.scene += "max_depth = 0\n"; }));
+    CHECK(is_found_stale([](TruthKey& planted) { planted.version = "0.0.1"; }));
+    CHECK(is_found_stale([](TruthKey& planted) { planted.sources[0] ^= 1; }));
+    CHECK(is_found_stale([](TruthKey& planted) { planted.self_hits = "note"; }));
+    CHECK(is_found_stale([](TruthKey& planted) { planted.samples = 2; }));
+    CHECK(is_found_stale([](TruthKey& planted) { planted.precision = "double of 53 bits"; }));
+    CHECK(is_found_stale([](TruthKey& planted) { planted.compiler += " -ffast-math"; }));
+    CHECK(is_found_stale([](TruthKey& planted) { planted.machine = "another"; }));
+}
+
+TEST_CASE("a kept truth with any one byte changed is made anew", "[report]")
+{
+    const TempFolder folder;
+    const Scene scene = four_spheres(8, 8);
+    const std::string key = truth_key(scene, 1).text();
+    const auto file = folder / "kept.truth";
+    write_truth(file, key, find_truth(scene, {}));
+    REQUIRE(read_truth(file, key));
+    const std::string bytes = read_text(file);
+    std::size_t unnoticed = 0;
+    for (std::size_t i = 0; i < bytes.size(); ++i) {
+        std::string changed = bytes;
+        changed[i] ^= 1;
+        write_text(file, changed);
+        unnoticed += read_truth(file, key).has_value();
+    }
+    CHECK(unnoticed == 0);
 }
 
 TEST_CASE("the CSV has a row a run, each of the head's length", "[report]")

@@ -1,11 +1,11 @@
-// Any bytes as a kept truth: a whole picture, or nothing.
+// Any bytes as a kept truth of the key "key": a whole picture, or nothing.
 #include "input_file.hpp"
 #include "lab/truth/truth_file.hpp"
 
 PACKTRACE_FUZZER(truths)
 {
     const packtrace::fuzz::InputFile file(bytes);
-    const auto truth = packtrace::read_truth(file.name());
+    const auto truth = packtrace::read_truth(file.name(), "key");
     if (!truth)
         return;
     const auto pixels = static_cast<std::size_t>(truth->image.width) *

@@ -1,13 +1,10 @@
 #include "lab/truth/truth.hpp"
 
-#include <packtrace/version.hpp>
-#include <packtrace/write_scene.hpp>
-
 #include "core/atomic_file.hpp"
 #include "core/text_hash.hpp"
-#include "lab/harness/machine.hpp"
 #include "lab/harness/stopwatch.hpp"
 #include "lab/truth/truth_file.hpp"
+#include "lab/truth/truth_key.hpp"
 #include "reference/reference.hpp"
 #include "reference/render_reference.hpp"
 #include "scene/sample_pattern.hpp"
@@ -18,17 +15,12 @@ namespace {
 // Pixels of a cached truth that are traced again.
 constexpr int checked_pixels = 32;
 
-// Named for all that the truth depends on: the scene with its camera, size and depth, the samples,
-// the program and its compiler.
-std::filesystem::path file_of(const Scene& scene, const TruthRequest& request)
+std::filesystem::path file_of(const std::string& key, const std::filesystem::path& cache)
 {
-    const std::string key = PACKTRACE_VERSION_STRING " " + commit_name() + ", " + compiler_name() +
-                            ", " + std::to_string(request.samples) + " samples\n" +
-                            scene_text(scene);
     char name[32];
     std::snprintf(name, sizeof name, "%016llx.truth",
                   static_cast<unsigned long long>(text_hash(key)));
-    return request.cache / name;
+    return cache / name;
 }
 
 reference::Color<double> color_now(const Scene& scene, int samples, int x, int y)
@@ -40,7 +32,7 @@ reference::Color<double> color_now(const Scene& scene, int samples, int x, int y
             static_cast<double>(color.z)};
 }
 
-// A reference that was changed since would be found out.
+// A reference whose change the key does not show would be found out.
 bool still_true(const Truth& truth, const Scene& scene, int samples)
 {
     if (truth.image.width != scene.width || truth.image.height != scene.height)
@@ -80,7 +72,8 @@ std::optional<Truth> kept_truth(const Scene& scene, const TruthRequest& request)
 {
     if (request.cache.empty())
         return std::nullopt;
-    std::optional<Truth> truth = read_truth(file_of(scene, request));
+    const std::string key = truth_key(scene, request.samples).text();
+    std::optional<Truth> truth = read_truth(file_of(key, request.cache), key);
     if (!truth || !still_true(*truth, scene, request.samples))
         return std::nullopt;
     truth->what = what_of(request);
@@ -100,7 +93,8 @@ void keep_truth(const Scene& scene, const TruthRequest& request, Truth& truth)
     if (request.cache.empty())
         return;
     make_folders(request.cache);
-    write_truth(file_of(scene, request), truth);
+    const std::string key = truth_key(scene, request.samples).text();
+    write_truth(file_of(key, request.cache), key, truth);
 }
 
 Truth find_truth(const Scene& scene, const TruthRequest& request)

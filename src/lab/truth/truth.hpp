@@ -24,10 +24,10 @@ struct TruthRequest {
 };
 
 /// The scalar reference's picture: in long double at one sample a pixel, in double at more. A file
-/// of the cache is used only if its name agrees with all that the truth depends on (the scene,
-/// the samples, the program), its bytes with their checksum, and some of its pixels with what the
-/// reference gives now; else it is made anew. Throws FileError when it can't be kept, and
-/// std::invalid_argument for a scene to be kept that has no text (write_scene.hpp).
+/// of the cache is used only if it has the key of all that the truth depends on (truth_key.hpp),
+/// its bytes agree with their checksum, and some of its pixels with what the reference gives now;
+/// else it is made anew. Throws FileError when it can't be kept, and std::invalid_argument for a
+/// scene to be kept that has no text (write_scene.hpp).
 [[nodiscard]] Truth find_truth(const Scene& scene, const TruthRequest& request);
 
 // The steps of find_truth(), for a truth whose rows are traced by several programs.

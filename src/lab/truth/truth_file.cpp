@@ -12,7 +12,7 @@
 namespace packtrace {
 namespace {
 
-constexpr const char* magic = "packtrace-truth-1";
+constexpr const char* magic = "packtrace-truth-2";
 
 std::string_view bytes_of(const Image<double>::Pixels& values)
 {
@@ -21,19 +21,19 @@ std::string_view bytes_of(const Image<double>::Pixels& values)
 
 }  // namespace
 
-void write_truth(const std::filesystem::path& file, const Truth& truth)
+void write_truth(const std::filesystem::path& file, const std::string& key, const Truth& truth)
 {
-    const std::string_view bytes = bytes_of(truth.image.rgb);
     std::ostringstream head;
-    head << magic << ' ' << truth.image.width << ' ' << truth.image.height << ' ' << truth.seconds
-         << ' ' << text_hash(bytes) << '\n';
+    head << truth.image.width << ' ' << truth.image.height << ' ' << truth.seconds << ' '
+         << key.size() << '\n';
+    const std::string checked = head.str() + key + std::string(bytes_of(truth.image.rgb));
     AtomicFile output(file);
-    output.write(std::string_view(head.str()));
-    output.write(bytes);
+    output.write(std::string(magic) + ' ' + std::to_string(text_hash(checked)) + '\n');
+    output.write(checked);
     output.commit();
 }
 
-std::optional<Truth> read_truth(const std::filesystem::path& file)
+std::optional<Truth> read_truth(const std::filesystem::path& file, const std::string& key)
 {
     std::string bytes;
     try {
@@ -41,22 +41,27 @@ std::optional<Truth> read_truth(const std::filesystem::path& file)
     } catch (const FileError&) {
         return std::nullopt;
     }
-    const std::size_t end = bytes.find('\n');
-    std::istringstream head(bytes.substr(0, end));
+    std::istringstream head(bytes);
     std::string word;
+    std::uint64_t hash = 0;
+    if (!(head >> word >> hash) || word != magic || head.get() != '\n' ||
+        text_hash(std::string_view(bytes).substr(static_cast<std::size_t>(head.tellg()))) != hash)
+        return std::nullopt;
     int width = 0;
     int height = 0;
-    std::uint64_t hash = 0;
+    std::size_t key_size = 0;
     Truth truth;
-    if (!(head >> word >> width >> height >> truth.seconds >> hash) || word != magic || width < 1 ||
-        height < 1)
+    if (!(head >> width >> height >> truth.seconds >> key_size) || head.get() != '\n' ||
+        width < 1 || height < 1)
         return std::nullopt;
-    const std::string_view data = std::string_view(bytes).substr(end + 1);
+    std::string_view data = std::string_view(bytes).substr(static_cast<std::size_t>(head.tellg()));
+    if (key_size != key.size() || !data.starts_with(key))
+        return std::nullopt;
+    data.remove_prefix(key_size);
     const auto pixels = static_cast<std::size_t>(width) * static_cast<std::size_t>(height);
     constexpr std::size_t pixel_bytes = 3 * sizeof(double);
     // Not by multiplying: a file may name sizes whose product is beyond 64 bits.
-    if (data.size() % pixel_bytes != 0 || data.size() / pixel_bytes != pixels ||
-        text_hash(data) != hash)
+    if (data.size() % pixel_bytes != 0 || data.size() / pixel_bytes != pixels)
         return std::nullopt;
     truth.image = Image<double>(width, height);
     std::memcpy(truth.image.rgb.data(), data.data(), data.size());
