@@ -151,9 +151,9 @@ Words first_families(std::size_t count)
 void without_times(nlohmann::ordered_json& json)
 {
     if (json.is_object())
-        for (const char* const key :
-             {"ns_per_ray", "pareto", "seconds", "median_s", "spread", "cached", "command",
-              "judgement", "cheapest_within_max_error", "most_exact_within_max_time"})
+        for (const char* const key : {"ns_per_ray", "pareto", "seconds", "median_s", "spread",
+                                      "cached", "command", "judgement", "cheapest_within_max_error",
+                                      "most_exact_within_max_time", "load_before", "load_after"})
             json.erase(key);
     if (json.is_structured())
         for (auto& part : json)
