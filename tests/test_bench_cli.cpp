@@ -47,7 +47,8 @@ TEST_CASE("bench writes each line's ratio to the scalar reference", "[bench_cli]
     CHECK(bench["conditions"]["compiler"].is_string());
     CHECK_THAT(bench["conditions"]["commit"].get<std::string>(),
                Catch::Matchers::Matches("[0-9a-f]{7,40}(-dirty)?|unknown"));
-    CHECK_THAT(bench["conditions"]["flags"].get<std::string>(), ContainsSubstring("-ffp-contract=off"));
+    CHECK_THAT(bench["conditions"]["flags"].get<std::string>(),
+               ContainsSubstring("-ffp-contract=off"));
     CHECK(bench["conditions"]["load_before"].is_number());
     CHECK(bench["conditions"]["load_after"].is_number());
     REQUIRE(bench["lines"].size() == 3);

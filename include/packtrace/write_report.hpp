@@ -16,9 +16,10 @@ struct ReportConditions {
     std::string compiler;
     std::string commit;
     std::string command;
-    std::string flags = {};    ///< of the compiler, for the kernels
-    double load_before = 0.0;  ///< of the machine when the program started: programs that run or wait
-    double load_after = 0.0;   ///< when all was measured
+    std::string flags = {};  ///< of the compiler, for the kernels
+    double load_before =
+        0.0;  ///< of the machine when the program started: programs that run or wait
+    double load_after = 0.0;  ///< when all was measured
 };
 
 /// Writes report.md, report.csv, report.json and report.html into `folder`, which is made, and for

@@ -14,8 +14,8 @@ namespace packtrace {
 [[nodiscard]] std::string commit_name();
 [[nodiscard]] std::string flags_name();
 
-/// Programs that ran or waited to run on the machine, on average over the last minute: now, and when
-/// this program started. 0 where the system does not say.
+/// Programs that ran or waited to run on the machine, on average over the last minute: now, and
+/// when this program started. 0 where the system does not say.
 [[nodiscard]] double load_now();
 [[nodiscard]] double load_at_start();
 
