@@ -99,10 +99,13 @@ std::vector<pid_t> children_of(pid_t parent)
     return children;
 }
 
-/// Starts a job and kills one of its ranks by SIGKILL once `when` holds. Returns its exit code, -1
-/// where it ended before.
-int kill_rank(int ranks, const Words& words, std::size_t victim,
-              const std::filesystem::path& errors, const std::function<bool()>& when)
+/// Which of the ranks of a job, by process, is killed now; 0 for none yet.
+using ChooseVictim = std::function<pid_t(const std::vector<pid_t>& children)>;
+
+/// Starts a job and kills one of its ranks by SIGKILL. Returns its exit code, -1 where it ended
+/// before.
+int kill_rank(int ranks, const Words& words, const std::filesystem::path& errors,
+              const ChooseVictim& choose)
 {
     Words all = mpirun(ranks);
     all.insert(all.end(), words.begin(), words.end());
@@ -124,13 +127,21 @@ int kill_rank(int ranks, const Words& words, std::size_t victim,
     bool killed = false;
     while (waitpid(job, &status, killed ? 0 : WNOHANG) == 0) {
         const std::vector<pid_t> children = children_of(job);
-        if (children.size() == static_cast<std::size_t>(ranks) && when()) {
-            kill(children[victim % children.size()], SIGKILL);
-            killed = true;
-        }
+        if (children.size() == static_cast<std::size_t>(ranks))
+            if (const pid_t victim = choose(children); victim != 0)
+                killed = kill(victim, SIGKILL) == 0;
         std::this_thread::sleep_for(std::chrono::milliseconds(2));
     }
     return killed ? WEXITSTATUS(status) : -1;
+}
+
+/// Kills the rank of a number once `when` holds.
+int kill_rank(int ranks, const Words& words, std::size_t victim,
+              const std::filesystem::path& errors, const std::function<bool()>& when)
+{
+    return kill_rank(ranks, words, errors, [&](const std::vector<pid_t>& children) {
+        return when() ? children[victim % children.size()] : 0;
+    });
 }
 
 /// The first families of stress tests.
@@ -592,6 +603,36 @@ TEST_CASE("a rank that dies ends the job with a line, and --resume goes on", "[m
         CHECK((read_text(folder / "m.png") == read_text(folder / "w.png")));
         std::filesystem::remove(folder / "m.png");
         CHECK(folder.names() == Words{"err", "w.png"});
+    }
+}
+
+TEST_CASE("a job that mpirun ends says so and leaves no file, however long its tiles take", "[mpi]")
+{
+    const TempFolder folder;
+    const Words words{"render",        mpi_scene("whitted"), "--size", "1000x2000", "--spp",
+                      "1024",          "--threads",          "1",      "-q",        "-o",
+                      folder / "m.png"};
+    // Rank 0 has the picture's temporary file, whose name has its process.
+    const auto first_process = [&]() -> pid_t {
+        for (const std::string& name : folder.names())
+            if (name.starts_with(".m.png."))
+                return std::atoi(name.c_str() + std::string(".m.png.").size());
+        return 0;
+    };
+    for (int i = 0; i < 6; ++i) {
+        const int code =
+            kill_rank(5, words, folder / "err", [&](const std::vector<pid_t>& children) -> pid_t {
+                const pid_t first = first_process();
+                if (first == 0)
+                    return 0;
+                // Each has begun its first tile. The first to end by SIGTERM lets mpirun kill all.
+                std::this_thread::sleep_for(std::chrono::milliseconds(300));
+                return first == children.back() ? children.front() : children.back();
+            });
+        CHECK(code > 0);
+        CHECK_THAT(read_text(folder / "err"),
+                   ContainsSubstring("packtrace-mpi: the job ended after 0 of 8 bands"));
+        CHECK(folder.names() == Words{"err"});
     }
 }
 

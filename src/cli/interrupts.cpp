@@ -4,6 +4,7 @@
 #include <array>
 #include <atomic>
 #include <csignal>
+#include <ctime>
 #include <string_view>
 
 #include <unistd.h>
@@ -16,16 +17,26 @@ namespace {
 /// Lines for the handler of signals: one that may be read, one that may be written.
 std::array<std::array<char, 512>, 2> lines;
 std::atomic<const char*> given_line{nullptr};
+volatile std::sig_atomic_t linger = 0;  ///< milliseconds
+
+void say(std::string_view line)
+{
+    [[maybe_unused]] const ssize_t written = write(STDERR_FILENO, line.data(), line.size());
+}
 
 // Calls nothing but what signal handlers may call.
 void end_by(int signal)
 {
-    std::string_view line = remove_all_temporaries() > 0
-                                ? "\npacktrace: interrupted; the unfinished file is removed\n"
-                                : "\npacktrace: interrupted\n";
-    if (const char* const given = given_line.load(); given != nullptr)
-        line = given;
-    [[maybe_unused]] const ssize_t written = write(STDERR_FILENO, line.data(), line.size());
+    // A line that is ready goes first: files may take a while.
+    const char* const given = given_line.load();
+    if (given != nullptr)
+        say(given);
+    const bool removed = remove_all_temporaries() > 0;
+    if (given == nullptr)
+        say(removed ? "\npacktrace: interrupted; the unfinished file is removed\n"
+                    : "\npacktrace: interrupted\n");
+    const timespec rest{.tv_sec = linger / 1000, .tv_nsec = linger % 1000 * 1'000'000L};
+    nanosleep(&rest, nullptr);
     std::signal(signal, SIG_DFL);
     std::raise(signal);
 }
@@ -47,8 +58,9 @@ void set_interrupt_line(const std::string& line)
     given_line.store(text.data());
 }
 
-void clean_up_when_interrupted()
+void clean_up_when_interrupted(int linger_milliseconds)
 {
+    linger = linger_milliseconds;
     for (const int number : {SIGINT, SIGTERM, SIGHUP}) {
         struct sigaction before {};
         // What nohup or a shell's background has switched off stays so.

@@ -5,8 +5,9 @@
 namespace packtrace::cli {
 
 /// From now on Ctrl-C, SIGTERM and SIGHUP remove the program's unfinished files and say so in one
-/// line; the program then ends by that signal (exit codes 130, 143 and 129 in a shell).
-void clean_up_when_interrupted();
+/// line; the program then ends by that signal (exit codes 130, 143 and 129 in a shell), after so
+/// many milliseconds.
+void clean_up_when_interrupted(int linger_milliseconds = 0);
 
 /// The line that such an end is told with from now on, in place of the usual one; empty for that.
 /// For one thread at a time.

@@ -2,6 +2,7 @@
 #include <csignal>
 #include <cstdio>
 #include <cstdlib>
+#include <ctime>
 #include <exception>
 #include <iostream>
 #include <new>
@@ -24,6 +25,10 @@ namespace {
 /// Of rank 0, on this host; 0 elsewhere.
 volatile pid_t first_process = 0;
 
+/// mpirun of Open MPI kills all ranks of a node by SIGKILL as soon as one has ended by its SIGTERM:
+/// each leaves the others so long to do what they have to do.
+constexpr int linger_milliseconds = 300;
+
 // Calls nothing but what signal handlers may call.
 void end_quietly(int signal)
 {
@@ -35,6 +40,8 @@ void end_quietly(int signal)
         [[maybe_unused]] const ssize_t written = write(STDERR_FILENO, line, sizeof line - 1);
     }
     remove_all_temporaries();
+    constexpr timespec rest{.tv_sec = 0, .tv_nsec = linger_milliseconds * 1'000'000L};
+    nanosleep(&rest, nullptr);
     std::signal(signal, SIG_DFL);
     std::raise(signal);
 }
@@ -46,7 +53,7 @@ void clean_up_when_ended(const World& world)
     const std::vector<std::string> hosts = world.gather(world.host());
     const std::vector<std::string> processes = world.gather(process);
     if (world.is_first())
-        return cli::clean_up_when_interrupted();
+        return cli::clean_up_when_interrupted(linger_milliseconds);
     if (world.rank() == 1 && hosts[0] == hosts[1])
         first_process = static_cast<pid_t>(std::stol(processes[0]));
     for (const int number : {SIGINT, SIGTERM, SIGHUP})
