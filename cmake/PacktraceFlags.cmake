@@ -25,3 +25,42 @@ if(PACKTRACE_SANITIZE)
         -fsanitize=${PACKTRACE_SANITIZE} -fno-omit-frame-pointer -fno-sanitize-recover=all)
     target_link_options(packtrace_flags INTERFACE -fsanitize=${PACKTRACE_SANITIZE})
 endif()
+
+# What the library and the programs are hardened by, kernels apart, which read no input:
+#   _FORTIFY_SOURCE          libc's copies check the size of what they write to: 3, where compiler and
+#                            libc know it, for sizes that are known at run time only
+#   -fstack-protector-strong functions with arrays notice when their frame is overwritten
+#   -z relro -z now          symbols are bound at the start, and their table is read-only then
+# With PIE, programs lie at random addresses. Sanitizers bring checks of their own.
+add_library(packtrace_hardening INTERFACE)
+set(packtrace_hardened OFF)
+if(PACKTRACE_HARDEN AND NOT PACKTRACE_SANITIZE)
+    set(packtrace_hardened ON)
+    include(CheckCXXSourceCompiles)
+    include(CheckPIESupported)
+    check_pie_supported(LANGUAGES CXX)
+    set(CMAKE_REQUIRED_FLAGS "-O2 -U_FORTIFY_SOURCE -D_FORTIFY_SOURCE=3")
+    check_cxx_source_compiles("#include <cstdlib>
+#if !defined(__USE_FORTIFY_LEVEL) || __USE_FORTIFY_LEVEL < 3
+#error it checks known sizes only
+#endif
+int main() {}" PACKTRACE_FORTIFIES_ALL_SIZES)
+    unset(CMAKE_REQUIRED_FLAGS)
+    set(packtrace_fortify_level 2)
+    if(PACKTRACE_FORTIFIES_ALL_SIZES)
+        set(packtrace_fortify_level 3)
+    endif()
+    # libc fortifies only what is optimised. -U: some compilers define it by themselves.
+    target_compile_options(packtrace_hardening INTERFACE -fstack-protector-strong
+        "$<$<CONFIG:Release,RelWithDebInfo,MinSizeRel>:-U_FORTIFY_SOURCE;-D_FORTIFY_SOURCE=${packtrace_fortify_level}>")
+    target_link_options(packtrace_hardening INTERFACE LINKER:-z,relro LINKER:-z,now)
+endif()
+
+function(packtrace_harden)
+    if(packtrace_hardened)
+        foreach(target IN LISTS ARGN)
+            target_link_libraries(${target} PRIVATE packtrace_hardening)
+            set_target_properties(${target} PROPERTIES POSITION_INDEPENDENT_CODE ON)
+        endforeach()
+    endif()
+endfunction()

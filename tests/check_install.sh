@@ -164,6 +164,8 @@ subproject() {
             fail "flags of packtrace's own compile the program"
         ninja -C "$folder/$kind" -t commands | grep kernels/table.cpp | grep -q -e ' -O[23] ' ||
             fail "kernels are not optimised in a project without a build type"
+        ! ninja -C "$folder/$kind" -t commands | grep -e FORTIFY_SOURCE -e protector-strong -e 'z,now' ||
+            fail "packtrace hardens another project"
         library=$folder/$kind/packtrace
         [ "$way" = add_subdirectory ] || library=$folder/$kind/_deps/packtrace-build
         cp -P "$build"/src/libpacktrace.* "$library/src"

@@ -81,6 +81,18 @@ if(TARGET packtrace_shared)
     packtrace_script_test(exports fast check_exports.sh ${CMAKE_NM} ${CMAKE_OBJDUMP}
                           $<TARGET_FILE:packtrace_shared> ${PROJECT_SOURCE_DIR}/include/packtrace)
 endif()
+if(packtrace_hardened)
+    set(hardened_files $<TARGET_FILE:packtrace_cli>)
+    foreach(target IN ITEMS packtrace_shared packtrace_mpi packtrace_python)
+        if(TARGET ${target})
+            list(APPEND hardened_files $<TARGET_FILE:${target}>)
+        endif()
+    endforeach()
+    packtrace_script_test(hardening fast check_hardening.sh ${CMAKE_READELF}
+                          ${PROJECT_BINARY_DIR}/compile_commands.json
+                          "$<$<CONFIG:Release,RelWithDebInfo,MinSizeRel>:${packtrace_fortify_level}>"
+                          ${hardened_files})
+endif()
 packtrace_script_test(completion fast check_completion.sh ${packtrace_program})
 
 # Documents against what they are made from, and the public headers' comments.
