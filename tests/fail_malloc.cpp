@@ -1,11 +1,14 @@
 // Preloaded into a program, it lets one allocation fail: the one whose number, counted from the
-// start of main(), the variable FAIL_MALLOC_AT names.
+// start of main(), the variable FAIL_MALLOC_AT names. With FAIL_MALLOC_AT=count none fails, and the
+// end of standard error says how many there were.
 #include <dlfcn.h>
 
 #include <atomic>
 #include <cerrno>
 #include <cstddef>
+#include <cstdio>
 #include <cstdlib>
+#include <cstring>
 
 extern "C" {
 void* __libc_malloc(std::size_t size);
@@ -19,6 +22,7 @@ namespace {
 using Main = int (*)(int, char**, char**);
 using StartMain = int (*)(Main, int, char**, void (*)(), void (*)(), void (*)(), void*);
 
+constexpr long enough = 1000000000;
 std::atomic<long> left{0};
 Main real_main = nullptr;
 
@@ -30,10 +34,18 @@ bool fails()
     return true;
 }
 
+void print_count()
+{
+    std::fprintf(stderr, "%ld\n", enough - left.load());
+}
+
 int counted_main(int count, char** words, char** environment)
 {
     const char* const at = std::getenv("FAIL_MALLOC_AT");
-    left = at == nullptr ? 0 : std::atol(at);
+    const bool counts = at != nullptr && std::strcmp(at, "count") == 0;
+    if (counts)
+        std::atexit(print_count);
+    left = counts ? enough : at == nullptr ? 0 : std::atol(at);
     return real_main(count, words, environment);
 }
 

@@ -73,4 +73,9 @@ void clean_up_when_interrupted(int linger_milliseconds)
     }
 }
 
+void report_size_limits_as_errors()
+{
+    std::signal(SIGXFSZ, SIG_IGN);
+}
+
 }  // namespace packtrace::cli

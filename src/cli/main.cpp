@@ -39,10 +39,14 @@ int report_parse_end(const CLI::App& app, const CLI::ParseError& end, int argc, 
 /// Runs the subcommand; what it throws ends the program.
 int parse_and_run(CLI::App& app, int argc, char** argv)
 {
-    try {
-        app.parse(argc, argv);
+    // Asked before the command runs: this takes memory, and after it a whole picture would stand
+    // there.
+    app.parse_complete_callback([&app] {
         if (app.get_subcommands().empty())
             throw CLI::RequiredError::Subcommand(1);
+    });
+    try {
+        app.parse(argc, argv);
     } catch (const CLI::ParseError& end) {
         return report_parse_end(app, end, argc, argv);
     }
@@ -73,6 +77,7 @@ int set_up_and_run(int argc, char** argv)
     add_soak(app);
     add_stress(app);
     clean_up_when_interrupted();
+    report_size_limits_as_errors();
     return parse_and_run(app, argc, argv);
 }
 

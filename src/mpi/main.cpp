@@ -83,10 +83,14 @@ int run(const World& world, int argc, char** argv)
     add_report(app, world);
     add_stress(app, world);
     clean_up_when_ended(world);
-    try {
-        app.parse(argc, argv);
+    cli::report_size_limits_as_errors();
+    // Asked before the command runs, as in the program packtrace.
+    app.parse_complete_callback([&app] {
         if (app.get_subcommands().empty())
             throw CLI::RequiredError::Subcommand(1);
+    });
+    try {
+        app.parse(argc, argv);
     } catch (const CLI::ParseError& end) {
         return report_parse_end(world, app, end, argc, argv);
     } catch (const JobFailed& failed) {

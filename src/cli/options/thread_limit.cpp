@@ -1,5 +1,7 @@
 #include "cli/options/thread_limit.hpp"
 
+#include <tbb/global_control.h>
+
 #include <algorithm>
 #include <condition_variable>
 #include <cstdio>
@@ -65,8 +67,8 @@ int possible_threads(int threads, int others)
 ThreadLimit::ThreadLimit(int threads, int others)
 {
     if (threads > 0)
-        control_.emplace(tbb::global_control::max_allowed_parallelism,
-                         static_cast<std::size_t>(possible_threads(threads, others)));
+        new tbb::global_control(tbb::global_control::max_allowed_parallelism,
+                                static_cast<std::size_t>(possible_threads(threads, others)));
 }
 
 }  // namespace packtrace::cli

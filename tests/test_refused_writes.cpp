@@ -1,0 +1,114 @@
+// Files that can't be written: full disks, limits of size, folders that may not be written to.
+#include <algorithm>
+#include <filesystem>
+#include <string>
+#include <thread>
+
+#include <sys/prctl.h>
+
+#include <linux/capability.h>
+
+#include "catch.hpp"
+#include "program_works.hpp"
+
+namespace packtrace::test {
+namespace {
+
+/// A run that fails says so in one line, and leaves neither its last file nor an unfinished one.
+void check_refused(const Work& work, const TempFolder& folder, const ProgramResult& result,
+                   const std::string& why)
+{
+    CAPTURE(work.name, result.err);
+    CHECK(result.exit_code == 1);
+    CHECK(std::count(result.err.begin(), result.err.end(), '\n') == 1);
+    CHECK_THAT(result.err, ContainsSubstring(why));
+    CHECK_FALSE(std::filesystem::is_regular_file(folder / work.output));
+    CHECK(temporaries(folder) == 0);
+}
+
+/// Runs the program on a thread that may read and write no more than anybody: root, too, needs
+/// permission there.
+ProgramResult run_without_privileges(const std::vector<std::string>& words)
+{
+    ProgramResult result;
+    std::thread([&] {
+        for (const int capability : {CAP_DAC_OVERRIDE, CAP_DAC_READ_SEARCH})
+            prctl(PR_CAPBSET_DROP, capability, 0, 0, 0);
+        result = run_packtrace(words);
+    }).join();
+    return result;
+}
+
+/// A folder that may be read, but not written to, for the life of the object.
+class ReadOnly {
+public:
+    explicit ReadOnly(std::filesystem::path path) : path_(std::move(path))
+    {
+        using std::filesystem::perms;
+        permissions(path_, perms::owner_read | perms::owner_exec);
+    }
+    ~ReadOnly()
+    {
+        permissions(path_, std::filesystem::perms::owner_all);
+    }
+    ReadOnly(const ReadOnly&) = delete;
+    ReadOnly& operator=(const ReadOnly&) = delete;
+
+private:
+    std::filesystem::path path_;
+};
+
+}  // namespace
+
+TEST_CASE("on a full disk a run ends with one line and leaves no half file", "[refused_writes]")
+{
+    for (const Work& work : all_work()) {
+        const TempFolder folder;
+        write_rays(folder);
+        const std::filesystem::path output = folder / work.output;
+        create_directories(output.parent_path());
+        // What is written through the link finds no room.
+        std::filesystem::create_symlink("/dev/full", output);
+        check_refused(work, folder, run_packtrace(words_of(work, folder)),
+                      "No space left on device");
+    }
+}
+
+TEST_CASE("past a limit of file size a run ends with one line and leaves no half file",
+          "[refused_writes]")
+{
+    for (const Work& work : all_work()) {
+        const TempFolder folder;
+        write_rays(folder);
+        // Blocks of 512 or 1024 bytes.
+        const ProgramResult result = run_packtrace(words_of(work, folder), "ulimit -f 1;");
+        check_refused(work, folder, result, "File too large");
+    }
+}
+
+TEST_CASE("in a folder that may not be written to a run ends with one line", "[refused_writes]")
+{
+    for (const Work& work : all_work()) {
+        const TempFolder folder;
+        write_rays(folder);
+        const ReadOnly read_only(folder / "");
+        check_refused(work, folder, run_without_privileges(words_of(work, folder)),
+                      "Permission denied");
+    }
+}
+
+TEST_CASE("a scene that may not be read is refused in one line", "[refused_writes]")
+{
+    const TempFolder folder;
+    const std::string scene = (folder / "a.scene").string();
+    std::filesystem::copy_file(four_spheres_file, scene);
+    std::filesystem::permissions(scene, std::filesystem::perms::none);
+    const std::string picture = (folder / "a.png").string();
+    const ProgramResult result = run_without_privileges({"render", scene, "-q", "-o", picture});
+    CHECK(result.exit_code == 1);
+    CHECK(std::count(result.err.begin(), result.err.end(), '\n') == 1);
+    CHECK_THAT(result.err, ContainsSubstring("Permission denied"));
+    CHECK_FALSE(std::filesystem::exists(picture));
+}
+
+}  // namespace packtrace::test
