@@ -4,6 +4,38 @@
 
 #include "kernels/simd/lanes.hpp"
 
+// xsimd 8 has for floats what 32-bit Arm can: quotients and square roots from estimates, and
+// rounding by way of integers, which loses the sign of a zero. 64-bit Arm rounds all of them
+// correctly.
+namespace xsimd {
+
+template <>
+inline __attribute__((always_inline)) batch<float, neon64>& batch<float, neon64>::operator/=(
+    const batch<float, neon64>& divisor) noexcept
+{
+    return *this = vdivq_f32(*this, divisor);
+}
+template <>
+inline __attribute__((always_inline)) batch<float, neon64> sqrt(
+    const batch<float, neon64>& x) noexcept
+{
+    return vsqrtq_f32(x);
+}
+template <>
+inline __attribute__((always_inline)) batch<float, neon64> floor(
+    const batch<float, neon64>& x) noexcept
+{
+    return vrndmq_f32(x);
+}
+template <>
+inline __attribute__((always_inline)) batch<double, neon64> floor(
+    const batch<double, neon64>& x) noexcept
+{
+    return vrndmq_f64(x);
+}
+
+}  // namespace xsimd
+
 // What xsimd lacks or offers under differing names, in 64-bit Arm instructions.
 namespace packtrace::PACKTRACE_ISA {
 namespace {
