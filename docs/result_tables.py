@@ -189,7 +189,7 @@ def scaling_pixels(report):
                  rows, 0)
 
 
-# What lanes give and what the algorithm gives: bench.json
+# What lanes give and what the algorithm gives: lanes.json
 
 def lanes(report):
     context = report["context"]
@@ -297,7 +297,7 @@ TABLES = {
     "results/exact_cost.json: ranges": exact_cost_ranges,
     "results/scaling.json: objects": scaling_objects,
     "results/scaling.json: pixels": scaling_pixels,
-    "results/bench.json: lanes": lanes,
+    "results/lanes.json: frames": lanes,
     "results/cluster.json: models": cluster_models,
     "results/cluster.json: efficiency": cluster_efficiency,
     "results/features.json: scenes": features,
