@@ -15,6 +15,7 @@
 
 #include "cli/render/band_source.hpp"
 #include "cli/render/render_bands.hpp"
+#include "core/seconds_since.hpp"
 #include "job_model.hpp"
 
 namespace packtrace::bench {
@@ -27,7 +28,7 @@ double seconds_of(const Work& work)
 {
     const auto start = std::chrono::steady_clock::now();
     work();
-    return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+    return seconds_since(start);
 }
 
 struct BandArguments {

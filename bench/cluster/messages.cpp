@@ -5,17 +5,13 @@
 
 #include <nlohmann/json.hpp>
 
+#include "core/seconds_since.hpp"
 #include "mpi/job.hpp"
 
 namespace packtrace::mpi {
 namespace {
 
 using Clock = std::chrono::steady_clock;
-
-double seconds_since(Clock::time_point start)
-{
-    return std::chrono::duration<double>(Clock::now() - start).count();
-}
 
 /// A message goes from rank 0 to rank 1 and back, and so on. Seconds of one way.
 double one_way(const World& world, int bytes, int times)

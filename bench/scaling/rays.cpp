@@ -15,6 +15,7 @@
 #include <packtrace/generate.hpp>
 #include <packtrace/intersect.hpp>
 
+#include "core/seconds_since.hpp"
 #include "peers/camera_tiles.hpp"
 #include "peers/raced_scenes.hpp"
 #include "peers/ray_set.hpp"
@@ -98,7 +99,7 @@ double seconds_over(std::size_t rays, const Query& query)
     const auto begin = std::chrono::steady_clock::now();
     for (std::size_t first = 0; first < rays; first += batch)
         query(first);
-    return std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+    return seconds_since(begin);
 }
 
 template <class Real>

@@ -16,6 +16,7 @@
 #include <tbb/global_control.h>
 
 #include "context.hpp"
+#include "core/seconds_since.hpp"
 
 namespace packtrace {
 namespace {
@@ -27,11 +28,6 @@ struct Arguments {
     int frames = 5;
     double cover = 1.0;
 };
-
-double seconds_since(std::chrono::steady_clock::time_point start)
-{
-    return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-}
 
 double allocated_bytes()
 {

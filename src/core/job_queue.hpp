@@ -11,6 +11,8 @@
 #include <thread>
 #include <utility>
 
+#include "core/seconds_since.hpp"
+
 namespace packtrace {
 
 /// Runs jobs one after the other on a thread of its own, in the order they come. One job waits at
@@ -71,7 +73,7 @@ private:
     {
         const auto start = std::chrono::steady_clock::now();
         job();
-        seconds_ += std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+        seconds_ += seconds_since(start);
     }
 
     void run_all()

@@ -10,6 +10,7 @@
 #include "cli/intersect/intersect_rays.hpp"
 #include "cli/options/thread_limit.hpp"
 #include "core/checksum.hpp"
+#include "core/seconds_since.hpp"
 #include "mpi/commands.hpp"
 #include "mpi/job_report.hpp"
 #include "mpi/shared_scene.hpp"
@@ -216,8 +217,7 @@ void run(const World& world, const Arguments& arguments)
     });
     cli::set_interrupt_line("");
     print_report(world, arguments.job, arguments.output.empty(), arguments.output, "pieces of rays",
-                 reports,
-                 std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count());
+                 reports, seconds_since(start));
 }
 
 }  // namespace

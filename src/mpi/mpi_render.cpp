@@ -13,6 +13,7 @@
 #include "cli/render/render_animation.hpp"
 #include "cli/render/render_arguments.hpp"
 #include "cli/render/render_bands.hpp"
+#include "core/seconds_since.hpp"
 #include "mpi/commands.hpp"
 #include "mpi/job_report.hpp"
 #include "mpi/shared_scene.hpp"
@@ -29,11 +30,6 @@ using cli::RenderArguments;
 struct Arguments : RenderArguments {
     JobArguments job;
 };
-
-double seconds_since(std::chrono::steady_clock::time_point start)
-{
-    return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-}
 
 /// The picture on rank 0: bands that an earlier run kept, and those that come.
 class Assembly {

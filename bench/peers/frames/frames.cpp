@@ -13,15 +13,11 @@
 
 #include "context.hpp"
 #include "core/atomic_file.hpp"
+#include "core/seconds_since.hpp"
 #include "export.hpp"
 
 namespace packtrace::peers {
 namespace {
-
-double seconds_since(std::chrono::steady_clock::time_point start)
-{
-    return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-}
 
 void export_scene(const std::string& from, const std::filesystem::path& to)
 {

@@ -14,6 +14,7 @@
 #include "cli/render/cut_rays.hpp"
 #include "cli/render/render_picture.hpp"
 #include "core/job_queue.hpp"
+#include "core/seconds_since.hpp"
 #include "render/frame_pattern.hpp"
 #include "scene/quote.hpp"
 
@@ -35,11 +36,6 @@ auto checked(const std::string& option, const Call& call)
 std::string seconds_text(double seconds, int frames)
 {
     return fixed(seconds, 1) + " s, " + fixed(1e3 * seconds / frames, 1) + " ms each";
-}
-
-double seconds_since(std::chrono::steady_clock::time_point start)
-{
-    return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
 }
 
 /// Renders a frame and adds to the tally what it took.

@@ -8,6 +8,7 @@
 #include "cli/output/progress_bar.hpp"
 #include "cli/render/band_file.hpp"
 #include "core/job_queue.hpp"
+#include "core/seconds_since.hpp"
 
 namespace packtrace::cli {
 namespace {
@@ -53,8 +54,7 @@ BandTally render_bands(const RenderArguments& arguments, const Scene& scene,
         const auto start = std::chrono::steady_clock::now();
         band.cut = source->render(file.bands().band(number), band.samples).cut;
         add(tally.cut, band.cut);
-        tally.rendering +=
-            std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+        tally.rendering += seconds_since(start);
         writer.add([&, number, band = std::move(band)] {
             file.keep(number, band);
             note_progress(arguments, number + 1, tally.bands);

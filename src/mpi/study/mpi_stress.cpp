@@ -5,6 +5,7 @@
 #include "cli/interrupts.hpp"
 #include "cli/options/thread_limit.hpp"
 #include "cli/study/stress_output.hpp"
+#include "core/seconds_since.hpp"
 #include "lab/stress/stress_verdict.hpp"
 #include "mpi/commands.hpp"
 #include "mpi/job_report.hpp"
@@ -82,7 +83,7 @@ void run_stress_on_ranks(const World& world, const cli::StressArguments& argumen
             cli::print_stress(arguments, rows);
     });
     print_report(world, {}, false, "stress", "families in one precision", reports,
-                 std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count());
+                 seconds_since(start));
     int failed = lab::without_faults(rows) ? 0 : 1;
     MPI_Bcast(&failed, 1, MPI_INT, 0, MPI_COMM_WORLD);
     if (failed != 0)
