@@ -26,16 +26,16 @@ struct ProgramResult {
     return quoted + "'";
 }
 
-/// Runs the packtrace program with `arguments`, with `environment` (NAME=value words of the
-/// shell) before it and the file `input` as its standard input.
-[[nodiscard]] inline ProgramResult run_packtrace(const std::vector<std::string>& arguments,
-                                                 const std::string& environment = "",
-                                                 const std::string& input = "/dev/null")
+/// Runs a program with its arguments, with `environment` (NAME=value words of the shell) before it
+/// and the file `input` as its standard input.
+[[nodiscard]] inline ProgramResult run_command(const std::vector<std::string>& words,
+                                               const std::string& environment = "",
+                                               const std::string& input = "/dev/null")
 {
     const TempFolder folder;
-    std::string command = environment + " " + shell_quoted(PACKTRACE_CLI);
-    for (const std::string& argument : arguments)
-        command += " " + shell_quoted(argument);
+    std::string command = environment;
+    for (const std::string& word : words)
+        command += " " + shell_quoted(word);
     command += " >" + shell_quoted((folder / "out").string()) + " 2>" +
                shell_quoted((folder / "err").string()) + " <" + shell_quoted(input);
 
@@ -46,6 +46,16 @@ struct ProgramResult {
     result.out = read_text(folder / "out");
     result.err = read_text(folder / "err");
     return result;
+}
+
+/// Runs the packtrace program in the same way.
+[[nodiscard]] inline ProgramResult run_packtrace(const std::vector<std::string>& arguments,
+                                                 const std::string& environment = "",
+                                                 const std::string& input = "/dev/null")
+{
+    std::vector<std::string> words{PACKTRACE_CLI};
+    words.insert(words.end(), arguments.begin(), arguments.end());
+    return run_command(words, environment, input);
 }
 
 }  // namespace packtrace::test

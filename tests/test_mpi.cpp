@@ -33,28 +33,11 @@ Words mpirun(int ranks)
         std::to_string(ranks), PACKTRACE_MPI};
 }
 
-ProgramResult run_words(const Words& words)
-{
-    const TempFolder folder;
-    std::string command;
-    for (const std::string& word : words)
-        command += shell_quoted(word) + " ";
-    command += "</dev/null >" + shell_quoted((folder / "out").string()) + " 2>" +
-               shell_quoted((folder / "err").string());
-    ProgramResult result;
-    const int status = std::system(command.c_str());
-    if (WIFEXITED(status))
-        result.exit_code = WEXITSTATUS(status);
-    result.out = read_text(folder / "out");
-    result.err = read_text(folder / "err");
-    return result;
-}
-
 ProgramResult run_ranks(int ranks, const Words& words)
 {
     Words all = mpirun(ranks);
     all.insert(all.end(), words.begin(), words.end());
-    return run_words(all);
+    return run_command(all);
 }
 
 /// The lines of packtrace-mpi itself: mpirun adds some about exit codes.
@@ -184,6 +167,16 @@ std::map<std::string, std::string> pictures_of(const std::filesystem::path& fold
 std::string mpi_scene(const std::string& name)
 {
     return PACKTRACE_SOURCE_DIR "/scenes/" + name + ".scene";
+}
+
+/// Renders a high picture in bands that are kept.
+Words render_high(const std::filesystem::path& picture)
+{
+    return {"render", mpi_scene("mirror_room"),
+            "--size", "800x8000",
+            "-q",     "-o",
+            picture,  "--threads",
+            "1",      "--resume"};
 }
 
 #endif
@@ -577,20 +570,29 @@ TEST_CASE("what a job can't do it says in one line, once", "[mpi]")
     CHECK(run_ranks(2, {"--version"}).exit_code == 0);
 }
 
+TEST_CASE("a job's messages show control characters in names as they are written", "[mpi]")
+{
+    const TempFolder folder;
+    const std::string name = folder / "a\n\033[31m.scene";
+    for (const Words& words : {Words{"render", name, "-o", folder / "a.png"},
+                               Words{"render", four_spheres_file, "-o", name + "/a.png"},
+                               Words{"render", four_spheres_file, "-o", folder / "a.png", name}}) {
+        CAPTURE(words);
+        const ProgramResult result = run_ranks(2, words);
+        CHECK(result.exit_code != 0);
+        CHECK_THAT(result.err, ContainsSubstring("a\\x0a\\x1b[31m.scene"));
+        CHECK(result.err.find('\033') == std::string::npos);
+        CHECK(own_lines(result.err).size() == 1);
+    }
+}
+
 TEST_CASE("a rank that dies ends the job with a line, and --resume goes on", "[mpi]")
 {
     const TempFolder folder;
-    const auto words = [&](const std::string& name) {
-        return Words{"render",      mpi_scene("mirror_room"),
-                     "--size",      "800x8000",
-                     "-q",          "-o",
-                     folder / name, "--threads",
-                     "1",           "--resume"};
-    };
-    REQUIRE(run_packtrace(words("w.png")).exit_code == 0);
+    REQUIRE(run_packtrace(render_high(folder / "w.png")).exit_code == 0);
     for (std::size_t victim = 0; victim < 3; ++victim) {
         CAPTURE(victim);
-        const int code = kill_rank(3, words("m.png"), victim, folder / "err",
+        const int code = kill_rank(3, render_high(folder / "m.png"), victim, folder / "err",
                                    [&] { return lines_of(folder / "m.png.journal") >= 3; });
         REQUIRE(code > 0);
         CHECK_FALSE(std::filesystem::exists(folder / "m.png"));
@@ -598,7 +600,7 @@ TEST_CASE("a rank that dies ends the job with a line, and --resume goes on", "[m
         CAPTURE(err);
         CHECK((err.find("packtrace-mpi: the job ended with ") != std::string::npos ||
                err.find("packtrace-mpi: rank 0 died") != std::string::npos));
-        const ProgramResult result = run_ranks(victim == 0 ? 2 : 1, words("m.png"));
+        const ProgramResult result = run_ranks(victim == 0 ? 2 : 1, render_high(folder / "m.png"));
         CHECK(result.exit_code == 0);
         CHECK((read_text(folder / "m.png") == read_text(folder / "w.png")));
         std::filesystem::remove(folder / "m.png");
@@ -639,25 +641,18 @@ TEST_CASE("a job that mpirun ends says so and leaves no file, however long its t
 TEST_CASE("ranks killed at random moments lose nothing", "[mpi][slow]")
 {
     const TempFolder folder;
-    const auto words = [&](const std::string& name) {
-        return Words{"render",      mpi_scene("mirror_room"),
-                     "--size",      "800x8000",
-                     "-q",          "-o",
-                     folder / name, "--threads",
-                     "1",           "--resume"};
-    };
-    REQUIRE(run_packtrace(words("w.png")).exit_code == 0);
+    REQUIRE(run_packtrace(render_high(folder / "w.png")).exit_code == 0);
     std::uint32_t random = 1;
     for (std::size_t i = 0; i < 50; ++i) {
         random = random * 1664525u + 1013904223u;
         const auto end = std::chrono::steady_clock::now() + std::chrono::milliseconds(random >> 21);
-        (void)kill_rank(3, words("m.png"), random >> 8, folder / "err",
+        (void)kill_rank(3, render_high(folder / "m.png"), random >> 8, folder / "err",
                         [&] { return std::chrono::steady_clock::now() > end; });
         CHECK((!std::filesystem::exists(folder / "m.png") ||
                read_text(folder / "m.png") == read_text(folder / "w.png")));
         if (i % 5 != 4)
             continue;
-        CHECK(run_ranks(2, words("m.png")).exit_code == 0);
+        CHECK(run_ranks(2, render_high(folder / "m.png")).exit_code == 0);
         CHECK((read_text(folder / "m.png") == read_text(folder / "w.png")));
         std::filesystem::remove(folder / "m.png");
         CHECK((folder.names() == Words{"err", "w.png"}));

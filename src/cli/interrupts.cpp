@@ -10,6 +10,7 @@
 #include <unistd.h>
 
 #include "core/atomic_file.hpp"
+#include "scene/quote.hpp"
 
 namespace packtrace::cli {
 namespace {
@@ -43,11 +44,13 @@ void end_by(int signal)
 
 }  // namespace
 
-void set_interrupt_line(const std::string& line)
+void set_interrupt_line(const std::string& given)
 {
     static std::size_t next = 0;
-    if (line.empty())
+    if (given.empty())
         return given_line.store(nullptr);
+    // One line, whatever is in the names of files.
+    const std::string line = language::escape(given);
     std::array<char, 512>& text = lines[next];
     next = 1 - next;
     const std::size_t length = std::min(line.size(), text.size() - 3);

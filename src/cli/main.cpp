@@ -39,12 +39,7 @@ int report_parse_end(const CLI::App& app, const CLI::ParseError& end, int argc, 
 /// Runs the subcommand; what it throws ends the program.
 int parse_and_run(CLI::App& app, int argc, char** argv)
 {
-    // Asked before the command runs: this takes memory, and after it a whole picture would stand
-    // there.
-    app.parse_complete_callback([&app] {
-        if (app.get_subcommands().empty())
-            throw CLI::RequiredError::Subcommand(1);
-    });
+    ask_for_subcommand(app);
     try {
         app.parse(argc, argv);
     } catch (const CLI::ParseError& end) {
@@ -59,8 +54,6 @@ int set_up_and_run(int argc, char** argv)
 {
     CLI::App app{"packtrace: a SIMD ray-packet tracer for spheres, planes, quadrics and polygons"};
     app.set_version_flag("--version", "packtrace " PACKTRACE_VERSION_STRING);
-    // Not required here: a mistyped one would be called missing.
-    app.require_subcommand(0, 1);
     add_render(app);
     add_compare(app);
     add_completion(app);

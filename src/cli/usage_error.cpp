@@ -102,4 +102,15 @@ std::string usage_error(const CLI::App& app, const CLI::ParseError& error, int c
     return name + ": " + what + (what.ends_with('?') ? " See " : "; see ") + name + " --help";
 }
 
+void ask_for_subcommand(CLI::App& app)
+{
+    app.require_subcommand(0, 1);
+    // Asked before the command runs: this takes memory, and after it a whole picture would stand
+    // there.
+    app.parse_complete_callback([&app] {
+        if (app.get_subcommands().empty())
+            throw CLI::RequiredError::Subcommand(1);
+    });
+}
+
 }  // namespace packtrace::cli

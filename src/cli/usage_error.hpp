@@ -11,4 +11,7 @@ namespace packtrace::cli {
 [[nodiscard]] std::string usage_error(const CLI::App& app, const CLI::ParseError& error, int count,
                                       const char* const* arguments);
 
+/// Makes one subcommand needed. A mistyped one is not called missing.
+void ask_for_subcommand(CLI::App& app);
+
 }  // namespace packtrace::cli

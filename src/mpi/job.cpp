@@ -4,25 +4,19 @@
 #include <chrono>
 #include <cstring>
 #include <exception>
-#include <new>
 #include <stdexcept>
 #include <thread>
 #include <utility>
+
+#include "core/seconds_since.hpp"
 
 namespace packtrace::mpi {
 namespace {
 
 using Clock = std::chrono::steady_clock;
 
-// A count of MPI is an int.
-constexpr std::size_t largest_message = std::size_t{1} << 30;
 /// How long a rank sleeps where MPI has nothing for it.
 constexpr std::chrono::microseconds nap{200};
-
-double seconds_since(Clock::time_point start)
-{
-    return std::chrono::duration<double>(Clock::now() - start).count();
-}
 
 /// What goes ahead of a piece's bytes.
 struct Head {
@@ -31,25 +25,6 @@ struct Head {
     std::uint64_t cut_rays = 0;
     double cut_bound = 0.0;
 };
-
-/// Calls `use` for each message that so many bytes are sent in.
-template <class Use>
-void in_messages(std::size_t bytes, const Use& use)
-{
-    for (std::size_t at = 0; at < bytes; at += largest_message)
-        use(at, static_cast<int>(std::min(largest_message, bytes - at)));
-}
-
-std::string what_of(const std::exception_ptr& error)
-{
-    try {
-        std::rethrow_exception(error);
-    } catch (const std::bad_alloc&) {
-        return "packtrace-mpi: not enough memory";
-    } catch (const std::exception& known) {
-        return known.what();
-    }
-}
 
 }  // namespace
 

@@ -18,6 +18,7 @@
 #include "cli/usage_error.hpp"
 #include "core/atomic_file.hpp"
 #include "mpi/commands.hpp"
+#include "scene/quote.hpp"
 
 namespace packtrace::mpi {
 namespace {
@@ -68,7 +69,7 @@ int report_parse_end(const World& world, const CLI::App& app, const CLI::ParseEr
         return end.get_exit_code() == 0 ? cli::exit_ok : cli::exit_usage;
     if (end.get_exit_code() == 0)
         return app.exit(end);
-    std::cerr << cli::usage_error(app, end, argc, argv) << '\n';
+    std::cerr << language::escape(cli::usage_error(app, end, argc, argv)) << '\n';
     return cli::exit_usage;
 }
 
@@ -77,18 +78,13 @@ int run(const World& world, int argc, char** argv)
     CLI::App app{"packtrace on many ranks, by MPI; SCENE is a file, - or 'generate NAME OPTION...'",
                  "packtrace-mpi"};
     app.set_version_flag("--version", "packtrace-mpi " PACKTRACE_VERSION_STRING);
-    app.require_subcommand(0, 1);
     add_render(app, world);
     add_intersect(app, world);
     add_report(app, world);
     add_stress(app, world);
     clean_up_when_ended(world);
     cli::report_size_limits_as_errors();
-    // Asked before the command runs, as in the program packtrace.
-    app.parse_complete_callback([&app] {
-        if (app.get_subcommands().empty())
-            throw CLI::RequiredError::Subcommand(1);
-    });
+    cli::ask_for_subcommand(app);
     try {
         app.parse(argc, argv);
     } catch (const CLI::ParseError& end) {
@@ -112,7 +108,8 @@ int end_together(int exit_code)
 /// What went wrong on one rank alone ends all.
 [[noreturn]] void abort_job(const World& world, const std::string& why)
 {
-    std::cerr << "packtrace-mpi: rank " << world.rank() << ": " << why << std::endl;
+    std::cerr << "packtrace-mpi: rank " << world.rank() << ": " << language::escape(why)
+              << std::endl;
     remove_all_temporaries();
     MPI_Abort(MPI_COMM_WORLD, cli::exit_failed);
     std::_Exit(cli::exit_failed);

@@ -3,6 +3,7 @@
 #include <cstring>
 #include <stdexcept>
 #include <string>
+#include <string_view>
 #include <type_traits>
 #include <vector>
 
@@ -60,7 +61,11 @@ private:
 
 class WireReader {
 public:
-    explicit WireReader(const Bytes& bytes) : bytes_(bytes)
+    explicit WireReader(const Bytes& bytes)
+        : WireReader({reinterpret_cast<const char*>(bytes.data()), bytes.size()})
+    {
+    }
+    explicit WireReader(std::string_view bytes) : bytes_(bytes)
     {
     }
 
@@ -114,7 +119,7 @@ private:
         each_field(*this, value);
     }
 
-    const Bytes& bytes_;
+    std::string_view bytes_;
     std::size_t at_ = 0;
 };
 

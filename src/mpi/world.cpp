@@ -1,21 +1,18 @@
 #include "mpi/world.hpp"
 
-#include <algorithm>
 #include <array>
 #include <chrono>
 #include <cstdint>
-#include <exception>
 #include <iostream>
 #include <new>
 #include <thread>
 
 #include <CLI/CLI.hpp>
 
+#include "scene/quote.hpp"
+
 namespace packtrace::mpi {
 namespace {
-
-// A count of MPI is an int.
-constexpr std::size_t largest_message = std::size_t{1} << 30;
 
 /// Why a step failed; empty where it did not.
 struct Failure {
@@ -31,15 +28,36 @@ Failure attempt(const std::function<void()>& step)
         throw;
     } catch (const CLI::Error& error) {
         return {std::string("packtrace-mpi: ") + error.what(), 2};
-    } catch (const std::bad_alloc&) {
-        return {"packtrace-mpi: not enough memory", 1};
-    } catch (const std::exception& error) {
-        return {error.what(), 1};
+    } catch (...) {
+        return {what_of(std::current_exception()), 1};
     }
     return {};
 }
 
+/// A string or bytes.
+template <class Values>
+void broadcast_values(Values& values)
+{
+    std::uint64_t size = values.size();
+    MPI_Bcast(&size, 1, MPI_UINT64_T, 0, MPI_COMM_WORLD);
+    values.resize(size);
+    in_messages(size, [&](std::size_t at, int count) {
+        MPI_Bcast(values.data() + at, count, MPI_BYTE, 0, MPI_COMM_WORLD);
+    });
+}
+
 }  // namespace
+
+std::string what_of(const std::exception_ptr& error)
+{
+    try {
+        std::rethrow_exception(error);
+    } catch (const std::bad_alloc&) {
+        return "packtrace-mpi: not enough memory";
+    } catch (const std::exception& known) {
+        return known.what();
+    }
+}
 
 World::World(int& argc, char**& argv)
 {
@@ -86,7 +104,8 @@ void World::together(const std::function<void()>& step) const
     if (first == size_)
         return;
     if (rank_ == first)
-        std::cerr << failure.why << '\n';
+        // One line, whatever is in the names of files.
+        std::cerr << language::escape(failure.why) << '\n';
     int code = failure.exit_code;
     MPI_Bcast(&code, 1, MPI_INT, first, MPI_COMM_WORLD);
     throw JobFailed{code};
@@ -94,12 +113,12 @@ void World::together(const std::function<void()>& step) const
 
 void World::broadcast(std::string& text) const
 {
-    std::uint64_t length = text.size();
-    MPI_Bcast(&length, 1, MPI_UINT64_T, 0, MPI_COMM_WORLD);
-    text.resize(length);
-    for (std::size_t at = 0; at < length; at += largest_message)
-        MPI_Bcast(text.data() + at, static_cast<int>(std::min(largest_message, length - at)),
-                  MPI_BYTE, 0, MPI_COMM_WORLD);
+    broadcast_values(text);
+}
+
+void World::broadcast(Bytes& bytes) const
+{
+    broadcast_values(bytes);
 }
 
 void World::broadcast(std::vector<int>& numbers) const

@@ -1,10 +1,15 @@
 #pragma once
 
+#include <algorithm>
+#include <cstddef>
+#include <exception>
 #include <functional>
 #include <string>
 #include <vector>
 
 #include <mpi.h>
+
+#include "image/bytes.hpp"
 
 namespace packtrace::mpi {
 
@@ -12,6 +17,19 @@ namespace packtrace::mpi {
 struct JobFailed {
     int exit_code = 1;
 };
+
+/// Why work failed, in a line.
+[[nodiscard]] std::string what_of(const std::exception_ptr& error);
+
+/// Calls `use` with the beginning and size of each message that so many bytes are sent in: a count
+/// of MPI is an int.
+template <class Use>
+void in_messages(std::size_t bytes, const Use& use)
+{
+    constexpr std::size_t largest_message = std::size_t{1} << 30;
+    for (std::size_t at = 0; at < bytes; at += largest_message)
+        use(at, static_cast<int>(std::min(largest_message, bytes - at)));
+}
 
 /// MPI from its start to its end, and what ranks tell each other. Only the thread that made it
 /// calls MPI.
@@ -39,8 +57,9 @@ public:
     /// rank that failed says why in one line, and all throw JobFailed.
     void together(const std::function<void()>& step) const;
 
-    /// Rank 0's text, on every rank.
+    /// Rank 0's text or bytes, on every rank.
     void broadcast(std::string& text) const;
+    void broadcast(Bytes& bytes) const;
     void broadcast(std::vector<int>& numbers) const;
     /// Every rank's text, on every rank.
     [[nodiscard]] std::vector<std::string> gather(const std::string& text) const;

@@ -13,6 +13,7 @@
 #include "cli/options/thread_limit.hpp"
 #include "cli/output/progress_bar.hpp"
 #include "cli/study/report_arguments.hpp"
+#include "core/seconds_since.hpp"
 #include "lab/harness/stopwatch.hpp"
 #include "lab/truth/truth.hpp"
 #include "mpi/commands.hpp"
@@ -178,17 +179,13 @@ void ReportJob::trace_truths(const std::vector<Asked>& asked, const std::vector<
 /// From rank 0 to all.
 void ReportJob::send_truth(Truth& truth)
 {
-    std::string text;
-    if (world_.is_first()) {
-        WireWriter wire;
-        wire(truth.what, truth.seconds, truth.cached, truth.image);
-        text.assign(wire.bytes.begin(), wire.bytes.end());
-    }
-    world_.broadcast(text);
+    WireWriter message;
+    if (world_.is_first())
+        message(truth.what, truth.seconds, truth.cached, truth.image);
+    world_.broadcast(message.bytes);
     if (world_.is_first())
         return;
-    const Bytes bytes(text.begin(), text.end());
-    WireReader wire(bytes);
+    WireReader wire(message.bytes);
     wire(truth.what, truth.seconds, truth.cached, truth.image);
 }
 
@@ -262,7 +259,6 @@ void ReportJob::take_times()
 {
     // Who takes which is settled beforehand: nothing is asked of MPI while anything is timed.
     const std::vector<int> leaders = world_.node_leaders();
-    std::vector<std::string> mine;
     std::vector<std::size_t> owners;
     std::string own;
     world_.together([&] {
@@ -280,10 +276,7 @@ void ReportJob::take_times()
     const std::vector<std::string> all = world_.gather(own);
     if (!world_.is_first())
         return;
-    std::vector<Bytes> bytes;
-    for (const std::string& text : all)
-        bytes.emplace_back(text.begin(), text.end());
-    std::vector<WireReader> wires(bytes.begin(), bytes.end());
+    std::vector<WireReader> wires(all.begin(), all.end());
     std::size_t turn = 0;
     for (SceneReport& scene : reports_)
         for (StudyReport& study : scene.studies) {
@@ -356,7 +349,7 @@ void run_report_on_ranks(const World& world, const Arguments& arguments)
     });
     cli::set_interrupt_line("");
     print_report(world, {}, arguments.quiet, arguments.folder.string(), "runs", reports,
-                 std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count());
+                 seconds_since(start));
 }
 
 }  // namespace
