@@ -129,6 +129,26 @@ OwnerFault fault_of_material(const Material& material)
     return fault;
 }
 
+/// Of its names and its material.
+OwnerFault fault_of_looks(const Object& object, Illumination illumination)
+{
+    OwnerFault fault = fault_of_names(object);
+    if (!fault)
+        fault = fault_at("material", fault_of_model(object.material, illumination));
+    if (!fault)
+        fault = fault_of_checker(object, illumination);
+    if (!fault && object.material.checker) {
+        const CheckerValue value{object.material.color, *object.material.checker};
+        fault = fault_at("checker", checker().check("checker", value));
+    }
+    if (!fault && illumination == Illumination::general && object.material.color != Rgb(1.0))
+        fault = KeyFault{"color",
+                         "a material of illumination = general has no colour; leave it (1, 1, 1)"};
+    if (!fault)
+        fault = fault_of_material(object.material);
+    return fault;
+}
+
 /// A fault of a material is that of its block, where its first object has it.
 std::string subject_of(const Scene& scene, std::size_t object, const KeyFault& fault)
 {
@@ -174,7 +194,7 @@ std::optional<SceneFault> fault_of_objects(const Scene& scene)
         if (fault_of_shape(object))
             return true;
         if (i > 0 && shares_material(object, scene.objects[i - 1]))
-            return !object.name.empty() && name().check("name", object.name).has_value();
+            return fault_of_names(object).has_value();
         return fault_of_looks(object, scene.illumination).has_value();
     });
     if (first == scene.objects.size())
@@ -254,25 +274,6 @@ OwnerFault fault_of_object(const Object& object, Illumination illumination)
 {
     OwnerFault fault = fault_of_shape(object);
     return fault ? fault : fault_of_looks(object, illumination);
-}
-
-OwnerFault fault_of_looks(const Object& object, Illumination illumination)
-{
-    OwnerFault fault = fault_of_names(object);
-    if (!fault)
-        fault = fault_at("material", fault_of_model(object.material, illumination));
-    if (!fault)
-        fault = fault_of_checker(object, illumination);
-    if (!fault && object.material.checker) {
-        const CheckerValue value{object.material.color, *object.material.checker};
-        fault = fault_at("checker", checker().check("checker", value));
-    }
-    if (!fault && illumination == Illumination::general && object.material.color != Rgb(1.0))
-        fault = KeyFault{"color",
-                         "a material of illumination = general has no colour; leave it (1, 1, 1)"};
-    if (!fault)
-        fault = fault_of_material(object.material);
-    return fault;
 }
 
 OwnerFault fault_of_camera(const Camera& camera)

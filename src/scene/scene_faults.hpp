@@ -28,9 +28,6 @@ namespace packtrace::language {
 /// The first fault of an object but for its name's being another's.
 [[nodiscard]] OwnerFault fault_of_object(const Object& object, Illumination illumination);
 
-/// Of its names and its material.
-[[nodiscard]] OwnerFault fault_of_looks(const Object& object, Illumination illumination);
-
 [[nodiscard]] OwnerFault fault_of_camera(const Camera& camera);
 
 /// A key of an animation that has these frames, after a key at frame `earlier` (-1 for none).
