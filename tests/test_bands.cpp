@@ -13,27 +13,12 @@
 #include "image/row_file.hpp"
 #include "intersect_program.hpp"
 #include "render/row_renderer.hpp"
+#include "samplings.hpp"
 #include "scene_files.hpp"
 #include "temp_folder.hpp"
 
 namespace packtrace::test {
 namespace {
-
-struct Way {
-    const char* name;
-    RenderOptions options;
-};
-
-std::vector<Way> ways()
-{
-    RenderOptions once;
-    RenderOptions mean;
-    mean.samples = 3;
-    RenderOptions adaptive;
-    adaptive.samples = 4;
-    adaptive.adaptive = 0.05;
-    return {{"one sample", once}, {"several", mean}, {"adaptive", adaptive}};
-}
 
 /// Renders the rows of a picture in bands of `rows`, from the last band up.
 template <class Real>
@@ -77,10 +62,10 @@ TEST_CASE("rows rendered in bands have the bits of the whole picture", "[bands]"
     for (const auto& file : scene_files()) {
         Scene scene = small_scene(file);
         scene.min_weight = 0.02;
-        for (const Way& way : ways()) {
-            CAPTURE(file.filename().string(), way.name);
-            check_bands<float>(scene, way.options, 16);
-            check_bands<double>(scene, way.options, 32);
+        for (const Sampling& sampling : samplings()) {
+            CAPTURE(file.filename().string(), sampling.name);
+            check_bands<float>(scene, sampling.options, 16);
+            check_bands<double>(scene, sampling.options, 32);
         }
     }
 }
@@ -90,12 +75,12 @@ TEST_CASE("the scalar reference renders bands to the bits of the whole picture",
     Scene scene = read_scene(PACKTRACE_SOURCE_DIR "/scenes/four_spheres.scene");
     set_size(scene, 37, 51);
     scene.min_weight = 0.02;
-    for (Way way : ways()) {
-        CAPTURE(way.name);
-        way.options.kernel = Kernel::scalar;
-        check_bands<float>(scene, way.options, 16);
-        check_bands<double>(scene, way.options, 32);
-        check_bands<long double>(scene, way.options, 48);
+    for (Sampling sampling : samplings()) {
+        CAPTURE(sampling.name);
+        sampling.options.kernel = Kernel::scalar;
+        check_bands<float>(scene, sampling.options, 16);
+        check_bands<double>(scene, sampling.options, 32);
+        check_bands<long double>(scene, sampling.options, 48);
     }
 }
 

@@ -11,6 +11,7 @@
 
 #include "catch.hpp"
 #include "run_program.hpp"
+#include "samplings.hpp"
 #include "scenes.hpp"
 #include "temp_folder.hpp"
 
@@ -24,17 +25,6 @@ Scene quadrics_of_size(int width, int height)
     Scene scene = read_scene(quadrics_file);
     set_size(scene, width, height);
     return scene;
-}
-
-std::vector<RenderOptions> samplings()
-{
-    RenderOptions once;
-    RenderOptions mean;
-    mean.samples = 3;
-    RenderOptions adaptive;
-    adaptive.samples = 4;
-    adaptive.adaptive = 0.05;
-    return {once, mean, adaptive};
 }
 
 template <class Real>
@@ -90,9 +80,9 @@ std::string refusal_of_region(const Region& region, Kernel kernel)
 TEST_CASE("a region has the pixels of the whole picture, bit for bit", "[region]")
 {
     for (const Kernel kernel : {Kernel::packet, Kernel::scalar})
-        for (RenderOptions options : samplings()) {
+        for (auto [name, options] : samplings()) {
             options.kernel = kernel;
-            CAPTURE(static_cast<int>(kernel), options.samples, options.adaptive.has_value());
+            CAPTURE(static_cast<int>(kernel), name);
             check_regions<float>(options);
             check_regions<double>(options);
         }
@@ -125,8 +115,8 @@ TEST_CASE("rendering stops where asked to", "[region]")
 {
     const Scene scene = quadrics_of_size(640, 480);
     for (const Kernel kernel : {Kernel::packet, Kernel::scalar})
-        for (RenderOptions options : samplings()) {
-            CAPTURE(static_cast<int>(kernel), options.samples, options.adaptive.has_value());
+        for (auto [name, options] : samplings()) {
+            CAPTURE(static_cast<int>(kernel), name);
             std::stop_source source;
             double reached = 0.0;
             options.kernel = kernel;
