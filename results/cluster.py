@@ -20,6 +20,7 @@ import tempfile
 import time
 
 from provenance import FOLDER, commit, machine, write
+from ratios import share
 
 RANKS = [1 << i for i in range(13)]
 # A part of rank 0 that is busier than this is what all wait for.
@@ -126,13 +127,11 @@ def race(build, scene, size, repetitions, folder):
                           f"{folder}/two.png"])
         rows["ranks_wall"].append(time.monotonic() - start)
         rows["ranks"].append(report["seconds"])
-    ratios = [ranks / process for ranks, process in zip(rows["ranks"], rows["process"])]
     sent = sum(rank["bytes_sent"] for rank in report["ranks"])
     pieces = sum(rank["pieces"] for rank in report["ranks"])
     pixels_sent = size * size * sum(rank["pieces"] for rank in report["ranks"] if rank["bytes_sent"]) / pieces
     result = {"scene": scene, "size": size, "repetitions": repetitions,
-              "ranks_over_process": {"median": statistics.median(ratios), "lowest": min(ratios),
-                                     "highest": max(ratios)},
+              "ranks_over_process": share(rows["ranks"], rows["process"]),
               "bytes_sent": sent, "bytes_a_sent_pixel": sent / max(pixels_sent, 1), "bytes_a_pixel": sent / size ** 2,
               "seconds": rows}
     print(json.dumps(result), flush=True)

@@ -18,6 +18,7 @@ import sys
 import tempfile
 
 from provenance import commit, commit_of_build, machine, write
+from ratios import share
 
 ROOT = pathlib.Path(__file__).resolve().parents[1]
 RAYS = [("four_spheres", 512, ("avx512", "avx2")), ("spheres32", 512, ("avx512", "avx2")),
@@ -43,12 +44,6 @@ def milliseconds(build, scene, isa, options, folder):
                isa, "-o", f"{folder}/frame.pfm"] + options["frame"]
     done = subprocess.run(command, capture_output=True, text=True, check=True)
     return float(re.search(r"([\d.]+) ms", done.stdout + done.stderr).group(1))
-
-
-def share(of, over):
-    """Median and range of the ratios of runs that stood next to each other."""
-    ratios = [a / b for a, b in zip(of, over)]
-    return {"median": statistics.median(ratios), "lowest": min(ratios), "highest": max(ratios)}
 
 
 def row_of(of, times, speed):

@@ -15,6 +15,7 @@ import sys
 import tempfile
 
 from provenance import commit, commit_of_build, machine, write
+from ratios import share
 
 SCENES = {
     "flake4": ["sphereflake", "--depth", "4"],
@@ -34,9 +35,8 @@ def milliseconds(build, scene, folder):
 
 
 def row_of(name, times):
-    ratios = [now / before for now, before in zip(times["now"], times["before"])]
     row = {"scene": name, "ms": statistics.median(times["now"]), "before_ms": statistics.median(times["before"]),
-           "share": {"median": statistics.median(ratios), "lowest": min(ratios), "highest": max(ratios)}}
+           "share": share(times["now"], times["before"])}
     print(json.dumps(row))
     return row
 
