@@ -3,7 +3,8 @@
 #
 # GCC 12 turns a*b-c, a*b+c into fmaddsub whatever -ffp-contract says, which rounds otherwise
 # than the source: no file may hold one. And the objects named sse42 and host, which is all but
-# the kernels, must run without AVX.
+# the kernels, must run without AVX. Those named one_lane, which others are compared with, trace one
+# ray at a time.
 set -u
 objdump=$1
 name=$2
@@ -18,7 +19,8 @@ instructions=$(count '^ +[0-9a-f]+:')
 mixed=$(count 'fmaddsub|fmsubadd')
 fused=$(count 'vfn?m(add|sub)')
 avx=$(count '^ +[0-9a-f]+:	v')
-echo "$name: $instructions instructions, $fused fused, $mixed fmaddsub or fmsubadd, $avx AVX"
+packed=$(count '	v(add|sub|mul|div|sqrt|fn?m(add|sub)[0-9]*)ps ')
+echo "$name: $instructions instructions, $fused fused, $mixed fmaddsub or fmsubadd, $avx AVX, $packed packed float"
 
 failed=0
 if [ "$instructions" -lt 1000 ]; then
@@ -43,4 +45,8 @@ one_lane | sse_fma | avx2 | avx512 | library)
     fi
     ;;
 esac
+if [ "$name" = one_lane ] && [ "$packed" != 0 ]; then
+    echo "$name: arithmetic on several floats at once; compile with -fno-tree-slp-vectorize"
+    failed=1
+fi
 exit "$failed"
