@@ -3,6 +3,7 @@
 #include <cstdlib>
 #include <filesystem>
 #include <map>
+#include <sstream>
 #include <string>
 #include <thread>
 #include <vector>
@@ -25,12 +26,17 @@ using mpi::PieceWindow;
 
 #ifdef PACKTRACE_MPI
 
-/// mpirun with so many ranks, more than there are processors.
-Words mpirun(int ranks)
+/// mpirun of a program with so many ranks, more than there are processors.
+Words mpirun(int ranks, const std::string& program = PACKTRACE_MPI)
 {
-    return {
-        PACKTRACE_MPIEXEC,     "--allow-run-as-root", "--oversubscribe", "--bind-to", "none", "-n",
-        std::to_string(ranks), PACKTRACE_MPI};
+    return {PACKTRACE_MPIEXEC,
+            "--allow-run-as-root",
+            "--oversubscribe",
+            "--bind-to",
+            "none",
+            "-n",
+            std::to_string(ranks),
+            program};
 }
 
 ProgramResult run_ranks(int ranks, const Words& words)
@@ -460,6 +466,36 @@ TEST_CASE("a report has the errors of one process whatever the ranks", "[mpi]")
         CHECK(cached.dump().find("\"cached\":false") == std::string::npos);
         without_times(cached);
         CHECK(cached.dump() == expected.dump());
+    }
+}
+
+TEST_CASE("no rank of a node works while another one times", "[mpi]")
+{
+    struct Stage {
+        int rank = 0;
+        std::string kind;
+        std::int64_t begin = 0, end = 0;
+    };
+    for (const int ranks : {2, 3, 5}) {
+        CAPTURE(ranks);
+        const ProgramResult result = run_command(mpirun(ranks, PACKTRACE_QUIET_RANKS));
+        REQUIRE(result.exit_code == 0);
+        std::istringstream lines(result.out);
+        // Studies are timed by one rank a node.
+        int nodes = 0;
+        lines >> nodes;
+        CHECK(nodes == 1);
+        std::vector<Stage> stages;
+        for (Stage one; lines >> one.rank >> one.kind >> one.begin >> one.end;)
+            stages.push_back(one);
+        CHECK(stages.size() == 60u * static_cast<std::size_t>(ranks));
+        int together = 0;
+        for (const Stage& timed : stages)
+            for (const Stage& other : stages)
+                if (timed.kind == "timed" && timed.rank != other.rank && timed.begin < other.end &&
+                    other.begin < timed.end)
+                    ++together;
+        CHECK(together == 0);
     }
 }
 
