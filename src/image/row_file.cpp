@@ -66,6 +66,7 @@ public:
     WholePng(const std::filesystem::path& file, int width, int height)
         : Encoder(file), width_(width), height_(height)
     {
+        samples_.reserve(3 * static_cast<std::size_t>(width) * static_cast<std::size_t>(height));
     }
     void write(std::span<const std::uint8_t> samples) override
     {

@@ -1,5 +1,6 @@
 #include "mpi/job.hpp"
 
+#include <algorithm>
 #include <array>
 #include <chrono>
 #include <cstring>
@@ -15,8 +16,10 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-/// How long a rank sleeps where MPI has nothing for it.
-constexpr std::chrono::microseconds nap{200};
+/// How long a rank sleeps where MPI has nothing for it. Waking up takes about 15 us of a processor
+/// that others work on.
+constexpr std::chrono::microseconds shortest_nap{200};
+constexpr std::chrono::microseconds longest_nap{2000};
 
 /// What goes ahead of a piece's bytes.
 struct Head {
@@ -58,8 +61,12 @@ struct Job::Sending {
     }
 };
 
-Job::Job(const World& world, int pieces, int window)
-    : world_(world), counter_(world), window_(pieces, window), ranks_at_work_(world.size() - 1)
+Job::Job(const World& world, int pieces, int window, Link link)
+    : world_(world),
+      link_(link),
+      counter_(world),
+      window_(pieces, window),
+      ranks_at_work_(world.size() - 1)
 {
 }
 
@@ -87,21 +94,22 @@ std::vector<RankReport> Job::run(const Make& make, const Take& take)
 
 std::vector<RankReport> Job::run(const Work& work)
 {
-    return run(work, [](const Piece&) {});
+    return run(work, [](Piece) {});
 }
 
 std::vector<RankReport> Job::run(const Work& work, const Take& take)
 {
     const auto start = Clock::now();
+    last_busy_ = start;
     std::thread worker([&] { work_all(work); });
     std::thread writer;
     if (world_.is_first())
         writer = std::thread([&] { write_all(take); });
     while (!is_over())
-        if (!step()) {
-            std::unique_lock lock(mutex_);
-            changed_.wait_for(lock, nap, [&] { return asks_ || !finished_.empty(); });
-        }
+        if (step())
+            last_busy_ = Clock::now();
+        else
+            rest();
     worker.join();
     if (writer.joinable())
         writer.join();
@@ -142,6 +150,7 @@ void Job::fail(const std::string& why)
     if (!failed_)
         failure_ = why;
     failed_ = true;
+    changed_.notify_all();
 }
 
 std::int64_t Job::ask()
@@ -180,14 +189,14 @@ void Job::write_all(const Take& take)
         changed_.wait(lock, [&] { return failed_ || window_.ready(); });
         if (failed_)
             return;
-        const Piece piece = std::move(here_[window_.first()]);
+        Piece piece = std::move(here_[window_.first()]);
         here_.erase(window_.first());
         if (!piece.error.empty())
             return fail(piece.error);
         lock.unlock();
         std::string error;
         try {
-            take(piece);
+            take(std::move(piece));
         } catch (...) {
             error = what_of(std::current_exception());
         }
@@ -321,10 +330,39 @@ bool Job::receive_one(int tag)
     return true;
 }
 
-/// Whether this rank has nothing more to do for MPI.
+/// Sleeps until there may be something to do. Messages alone have to be looked for.
+void Job::rest()
+{
+    std::unique_lock lock(mutex_);
+    const auto called = [&] {
+        return asks_ || !finished_.empty() || (failed_ && !stopped_) || nothing_left();
+    };
+    const bool expects_messages = world_.is_first() ? ranks_at_work_ > 0 : !sending_.empty();
+    if (expects_messages)
+        changed_.wait_for(lock, nap(), called);
+    else
+        changed_.wait(lock, called);
+}
+
+std::chrono::microseconds Job::nap() const
+{
+    // Other nodes' ranks take no number while rank 0 sleeps.
+    if (link_ == Link::network)
+        return shortest_nap;
+    const auto since =
+        std::chrono::duration_cast<std::chrono::microseconds>(Clock::now() - last_busy_);
+    return std::clamp(since / 4, shortest_nap, longest_nap);
+}
+
 bool Job::is_over()
 {
     const std::scoped_lock lock(mutex_);
+    return nothing_left();
+}
+
+/// Whether this rank has nothing more to do for MPI. For who holds the mutex.
+bool Job::nothing_left() const
+{
     const bool own = !works_ && finished_.empty() && sending_.empty() && (!failed_ || stopped_);
     if (!world_.is_first())
         return own;

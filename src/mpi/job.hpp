@@ -1,5 +1,6 @@
 #pragma once
 
+#include <chrono>
 #include <condition_variable>
 #include <cstdint>
 #include <deque>
@@ -45,7 +46,11 @@ class Job {
 public:
     /// 0 pieces where none come to rank 0. Of those that come it holds a `window` at most
     /// (window_of).
-    Job(const World& world, int pieces, int window);
+    Job(const World& world, int pieces, int window) : Job(world, pieces, window, world.link())
+    {
+    }
+    /// For ranks that are linked otherwise.
+    Job(const World& world, int pieces, int window, Link link);
     ~Job();
 
     /// Gives the next number, from 0 on over all ranks, to the thread that works.
@@ -53,7 +58,7 @@ public:
     /// Makes a piece. Adds its rays to the report.
     using Make = std::function<Piece(int number, RankReport& report)>;
     /// Takes the pieces on rank 0, in order, on a thread of its own.
-    using Take = std::function<void(const Piece& piece)>;
+    using Take = std::function<void(Piece piece)>;
     /// Works until Next gives no more work; fills the report's pieces, rays and busy seconds.
     using Work = std::function<void(const Next& next, RankReport& report)>;
 
@@ -78,10 +83,14 @@ private:
     bool send_finished(std::unique_lock<std::mutex>& lock);
     bool receive_pieces();
     bool receive_one(int tag);
-    bool is_over();
+    void rest();
+    [[nodiscard]] std::chrono::microseconds nap() const;
+    [[nodiscard]] bool is_over();
+    [[nodiscard]] bool nothing_left() const;
     void fail(const std::string& why);
 
     const World& world_;
+    Link link_;
     Counter counter_;
     std::mutex mutex_;
     std::condition_variable changed_;
@@ -94,6 +103,7 @@ private:
     int on_their_way_ = 0;
     bool works_ = true;
     std::vector<std::unique_ptr<Sending>> sending_;
+    std::chrono::steady_clock::time_point last_busy_;  ///< with MPI
 
     // On rank 0.
     PieceWindow window_;

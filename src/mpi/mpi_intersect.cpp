@@ -122,15 +122,15 @@ private:
 
 /// The rows of a range.
 template <class Real>
-std::string rows_of(cli::BlockTracer<Real>& tracer, const std::string& file, const RayRange& range,
-                    RankReport& report)
+Bytes rows_of(cli::BlockTracer<Real>& tracer, const std::string& file, const RayRange& range,
+              RankReport& report)
 {
     cli::RayBlocks blocks(file, range);
-    std::string all;
+    Bytes all;
     std::uint64_t rays = 0;
     cli::intersect_rays<Real>(tracer, blocks,
                               [&](const cli::RayBlock& block, std::string_view rows) {
-                                  all += rows;
+                                  all.insert(all.end(), rows.begin(), rows.end());
                                   rays += block.rays;
                               });
     report.rays += rays;
@@ -150,15 +150,13 @@ std::vector<RankReport> trace(const World& world, const Arguments& arguments, co
     Job job(world, pieces.count() - finished, window_of(world.size(), std::size_t{1} << 23));
     const auto make = [&](int number, RankReport& report) {
         const auto i = static_cast<std::uint64_t>(number + finished);
-        std::string rows;
+        Piece piece;
         try {
-            rows = rows_of(*tracer, arguments.rays, pieces.range(i), report);
+            piece.bytes = rows_of(*tracer, arguments.rays, pieces.range(i), report);
         } catch (const FileError&) {
             // Again, so that the message has the right line.
-            rows = rows_of(*tracer, arguments.rays, pieces.numbered(i), report);
+            piece.bytes = rows_of(*tracer, arguments.rays, pieces.numbered(i), report);
         }
-        Piece piece;
-        piece.bytes.assign(rows.begin(), rows.end());
         return piece;
     };
     return job.run(make, [&](const Piece& piece) {

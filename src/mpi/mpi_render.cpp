@@ -3,6 +3,7 @@
 #include <iostream>
 #include <memory>
 #include <optional>
+#include <utility>
 #include <vector>
 
 #include "cli/interrupts.hpp"
@@ -52,11 +53,11 @@ public:
     }
 
     /// The next of those.
-    void take(const Piece& piece)
+    void take(Piece piece)
     {
         const int number = missing_[static_cast<std::size_t>(piece.number)];
         write_kept(number);
-        const FinishedBand band{piece.bytes, {piece.cut_rays, piece.cut_bound}};
+        const FinishedBand band{std::move(piece.bytes), {piece.cut_rays, piece.cut_bound}};
         file_.keep(number, band);
         write(band);
         note_progress();
@@ -151,7 +152,7 @@ void render_picture(const World& world, const Arguments& arguments, const Scene&
         return piece;
     };
     const std::vector<RankReport> reports =
-        job.run(make, [&](const Piece& piece) { assembly->take(piece); });
+        job.run(make, [&](Piece piece) { assembly->take(std::move(piece)); });
     world.together([&] {
         if (assembly)
             assembly->finish();

@@ -34,6 +34,24 @@ Failure attempt(const std::function<void()>& step)
     return {};
 }
 
+/// This rank among those of its node.
+struct RanksOfNode {
+    int number = 0;
+    int size = 1;
+};
+
+/// Called by all ranks together.
+RanksOfNode ranks_of_node()
+{
+    MPI_Comm node;
+    MPI_Comm_split_type(MPI_COMM_WORLD, MPI_COMM_TYPE_SHARED, 0, MPI_INFO_NULL, &node);
+    RanksOfNode ranks;
+    MPI_Comm_rank(node, &ranks.number);
+    MPI_Comm_size(node, &ranks.size);
+    MPI_Comm_free(&node);
+    return ranks;
+}
+
 /// A string or bytes.
 template <class Values>
 void broadcast_values(Values& values)
@@ -72,6 +90,7 @@ World::World(int& argc, char**& argv)
         MPI_Finalize();
         std::exit(1);
     }
+    link_ = ranks_of_node().size == size_ ? Link::memory : Link::network;
 }
 
 World::~World()
@@ -152,11 +171,7 @@ std::vector<std::string> World::gather(const std::string& text) const
 
 std::vector<int> World::node_leaders() const
 {
-    MPI_Comm node;
-    MPI_Comm_split_type(MPI_COMM_WORLD, MPI_COMM_TYPE_SHARED, rank_, MPI_INFO_NULL, &node);
-    int number = 0;
-    MPI_Comm_rank(node, &number);
-    MPI_Comm_free(&node);
+    const int number = ranks_of_node().number;
     std::vector<int> numbers(static_cast<std::size_t>(size_));
     MPI_Allgather(&number, 1, MPI_INT, numbers.data(), 1, MPI_INT, MPI_COMM_WORLD);
     std::vector<int> leaders;

@@ -31,6 +31,12 @@ void in_messages(std::size_t bytes, const Use& use)
         use(at, static_cast<int>(std::min(largest_message, bytes - at)));
 }
 
+/// What ranks reach each other by.
+enum class Link {
+    memory,  ///< of a node that all are on: one takes another's number without its help
+    network
+};
+
 /// MPI from its start to its end, and what ranks tell each other. Only the thread that made it
 /// calls MPI.
 class World {
@@ -53,6 +59,11 @@ public:
         return rank_ == 0;
     }
 
+    [[nodiscard]] Link link() const
+    {
+        return link_;
+    }
+
     /// Runs `step` on every rank and sleeps until all have done so. Where it throws, the lowest
     /// rank that failed says why in one line, and all throw JobFailed.
     void together(const std::function<void()>& step) const;
@@ -73,6 +84,7 @@ private:
 
     int rank_ = 0;
     int size_ = 1;
+    Link link_ = Link::network;
 };
 
 }  // namespace packtrace::mpi
