@@ -30,11 +30,15 @@ inline RayPacket<Real> make_rays(const Vec3v<Real>& org, const Vec3v<Real>& dir,
 }
 
 template <class Real>
-inline HitPacket<Real> no_hit(Real t_max)
+inline HitPacket<Real> no_hit(const batch<Real>& end)
 {
-    const vreal<Real> end(t_max);
     return {end, vint<Real>(lane_int<Real>(-1)), end,
             vreal<Real>(static_cast<Real>(__builtin_inf()))};
+}
+template <class Real>
+inline HitPacket<Real> no_hit(Real t_max)
+{
+    return no_hit<Real>(vreal<Real>(t_max));
 }
 
 /// Takes the hits at `t` where `valid` and closer; at equal t the lower surface number wins, so

@@ -35,8 +35,10 @@ struct SurfacePacket {
     Vec3v<Real> dir;             ///< of the ray that came here
     vreal<Real> inverse_length;  ///< 1 / |dir|
     vint<Real> number;
+    lane_int<Real> common;  ///< the number of all active lanes; -1 where they differ
     vint<Real> material;
     vint<Real> object;
+    lane_int<Real> common_material;  ///< likewise
     Vec3v<Real> lift;       ///< outwards, to where rounding has no part in which side a point is on
     std::uint32_t leaving;  ///< lanes that come from the inside
 };
@@ -81,10 +83,10 @@ inline vint<Real> checker_parity(const abi::CheckerRecord<Real>& checker, const 
     return select(odd, vint<Real>(lane_int<Real>(1)), vint<Real>(lane_int<Real>(0)));
 }
 
-/// Fills `material` and `object`.
+/// Fills `material`, `object` and what they have in common.
 template <class Real>
 inline void set_material(SurfacePacket<Real>& surface, const abi::SceneView<Real>& scene,
-                         const vint<Real>& number, std::uint32_t active)
+                         std::uint32_t active)
 {
     const auto material_of = [&](const abi::MaterialIndex& index) {
         const vint<Real> first(static_cast<lane_int<Real>>(index.first));
@@ -95,9 +97,14 @@ inline void set_material(SurfacePacket<Real>& surface, const abi::SceneView<Real
     const auto object_of = [](const abi::MaterialIndex& index) {
         return vint<Real>(static_cast<lane_int<Real>>(index.object));
     };
-    DistinctNumbers<Real> distinct(number, active);
-    surface.material = material_of(scene.materials.of_surface[distinct.value()]);
-    surface.object = object_of(scene.materials.of_surface[distinct.value()]);
+    DistinctNumbers<Real> distinct(surface.number, active);
+    const abi::MaterialIndex& first = scene.materials.of_surface[distinct.value()];
+    surface.material = material_of(first);
+    surface.object = object_of(first);
+    const bool is_only = distinct.is_only();
+    surface.common = is_only ? distinct.value() : -1;
+    surface.common_material =
+        is_only && first.checker < 0 ? static_cast<lane_int<Real>>(first.first) : -1;
     while (distinct.next()) {
         const abi::MaterialIndex& index = scene.materials.of_surface[distinct.value()];
         surface.material = select(distinct.lanes_of(), material_of(index), surface.material);
@@ -105,14 +112,16 @@ inline void set_material(SurfacePacket<Real>& surface, const abi::SceneView<Real
     }
 }
 
-/// The lanes of surfaces whose normal is turned against the ray.
+/// The lanes of surfaces whose normal is turned against the ray, after set_material().
 template <class Real>
-inline std::uint32_t facing_viewer(const abi::ShapesView& shapes, const vint<Real>& number,
-                                   std::uint32_t active)
+inline std::uint32_t facing_viewer(const abi::ShapesView& shapes,
+                                   const SurfacePacket<Real>& surface, std::uint32_t active)
 {
+    if (surface.common >= 0)
+        return shapes.index[surface.common].faces_viewer != 0 ? all_lanes<Real> : 0;
     std::uint32_t lanes_of = 0;
-    for_each_distinct<Real>(number, active, [&](lane_int<Real> surface, vmask<Real> same) {
-        if (shapes.index[surface].faces_viewer != 0)
+    for_each_distinct<Real>(surface.number, active, [&](lane_int<Real> number, vmask<Real> same) {
+        if (shapes.index[number].faces_viewer != 0)
             lanes_of |= bits(same);
     });
     return lanes_of;
@@ -128,11 +137,29 @@ inline SurfacePacket<Real> surface_at(const abi::SceneView<Real>& scene, const V
     surface.point = point;
     surface.dir = dir;
     surface.number = number;
-    set_normal(surface, scene, normal, facing_viewer<Real>(scene.shapes, number, active));
+    set_material(surface, scene, active);
+    set_normal(surface, scene, normal, facing_viewer(scene.shapes, surface, active));
     surface.inverse_length = vreal<Real>(Real(1)) / sqrt(dot(dir, dir));
-    set_material(surface, scene, number, active);
     return surface;
 }
+
+/// The materials of packet after packet: mostly all lanes have the one that the packet before had.
+template <class Real>
+class LastMaterials {
+public:
+    const MaterialPacket<Real>& fetch(const abi::SceneView<Real>& scene,
+                                      const SurfacePacket<Real>& surface, std::uint32_t active)
+    {
+        if (surface.common_material < 0 || surface.common_material != common_)
+            materials_ = fetch_materials(scene, surface.material, active);
+        common_ = surface.common_material;
+        return materials_;
+    }
+
+private:
+    MaterialPacket<Real> materials_;
+    lane_int<Real> common_ = -1;
+};
 
 }  // namespace
 }  // namespace packtrace::PACKTRACE_ISA

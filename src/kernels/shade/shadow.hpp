@@ -56,6 +56,8 @@ inline OwnSurface<vint<Real>> common_own_of(const abi::SceneView<Real>& scene,
 {
     if (!(scene.rules.start_error > 0))
         return {no_surface<Real>()};
+    if (surface.common >= 0)
+        return {surface.number, static_cast<std::int32_t>(surface.common)};
     const DistinctNumbers<Real> distinct(surface.number, active);
     return own_with_common<Real>(surface.number, distinct.value(), active);
 }
@@ -179,19 +181,6 @@ inline void visit_light_occluders(const ShadeContext<F, Real>& context, int ligh
     });
 }
 
-/// Whether lists hold nothing but what all rays start on.
-template <abi::Features F, class Objects, class Own>
-inline bool holds_but_own(const Objects& objects, const Own& own)
-{
-    return for_each_kind<F>([&](auto kind) {
-        const auto& list = objects_of<decltype(kind)>(objects);
-        for (int i = 0; i < list.count; ++i)
-            if (!own.all_on(body_of(object_at(list, i))))
-                return false;
-        return true;
-    });
-}
-
 /// Whether no object but their own may be in the way of a light, for the lanes of `open`, and
 /// bounds hold for the segments: with a margin, as rays start off their surfaces.
 template <abi::Features F, class Real>
@@ -206,7 +195,8 @@ inline bool nothing_between(const ShadeContext<F, Real>& context, int light,
             return false;
         const auto own = common_own_of(*context.scene, surface, open);
         return with_light_objects(context, light, [&](const auto& objects) {
-            return objects.certifiable && holds_but_own<F>(objects, own);
+            return objects.certifiable &&
+                   (objects.empty() || (objects.count == 1 && own.all_on(objects.one)));
         });
     } else {
         return false;

@@ -13,31 +13,51 @@ namespace {
 template <class Real>
 class DistinctNumbers {
 public:
-    DistinctNumbers(const vint<Real>& number, std::uint32_t active) : number_(number), left_(active)
+    DistinctNumbers(const vint<Real>& number, std::uint32_t active)
+        : number_(number), left_(active), value_(first_of(number, active))
     {
-        store(by_lane_, number);
     }
 
     [[nodiscard]] lane_int<Real> value() const
     {
-        return by_lane_[__builtin_ctz(left_)];
+        return value_;
     }
     /// The lanes of value(), inactive ones among them.
     [[nodiscard]] vmask<Real> lanes_of() const
     {
-        return int_equal(number_, vint<Real>(value()));
+        return int_equal(number_, vint<Real>(value_));
+    }
+    /// Whether there is but one.
+    [[nodiscard]] bool is_only() const
+    {
+        return (left_ & ~bits(lanes_of())) == 0;
     }
     /// Goes on to the next; false when there is none.
     bool next()
     {
         left_ &= ~bits(lanes_of());
-        return left_ != 0;
+        if (left_ == 0)
+            return false;
+        value_ = first_of(number_, left_);
+        return true;
     }
 
 private:
-    alignas(64) lane_int<Real> by_lane_[lanes<Real>];
+    static lane_int<Real> lane_of(const vint<Real>& number, int lane)
+    {
+        alignas(64) lane_int<Real> by_lane[lanes<Real>];
+        store(by_lane, number);
+        return by_lane[lane];
+    }
+    /// Mostly lane 0, which the compiler takes without a way through memory.
+    static lane_int<Real> first_of(const vint<Real>& number, std::uint32_t active)
+    {
+        return (active & 1u) != 0 ? lane_of(number, 0) : lane_of(number, __builtin_ctz(active));
+    }
+
     vint<Real> number_;
     std::uint32_t left_;
+    lane_int<Real> value_;
 };
 
 /// Calls `visit(number, lanes)` for each distinct number among the lanes of `active`.

@@ -18,10 +18,11 @@ inline void gather_shadow_rays(const ShadeContext<F, Real>& context, const HitSt
 {
     const abi::SceneView<Real>& scene = *context.scene;
     const abi::LightRecord<Real>& record = scene.lighting.lights.data[light];
+    LastMaterials<Real> materials;
     for (int first = 0; first < hits.count; first += lanes<Real>) {
         const std::uint32_t active = first_lanes<Real>(hits.count - first);
         const SurfacePacket<Real>& surface = context.surfaces[first / lanes<Real>];
-        const MaterialPacket<Real> material = fetch_materials(scene, surface.material, active);
+        const MaterialPacket<Real>& material = materials.fetch(scene, surface, active);
         const LightPacket<Real> packet = light_at<F>(scene, record, surface, material, active);
         with_shadow_ray(context, light, packet, surface,
                         [&](const vreal<Real>& t_end, const RayPacket<Real>& rays) {

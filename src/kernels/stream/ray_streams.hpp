@@ -84,6 +84,8 @@ inline StartPacket<Real> start_of(const abi::SceneView<Real>& scene,
 template <abi::Features F, class Real>
 struct StreamWork {
     FromAnywhere<F, Real> nearby;
+    FromPoint<F, Real> from_point;  ///< in place of `nearby` for rays from one point
+    bool shares_origin = false;     ///< the chunk's rays are such rays
     RayBundle<Real>* bundle = nullptr;
     std::size_t bytes = 0;
 
@@ -92,17 +94,63 @@ struct StreamWork {
     {
         Arena arena(scratch);
         nearby = take_objects<FromAnywhere<F, Real>>(arena, scene);
-        if (!scene.tree.empty())
+        if (scene.tree.empty())
+            from_point = take_objects<FromPoint<F, Real>>(arena, scene);
+        else
             bundle = arena.template take<RayBundle<Real>>(1);
         bytes = arena.used();
     }
 };
+
+/// Fewer rays are not worth what is computed once for a shared origin.
+inline constexpr int fewest_sharing = 64;
+
+/// Whether a chunk's rays all start at the same point, as those from an eye or a light do. Zeros of
+/// both signs are not the same, so that results have the same bits either way.
+template <class Real>
+inline bool start_together(const abi::RaysView<Real>& view, int begin, int count)
+{
+    if (count < fewest_sharing)
+        return false;
+    const Real* const x = view.org[0] + begin;
+    const Real* const y = view.org[1] + begin;
+    const Real* const z = view.org[2] + begin;
+    const Vec3v<Real> one{vreal<Real>(*x), vreal<Real>(*y), vreal<Real>(*z)};
+    const auto differs = [](const vreal<Real>& a, const vreal<Real>& b) {
+        return as_int(a) ^ as_int(b);
+    };
+    // The last packet may overlap the one before.
+    for (int first = 0; first < count;) {
+        const int at = first + lanes<Real> <= count ? first : count - lanes<Real>;
+        const vint<Real> any_differs = differs(load(x + at), one.x) | differs(load(y + at), one.y) |
+                                       differs(load(z + at), one.z);
+        if (bits(int_equal(any_differs, vint<Real>(lane_int<Real>(0)))) != all_lanes<Real>)
+            return false;
+        first = at + lanes<Real>;
+    }
+    return true;
+}
+
+/// Prepares the lists for rays from the origin of the ray `begin`, wherever they go.
+template <abi::Features F, class Real>
+inline void find_from_origin(StreamWork<F, Real>& work, const abi::SceneView<Real>& scene,
+                             const abi::RaysView<Real>& view, int begin)
+{
+    Cone<Real> anywhere;
+    for (int axis = 0; axis < 3; ++axis)
+        anywhere.base[axis] = view.org[axis][begin];
+    find_objects<F>(work.from_point, anywhere, scene);
+}
 
 /// Prepares the lists for a chunk of a stream.
 template <abi::Features F, class Real>
 inline void find_nearby_of(StreamWork<F, Real>& work, const abi::SceneView<Real>& scene,
                            const abi::RaysView<Real>& view, int begin, int count)
 {
+    work.shares_origin =
+        scene.tree.empty() && view.start_surface == nullptr && start_together(view, begin, count);
+    if (work.shares_origin)
+        return find_from_origin(work, scene, view, begin);
     if constexpr (F.exact) {
         const vreal<float> never(__builtin_inff());
         const vreal<float> before = negated(never);
@@ -167,25 +215,28 @@ inline void store_packet_hits(const abi::SceneView<Real>& scene, const RayPacket
 // What passes over a chunk is a function of its own: in one with the code around it, the compiler
 // spills so much that rays took a quarter longer.
 
-/// Where the scene has no hierarchy: packet by packet, without a bundle in between.
-template <abi::Features F, class Real>
+/// Where the scene has no hierarchy: packet by packet, without a bundle in between. `Starts` tells
+/// whether rays may start on surfaces.
+template <bool Starts, abi::Features F, class Objects, class Real>
 [[gnu::noinline]] void closest_chunk_in_lists(const abi::SceneView<Real>& scene,
-                                              const StreamWork<F, Real>& work,
+                                              const Objects& objects,
                                               const abi::RaysView<Real>& view, int begin, int end,
                                               const abi::HitsView<Real>& hits)
 {
     for (int first = begin; first < end; first += lanes<Real>) {
         const StreamPacket<Real> packet(view, first);
-        const StartPacket<Real> start = start_of(scene, view, first, packet.rays);
-        HitPacket<Real> hit = start_of_search(start, packet.t_max);
-        if (view.start_surface != nullptr)
-            closest_hit<F>(hit, work.nearby, packet.rays,
-                           own_with_common<Real>(start.surface, view.start_surface[first],
-                                                 first_lanes<Real>(packet.count)));
-        else
-            closest_hit<F>(hit, work.nearby, packet.rays, NoOwn{});
-        settle_packet<F>(scene, packet.rays, hit, start, packet.t_max,
-                         first_lanes<Real>(packet.count));
+        const std::uint32_t live = first_lanes<Real>(packet.count);
+        StartPacket<Real> start = no_start<Real>();
+        HitPacket<Real> hit = no_hit<Real>(packet.t_max);
+        if constexpr (Starts) {
+            start = start_of(scene, view, first, packet.rays);
+            hit = start_of_search(start, packet.t_max);
+            closest_hit<F>(hit, objects, packet.rays,
+                           own_with_common<Real>(start.surface, view.start_surface[first], live));
+        } else {
+            closest_hit<F>(hit, objects, packet.rays, NoOwn{});
+        }
+        settle_packet<F>(scene, packet.rays, hit, start, packet.t_max, live);
         store_packet_hits<F>(scene, packet.rays, hit, start, packet.t_max, hits, first,
                              packet.count);
     }
@@ -221,7 +272,7 @@ template <abi::Features F, class Real>
 }
 
 /// Rays that the lists are prepared for together, where there is no hierarchy to go through.
-inline constexpr int list_chunk = 4 * bundle_rays;
+inline constexpr int list_chunk = 16 * bundle_rays;
 
 /// Calls `visit(begin, end)` for the chunks of a stream, for which the lists are prepared.
 template <abi::Features F, class Real, class Visit>
@@ -242,16 +293,20 @@ inline void closest_hits(const abi::SceneView<Real>& scene, const abi::RaysView<
 {
     StreamWork<F, Real> work(scratch, scene);
     for_each_chunk(work, scene, view, [&](int begin, int end) {
-        if (scene.tree.empty())
-            closest_chunk_in_lists(scene, work, view, begin, end, hits);
-        else
+        if (!scene.tree.empty())
             closest_chunk_in_tree(scene, work, view, begin, end, hits);
+        else if (work.shares_origin)
+            closest_chunk_in_lists<false, F>(scene, work.from_point, view, begin, end, hits);
+        else if (view.start_surface != nullptr)
+            closest_chunk_in_lists<true, F>(scene, work.nearby, view, begin, end, hits);
+        else
+            closest_chunk_in_lists<false, F>(scene, work.nearby, view, begin, end, hits);
     });
 }
 
-template <abi::Features F, class Real>
+template <abi::Features F, class Objects, class Real>
 [[gnu::noinline]] void occluded_chunk_in_lists(const abi::SceneView<Real>& scene,
-                                               const StreamWork<F, Real>& work,
+                                               const Objects& objects,
                                                const abi::RaysView<Real>& view, int begin, int end,
                                                std::uint8_t* mask)
 {
@@ -262,14 +317,14 @@ template <abi::Features F, class Real>
         std::uint32_t blocked = 0;
         if constexpr (F.exact) {
             const Occlusion occlusion =
-                occluded<F>(packet.t_max, work.nearby, packet.rays, own, wanted);
+                occluded<F>(packet.t_max, objects, packet.rays, own, wanted);
             blocked = occlusion.blocked;
             if (occlusion.unsure != 0)
                 blocked |= retrace_occluded<F>(*scene.wide, packet.rays, own.surface, packet.t_max,
                                                false, occlusion.unsure);
         } else {
-            blocked = occluded<F>(RayEnd<Real>{packet.t_max, false}, work.nearby, packet.rays, own,
-                                  wanted);
+            blocked =
+                occluded<F>(RayEnd<Real>{packet.t_max, false}, objects, packet.rays, own, wanted);
         }
         store_mask<Real>(mask + first, blocked, packet.count);
     }
@@ -331,10 +386,12 @@ inline void occluded_rays(const abi::SceneView<Real>& scene, const abi::RaysView
 {
     StreamWork<F, Real> work(scratch, scene);
     for_each_chunk(work, scene, view, [&](int begin, int end) {
-        if (scene.tree.empty())
-            occluded_chunk_in_lists(scene, work, view, begin, end, mask);
-        else
+        if (!scene.tree.empty())
             occluded_chunk_in_tree(scene, work, view, begin, end, mask);
+        else if (work.shares_origin)
+            occluded_chunk_in_lists<F>(scene, work.from_point, view, begin, end, mask);
+        else
+            occluded_chunk_in_lists<F>(scene, work.nearby, view, begin, end, mask);
     });
 }
 

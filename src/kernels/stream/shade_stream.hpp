@@ -85,7 +85,7 @@ inline void spawn_children(const ShadeContext<F, Real>& context, const Children<
 
 template <PixelWrite Write, abi::Features F, class Real>
 inline void shade_packet(const ShadeContext<F, Real>& context, const HitStream<F, Real>& hits,
-                         int first, TilePixelColors<Real>& pixels,
+                         int first, LastMaterials<Real>& materials, TilePixelColors<Real>& pixels,
                          const Children<F, Real>& children)
 {
     const std::uint32_t active = first_lanes<Real>(hits.count - first);
@@ -96,7 +96,7 @@ inline void shade_packet(const ShadeContext<F, Real>& context, const HitStream<F
     const SurfacePacket<Real> surface = context.surfaces != nullptr
                                             ? context.surfaces[first / lanes<Real>]
                                             : surface_of<F>(*context.scene, hits, first, active);
-    const MaterialPacket<Real> material = fetch_materials(*context.scene, surface.material, active);
+    const MaterialPacket<Real>& material = materials.fetch(*context.scene, surface, active);
 
     Vec3v<Real> color = local_color<F>(context, surface, material, probe, active, first);
     if constexpr (F.bounces) {
@@ -122,12 +122,14 @@ template <abi::Features F, class Real>
 inline void shade_flat(const abi::SceneView<Real>& scene, const HitStream<F, Real>& hits,
                        TilePixelColors<Real>& pixels)
 {
+    LastMaterials<Real> materials;
     for (int first = 0; first < hits.count; first += lanes<Real>) {
         const std::uint32_t active = first_lanes<Real>(hits.count - first);
         SurfacePacket<Real> surface;
         surface.point = load3(hits.point, first);
-        set_material(surface, scene, load(hits.surface + first), active);
-        const MaterialPacket<Real> material = fetch_materials(scene, surface.material, active);
+        surface.number = load(hits.surface + first);
+        set_material(surface, scene, active);
+        const MaterialPacket<Real>& material = materials.fetch(scene, surface, active);
         write_colors<PixelWrite::set>(pixels, load(hits.pixel + first), material.ambient, active);
     }
 }
@@ -137,8 +139,9 @@ template <PixelWrite Write, abi::Features F, class Real>
 inline void shade_stream(const ShadeContext<F, Real>& context, const HitStream<F, Real>& hits,
                          TilePixelColors<Real>& pixels, const Children<F, Real>& children)
 {
+    LastMaterials<Real> materials;
     for (int first = 0; first < hits.count; first += lanes<Real>)
-        shade_packet<Write>(context, hits, first, pixels, children);
+        shade_packet<Write>(context, hits, first, materials, pixels, children);
 }
 
 }  // namespace

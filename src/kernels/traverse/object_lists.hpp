@@ -30,10 +30,12 @@ template <bool Shared, class... Kind>
 struct FilteredObjects<Shared, KindList<Kind...>> : ListOfKind<Kind, typename Kind::Certain>... {
     static constexpr bool shared = Shared;
     bool certifiable = false;  ///< the scene's sizes and the origins are such that bounds hold
+    int count = 0;             ///< in all lists
+    Body one = {-1};           ///< of them, where there are any
 
     bool empty() const
     {
-        return (list_of<Kind>(*this).count + ...) == 0;
+        return count == 0;
     }
 };
 
@@ -96,9 +98,13 @@ template <abi::Features F, bool Shared>
                                       const Cone<float>& cone, const abi::SceneView<float>& scene)
 {
     objects.certifiable = scene.certifiable && certifiable(origins);
+    objects.count = 0;
     for_each_kind<F>([&](auto kind) {
-        find_certain<Shared>(list_of<decltype(kind)>(objects), origins, cone, kind.list(scene),
-                             kind.list(*scene.wide));
+        auto& list = list_of<decltype(kind)>(objects);
+        find_certain<Shared>(list, origins, cone, kind.list(scene), kind.list(*scene.wide));
+        objects.count += list.count;
+        if (list.count > 0)
+            objects.one = body_of(object_at(list, 0));
         return true;
     });
 }
