@@ -170,6 +170,94 @@ TEST_CASE("packets list all hits of a ray in order", "[ray_scene]")
     CHECK(most >= 6);
 }
 
+namespace {
+
+template <class Real>
+using Columns = std::array<std::vector<Real>, 8>;
+
+template <class Real>
+struct Answers {
+    std::array<std::vector<Real>, 4> values;  ///< t and the normal
+    std::vector<std::int32_t> object;
+    std::vector<std::uint8_t> mask;
+
+    bool operator==(const Answers&) const = default;
+};
+
+/// What so many rays at a time meet.
+template <class Real>
+Answers<Real> answers(const RayScene<Real>& scene, const Columns<Real>& rays, std::size_t at_a_time)
+{
+    const std::size_t count = rays[0].size();
+    Answers<Real> result;
+    for (std::vector<Real>& column : result.values)
+        column.resize(count);
+    result.object.resize(count);
+    result.mask.resize(count);
+    auto& [t, nx, ny, nz] = result.values;
+    for (std::size_t first = 0; first < count; first += at_a_time) {
+        const auto from = [&](std::size_t column) { return rays[column].data() + first; };
+        const RaysView<Real> view{from(0), from(1), from(2),
+                                  from(3), from(4), from(5),
+                                  from(6), from(7), std::min(at_a_time, count - first)};
+        scene.closest_hits(view,
+                           {&t[first], &result.object[first], &nx[first], &ny[first], &nz[first]});
+        scene.occluded(view, &result.mask[first]);
+    }
+    return result;
+}
+
+/// Rays from one place, whose first coordinate is 0 with either sign where `both_zeros`.
+template <class Real>
+Columns<Real> rays_from_one_place(int count, bool both_zeros)
+{
+    std::mt19937 random(11);
+    std::uniform_real_distribution<double> way(-1.0, 1.0);
+    Columns<Real> rays;
+    for (int i = 0; i < count; ++i) {
+        rays[0].push_back(both_zeros && i % 7 == 6 ? Real(-0.0) : Real(0.0));
+        rays[1].push_back(Real(0.3));
+        rays[2].push_back(Real(-3.1));
+        for (std::size_t column = 3; column < 6; ++column)
+            rays[column].push_back(static_cast<Real>(way(random)));
+        rays[6].push_back(i % 3 == 0 ? Real(0.5) : Real(0));
+        rays[7].push_back(i % 5 == 0 ? Real(2.5) : std::numeric_limits<Real>::infinity());
+    }
+    return rays;
+}
+
+template <class Real>
+void check_together_as_alone(const RenderOptions& options)
+{
+    const RayScene<Real> scene(mixed_scene(), options);
+    for (const bool both_zeros : {false, true}) {
+        const Columns<Real> rays = rays_from_one_place<Real>(1237, both_zeros);
+        const Answers<Real> alone = answers(scene, rays, 1);
+        CAPTURE(options.isa, both_zeros);
+        CHECK(std::count(alone.object.begin(), alone.object.end(), -1) > 100);
+        CHECK(std::count(alone.mask.begin(), alone.mask.end(), 1) > 100);
+        // 64 and more that start at one place are prepared for together.
+        for (const std::size_t at_a_time : {64, 77, 300, 1237})
+            CHECK((answers(scene, rays, at_a_time) == alone));
+    }
+}
+
+}  // namespace
+
+TEST_CASE("rays from one place have the same bits together as alone", "[ray_scene]")
+{
+    for (const IsaInfo& isa : list_isas()) {
+        if (!isa.supported)
+            continue;
+        RenderOptions options = on(isa.name);
+        check_together_as_alone<double>(options);
+        for (const Accuracy accuracy : {Accuracy::fast, Accuracy::exact}) {
+            options.accuracy = accuracy;
+            check_together_as_alone<float>(options);
+        }
+    }
+}
+
 TEST_CASE("a ray from just above a sphere meets it at once, not on its way out", "[ray_scene]")
 {
     // Single precision puts its start inside: the two roots are -8e-7 and 0.33 by that.
