@@ -13,7 +13,7 @@
 #include "lab/harness/statistics.hpp"
 #include "lab/profile/busy_machine.hpp"
 #include "lab/profile/profile_subjects.hpp"
-#include "lab/profile/tick_rate.hpp"
+#include "lab/profile/span_times.hpp"
 #include "run_program.hpp"
 #include "scenes.hpp"
 

@@ -2,7 +2,7 @@
 
 #include <utility>
 
-#include "lab/harness/accuracy_name.hpp"
+#include "lab/harness/names.hpp"
 #include "lab/report/report_text.hpp"
 #include "pictures.hpp"
 #include "progress.hpp"

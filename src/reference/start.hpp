@@ -1,12 +1,17 @@
 #pragma once
 
 #include <packtrace/render.hpp>
-#include "reference/epsilon.hpp"
 #include "reference/own_roots.hpp"
 #include "reference/surface_normal.hpp"
 #include "reference/world.hpp"
 
 namespace packtrace::reference {
+
+/// How far along a ray its own start is no hit: note 001 and note 004 name this number. Note
+/// 001 counts it in lengths of its directions, which are not normalised; the others in units
+/// of length.
+template <class Real>
+inline constexpr Real epsilon = Real(0.001L);
 
 /// The piece of a surface that a ray leaves, and on which side: both are decided once, where the
 /// ray is made.

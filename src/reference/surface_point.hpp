@@ -1,11 +1,20 @@
 #pragma once
 
-#include "reference/ray.hpp"
+#include "reference/glass_stack.hpp"
 #include "reference/start.hpp"
 
 #include <optional>
 
 namespace packtrace::reference {
+
+/// A ray of the models that know glass.
+template <class Real>
+struct Ray {
+    Vec3<Real> org;
+    Vec3<Real> dir;  ///< unit
+    GlassStack inside;
+    Departure<Real> left = {};  ///< what it leaves; nothing for a ray from the eye
+};
 
 /// What a ray sees of the scene where it meets it first.
 template <class Real>

@@ -1,11 +1,13 @@
 #include "cli/intersect/ray_reader.hpp"
 
 #include <algorithm>
+#include <charconv>
 #include <cmath>
 #include <limits>
 #include <string>
+#include <string_view>
+#include <system_error>
 
-#include "cli/intersect/ray_number.hpp"
 #include "scene/quote.hpp"
 
 namespace packtrace::cli {
@@ -16,6 +18,46 @@ constexpr std::size_t t_min = 6;
 constexpr std::size_t t_max = 7;
 
 using Fields = std::array<std::string_view, most_ray_columns>;
+
+/// A number of a CSV field in the precision of Real. `error` is std::errc{} for a number,
+/// infinities and NaN among them; invalid_argument for anything else; result_out_of_range for
+/// one too large. One too small becomes zero, but below the range of long double an error too.
+template <class Real>
+struct RayNumber {
+    Real value = 0;
+    std::errc error{};
+};
+
+template <class Real>
+RayNumber<Real> parse(std::string_view text)
+{
+    RayNumber<Real> number;
+    const char* end = text.data() + text.size();
+    const auto [stop, error] = std::from_chars(text.data(), end, number.value);
+    number.error = stop == end ? error : std::errc::invalid_argument;
+    return number;
+}
+
+// from_chars does not tell too small from too large, but a wider type does.
+template <class Real>
+RayNumber<Real> parse_extreme(std::string_view text)
+{
+    const RayNumber<long double> wide = parse<long double>(text);
+    const bool large = std::abs(wide.value) > std::numeric_limits<Real>::max();
+    if (wide.error != std::errc{} || large)
+        return {Real{}, std::errc::result_out_of_range};
+    return {static_cast<Real>(wide.value), std::errc{}};
+}
+
+template <class Real>
+RayNumber<Real> to_ray_number(std::string_view field)
+{
+    // The scene language has the plus sign too, from_chars does not.
+    if (field.starts_with('+') && !field.starts_with("+-"))
+        field.remove_prefix(1);
+    const RayNumber<Real> number = parse<Real>(field);
+    return number.error == std::errc::result_out_of_range ? parse_extreme<Real>(field) : number;
+}
 
 /// Turns lines of one format into rays.
 template <class Real>

@@ -1,7 +1,7 @@
 #include <cmath>
 
 #include "cli/study/explain_print.hpp"
-#include "lab/harness/ray_kind_name.hpp"
+#include "lab/harness/names.hpp"
 
 namespace packtrace::cli {
 namespace {

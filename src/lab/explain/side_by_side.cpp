@@ -4,7 +4,7 @@
 #include <cmath>
 #include <set>
 
-#include "lab/harness/ray_kind_name.hpp"
+#include "lab/harness/names.hpp"
 
 namespace packtrace {
 namespace {

@@ -3,7 +3,7 @@
 #include <packtrace/isa.hpp>
 #include <packtrace/report.hpp>
 
-#include "lab/harness/accuracy_name.hpp"
+#include "lab/harness/names.hpp"
 #include "lab/report/report_text.hpp"
 
 namespace packtrace {

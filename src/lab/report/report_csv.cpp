@@ -1,6 +1,6 @@
 #include <sstream>
 
-#include "lab/harness/accuracy_name.hpp"
+#include "lab/harness/names.hpp"
 #include "lab/report/report_text.hpp"
 
 namespace packtrace {

@@ -1,7 +1,7 @@
 #include <nlohmann/json.hpp>
 
 #include "core/json_text.hpp"
-#include "lab/harness/accuracy_name.hpp"
+#include "lab/harness/names.hpp"
 #include "lab/report/report_text.hpp"
 
 namespace packtrace {

@@ -1,7 +1,7 @@
 #include <algorithm>
 #include <utility>
 
-#include "lab/harness/accuracy_name.hpp"
+#include "lab/harness/names.hpp"
 #include "lab/report/plot.hpp"
 #include "lab/report/report_choice.hpp"
 #include "lab/report/report_text.hpp"
