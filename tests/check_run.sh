@@ -102,6 +102,18 @@ ends 0 sanitize
 prints 'Installing .* libclang-rt-19-dev'
 unset CXX
 
+# Threads' tests load the oneTBB that a script builds; here the script says where that would be.
+mkdir tests
+fake ../project/tests/build_tsan_tbb.sh 'echo "/built in $1"'
+fake ctest 'echo "ctest $@ loads from $LD_LIBRARY_PATH"'
+ends 0 sanitize thread -R bvh
+prints '^ctest --preset tsan -L fast .*-R bvh loads from /built in build/tsan_tbb'
+grep -q 'preset tsan .*CMAKE_CXX_COMPILER=clang++' configured || wrong 'no thread sanitizer of clang'
+fake ../project/tests/build_tsan_tbb.sh 'echo "no sources" >&2' 'exit 1'
+ends 1 sanitize thread
+prints 'no sources'
+prints_no '^ctest'
+
 # What fails shows its output.
 fake apt-get 'echo "noise of apt-get"' 'exit 100'
 ends 1 demo
