@@ -176,20 +176,21 @@ template <class Real>
 using Columns = std::array<std::vector<Real>, 8>;
 
 template <class Real>
-struct Answers {
+struct RayAnswers {
     std::array<std::vector<Real>, 4> values;  ///< t and the normal
     std::vector<std::int32_t> object;
     std::vector<std::uint8_t> mask;
 
-    bool operator==(const Answers&) const = default;
+    bool operator==(const RayAnswers&) const = default;
 };
 
 /// What so many rays at a time meet.
 template <class Real>
-Answers<Real> answers(const RayScene<Real>& scene, const Columns<Real>& rays, std::size_t at_a_time)
+RayAnswers<Real> answers(const RayScene<Real>& scene, const Columns<Real>& rays,
+                         std::size_t at_a_time)
 {
     const std::size_t count = rays[0].size();
-    Answers<Real> result;
+    RayAnswers<Real> result;
     for (std::vector<Real>& column : result.values)
         column.resize(count);
     result.object.resize(count);
@@ -232,12 +233,12 @@ void check_together_as_alone(const RenderOptions& options)
     const RayScene<Real> scene(mixed_scene(), options);
     for (const bool both_zeros : {false, true}) {
         const Columns<Real> rays = rays_from_one_place<Real>(1237, both_zeros);
-        const Answers<Real> alone = answers(scene, rays, 1);
+        const RayAnswers<Real> alone = answers(scene, rays, 1);
         CAPTURE(options.isa, both_zeros);
         CHECK(std::count(alone.object.begin(), alone.object.end(), -1) > 100);
         CHECK(std::count(alone.mask.begin(), alone.mask.end(), 1) > 100);
         // 64 and more that start at one place are prepared for together.
-        for (const std::size_t at_a_time : {64, 77, 300, 1237})
+        for (const std::size_t at_a_time : {64U, 77U, 300U, 1237U})
             CHECK((answers(scene, rays, at_a_time) == alone));
     }
 }
