@@ -21,10 +21,13 @@ double margin_of_order(const TrueHit& first, const TrueHit& other)
     return spread > 0.0 ? gap / spread : boundless;
 }
 
-/// Whether a hit would come before the expected one if it existed.
-bool in_front(const TrueHit& hit, const TrueHit* first)
+/// Relative change of the inputs after which a hit that does not count would come before the
+/// expected one if it did. A ray along a plane may meet it anywhere.
+double margin_of_front(const TrueHit& hit, const TrueHit* first)
 {
-    return first == nullptr || hit.t <= first->t * (1.0 + may_move);
+    if (first == nullptr || hit.t <= first->t * (1.0 + may_move))
+        return 0.0;
+    return margin_of_order(*first, hit);
 }
 
 }  // namespace
@@ -63,13 +66,14 @@ Expected expect(const StressRay& ray, std::vector<TrueHit> hits, double roundoff
         if (hit.exists) {
             double& margin = hit.object == first->object ? expected.root_margin : expected.margin;
             margin = std::min(margin, margin_of_order(*first, hit));
-        } else if (in_front(hit, first)) {
-            expected.margin = std::min(expected.margin, hit.margin);
+        } else {
+            expected.margin =
+                std::min(expected.margin, std::max(hit.margin, margin_of_front(hit, first)));
         }
     }
     for (const TrueHit& hit : hits)
-        if (in_front(hit, first))
-            expected.end_margin = std::min(expected.end_margin, margin_of_end(hit, roundoff));
+        expected.end_margin = std::min(expected.end_margin, std::max(margin_of_end(hit, roundoff),
+                                                                     margin_of_front(hit, first)));
     if (ray.exact)
         expected.margin = expected.root_margin = boundless;
     expected.hits = std::move(hits);
