@@ -274,17 +274,22 @@ def stress_exact(report):
 
 
 def stress_textbook(report):
-    rows = [[r["family"], str(r["wrong"]), few_digits(r["ulp_p99"])] for r in report["rows"]
-            if r["kernel"] == "naive" and r["ulp_p99"] >= 7.5]
-    return table(["family", "wrong", "t 99%"], rows)
+    rows = [[r["family"], str(r["rays"]), str(r["wrong"]), few_digits(r["ulp"]["p99"])] for r in report["rows"]
+            if r["kernel"] == "textbook" and r["ulp"]["p99"] >= 1000]
+    return f"Commit {report['commit']}.\n\n" + table(["family", "rays", "wrong", "t 99%"], rows)
 
 
-def stress_note(report):
-    rows = [[r["family"], str(r["secondary_rays"]), str(r["note_self_hits"]), str(r["note_lost_hits"])]
-            for r in report["rows"] if r["kernel"] == "packet" and
-            r["mode"] == "fast" and
-            r["note_self_hits"] + r["note_lost_hits"] >= 50]
-    return table(["family", "rays", "self-hits", "lost"], rows)
+def stress_modes(report):
+    def row(name, chosen):
+        def total(key):
+            return str(sum(r[key] for r in chosen))
+
+        return [name, total("rays"), total("wrong"), total("second_rays"), total("self_hits"), total("second_lost")]
+
+    packets = [r for r in report["rows"] if r["kernel"] == "packet"]
+    return f"Commit {report['commit']}.\n\n" + table(
+        ["mode", "rays", "wrong", "second rays", "self-hits", "lost"],
+        [row(f"`{mode}`", [r for r in packets if r["mode"] == mode]) for mode in ("fast", "exact")])
 
 
 # The name of a block after its file, as markers give it: results/peers.json: summary.
@@ -303,5 +308,5 @@ TABLES = {
     "results/features.json: scenes": features,
     "results/stress_exact.json: verdict": stress_exact,
     "results/stress.json: textbook": stress_textbook,
-    "results/stress.json: note": stress_note,
+    "results/stress.json: modes": stress_modes,
 }
