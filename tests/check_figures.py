@@ -66,8 +66,8 @@ PLANTED = {
                           "results/crossover.json: is signed '8d95940-dirty'"),
     "no signature": (sign("results/crossover.json", None), "results/crossover.json: names no commit"),
     "an exception that is signed by now": (
-        sign("results/highlight_power.json", "8d95940"),
-        "results/highlight_power.json is signed by a clean commit; take it off the list"),
+        sign("results/feature_sets.json", "8d95940"),
+        "results/feature_sets.json is signed by a clean commit; take it off the list"),
     "a figure without a file": (add_to("docs/faults.md", "\n## Speed\n\nIt takes 12 ms a frame.\n"),
                                 "no file of results/ stands beside the figure"),
     "a changed sample": (
