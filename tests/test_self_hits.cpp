@@ -104,6 +104,40 @@ TEST_CASE("the exact rule is the same for rays in glass, in packets and in the r
         }
 }
 
+TEST_CASE("by the note's rule nothing shadows a light that is nearer than 0.001", "[self_hits]")
+{
+    // A ball behind the light, as seen from a floor that is nearer than 0.001 to the light.
+    Scene scene;
+    set_size(scene, 32, 32);
+    scene.illumination = Illumination::whitted;
+    scene.max_depth = 0;
+    WhittedMaterial stone;
+    stone.diffuse = Rgb(0.7);
+    scene.objects = {lab::plane_object({0, 0, 0}, {0, 1, 0}),
+                     lab::sphere_object({0, 0.0012, 0}, 0.0006)};
+    for (Object& object : scene.objects)
+        object.material.model = stone;
+    scene.lights = {point_light({0, 0.0004, 0}, 1.0)};
+    scene.camera.position = {0, 0.0005, -0.005};
+    scene.camera.rotation = look_at(scene.camera.position, {0, 0, 0}, {0, 1, 0});
+    scene.camera.fov = 20;
+    RenderOptions options;
+    options.self_hits = SelfHits::note;
+    const Image<double> expected = render_reference<double>(scene, options);
+    for (const Traversal traversal : {Traversal::list, Traversal::tree})
+        for (const std::string& isa : supported_isas()) {
+            CAPTURE(static_cast<int>(traversal), isa);
+            options.isa = isa;
+            options.traversal = traversal;
+            CHECK(compare(render<double>(scene, options), expected).max_abs <= 1e-9);
+            for (const Accuracy accuracy : {Accuracy::fast, Accuracy::exact}) {
+                options.accuracy = accuracy;
+                const auto single = convert<double>(render<float>(scene, options));
+                CHECK(compare(single, expected).max_abs <= 1e-3);
+            }
+        }
+}
+
 TEST_CASE("four spheres differ from long double at edges alone, by the exact rule", "[self_hits]")
 {
     const Scene scene = four_spheres(192, 192);

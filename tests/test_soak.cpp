@@ -4,13 +4,48 @@
 #include <packtrace/read_scene.hpp>
 
 #include <tbb/global_control.h>
+#include <glm/geometric.hpp>
 
 #include "catch.hpp"
 #include "lab/soak/shrink.hpp"
 #include "lab/soak/soak_scene.hpp"
+#include "lab/soak/soak_way.hpp"
+#include "lab/stress/ray_faults.hpp"
+#include "lab/stress/stress_family.hpp"
 #include "run_program.hpp"
 
 namespace packtrace::test {
+namespace {
+
+constexpr double roundoff_of_floats = 0x1p-24;
+
+/// What is wrong with the answers of `exact` packets of floats to rays, in every way there is: that
+/// of the first ray in each that any is wrong of.
+std::string faults_in_all_ways(const Scene& scene, const std::vector<lab::StressRay>& rays)
+{
+    lab::StressGroup group = lab::stress_group(scene);
+    group.rays = rays;
+    for (const lab::StressRay& ray : rays)
+        group.expected.push_back(lab::expect(ray, group.hits_of(ray), roundoff_of_floats));
+    std::string faults;
+    for (const lab::SoakGroup& ways :
+         lab::packet_groups("single", Accuracy::exact, SelfHits::exact))
+        for (const lab::SoakWay& way : ways.ways) {
+            const lab::StressRun run =
+                lab::run_subject<float>({"packet", "", way.options.isa, true, way.options}, group);
+            const char* fault = "";
+            for (std::size_t i = 0; i < rays.size() && *fault == '\0'; ++i) {
+                lab::Evaluation evaluation(roundoff_of_floats);
+                lab::evaluate_ray(evaluation, group, run, i);
+                fault = lab::fault_of(evaluation.errors());
+            }
+            if (*fault != '\0')
+                faults += fault + lab::intersect_words(way) + "\n";
+        }
+    return faults;
+}
+
+}  // namespace
 
 TEST_CASE("random scenes give the answers that are promised in every way", "[soak]")
 {
@@ -65,6 +100,51 @@ TEST_CASE("a finding is shrunk to what shows it", "[soak]")
     CHECK(small.max_depth == 0);
     CHECK(small.objects[0].transform == Mat4(1.0));
     CHECK(std::get<Sphere>(small.objects[0].surface).center.x == 0.123);
+}
+
+TEST_CASE("a cap of a general quadric is held to what its far centre leaves of digits", "[soak]")
+{
+    // The centre is about 1700 away, and the ray starts next to the cap.
+    const Scene scene = parse_scene(R"(
+        quadric {
+            coefficients = (0, 0.1198276708987609, -1.1635582243516271, 0, 0.022780222910548265,
+                            -0.26567375964139783, -0.34460821483340087, 0, 0, 0)
+            z_range = (-1.5698657769184665, -0.7827591831370165)  capped = yes
+            matrix = (0.1402977555990219, -0.20044903457164764, -0.4338940382003784,
+                      -1.1306674480438232, -0.3427528738975525, 0.40099406242370605,
+                      -0.29251033067703247, 0.18083029985427856, 0.4772816002368927,
+                      0.37555044889450073, 0.10683446377515793, -2.5611259937286377)
+        }
+    )",
+                                    "cap", {});
+    CHECK(faults_in_all_ways(scene,
+                             {{{-0.20631228387355804, -0.84449964761734009, -2.7321031093597412},
+                               {-0.38771051168441772, -0.26925483345985413, 2.8319318294525146},
+                               0.0,
+                               lab::no_end}}) == "");
+}
+
+TEST_CASE("the smallest spheres are hit by rays of the shortest directions", "[soak]")
+{
+    lab::StressRandom random(434);
+    for (int i = 0; i < 20; ++i) {
+        const double radius = random.power(1.1e-9, 1e-7);
+        Scene scene;
+        scene.objects = {lab::sphere_object(1e-5 * random.unit(), radius)};
+        lab::round_to_precision<float>(scene);
+        const Vec3 center = std::get<Sphere>(scene.objects[0].surface).center;
+        std::vector<lab::StressRay> rays;
+        for (int ray = 0; ray < 100; ++ray) {
+            const Vec3 org = center + radius * random.between(0.0, 4.0) * random.unit();
+            const Vec3 aim = center + radius * random.between(0.0, 1.1) * random.unit();
+            lab::StressRay next = lab::ray_towards(org, aim);
+            next.dir = random.power(1.1e-9, 1e-6) * glm::normalize(next.dir);
+            lab::round_to_precision<float>(next);
+            rays.push_back(next);
+        }
+        CAPTURE(i, radius);
+        CHECK(faults_in_all_ways(scene, rays) == "");
+    }
 }
 
 TEST_CASE("soak checks scenes of a file, and random ones", "[soak]")

@@ -99,8 +99,10 @@ struct RayEnd {
 
     vmask<Real> blocked_by(const Quadratic<Real>& quadratic, const RayPacket<Real>& rays) const
     {
+        // A light nearer than where the note's shadow rays start leaves a range that ends before it
+        // begins: nothing is in it.
         if (closed)
-            return root_between(quadratic, rays.t_min, t_end);
+            return root_between(quadratic, rays.t_min, max(t_end, rays.t_min));
         if (none(may_hit(quadratic)))
             return from_bits<Real>(0);
         std::uint32_t blocked = 0;

@@ -87,6 +87,11 @@ inline SphereApproach approach(const Vec3v<float>& w, const vreal<float>& outer2
     return {moment2, ~misses & all_lanes<float>};
 }
 
+/// Discriminants below this count as this, so that their inverse root is a number.
+inline constexpr float least_discriminant = 1e-37f;
+/// What the root of a smaller one may be off by.
+inline constexpr float least_root_error = 1e-18f;
+
 /// Both roots in the lanes that cross the sphere for sure.
 struct SphereCrossing {
     RootIntervals roots;
@@ -101,14 +106,17 @@ inline SphereCrossing crossing(const SphereTest& test, const SphereApproach& nea
     const vreal<float> b = dot(test.w, rays.dir);
     const vreal<float> reach = abs(b) * scale.inverse;
     const vreal<float> discriminant = msub(rays.dir2, test.radius2, near.moment2);
-    const vreal<float> inverse_root = rough_inverse_sqrt(max(discriminant, vreal<float>(1e-30f)));
+    const vreal<float> inverse_root =
+        rough_inverse_sqrt(max(discriminant, vreal<float>(least_discriminant)));
     const vreal<float> half = (discriminant * inverse_root) * scale.inverse2;
     SphereCrossing result;
     result.along = along_error(test.bounds, reach) * scale.inverse;
     result.middle = negated(b) * scale.inverse2;
     result.roots.near = result.middle - half;
     result.roots.far = result.middle + half;
-    result.roots.error = madd(root_error(test.bounds, reach), inverse_root, result.along);
+    const vreal<float> other_error =
+        madd(vreal<float>(least_root_error), scale.inverse2, result.along);
+    result.roots.error = madd(root_error(test.bounds, reach), inverse_root, other_error);
     result.sure = from_bits<float>(near.near) & (near.moment2 < test.bounds.inner2 * rays.dir2);
     return result;
 }

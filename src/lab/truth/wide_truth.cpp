@@ -56,6 +56,13 @@ public:
         return sum;
     }
 
+    /// What the roundings of a general quadric's centre, and of the way to it, move along the own
+    /// covector whose world form is n.
+    [[nodiscard]] double of_center(const Vec3& n, const Vec3& center) const
+    {
+        return own_roundings * dot3(n, to_world(center));
+    }
+
     /// What they turn the direction by, along g.
     [[nodiscard]] double of_direction(const Vec3& g, const Vec3& n, const Vec3& v) const
     {
@@ -186,6 +193,18 @@ private:
         return reach(g, t, own) + (surface_.canonical ? canonical_terms(narrow3(g), t, own) : 0.0);
     }
 
+    /// How much the height in own space can change at t. Of a general quadric it is taken from the
+    /// centre of the canonical form, like all else, wherever that is.
+    [[nodiscard]] double change_of_height(const Wide& t, const WideVec& own) const
+    {
+        const WideVec up(0, 0, 1);
+        const double center =
+            surface_.canonical
+                ? sensitivity_.of_center(to_world(up), glm::abs(surface_.canonical->center))
+                : 0.0;
+        return reach(up, t, own) + center;
+    }
+
     /// How near the quadratic is to losing a root to infinity.
     [[nodiscard]] double margin_of_infinity(const WideVec& second) const
     {
@@ -268,7 +287,7 @@ private:
         const double spread = crosses && slope > 0.0 ? change_at(g, t, own) / slope : 0.0;
         bool exists = crosses;
         if (surface_.z_range) {
-            const double blur = reach({0, 0, 1}, t, own) + std::abs(own_dir_.z) * spread;
+            const double blur = change_of_height(t, own) + std::abs(own_dir_.z) * spread;
             for (const double bound : {surface_.z_range->low, surface_.z_range->high})
                 margin = std::min(margin, std::abs(narrow(own.z - bound)) / blur);
             exists = exists && own.z >= surface_.z_range->low && own.z <= surface_.z_range->high;
@@ -412,7 +431,7 @@ private:
         const Wide t = (Wide(height) - p_.z) / v_.z;
         const WideVec own = own_at(t);
         const WideVec up(0, 0, side);
-        const double spread = reach(up, t, own) / std::abs(own_dir_.z);
+        const double spread = change_of_height(t, own) / std::abs(own_dir_.z);
         const Wide value = surface_.value(own) / 2;
         const WideVec g = surface_.gradient(own);
         const double change = std::abs(narrow(dot(g, v_))) * spread;
