@@ -312,24 +312,38 @@ inline Occlusion occludes(const ListedSphere<SphereFilters>& sphere, const RayPa
     return occludes(test_of(list, i, w), near, rays, scale, t_end);
 }
 
+/// Lets each of `arrays` have `room` elements of one block.
+template <class Real, class Arena, std::size_t Count>
+inline void share_block(Arena& arena, Real** const (&arrays)[Count], std::size_t room)
+{
+    Real* const block = arena.template take<Real>(Count * room);
+    for (std::size_t i = 0; i < Count; ++i)
+        *arrays[i] = block + i * room;
+}
+
+/// Of arrays with room for so many spheres, and for whole packets of them.
+inline std::size_t padded(int count)
+{
+    return (static_cast<std::size_t>(count) / abi::padding + 2) * abi::padding;
+}
+
 /// Room for as many spheres; `arena.take<T>(count)` gives room for `count` of T.
 template <class Arena, class Real>
 inline void take_room(Arena& arena, SharedOriginSpheres<Real>& list, int count)
 {
-    const std::size_t room = static_cast<std::size_t>(count) + abi::padding;
-    for (Real** values : {&list.x, &list.y, &list.z, &list.radius2, &list.constant})
-        *values = arena.template take<Real>(room);
-    list.surface = arena.template take<lane_int<Real>>(room);
+    Real** const arrays[] = {&list.x, &list.y, &list.z, &list.radius2, &list.constant};
+    share_block(arena, arrays, padded(count));
+    list.surface = arena.template take<lane_int<Real>>(padded(count));
 }
 template <class Arena>
 inline void take_room(Arena& arena, SphereFilters& list, int count)
 {
-    const std::size_t room = static_cast<std::size_t>(count) + abi::padding;
     SphereBounds<float*>& bounds = list.bounds;
-    for (float** values : {&list.x, &list.y, &list.z, &list.radius2, &bounds.outer2, &bounds.inner2,
-                           &bounds.along, &bounds.moment, &bounds.size, &bounds.band2})
-        *values = arena.template take<float>(room);
-    list.surface = arena.template take<std::int32_t>(room);
+    float** const arrays[] = {&list.x,        &list.y,        &list.z,       &list.radius2,
+                              &bounds.outer2, &bounds.inner2, &bounds.along, &bounds.moment,
+                              &bounds.size,   &bounds.band2};
+    share_block(arena, arrays, padded(count));
+    list.surface = arena.template take<std::int32_t>(padded(count));
 }
 
 /// The kind (kinds.hpp).

@@ -93,9 +93,9 @@ struct StreamWork {
     StreamWork(void* scratch, const abi::SceneView<Real>& scene)
     {
         Arena arena(scratch);
-        nearby = take_objects<FromAnywhere<F, Real>>(arena, scene);
+        nearby = take_objects<F, FromAnywhere<F, Real>>(arena, scene);
         if (scene.tree.empty())
-            from_point = take_objects<FromPoint<F, Real>>(arena, scene);
+            from_point = take_objects<F, FromPoint<F, Real>>(arena, scene);
         else
             bundle = arena.template take<RayBundle<Real>>(1);
         bytes = arena.used();

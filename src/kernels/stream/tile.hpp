@@ -169,6 +169,18 @@ inline void shade_camera(const TileRun<F, Real>& run)
             trace_generation(run, *next, 1);
 }
 
+/// Asks for the cache lines of a tile's pixels, so that they are there when they are written.
+template <class Real>
+inline void fetch_picture(const abi::TileJob<Real>& job)
+{
+    if (job.samples != nullptr)
+        return;
+    constexpr int line = 64 / sizeof(Real);
+    for (int row = 0; row < job.height; ++row)
+        for (int element = 0; element < 3 * job.width; element += line)
+            __builtin_prefetch(job.rgb + row * job.row_stride + element, 1);
+}
+
 /// The finished pixels, row by row, or the samples in their order.
 template <class Real>
 inline void write_tile(const abi::TileJob<Real>& job, const TilePixelColors<Real>& pixels)
@@ -193,6 +205,7 @@ inline abi::RayCounts render_tile(const abi::TileJob<Real>& job)
         static_cast<unsigned>(job.samples != nullptr ? job.samples->count : job.width * job.height);
 
     begin_observation(job.observation);
+    fetch_picture(job);
     // Camera rays, against what the tile's cone may meet; a hit's first light replaces the
     // background.
     find_objects<F>(work.visible, camera_cone(job), scene);

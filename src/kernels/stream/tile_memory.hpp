@@ -94,12 +94,43 @@ inline Vec3v<Real> load3(const Real (&from)[3][Size], int first)
     return {load(from[0] + first), load(from[1] + first), load(from[2] + first)};
 }
 
-template <class Real, std::size_t Size>
-inline void append3(Real (&to)[3][Size], int at, std::uint32_t pattern, const Vec3v<Real>& v)
+/// Appends the lanes of a packet that are chosen to arrays, in order.
+struct ChosenLanes {
+    std::uint32_t pattern;
+
+    template <class Element, class Packet>
+    void append(Element* to, const Packet& x) const
+    {
+        compress_store(to, pattern, x);
+    }
+};
+
+/// Appends whole packets to arrays.
+struct WholePacket {
+    template <class Element, class Packet>
+    static void append(Element* to, const Packet& x)
+    {
+        store(to, x);
+    }
+};
+
+/// Calls `visit` with what appends the lanes of `active`: most packets are whole, and have
+/// nothing to move together.
+template <class Real, class Visit>
+inline void with_appender(std::uint32_t active, const Visit& visit)
 {
-    compress_store(to[0] + at, pattern, v.x);
-    compress_store(to[1] + at, pattern, v.y);
-    compress_store(to[2] + at, pattern, v.z);
+    if (active == all_lanes<Real>)
+        visit(WholePacket{});
+    else
+        visit(ChosenLanes{active});
+}
+
+template <class Real, std::size_t Size, class Lanes>
+inline void append3(Real (&to)[3][Size], int at, const Lanes& chosen, const Vec3v<Real>& v)
+{
+    chosen.append(to[0] + at, v.x);
+    chosen.append(to[1] + at, v.y);
+    chosen.append(to[2] + at, v.z);
 }
 
 /// The weights of a packet of a stream.
@@ -118,26 +149,33 @@ inline Vec3v<Real> load_weight(const Stream<F, Real>& stream, int first)
 }
 
 /// Does not count the rays.
-template <template <abi::Features, class> class Stream, abi::Features F, class Real>
-inline void append_weight(Stream<F, Real>& stream, std::uint32_t active, const Vec3v<Real>& weight)
+template <template <abi::Features, class> class Stream, abi::Features F, class Real, class Lanes>
+inline void append_weight(Stream<F, Real>& stream, const Lanes& chosen, const Vec3v<Real>& weight)
 {
     if constexpr (abi::weight_channels(F) == 3)
-        append3(stream.weight, stream.count, active, weight);
+        append3(stream.weight, stream.count, chosen, weight);
     else if constexpr (abi::weight_channels(F) == 1)
-        compress_store(stream.weight[0] + stream.count, active, weight.x);
+        chosen.append(stream.weight[0] + stream.count, weight.x);
 }
 
-/// The glass of a packet of a stream; nothing is read where the stream has none.
+/// Does not count the rays.
+template <template <abi::Features, class> class Stream, abi::Features F, class Real, class Lanes>
+inline void append_glass(Stream<F, Real>& stream, const Lanes& chosen,
+                         const GlassPacket<Real>& inside)
+{
+    if constexpr (F.glass)
+        for (int i = 0; i < abi::glass_depth; ++i)
+            chosen.append(stream.inside[i] + stream.count, inside.body[i]);
+}
+
+/// The glass of a packet of a stream; nothing is filled in where the stream has none.
 template <template <abi::Features, class> class Stream, abi::Features F, class Real>
 inline GlassPacket<Real> load_glass(const Stream<F, Real>& stream, int first)
 {
     GlassPacket<Real> glass;
-    for (int i = 0; i < abi::glass_depth; ++i) {
-        if constexpr (F.glass)
+    if constexpr (F.glass)
+        for (int i = 0; i < abi::glass_depth; ++i)
             glass.body[i] = load(stream.inside[i] + first);
-        else
-            glass.body[i] = no_body<Real>();
-    }
     return glass;
 }
 

@@ -29,9 +29,11 @@ inline void append_places(const abi::SceneView<Real>& scene, HitStream<F, Real>&
         return;
     const RefinedHits<Real> places =
         refined<F, Refine::place>(scene.shapes, from.rays, hit, from.start, active);
-    append3(hits.point, hits.count, active, places.point);
-    append3(hits.normal, hits.count, active, places.normal);
-    append3(hits.dir, hits.count, active, from.rays.dir);
+    with_appender<Real>(active, [&](const auto& chosen) {
+        append3(hits.point, hits.count, chosen, places.point);
+        append3(hits.normal, hits.count, chosen, places.normal);
+        append3(hits.dir, hits.count, chosen, from.rays.dir);
+    });
 }
 
 template <abi::Features F, class Real>
@@ -43,14 +45,14 @@ inline void append_hits(const abi::SceneView<Real>& scene, HitStream<F, Real>& h
         return;
     const PartScope part(abi::Part::compaction);
     append_places(scene, hits, from, hit, active);
-    append_weight(hits, active, from.path.weight);
-    compress_store(hits.pixel + hits.count, active, from.path.pixel);
-    compress_store(hits.surface + hits.count, active, hit.surface);
-    if constexpr (F.glass)
-        for (int i = 0; i < abi::glass_depth; ++i)
-            compress_store(hits.inside[i] + hits.count, active, from.inside.body[i]);
-    if constexpr (F.probe)
-        compress_store(hits.path + hits.count, active, from.path.id);
+    with_appender<Real>(active, [&](const auto& chosen) {
+        append_weight(hits, chosen, from.path.weight);
+        chosen.append(hits.pixel + hits.count, from.path.pixel);
+        chosen.append(hits.surface + hits.count, hit.surface);
+        append_glass(hits, chosen, from.inside);
+        if constexpr (F.probe)
+            chosen.append(hits.path + hits.count, from.path.id);
+    });
     hits.count += __builtin_popcount(active);
 }
 
@@ -60,11 +62,12 @@ inline std::uint32_t hit_lanes(const HitPacket<Real>& hit)
     return ~bits(int_equal(hit.surface, vint<Real>(lane_int<Real>(-1)))) & all_lanes<Real>;
 }
 
-template <class Real>
+/// Nothing is filled in where there is no glass.
+template <abi::Features F, class Real>
 inline GlassPacket<Real> glass_around_eye(const abi::CameraView<Real>& camera)
 {
     GlassPacket<Real> glass;
-    for (int i = 0; i < abi::glass_depth; ++i)
+    for (int i = 0; F.glass && i < abi::glass_depth; ++i)
         glass.body[i] = vint<Real>(static_cast<lane_int<Real>>(camera.inside[i]));
     return glass;
 }
@@ -144,7 +147,7 @@ inline void trace_camera(const abi::TileJob<Real>& job, const FromPoint<F, Real>
 {
     const vreal<Real> no_end_yet(static_cast<Real>(__builtin_inf()));
     const TileCamera<Real> camera(job);
-    const GlassPacket<Real> inside = glass_around_eye(camera.view);
+    const GlassPacket<Real> inside = glass_around_eye<F>(camera.view);
     for (int first = 0; first < abi::tile_pixels; first += lanes<Real>) {
         const std::uint32_t pixels = lanes_inside(job, first);
         if (pixels == 0)
@@ -190,7 +193,7 @@ inline void trace_camera_bundle(const abi::TileJob<Real>& job, const FromPoint<F
     gather_camera<F>(job, bundle);
     closest_of_bundle<F>(*job.scene, visible, bundle);
     counts.unsure += static_cast<unsigned>(settle_camera_bundle<F>(*job.scene, bundle));
-    const GlassPacket<Real> inside = glass_around_eye(*job.camera);
+    const GlassPacket<Real> inside = glass_around_eye<F>(*job.camera);
     for (int first = 0; first < bundle_rays; first += lanes<Real>) {
         const std::uint32_t pixels = active_lanes(bundle, first);
         if (pixels != 0)

@@ -54,6 +54,22 @@ inline RayStream<F, Real>* take_streams(Arena& arena, const abi::SceneView<Real>
     return streams;
 }
 
+/// Room for what may stand between one light and hits.
+template <abi::Features F, class Real>
+inline LightObjects<F, Real> take_occluders(Arena& arena, const abi::SceneView<Real>& scene,
+                                            const abi::LightRecord<Real>& light)
+{
+    LightObjects<F, Real> objects{};
+    if (!light.casts_shadow)
+        return objects;
+    const bool is_point = light.kind == abi::LightKind::point;
+    if (is_point || !F.exact)
+        objects.from_point = take_objects<F, FromPoint<F, Real>>(arena, casters_of(scene));
+    if (!is_point || !F.exact)
+        objects.along = take_objects<F, FromAnywhere<F, Real>>(arena, casters_of(scene));
+    return objects;
+}
+
 /// Of what a scene does not need there is none.
 template <abi::Features F, class Real>
 struct Workspace {
@@ -89,14 +105,13 @@ struct Workspace {
             surfaces = arena.take<SurfacePacket<Real>>(chunk_rays / lanes<Real>);
             shadows = arena.take<LightShadows<F, Real>>(lights);
         }
-        visible = take_objects<FromPoint<F, Real>>(arena, scene);
-        nearby = take_objects<FromAnywhere<F, Real>>(arena, scene);
+        visible = take_objects<F, FromPoint<F, Real>>(arena, scene);
+        if constexpr (F.bounces)
+            nearby = take_objects<F, FromAnywhere<F, Real>>(arena, scene);
         if (shadowed > 0)
             occluders = arena.take<LightObjects<F, Real>>(lights);
         for (std::size_t light = 0; shadowed > 0 && light < lights; ++light) {
-            const LightObjects<F, Real> objects{
-                take_objects<FromPoint<F, Real>>(arena, casters_of(scene)),
-                take_objects<FromAnywhere<F, Real>>(arena, casters_of(scene))};
+            const auto objects = take_occluders<F>(arena, scene, scene.lighting.lights.data[light]);
             if (scratch != nullptr)
                 occluders[light] = objects;
         }

@@ -128,16 +128,15 @@ inline void find_objects(FilteredObjects<false>& objects, const Origins& origins
     filter_objects<F, false>(objects, origins, Cone<float>{}, scene);
 }
 
-/// Room for the objects of a scene.
-template <class Objects, class Arena, class Real>
+/// Room for the objects of a scene with features `F`.
+template <abi::Features F, class Objects, class Arena, class Real>
 inline Objects take_objects(Arena& arena, const abi::GeometryView<Real>& scene)
 {
     if constexpr (std::is_same_v<Objects, AllObjects<Real>>) {
         return {&scene};
     } else {
-        constexpr abi::Features all{.quadrics = true};
         Objects objects{};
-        for_each_kind<all>([&](auto kind) {
+        for_each_kind<F>([&](auto kind) {
             take_room(arena, list_of<decltype(kind)>(objects), kind.list(scene).count);
             return true;
         });
