@@ -214,21 +214,46 @@ inline SphereForm form_of(const abi::SphereShape& sphere)
     return {{center, center}, {radius2, radius2}, rough(sphere.center), rough(sphere.radius)};
 }
 
-/// `form` with another sphere in the lanes of `same`.
-inline SphereForm blended(const SphereForm& form, const abi::SphereShape& sphere,
-                          std::uint32_t same)
-{
-    const SphereForm other = form_of(sphere);
-    const vmask<float> lanes_of = from_bits<float>(same);
-    const vmask<double> low = from_bits<double>(same & all_lanes<double>);
-    const vmask<double> high = from_bits<double>(same >> lanes<double>);
-    return {
-        {select(low, other.base.low, form.base.low), select(high, other.base.high, form.base.high)},
-        {select(low, other.radius2.low, form.radius2.low),
-         select(high, other.radius2.high, form.radius2.high)},
-        select(lanes_of, other.rough_base, form.rough_base),
-        select(lanes_of, other.rough_radius, form.rough_radius)};
-}
+/// A sphere a lane, put in one by one; of radius 1 around the origin where none is.
+class SphereLanes {
+public:
+    SphereLanes()
+    {
+        for (int first = 0; first < count; first += lanes<double>) {
+            for (double(&coordinate)[count] : center_)
+                store(coordinate + first, vreal<double>(0.0));
+            store(radius_ + first, vreal<double>(1.0));
+        }
+    }
+
+    void put(const abi::SphereShape& sphere, int lane)
+    {
+        for (int axis = 0; axis < 3; ++axis)
+            center_[axis][lane] = sphere.center[axis];
+        radius_[lane] = sphere.radius;
+    }
+
+    [[nodiscard]] SphereForm form() const
+    {
+        const BothHalves<Vec3v<double>> center = {center_from(0), center_from(lanes<double>)};
+        const BothHalves<vreal<double>> radius = {load(radius_), load(radius_ + lanes<double>)};
+        return {center,
+                {radius.low * radius.low, radius.high * radius.high},
+                narrow(center.low, center.high),
+                narrow(radius.low, radius.high)};
+    }
+
+private:
+    static constexpr int count = 2 * lanes<double>;
+
+    [[nodiscard]] Vec3v<double> center_from(int first) const
+    {
+        return {load(center_[0] + first), load(center_[1] + first), load(center_[2] + first)};
+    }
+
+    alignas(64) double center_[3][count];
+    alignas(64) double radius_[count];
+};
 
 inline RoughRoot rough_root(const SphereForm& form, const RayPacket<float>& rays)
 {

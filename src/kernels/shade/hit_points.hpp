@@ -83,33 +83,68 @@ inline vint<Real> checker_parity(const abi::CheckerRecord<Real>& checker, const 
     return select(odd, vint<Real>(lane_int<Real>(1)), vint<Real>(lane_int<Real>(0)));
 }
 
+/// The material of a surface at each of some points.
+template <class Real>
+inline vint<Real> material_at(const abi::SceneView<Real>& scene, const abi::MaterialIndex& index,
+                              const Vec3v<Real>& point)
+{
+    const vint<Real> first(static_cast<lane_int<Real>>(index.first));
+    return index.checker < 0
+               ? first
+               : first + checker_parity(scene.materials.checkers[index.checker], point);
+}
+
+/// Fills `material` and `object` where the lanes of `active` are on several surfaces.
+template <class Real>
+inline void set_materials(SurfacePacket<Real>& surface, const abi::SceneView<Real>& scene,
+                          std::uint32_t active)
+{
+    alignas(64) lane_int<Real> number[lanes<Real>];
+    alignas(64) lane_int<Real> material[lanes<Real>] = {};
+    alignas(64) lane_int<Real> object[lanes<Real>] = {};
+    store(number, surface.number);
+    std::uint32_t checkered = 0;
+    for (std::uint32_t left = active; left != 0; left &= left - 1) {
+        const int lane = __builtin_ctz(left);
+        const abi::MaterialIndex& index = scene.materials.of_surface[number[lane]];
+        material[lane] = index.first;
+        object[lane] = index.object;
+        checkered |= (index.checker < 0 ? 0u : 1u) << lane;
+    }
+    surface.material = load(material);
+    surface.object = load(object);
+    for_each_distinct<Real>(
+        surface.number, checkered, [&](lane_int<Real> of, const vmask<Real>& same) {
+            surface.material =
+                select(same, material_at(scene, scene.materials.of_surface[of], surface.point),
+                       surface.material);
+        });
+}
+
+/// The number that all lanes of `active` have; -1 where they differ.
+template <class Real>
+inline lane_int<Real> common_number(const vint<Real>& number, std::uint32_t active)
+{
+    const DistinctNumbers<Real> distinct(number, active);
+    return distinct.is_only() ? distinct.value() : -1;
+}
+
 /// Fills `material`, `object` and what they have in common.
 template <class Real>
 inline void set_material(SurfacePacket<Real>& surface, const abi::SceneView<Real>& scene,
                          std::uint32_t active)
 {
-    const auto material_of = [&](const abi::MaterialIndex& index) {
-        const vint<Real> first(static_cast<lane_int<Real>>(index.first));
-        return index.checker < 0
-                   ? first
-                   : first + checker_parity(scene.materials.checkers[index.checker], surface.point);
-    };
-    const auto object_of = [](const abi::MaterialIndex& index) {
-        return vint<Real>(static_cast<lane_int<Real>>(index.object));
-    };
-    DistinctNumbers<Real> distinct(surface.number, active);
-    const abi::MaterialIndex& first = scene.materials.of_surface[distinct.value()];
-    surface.material = material_of(first);
-    surface.object = object_of(first);
-    const bool is_only = distinct.is_only();
-    surface.common = is_only ? distinct.value() : -1;
-    surface.common_material =
-        is_only && first.checker < 0 ? static_cast<lane_int<Real>>(first.first) : -1;
-    while (distinct.next()) {
-        const abi::MaterialIndex& index = scene.materials.of_surface[distinct.value()];
-        surface.material = select(distinct.lanes_of(), material_of(index), surface.material);
-        surface.object = select(distinct.lanes_of(), object_of(index), surface.object);
+    surface.common = common_number<Real>(surface.number, active);
+    if (surface.common < 0) {
+        set_materials(surface, scene, active);
+        surface.common_material = common_number<Real>(surface.material, active);
+        return;
     }
+    const abi::MaterialIndex& index = scene.materials.of_surface[surface.common];
+    surface.material = material_at(scene, index, surface.point);
+    surface.object = vint<Real>(static_cast<lane_int<Real>>(index.object));
+    surface.common_material = index.checker < 0 ? static_cast<lane_int<Real>>(index.first)
+                                                : common_number<Real>(surface.material, active);
 }
 
 /// The lanes of surfaces whose normal is turned against the ray, after set_material().
@@ -119,11 +154,13 @@ inline std::uint32_t facing_viewer(const abi::ShapesView& shapes,
 {
     if (surface.common >= 0)
         return shapes.index[surface.common].faces_viewer != 0 ? all_lanes<Real> : 0;
+    alignas(64) lane_int<Real> number[lanes<Real>];
+    store(number, surface.number);
     std::uint32_t lanes_of = 0;
-    for_each_distinct<Real>(surface.number, active, [&](lane_int<Real> number, vmask<Real> same) {
-        if (shapes.index[number].faces_viewer != 0)
-            lanes_of |= bits(same);
-    });
+    for (std::uint32_t left = active; left != 0; left &= left - 1) {
+        const int lane = __builtin_ctz(left);
+        lanes_of |= (shapes.index[number[lane]].faces_viewer != 0 ? 1u : 0u) << lane;
+    }
     return lanes_of;
 }
 

@@ -187,7 +187,7 @@ inline void write_tile(const abi::TileJob<Real>& job, const TilePixelColors<Real
 {
     if (job.samples != nullptr) {
         for (int i = 0; i < job.samples->count; ++i)
-            copy(job.rgb + 3 * i, pixels + pixel_elements * i, 3);
+            write_one(job.rgb + 3 * i, pixels + pixel_elements * i);
         return;
     }
     for (int row = 0; row < job.height; ++row)

@@ -212,35 +212,39 @@ inline SurfacePacket<Real> surface_of(const abi::SceneView<Real>& scene,
                             load(hits.surface + first), active);
 }
 
-template <class Element>
-inline void copy(Element* to, const Element* from, int count)
+/// Whole packets, so that up to one less than a packet more is written.
+template <class Real, class Element>
+inline void copy_packets(Element* to, const Element* from, int count)
 {
-    for (int i = 0; i < count; ++i)
-        to[i] = from[i];
+    for (int i = 0; i < count; i += lanes<Real>)
+        store(to + i, load(from + i));
 }
 
 /// Appends the rays of `from` to `to`.
 template <abi::Features F, class Real>
 inline void append_stream(RayStream<F, Real>& to, const RayStream<F, Real>& from)
 {
-    for (int axis = 0; axis < 3; ++axis) {
-        copy(to.org[axis] + to.count, from.org[axis], from.count);
-        copy(to.dir[axis] + to.count, from.dir[axis], from.count);
-    }
-    for (int channel = 0; channel < abi::weight_channels(F); ++channel)
-        copy(to.weight[channel] + to.count, from.weight[channel], from.count);
-    copy(to.pixel + to.count, from.pixel, from.count);
+    const auto append = [&](auto& behind, const auto& rays) {
+        copy_packets<Real>(behind + to.count, rays, from.count);
+    };
+    const auto append_each = [&](auto& behind, const auto& rays) {
+        for (std::size_t i = 0; i < sizeof(rays) / sizeof(rays[0]); ++i)
+            append(behind[i], rays[i]);
+    };
+    append_each(to.org, from.org);
+    append_each(to.dir, from.dir);
+    if constexpr (abi::weight_channels(F) > 0)
+        append_each(to.weight, from.weight);
+    append(to.pixel, from.pixel);
     if constexpr (F.glass)
-        for (int i = 0; i < abi::glass_depth; ++i)
-            copy(to.inside[i] + to.count, from.inside[i], from.count);
+        append_each(to.inside, from.inside);
     if constexpr (F.probe)
-        copy(to.path + to.count, from.path, from.count);
+        append(to.path, from.path);
     if (to.starts != nullptr) {
-        for (int axis = 0; axis < 3; ++axis)
-            copy(to.starts->point[axis] + to.count, from.starts->point[axis], from.count);
-        copy(to.starts->surface + to.count, from.starts->surface, from.count);
-        copy(to.starts->second + to.count, from.starts->second, from.count);
-        copy(to.starts->met_again + to.count, from.starts->met_again, from.count);
+        append_each(to.starts->point, from.starts->point);
+        append(to.starts->surface, from.starts->surface);
+        append(to.starts->second, from.starts->second);
+        append(to.starts->met_again, from.starts->met_again);
     }
     to.count += from.count;
 }
