@@ -214,45 +214,38 @@ inline SphereForm form_of(const abi::SphereShape& sphere)
     return {{center, center}, {radius2, radius2}, rough(sphere.center), rough(sphere.radius)};
 }
 
-/// A sphere a lane, put in one by one; of radius 1 around the origin where none is.
+/// A sphere a lane; of radius 1 around the origin in those that none is put in.
 class SphereLanes {
 public:
-    SphereLanes()
+    void put(const abi::SphereShape& sphere, std::uint32_t same)
     {
-        for (int first = 0; first < count; first += lanes<double>) {
-            for (double(&coordinate)[count] : center_)
-                store(coordinate + first, vreal<double>(0.0));
-            store(radius_ + first, vreal<double>(1.0));
-        }
-    }
-
-    void put(const abi::SphereShape& sphere, int lane)
-    {
-        for (int axis = 0; axis < 3; ++axis)
-            center_[axis][lane] = sphere.center[axis];
-        radius_[lane] = sphere.radius;
+        const vmask<double> low = from_bits<double>(same & all_lanes<double>);
+        const vmask<double> high = from_bits<double>(same >> lanes<double>);
+        const Vec3v<double> center = broadcast(sphere.center);
+        const vreal<double> radius(sphere.radius);
+        center_.low = select(low, center, center_.low);
+        center_.high = select(high, center, center_.high);
+        radius_.low = select(low, radius, radius_.low);
+        radius_.high = select(high, radius, radius_.high);
     }
 
     [[nodiscard]] SphereForm form() const
     {
-        const BothHalves<Vec3v<double>> center = {center_from(0), center_from(lanes<double>)};
-        const BothHalves<vreal<double>> radius = {load(radius_), load(radius_ + lanes<double>)};
-        return {center,
-                {radius.low * radius.low, radius.high * radius.high},
-                narrow(center.low, center.high),
-                narrow(radius.low, radius.high)};
+        return {center_,
+                {radius_.low * radius_.low, radius_.high * radius_.high},
+                narrow(center_.low, center_.high),
+                narrow(radius_.low, radius_.high)};
     }
 
 private:
-    static constexpr int count = 2 * lanes<double>;
-
-    [[nodiscard]] Vec3v<double> center_from(int first) const
+    static Vec3v<double> zero()
     {
-        return {load(center_[0] + first), load(center_[1] + first), load(center_[2] + first)};
+        const vreal<double> none(0.0);
+        return {none, none, none};
     }
 
-    alignas(64) double center_[3][count];
-    alignas(64) double radius_[count];
+    BothHalves<Vec3v<double>> center_ = {zero(), zero()};
+    BothHalves<vreal<double>> radius_ = {vreal<double>(1.0), vreal<double>(1.0)};
 };
 
 inline RoughRoot rough_root(const SphereForm& form, const RayPacket<float>& rays)

@@ -136,23 +136,18 @@ template <Refine R>
                                              const vint<float>& surface, std::uint32_t active)
 {
     const WideRays wide(rays);
-    alignas(64) std::int32_t number[lanes<float>];
-    store(number, surface);
     SphereLanes spheres;
     std::uint32_t on_spheres = 0;
-    for (std::uint32_t left = active; left != 0; left &= left - 1) {
-        const int lane = __builtin_ctz(left);
-        const abi::SurfaceIndex& index = shapes.index[number[lane]];
-        if (index.kind != abi::SurfaceKind::sphere)
-            continue;
-        spheres.put(shapes.spheres[index.record], lane);
-        on_spheres |= 1u << lane;
-    }
-    const std::uint32_t others = active & ~on_spheres;
     std::uint32_t done = 0;
-    for_each_distinct<float>(surface, others, [&](std::int32_t other, const vmask<float>& same) {
-        done |=
-            refine_by_newton<R>(hits, shapes, shapes.index[other], rays, wide, bits(same) & others);
+    for_each_distinct<float>(surface, active, [&](std::int32_t number, const vmask<float>& mask) {
+        const abi::SurfaceIndex& index = shapes.index[number];
+        const std::uint32_t same = bits(mask) & active;
+        if (index.kind == abi::SurfaceKind::sphere) {
+            spheres.put(shapes.spheres[index.record], same);
+            on_spheres |= same;
+        } else {
+            done |= refine_by_newton<R>(hits, shapes, index, rays, wide, same);
+        }
     });
     if (on_spheres != 0)
         done |= refine_by_newton<R>(hits, spheres.form(), rays, wide, on_spheres);
