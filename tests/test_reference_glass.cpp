@@ -162,6 +162,19 @@ TEST_CASE("an eye inside glass starts with the stack around it", "[reference_gla
           Approx(0.65).epsilon(1e-14));
 }
 
+TEST_CASE("an open glass surface around the eye ends at its z range", "[reference_glass]")
+{
+    // A ray along the tube leaves it at z = 1, long before the ball around it.
+    Object tube = quadric({1, 1, 0, 0, 0, 0, 0, 0, 0, -1});
+    std::get<Quadric>(tube.surface).z_range = ZRange{-1, 1};
+    for (const double forward : {1.0, -1.0}) {
+        const GlassWalk walk({tube, sphere({0, 0, 0}, 3)}, {1.8, 1.3});
+        CHECK(walk.start({0, 0, 0}, {0, 0, forward}).inside.top() == 0);
+        // Through its side it is left first, too.
+        CHECK(walk.start({0, 0, 0}, {1, 0, 0}).inside.top() == 0);
+    }
+}
+
 TEST_CASE("an open glass surface entered by its open end bends nothing", "[reference_glass]")
 {
     Object tube = quadric({1, 1, 0, 0, 0, 0, 0, 0, 0, -1});

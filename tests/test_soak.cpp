@@ -63,6 +63,33 @@ TEST_CASE("random scenes give the answers that are promised in every way", "[soa
     CHECK(counts.refused <= 16);
 }
 
+TEST_CASE("scenes of earlier findings show nothing", "[soak]")
+{
+    const tbb::global_control threads(tbb::global_control::max_allowed_parallelism, 3);
+    struct Earlier {
+        std::uint64_t seed;
+        std::uint64_t number;
+    };
+    for (const auto& [seed, number] : {
+             Earlier{9001, 533},    // a cap of a quadric whose centre is far away
+             Earlier{9001, 2565},   // a light nearer than where the note's shadow rays start
+             Earlier{4242, 434},    // a sphere and a direction of 1e-9
+             Earlier{4242, 2686},   // as 533
+             Earlier{4242, 12485},  // as 2565
+             Earlier{4242, 13446},  // a ray that nearly runs along a saddle, and starts next to it
+             Earlier{4242, 16800},  // an eye in an open quadric of glass, and in more glass
+             Earlier{4242, 17416},  // as 16800
+             Earlier{4242, 10989},  // `fast` makes up a second hit below its resolution
+         }) {
+        lab::SoakOptions options{.seed = seed, .first = number, .scenes = 1};
+        std::string findings;
+        (void)lab::run_soak(
+            options, [&](const lab::SoakReport& report) { findings += report.finding.what; });
+        CAPTURE(seed, number);
+        CHECK(findings == "");
+    }
+}
+
 TEST_CASE("scenes of a soak follow from seed and number", "[soak]")
 {
     lab::StressRandom first(7);

@@ -48,11 +48,7 @@ GlassStack Glass<Real>::stack_at(const Bodies<Real>& surfaces, const Vec3<Real>&
         const auto object = static_cast<std::size_t>(body.object);
         if (!any_positive(bodies[object].transmittance) || !is_inside(body, camera))
             return true;
-        Real first = infinity<Real>;
-        for (const auto& root : roots_of(body, camera, forward))
-            if (root.t > 0 && root.t < first)
-                first = root.t;
-        left_at.emplace_back(first, body.object);
+        left_at.emplace_back(leaves_at(body, camera, forward), body.object);
         return true;
     });
     std::sort(left_at.rbegin(), left_at.rend());

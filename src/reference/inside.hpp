@@ -2,6 +2,9 @@
 
 #include "reference/bodies.hpp"
 
+#include <algorithm>
+#include <limits>
+
 namespace packtrace::reference {
 
 /// Whether `p` is on the side of a surface that its outward normal points away from; of a
@@ -38,6 +41,42 @@ template <class Real>
 {
     const Vec3<Real> own = body.placement.point_to_own(p);
     return std::visit([&](const auto& surface) { return is_inside(surface, own); }, body.surface);
+}
+
+template <class Body, class Real>
+[[nodiscard]] Real first_root_ahead(const Body& body, const Vec3<Real>& O, const Vec3<Real>& D)
+{
+    Real first = std::numeric_limits<Real>::infinity();
+    for (const auto& root : roots_of(body, O, D))
+        if (root.t > 0)
+            first = std::min(first, root.t);
+    return first;
+}
+
+/// Where a ray from inside a body leaves it; infinite where it never does.
+template <class Body, class Real>
+[[nodiscard]] Real leaves_at(const Body& body, const Vec3<Real>& O, const Vec3<Real>& D)
+{
+    return first_root_ahead(body, O, D);
+}
+
+/// A clipped quadric ends at its z range, open or capped.
+template <class Real>
+[[nodiscard]] Real leaves_at(const QuadricBody<Real>& quadric, const Vec3<Real>& O,
+                             const Vec3<Real>& D)
+{
+    const Real first = first_root_ahead(quadric, O, D);
+    const Real end = D.z > 0 ? (quadric.high - O.z) / D.z : (quadric.low - O.z) / D.z;
+    return end > 0 ? std::min(first, end) : first;
+}
+
+template <class Real>
+[[nodiscard]] Real leaves_at(const PlacedBody<Real>& body, const Vec3<Real>& O, const Vec3<Real>& D)
+{
+    const Vec3<Real> own_org = body.placement.point_to_own(O);
+    const Vec3<Real> own_dir = body.placement.vector_to_own(D);
+    return std::visit([&](const auto& surface) { return leaves_at(surface, own_org, own_dir); },
+                      body.surface);
 }
 
 }  // namespace packtrace::reference

@@ -92,7 +92,7 @@ PACKTRACE_FUZZER(scenes)
     std::string what;
     try {
         const Scene scene = lab::as_read(scene_of(bytes));
-        if (const auto finding = lab::check_scene(scene, 1))
+        if (const auto finding = lab::check_scene(scene, SelfHits::exact, 1))
             what = finding->what;
     } catch (const SceneError&) {
     } catch (const std::invalid_argument&) {

@@ -77,13 +77,22 @@ void print_report(const SoakArguments& arguments, const lab::SoakReport& report)
     std::cout << std::flush;
 }
 
+/// What is found in a scene by either rule for self-hits.
+std::optional<lab::SoakFinding> finding_in(const Scene& scene, std::uint64_t seed)
+{
+    for (const SelfHits self_hits : {SelfHits::exact, SelfHits::note})
+        if (auto finding = lab::check_scene(scene, self_hits, seed))
+            return finding;
+    return std::nullopt;
+}
+
 /// Scenes from files, in place of random ones.
 int check_files(const SoakArguments& arguments)
 {
     int findings = 0;
     for (const std::string& file : arguments.files) {
         const SceneInput input = read_scene_input(file);
-        const auto finding = lab::check_scene(input.scene, arguments.options.seed);
+        const auto finding = finding_in(input.scene, arguments.options.seed);
         std::cout << language::escape(input.name) << ": "
                   << (finding ? finding->what : "as it should be") << '\n';
         if (finding && !finding->ray)

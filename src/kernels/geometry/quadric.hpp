@@ -366,6 +366,20 @@ inline Vec3v<Real> unit_normal(const abi::QuadricRecord<double>& quadric, unsign
                                  dir);
 }
 
+/// A root of the side, one step of Newton's nearer, where that leads to no other root: of rays that
+/// nearly run along the surface the discriminant loses digits that the equation has.
+inline vreal<double> bettered(const SideQuadratic<double>& side, const vreal<double>& t,
+                              const vreal<double>& t_min)
+{
+    const Quadratic<double>& q = side.from_start;
+    const vreal<double> x = t - side.start;
+    const vreal<double> slope = madd(q.a, x, q.b);
+    const vreal<double> value = madd(slope + q.b, x, q.c);
+    const vreal<double> better = t - value / (slope + slope);
+    const auto near = abs(q.a * (better - t)) <= vreal<double>(0x1p-11) * abs(slope);
+    return select(near & (better > t_min), better, t);
+}
+
 /// The first of the crossings of one piece.
 [[gnu::noinline]] inline RefinedHalf refine(const abi::QuadricRecord<double>& quadric,
                                             unsigned wanted, const RayPacket<double>& rays)
@@ -377,10 +391,12 @@ inline Vec3v<Real> unit_normal(const abi::QuadricRecord<double>& quadric, unsign
                         if (piece == static_cast<int>(wanted))
                             first = select(valid & (t > rays.t_min) & (t < first), t, first);
                     });
+    const Vec3v<double> v = apply_inverse(quadric, rays.dir);
+    if (wanted == 0)
+        first = bettered(side_quadratic<double>(quadric, origin.p, v), first, rays.t_min);
     RefinedHalf hit;
     hit.t = first;
     hit.point = point_at(rays, first);
-    const Vec3v<double> v = apply_inverse(quadric, rays.dir);
     const Vec3v<double> gradient =
         wanted == 0 ? side_gradient<double>(quadric, madd<double>(first, v, origin.p))
                     : cap_gradient<double>(quadric, wanted == 2);

@@ -39,7 +39,10 @@ Outcome outcome_of(std::uint64_t seed)
     Outcome outcome;
     try {
         outcome.scene = as_read(made);
-        outcome.finding = check_scene(outcome.scene, random.bits());
+        const std::uint64_t rays = random.bits();
+        // The notes' own rule is for comparison: it is tried now and then.
+        const SelfHits self_hits = rays % 5 == 0 ? SelfHits::note : SelfHits::exact;
+        outcome.finding = check_scene(outcome.scene, self_hits, rays);
     } catch (const SceneError&) {
         outcome.refused = true;
     } catch (const std::invalid_argument&) {
@@ -80,10 +83,8 @@ SoakReport report_of(std::uint64_t number, Outcome outcome)
 
 }  // namespace
 
-std::optional<SoakFinding> check_scene(const Scene& scene, std::uint64_t seed)
+std::optional<SoakFinding> check_scene(const Scene& scene, SelfHits self_hits, std::uint64_t seed)
 {
-    // The notes' own rule is for comparison: it is tried now and then.
-    const SelfHits self_hits = seed % 5 == 0 ? SelfHits::note : SelfHits::exact;
     if (auto finding = check_pictures(scene, self_hits))
         return finding;
     return check_rays(scene, seed);

@@ -35,7 +35,8 @@ struct SoakCounts {
 [[nodiscard]] SoakCounts run_soak(const SoakOptions& options,
                                   const std::function<void(const SoakReport&)>& take);
 
-/// Checks one scene; with the rays that follow from `seed`.
-[[nodiscard]] std::optional<SoakFinding> check_scene(const Scene& scene, std::uint64_t seed);
+/// Checks one scene; its pictures by one rule for self-hits, with the rays that follow from `seed`.
+[[nodiscard]] std::optional<SoakFinding> check_scene(const Scene& scene, SelfHits self_hits,
+                                                     std::uint64_t seed);
 
 }  // namespace packtrace::lab
