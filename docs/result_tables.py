@@ -292,6 +292,22 @@ def stress_modes(report):
         [row(f"`{mode}`", [r for r in packets if r["mode"] == mode]) for mode in ("fast", "exact")])
 
 
+def soak(report):
+    parts, findings = report["parts"], report["findings"]
+    scenes, refused, seconds = (sum(p[key] for p in parts) for key in ("scenes", "refused", "seconds"))
+    head = (f"Seed {report['seed']}, {report['machine']}: {scenes} scenes in {seconds / 60:.0f} minutes, "
+            f"{refused} of them refused by the scene language, {len(findings)} findings.\n\n")
+    runs = table(["commit", "first scene", "scenes", "minutes"],
+                 [[p["commit"], str(p["first"]), str(p["scenes"]), f"{p['seconds'] / 60:.0f}"]
+                  for p in parts])
+    if not findings:
+        return head + runs
+    causes = list(dict.fromkeys((f["cause"], f["mended"]) for f in findings))
+    rows = [[", ".join(str(f["scene"]) for f in findings if (f["cause"], f["mended"]) == one), *one]
+            for one in causes]
+    return head + runs + "\n\n" + table(["scenes", "what it was", "how it was mended"], rows, 3)
+
+
 # The name of a block after its file, as markers give it: results/peers.json: summary.
 TABLES = {
     "results/peers.json: summary": peers_summary,
@@ -306,6 +322,7 @@ TABLES = {
     "results/cluster.json: models": cluster_models,
     "results/cluster.json: efficiency": cluster_efficiency,
     "results/features.json: scenes": features,
+    "results/soak.json: counts": soak,
     "results/stress_exact.json: verdict": stress_exact,
     "results/stress.json: textbook": stress_textbook,
     "results/stress.json: modes": stress_modes,
