@@ -1,15 +1,21 @@
 #!/bin/bash
-# run_fuzzers.sh FOLDER SECONDS [OPTION…]: runs each fuzzer in FOLDER for so long, from its corpus on
-# and from what earlier runs found, and prints how many inputs it tried. Options go to libFuzzer.
+# run_fuzzers.sh [--only NAME] FOLDER SECONDS [OPTION…]: runs each fuzzer in FOLDER, or one, for so
+# long, from its corpus on and from what earlier runs found, and prints how many inputs it tried.
+# Options go to libFuzzer.
 # New inputs and those that fail are kept in build/fuzzed/.
 set -euo pipefail
+only='*'
+if [ "$1" = --only ]; then
+    only=$2
+    shift 2
+fi
 folder=$1
 seconds=$2
 shift 2
 here=$(dirname "$(readlink -f "$0")")
 kept=$(dirname "$(dirname "$here")")/build/fuzzed
 failed=0
-for source in "$here"/fuzz_*.cpp; do
+for source in "$here"/fuzz_$only.cpp; do
     name=$(basename "$source" .cpp)
     corpus=${name#fuzz_}
     mkdir -p "$kept/$corpus" "$kept/failed"

@@ -312,13 +312,13 @@ inline Occlusion occludes(const ListedSphere<SphereFilters>& sphere, const RayPa
     return occludes(test_of(list, i, w), near, rays, scale, t_end);
 }
 
-/// Lets each of `arrays` have `room` elements of one block.
+/// Lets each of `arrays` have `room` elements of one block, which is none where an arena only measures.
 template <class Real, class Arena, std::size_t Count>
 inline void share_block(Arena& arena, Real** const (&arrays)[Count], std::size_t room)
 {
     Real* const block = arena.template take<Real>(Count * room);
     for (std::size_t i = 0; i < Count; ++i)
-        *arrays[i] = block + i * room;
+        *arrays[i] = block == nullptr ? nullptr : block + i * room;
 }
 
 /// Of arrays with room for so many spheres, and for whole packets of them.
