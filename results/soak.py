@@ -2,7 +2,7 @@
 """Writes results/soak.json: random scenes in every way there is, in parts. It goes on behind the last
 part that the file has. What a finding was and how it was mended is entered by hand.
 
-usage: results/soak.py build/release/packtrace MINUTES [SEED]
+usage: results/soak.py build/release/packtrace MINUTES [SEED [THREADS]]
 """
 import json
 import pathlib
@@ -29,10 +29,10 @@ def part_of(output, first, seconds, built):
     return part, found
 
 
-def run_part(program, seed, first, minutes):
+def run_part(program, seed, first, minutes, threads):
     started = time.monotonic()
     done = subprocess.run([program, "soak", "--seed", str(seed), "--first", str(first), "--minutes",
-                           str(minutes), "--findings", "1000", "--cases", CASES],
+                           str(minutes), "--findings", "1000", "--cases", CASES, *threads],
                           stdout=subprocess.PIPE, text=True)
     if not COUNTS.search(done.stdout):
         sys.exit(f"soak.py: packtrace soak ended with exit code {done.returncode}, without its counts")
@@ -55,15 +55,17 @@ def add(report, part, found):
 
 
 def main():
-    if len(sys.argv) not in (3, 4):
+    if len(sys.argv) not in (3, 4, 5):
         sys.exit(__doc__)
     program, left = pathlib.Path(sys.argv[1]).resolve(), float(sys.argv[2])
-    report = report_of(int(sys.argv[3]) if len(sys.argv) == 4 else 4242)
+    report = report_of(int(sys.argv[3]) if len(sys.argv) > 3 else 4242)
+    threads = ["--threads", sys.argv[4]] if len(sys.argv) > 4 else []
     commit()
     CASES.mkdir(parents=True, exist_ok=True)
     while left > 0:
         first = max((part["first"] + part["scenes"] for part in report["parts"]), default=0)
-        part, found = run_part(program, report["seed"], first, min(left, MINUTES_OF_A_PART))
+        part, found = run_part(program, report["seed"], first, min(left, MINUTES_OF_A_PART),
+                               threads)
         add(report, part, found)
         print(f"{part['scenes']} scenes from {first}, {len(found)} findings", flush=True)
         left -= MINUTES_OF_A_PART

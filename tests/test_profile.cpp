@@ -66,6 +66,21 @@ std::string only_line(const Profile& profile)
 
 }  // namespace
 
+TEST_CASE("a profile tells what the first frame of a process pays", "[profile]")
+{
+    const Profile result = small_profile();
+    REQUIRE(result.first_frame.size() == 4);
+    CHECK(result.first_frame[0].name == "threads started");
+    for (const FirstFrameStep& step : result.first_frame)
+        CHECK(step.seconds >= 0.0);
+    // A picture of 3 MB that nobody has touched before.
+    ProfileOptions once;
+    once.repetitions = 1;
+    const Profile cold =
+        profile<float>(read_text(four_spheres_file), four_spheres(512, 512), once);
+    CHECK(cold.first_frame[2].page_faults > cold.first_frame[3].page_faults);
+}
+
 TEST_CASE("a profile's generations have all rays of the frame, each once", "[profile]")
 {
     const Profile result = small_profile();

@@ -31,6 +31,14 @@ struct ProfileStage {
     double seconds = 0.0;
 };
 
+/// What a process pays before its frames are as fast as they get. Each step happens once, so that no
+/// spread is known.
+struct FirstFrameStep {
+    std::string name;  ///< "first frame"
+    double seconds = 0.0;
+    std::uint64_t page_faults = 0;  ///< pages of memory first touched, of code and data
+};
+
 /// What the rays of one generation took: the difference between frames that end after it and before
 /// it.
 struct ProfileGeneration {
@@ -125,6 +133,8 @@ struct Profile {
     double frame = 0.0;         ///< seconds, median
     double frame_spread = 0.0;  ///< of the middle half of the repetitions, over the median
     double whole = 0.0;         ///< seconds from the scene's text to the PNG's bytes
+    /// Cold only in the first profile of a process that has rendered nothing before.
+    std::vector<FirstFrameStep> first_frame;
     std::vector<ProfileStage> stages;
     std::vector<ProfileGeneration> generations;
     std::vector<ProfileWhatIf> what_if;

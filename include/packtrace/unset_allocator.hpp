@@ -1,9 +1,21 @@
 #pragma once
 
+#include <cstddef>
+#include <limits>
 #include <memory>
+#include <new>
 #include <utility>
 
+#include <packtrace/export.hpp>
+
 namespace packtrace {
+
+/// Memory at a 64-byte boundary; in huge pages, where the system has any, from the size of one
+/// (2 MiB) on: the system takes its time for each page that is touched first. Throws
+/// std::bad_alloc.
+[[nodiscard]] PACKTRACE_API void* take_pages(std::size_t bytes);
+/// What take_pages() gave, or null.
+PACKTRACE_API void return_pages(void* memory);
 
 /// Gives no value to elements that are given none: the first to look at a picture's memory, which
 /// the system takes its time for, are the threads that render it.
@@ -18,6 +30,17 @@ struct UnsetAllocator : std::allocator<T> {
     template <class Other>
     UnsetAllocator(const UnsetAllocator<Other>&)
     {
+    }
+
+    [[nodiscard]] T* allocate(std::size_t count)
+    {
+        if (count > std::numeric_limits<std::size_t>::max() / sizeof(T))
+            throw std::bad_array_new_length();
+        return static_cast<T*>(take_pages(count * sizeof(T)));
+    }
+    void deallocate(T* memory, std::size_t)
+    {
+        return_pages(memory);
     }
 
     template <class Element, class... Arguments>

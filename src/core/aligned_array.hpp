@@ -1,25 +1,19 @@
 #pragma once
 
 #include <cstddef>
-#include <cstdlib>
 #include <memory>
-#include <new>
 #include <type_traits>
 
-#include <sys/mman.h>
+#include <packtrace/unset_allocator.hpp>
 
 namespace packtrace {
 
-/// Memory for `size` elements of a plain type at a 64-byte boundary, all bytes zero; in huge
-/// pages, where the system has any, from the size of one on.
+/// Memory for `size` elements of a plain type, all bytes zero, as take_pages() gives it.
 template <class T>
 class AlignedArray {
     static_assert(std::is_trivially_copyable_v<T>);
 
 public:
-    static constexpr std::size_t alignment = 64;
-    static constexpr std::size_t huge_page = std::size_t{1} << 21;
-
     AlignedArray() = default;
 
     explicit AlignedArray(std::size_t size) : size_(size), data_(allocate(size))
@@ -59,25 +53,13 @@ private:
     struct Free {
         void operator()(T* memory) const
         {
-            std::free(memory);
+            return_pages(memory);
         }
     };
 
     static T* allocate(std::size_t size)
     {
-        const std::size_t wanted = size * sizeof(T);
-        const std::size_t boundary = wanted < huge_page ? alignment : huge_page;
-        // Not up to the next huge page: what is left over is taken in small ones.
-        const std::size_t bytes = (wanted + alignment) / alignment * alignment;
-        void* memory = nullptr;
-        if (posix_memalign(&memory, boundary, bytes) != 0)
-            throw std::bad_alloc();
-#if defined(MADV_HUGEPAGE)
-        // Rays walk large arrays in no order; a refusal costs time only.
-        if (boundary == huge_page)
-            (void)madvise(memory, bytes, MADV_HUGEPAGE);
-#endif
-        return static_cast<T*>(memory);
+        return static_cast<T*>(take_pages(size * sizeof(T)));
     }
 
     std::size_t size_ = 0;

@@ -33,6 +33,15 @@ void print_stages(std::ostream& to, const Profile& profile)
     table.print(to);
 }
 
+void print_first_frame(std::ostream& to, const Profile& profile)
+{
+    TextTable table(1, {"in a new process", "ms", "of a warm frame", "page faults"});
+    for (const FirstFrameStep& step : profile.first_frame)
+        table.add({step.name, milliseconds(step.seconds), percent(step.seconds, profile.frame),
+                   std::to_string(step.page_faults)});
+    table.print(to);
+}
+
 void print_generations(std::ostream& to, const Profile& profile)
 {
     TextTable table(1, {"generation", "camera", "shadow", "reflected", "refracted", "ms", "share",
@@ -93,6 +102,8 @@ void print_profile(std::ostream& to, const std::string& scene, const Profile& pr
     print_too_busy(to, profile);
     print_stages(to, profile);
     to << '\n';
+    print_first_frame(to, profile);
+    to << '\n';
     print_generations(to, profile);
     to << '\n';
     print_kernels(to, profile);
@@ -114,9 +125,14 @@ nlohmann::ordered_json profile_json(const std::string& scene, const Profile& pro
                                 {"whole_s", profile.whole},
                                 {"too_busy", profile.too_busy},
                                 {"rays", rays_json(profile.rays)},
+                                {"first_frame", nlohmann::ordered_json::array()},
                                 {"stages", nlohmann::ordered_json::array()},
                                 {"generations", nlohmann::ordered_json::array()},
                                 {"what_if", nlohmann::ordered_json::array()}};
+    for (const FirstFrameStep& step : profile.first_frame)
+        json["first_frame"].push_back({{"name", step.name},
+                                       {"seconds", step.seconds},
+                                       {"page_faults", step.page_faults}});
     for (const ProfileStage& stage : profile.stages)
         json["stages"].push_back({{"name", stage.name}, {"seconds", stage.seconds}});
     for (const ProfileGeneration& generation : profile.generations)

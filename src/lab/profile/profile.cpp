@@ -9,6 +9,7 @@
 #include "lab/harness/statistics.hpp"
 #include "lab/harness/stopwatch.hpp"
 #include "lab/profile/busy_machine.hpp"
+#include "lab/profile/first_frame.hpp"
 #include "lab/profile/kernel_profile.hpp"
 #include "lab/profile/profile_subjects.hpp"
 #include "lab/profile/work_rows.hpp"
@@ -136,6 +137,8 @@ Profile profile(const std::string& text, const Scene& scene, const ProfileOption
     result.lanes = sizeof(Real) == sizeof(float) ? isa.lanes_single : isa.lanes_double;
     result.threads = options.threads;
 
+    // Before anything warms the process.
+    result.first_frame = first_frame_steps<Real>(scene, options);
     std::vector<ProfileRun> runs = profile_runs<Real>(scene, options);
     take_times(runs, options);
     result.rays = runs.front().rays;
