@@ -6,12 +6,18 @@
 # -fno-tree-vectorize is GCC's; clang contracts only what it is told to.
 # -Wno-restrict: GCC 12 warns of "literal" + std::string without cause (its bug 105651).
 # -Wno-subobject-linkage: in unity builds it takes sources for headers.
+# -Wno-psabi: GCC notes that for Arm it passes some structs otherwise than GCC 9 did.
+set(no_psabi "")
+if(CMAKE_SYSTEM_PROCESSOR MATCHES "aarch64|arm64")
+    set(no_psabi $<$<CXX_COMPILER_ID:GNU>:-Wno-psabi>)
+endif()
 add_library(packtrace_flags INTERFACE)
 target_compile_options(packtrace_flags INTERFACE
     -ffp-contract=off -fno-math-errno -fno-trapping-math
     $<$<CXX_COMPILER_ID:GNU>:-fno-tree-vectorize>
     -Wall -Wextra -Wpedantic -Wshadow -Wconversion -Wsign-conversion
     $<$<CXX_COMPILER_ID:GNU>:-Wno-restrict>
+    ${no_psabi}
     $<$<AND:$<CXX_COMPILER_ID:GNU>,$<BOOL:${CMAKE_UNITY_BUILD}>>:-Wno-subobject-linkage>)
 if(PACKTRACE_WERROR)
     target_compile_options(packtrace_flags INTERFACE -Werror)

@@ -297,15 +297,39 @@ def soak(report):
     scenes, refused, seconds = (sum(p[key] for p in parts) for key in ("scenes", "refused", "seconds"))
     head = (f"Seed {report['seed']}, {report['machine']}: {scenes} scenes in {seconds / 60:.0f} minutes, "
             f"{refused} of them refused by the scene language, {len(findings)} findings.\n\n")
+    commits = {}
+    for part in parts:
+        commits.setdefault(part["commit"], []).append(part)
     runs = table(["commit", "first scene", "scenes", "minutes"],
-                 [[p["commit"], str(p["first"]), str(p["scenes"]), f"{p['seconds'] / 60:.0f}"]
-                  for p in parts])
+                 [[name, str(of[0]["first"]), str(sum(p["scenes"] for p in of)),
+                   f"{sum(p['seconds'] for p in of) / 60:.0f}"] for name, of in commits.items()])
     if not findings:
         return head + runs
     causes = list(dict.fromkeys((f["cause"], f["mended"]) for f in findings))
     rows = [[", ".join(str(f["scene"]) for f in findings if (f["cause"], f["mended"]) == one), *one]
             for one in causes]
     return head + runs + "\n\n" + table(["scenes", "what it was", "how it was mended"], rows, 3)
+
+
+def fuzz(report):
+    parts, findings = report["parts"], report["findings"]
+    names = sorted({part["fuzzer"] for part in parts})
+
+    def total(name, key):
+        return sum(part[key] for part in parts if part["fuzzer"] == name)
+
+    commits = ", ".join(dict.fromkeys(part["commit"] for part in parts))
+    head = (f"{report['machine']}, commit {commits}: {report['inputs'] / 1e6:.1f} million inputs in "
+            f"{report['seconds'] / 3600:.1f} hours of all fuzzers together, {len(findings)} "
+            f"{'finding' if len(findings) == 1 else 'findings'}.\n\n")
+    runs = table(["fuzzer", "inputs", "minutes"],
+                 [[f"`{name}`", str(total(name, "inputs")), f"{total(name, 'seconds') / 60:.0f}"]
+                  for name in names])
+    if not findings:
+        return head + runs
+    return head + runs + "\n\n" + table(
+        ["fuzzer", "what it was", "how it was mended"],
+        [[f"`{found['fuzzer']}`", found["cause"], found["mended"]] for found in findings], 3)
 
 
 # The name of a block after its file, as markers give it: results/peers.json: summary.
@@ -322,6 +346,7 @@ TABLES = {
     "results/cluster.json: models": cluster_models,
     "results/cluster.json: efficiency": cluster_efficiency,
     "results/features.json: scenes": features,
+    "results/fuzz.json: counts": fuzz,
     "results/soak.json: counts": soak,
     "results/stress_exact.json: verdict": stress_exact,
     "results/stress.json: textbook": stress_textbook,

@@ -70,9 +70,8 @@ if(CMAKE_SYSTEM_PROCESSOR MATCHES "x86_64|AMD64")
     packtrace_kernel(avx512 16 -mavx512f -mavx512cd -mavx512dq -mavx512bw -mavx512vl
                      -mavx2 -mfma -mbmi -mbmi2 -mpopcnt -mprefer-vector-width=512)
 elseif(CMAKE_SYSTEM_PROCESSOR MATCHES "aarch64|arm64")
-    # GCC notes that it passes some structs otherwise than GCC 9 did.
-    packtrace_kernel(one_lane 1 -Wno-psabi ${not_vectorised})
-    packtrace_kernel(neon64 4 -Wno-psabi)
+    packtrace_kernel(one_lane 1 ${not_vectorised})
+    packtrace_kernel(neon64 4)
 else()
     message(FATAL_ERROR "packtrace: no kernels for ${CMAKE_SYSTEM_PROCESSOR}; "
                         "it runs on x86-64 and 64-bit Arm")
