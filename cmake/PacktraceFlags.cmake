@@ -70,3 +70,10 @@ function(packtrace_harden)
         endforeach()
     endif()
 endfunction()
+
+# What renders is also worth peeling loops: -O3, which GCC peels them in, takes half as long again to
+# build, and frames take 0 to 4 % longer.
+set(packtrace_frame_flags "")
+if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU")
+    set(packtrace_frame_flags -O2 -fpeel-loops)
+endif()

@@ -7,10 +7,8 @@
 # weak copy of them leaves the object. -Wno-maybe-uninitialized: GCC 12's own AVX-512 header
 # starts from undefined registers. -fno-stack-protector: Ubuntu's compilers guard each function that
 # has arrays on its stack, which is every one here, and call libc where a guard is broken.
-# What renders is also worth peeling loops: -O3, which GCC peels them in, takes half as long again to
-# build, and frames take 0 to 4 % longer.
 set_source_files_properties(kernels/table.cpp PROPERTIES
-    COMPILE_OPTIONS "$<$<AND:$<CXX_COMPILER_ID:GNU>,$<CONFIG:Release>>:-O2$<SEMICOLON>-fpeel-loops>")
+    COMPILE_OPTIONS "$<$<CONFIG:Release>:${packtrace_frame_flags}>")
 
 set(PACKTRACE_ISAS "all" CACHE STRING
     "Instruction sets to compile kernels for: all, or a list such as sse42;avx2")
