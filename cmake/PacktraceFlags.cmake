@@ -71,9 +71,9 @@ function(packtrace_harden)
     endif()
 endfunction()
 
-# What renders is also worth peeling loops: -O3, which GCC peels them in, takes half as long again to
-# build, and frames take 0 to 4 % longer.
-set(packtrace_frame_flags "")
+# What optimises the kernels that render. By GCC's -O3, which peels loops and much else, they take
+# half as long again to build, and frames between 1 % less and 4 % more.
+set(packtrace_frame_flags -O3)
 if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU")
     set(packtrace_frame_flags -O2 -fpeel-loops)
 endif()

@@ -292,44 +292,48 @@ def stress_modes(report):
         [row(f"`{mode}`", [r for r in packets if r["mode"] == mode]) for mode in ("fast", "exact")])
 
 
+def by(key, parts):
+    """Lists of the parts that have the same value there, by this value."""
+    groups = {}
+    for part in parts:
+        groups.setdefault(part[key], []).append(part)
+    return groups
+
+
+def total(key, parts):
+    return sum(part[key] for part in parts)
+
+
+def found(key, findings):
+    """What was found, a row for each cause; nothing where nothing was."""
+    if not findings:
+        return ""
+    causes = dict.fromkeys((f["cause"], f["mended"]) for f in findings)
+    rows = [[", ".join(str(f[key]) for f in findings if (f["cause"], f["mended"]) == one), *one]
+            for one in causes]
+    return "\n\n" + table([f"{key}s", "what it was", "how it was mended"], rows, 3)
+
+
 def soak(report):
     parts, findings = report["parts"], report["findings"]
-    scenes, refused, seconds = (sum(p[key] for p in parts) for key in ("scenes", "refused", "seconds"))
-    head = (f"Seed {report['seed']}, {report['machine']}: {scenes} scenes in {seconds / 60:.0f} minutes, "
-            f"{refused} of them refused by the scene language, {len(findings)} findings.\n\n")
-    commits = {}
-    for part in parts:
-        commits.setdefault(part["commit"], []).append(part)
+    head = (f"Seed {report['seed']}, {report['machine']}: {total('scenes', parts)} scenes in "
+            f"{total('seconds', parts) / 60:.0f} minutes, {total('refused', parts)} of them refused by "
+            f"the scene language, {len(findings)} findings.\n\n")
     runs = table(["commit", "first scene", "scenes", "minutes"],
-                 [[name, str(of[0]["first"]), str(sum(p["scenes"] for p in of)),
-                   f"{sum(p['seconds'] for p in of) / 60:.0f}"] for name, of in commits.items()])
-    if not findings:
-        return head + runs
-    causes = list(dict.fromkeys((f["cause"], f["mended"]) for f in findings))
-    rows = [[", ".join(str(f["scene"]) for f in findings if (f["cause"], f["mended"]) == one), *one]
-            for one in causes]
-    return head + runs + "\n\n" + table(["scenes", "what it was", "how it was mended"], rows, 3)
+                 [[name, str(of[0]["first"]), str(total("scenes", of)), f"{total('seconds', of) / 60:.0f}"]
+                  for name, of in by("commit", parts).items()])
+    return head + runs + found("scene", findings)
 
 
 def fuzz(report):
     parts, findings = report["parts"], report["findings"]
-    names = sorted({part["fuzzer"] for part in parts})
-
-    def total(name, key):
-        return sum(part[key] for part in parts if part["fuzzer"] == name)
-
-    commits = ", ".join(dict.fromkeys(part["commit"] for part in parts))
-    head = (f"{report['machine']}, commit {commits}: {report['inputs'] / 1e6:.1f} million inputs in "
-            f"{report['seconds'] / 3600:.1f} hours of all fuzzers together, {len(findings)} "
-            f"{'finding' if len(findings) == 1 else 'findings'}.\n\n")
+    head = (f"{report['machine']}, commit {', '.join(by('commit', parts))}: "
+            f"{total('inputs', parts) / 1e6:.1f} million inputs in {total('seconds', parts) / 3600:.1f} "
+            f"hours of all fuzzers together, findings: {len(findings)}.\n\n")
     runs = table(["fuzzer", "inputs", "minutes"],
-                 [[f"`{name}`", str(total(name, "inputs")), f"{total(name, 'seconds') / 60:.0f}"]
-                  for name in names])
-    if not findings:
-        return head + runs
-    return head + runs + "\n\n" + table(
-        ["fuzzer", "what it was", "how it was mended"],
-        [[f"`{found['fuzzer']}`", found["cause"], found["mended"]] for found in findings], 3)
+                 [[f"`{name}`", str(total("inputs", of)), f"{total('seconds', of) / 60:.0f}"]
+                  for name, of in sorted(by("fuzzer", parts).items())])
+    return head + runs + found("fuzzer", findings)
 
 
 # The name of a block after its file, as markers give it: results/peers.json: summary.

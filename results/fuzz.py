@@ -7,14 +7,14 @@ usage: results/fuzz.py MINUTES [AT_ONCE]
 Build the fuzzers first (`./run fuzz 1`). AT_ONCE of them, 2 unless said, run side by side.
 """
 import concurrent.futures
-import json
 import pathlib
 import re
 import subprocess
 import sys
 import threading
+import time
 
-from provenance import FOLDER, commit, machine, write
+from provenance import FOLDER, commit, kept, machine, write
 
 ROOT = FOLDER.parent
 SECONDS_OF_A_PART = 150
@@ -27,46 +27,45 @@ def names():
 
 
 def run_part(name):
-    """How many inputs a fuzzer tries in one part, and what it says where it fails."""
+    """How many inputs a fuzzer tries in one part, the seconds, and what it says where it fails."""
+    started = time.monotonic()
     done = subprocess.run([ROOT / "tests/fuzz/run_fuzzers.sh", "--only", name,
                            ROOT / "build/fuzz/tests/fuzz", str(SECONDS_OF_A_PART)],
                           capture_output=True, text=True)
+    seconds = round(time.monotonic() - started)
     tried = COUNT.search(done.stdout)
     if tried:
-        return int(tried.group(2)), None
+        return int(tried.group(2)), seconds, None
     log = (ROOT / f"build/fuzzed/{name}.log").read_text(errors="replace")
-    return sum(map(int, EXECUTED.findall(log))), done.stderr.strip()
+    return sum(map(int, EXECUTED.findall(log))), seconds, done.stderr.strip()
 
 
-def add(report, built, name, tried, finding):
+def add(report, built, name, tried, seconds, finding):
     key = {"fuzzer": name, "commit": built}
     part = next((p for p in report["parts"] if key.items() <= p.items()), None)
     if part is None:
         part = key | {"inputs": 0, "seconds": 0}
         report["parts"].append(part)
     part["inputs"] += tried
-    part["seconds"] += SECONDS_OF_A_PART
+    part["seconds"] += seconds
     if finding:
         report["findings"].append(key | {"what": finding, "cause": "", "mended": ""})
     report |= {"commit": built, "machine": machine()}
-    report["inputs"] = sum(p["inputs"] for p in report["parts"])
-    report["seconds"] = sum(p["seconds"] for p in report["parts"])
     write(report, "fuzz.json")
 
 
 def main():
     if len(sys.argv) not in (2, 3):
         sys.exit(__doc__)
-    path = FOLDER / "fuzz.json"
-    report = json.loads(path.read_text()) if path.is_file() else {"parts": [], "findings": []}
+    report = kept("fuzz.json") or {"parts": [], "findings": []}
     at_once = int(sys.argv[2]) if len(sys.argv) == 3 else 2
     rounds = float(sys.argv[1]) * 60 * at_once / SECONDS_OF_A_PART / len(names())
     built, lock = commit(), threading.Lock()
 
     def one(name):
-        tried, finding = run_part(name)
+        tried, seconds, finding = run_part(name)
         with lock:
-            add(report, built, name, tried, finding)
+            add(report, built, name, tried, seconds, finding)
             print(f"{name}: {tried} inputs{', ' + finding if finding else ''}", flush=True)
 
     with concurrent.futures.ThreadPoolExecutor(at_once) as pool:

@@ -47,6 +47,12 @@ def machine():
     return f"{name}, {os.cpu_count()} cores, load {os.getloadavg()[0]:.1f}"
 
 
+def kept(name):
+    """What FOLDER/name holds; nothing where there is no such file."""
+    path = FOLDER / name
+    return json.loads(path.read_text()) if path.is_file() else {}
+
+
 def write(report, name):
     """Writes FOLDER/name whole or not at all."""
     target = FOLDER / name

@@ -4,14 +4,13 @@ part that the file has. What a finding was and how it was mended is entered by h
 
 usage: results/soak.py build/release/packtrace MINUTES [SEED [THREADS]]
 """
-import json
 import pathlib
 import re
 import subprocess
 import sys
 import time
 
-from provenance import FOLDER, commit, machine, write
+from provenance import FOLDER, commit, kept, machine, write
 
 MINUTES_OF_A_PART = 10
 CASES = FOLDER.parent / "build/soak_cases"
@@ -40,8 +39,7 @@ def run_part(program, seed, first, minutes, threads):
 
 
 def report_of(seed):
-    path = FOLDER / "soak.json"
-    report = json.loads(path.read_text()) if path.is_file() else {}
+    report = kept("soak.json")
     if report.get("seed") != seed:
         report = {"seed": seed, "parts": [], "findings": []}
     return report

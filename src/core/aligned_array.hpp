@@ -59,7 +59,7 @@ private:
 
     static T* allocate(std::size_t size)
     {
-        return static_cast<T*>(take_pages(size * sizeof(T)));
+        return UnsetAllocator<T>().allocate(size);
     }
 
     std::size_t size_ = 0;

@@ -312,7 +312,7 @@ inline Occlusion occludes(const ListedSphere<SphereFilters>& sphere, const RayPa
     return occludes(test_of(list, i, w), near, rays, scale, t_end);
 }
 
-/// Lets each of `arrays` have `room` elements of one block, which is none where an arena only measures.
+/// Lets each of `arrays` have `room` elements of one block; of none where an arena only measures.
 template <class Real, class Arena, std::size_t Count>
 inline void share_block(Arena& arena, Real** const (&arrays)[Count], std::size_t room)
 {
