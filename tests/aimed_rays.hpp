@@ -82,6 +82,25 @@ struct AimedFamily {
     return result;
 }
 
+/// In all directions from next to spheres that overlap, on either side of their surfaces.
+[[nodiscard]] inline AimedRays off_spheres(StressRandom& random, int count)
+{
+    AimedRays result;
+    const int spheres = 60;
+    const Vec3 middle = random.power(0.1, 100.0) * random.unit();
+    for (int i = 0; i < spheres; ++i)
+        result.scene.objects.push_back(
+            lab::sphere_object(middle + random.box(3.0), random.between(0.2, 1.0)));
+    for (int i = 0; i < count; ++i) {
+        const Object& object =
+            result.scene.objects[static_cast<std::size_t>(random.below(spheres))];
+        const auto& sphere = std::get<Sphere>(object.surface);
+        const Vec3 org = sphere.center + sphere.radius * (1.0 + aim_error(random)) * random.unit();
+        result.rays.push_back(lab::ray_towards(org, org + random.unit()));
+    }
+    return result;
+}
+
 /// Along the horizon of a ground sphere with balls on it.
 [[nodiscard]] inline AimedRays past_ground(StressRandom& random, int count)
 {
@@ -223,6 +242,7 @@ struct AimedFamily {
         {"spheres", [](StressRandom& r, int n) { return past_spheres(r, n, 3, 1e2); }},
         {"far spheres", [](StressRandom& r, int n) { return past_spheres(r, n, 3, 1e5); }},
         {"many spheres", [](StressRandom& r, int n) { return past_spheres(r, n, 40, 1e2); }},
+        {"off spheres", off_spheres},
         {"ground spheres", past_ground},
         {"creases", at_creases},
         {"planes", along_planes},

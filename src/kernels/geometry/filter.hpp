@@ -65,20 +65,31 @@ struct RootIntervals {
     vreal<float> error;
 };
 
-/// Keeps the first root beyond t_min in the lanes of `sure`, whose rays cross the surface.
-inline void keep_first_of(HitPacket<float>& hit, const RootIntervals& roots, vmask<float> sure,
-                          const vreal<float>& t_min, std::int32_t surface)
+/// The first of two roots beyond t_min.
+struct FirstRoot {
+    vreal<float> low, high;
+    vmask<float> counts;  ///< lanes in which it is beyond for sure
+    std::uint32_t none;   ///< in which neither is, for sure
+};
+
+inline FirstRoot first_root_beyond(const RootIntervals& roots, const vreal<float>& t_min)
 {
     const auto near_behind = roots.near + roots.error < t_min;
     const vreal<float> root = select(near_behind, roots.far, roots.near);
     const vreal<float> low = root - roots.error;
     const vreal<float> high = root + roots.error;
-    const auto counts = low > t_min;
-    keep_sure(hit, sure & counts, low, high, surface);
-    const std::uint32_t none_counts = bits(near_behind) & bits(high < t_min);
-    const std::uint32_t open = bits(sure) & ~bits(counts) & ~none_counts;
+    return {low, high, low > t_min, bits(near_behind) & bits(high < t_min)};
+}
+
+/// Keeps the first root beyond t_min in the lanes of `sure`, whose rays cross the surface.
+inline void keep_first_of(HitPacket<float>& hit, const RootIntervals& roots, vmask<float> sure,
+                          const vreal<float>& t_min, std::int32_t surface)
+{
+    const FirstRoot first = first_root_beyond(roots, t_min);
+    keep_sure(hit, sure & first.counts, first.low, first.high, surface);
+    const std::uint32_t open = bits(sure) & ~bits(first.counts) & ~first.none;
     if (open != 0)
-        keep_doubt(hit, from_bits<float>(open), low, all_lanes<float>);
+        keep_doubt(hit, from_bits<float>(open), first.low, all_lanes<float>);
 }
 
 /// What certain tests say of occlusion.

@@ -78,11 +78,16 @@ struct SphereApproach {
     std::uint32_t near;
 };
 
+inline vreal<float> moment2_of(const Vec3v<float>& w, const RayPacket<float>& rays)
+{
+    const Vec3v<float> moment = cross(w, rays.dir);
+    return dot(moment, moment);
+}
+
 inline SphereApproach approach(const Vec3v<float>& w, const vreal<float>& outer2,
                                const RayPacket<float>& rays)
 {
-    const Vec3v<float> moment = cross(w, rays.dir);
-    const vreal<float> moment2 = dot(moment, moment);
+    const vreal<float> moment2 = moment2_of(w, rays);
     const std::uint32_t misses = bits(moment2 > outer2 * rays.dir2);
     return {moment2, ~misses & all_lanes<float>};
 }

@@ -7,6 +7,13 @@
 namespace packtrace::PACKTRACE_ISA {
 namespace {
 
+/// As many values of a block from `first` on as a packet has lanes.
+template <class Real>
+inline vreal<Real> load_of_block(const Real* block, int first)
+{
+    return load(block + first);
+}
+
 /// One ray in every lane.
 template <class Real>
 inline RayPacket<Real> broadcast_ray(const RayBundle<Real>& bundle, int ray)
@@ -62,22 +69,39 @@ public:
         return blocking;
     }
 
-    /// A bit for each sphere that the ray does not miss for sure.
-    std::uint32_t near(const abi::SphereBlock<Real>& block, const RayBundle<Real>& bundle) const
+    /// A bit for each sphere that the ray, which has this number in the bundle, does not miss for
+    /// sure: beside it, behind its origin or beyond its end.
+    std::uint32_t near(const abi::SphereBlock<Real>& block, const RayBundle<Real>& bundle,
+                       int ray) const
     {
         std::uint32_t near = 0;
         for (int first = 0; first < abi::node_width; first += lanes<Real>) {
             const Vec3v<Real> center{load(block.center[0] + first), load(block.center[1] + first),
                                      load(block.center[2] + first)};
-            near |=
-                approach(rays_.org - center, leaf_outer2(bundle, load(block.radius + first)), rays_)
-                    .near
-                << first;
+            const Vec3v<Real> w = rays_.org - center;
+            const vreal<Real> outer = leaf_outer(bundle, load(block.radius + first));
+            const std::uint32_t beside = approach(w, signed_square<Real>(outer), rays_).near;
+            near |= (beside & ~before_or_behind(w, outer, bundle, ray)) << first;
         }
         return near;
     }
 
 private:
+    /// Spheres that the ray starts outside of and leaves, or that are wholly beyond its end:
+    /// b = w·d is known to `slack`.
+    std::uint32_t before_or_behind(const Vec3v<Real>& w, const vreal<Real>& outer,
+                                   const RayBundle<Real>& bundle, int ray) const
+    {
+        const vreal<Real> length = rays_.dir2 * vreal<Real>(bundle.inverse[ray]);
+        const vreal<Real> reach = outer * length;
+        const vreal<Real> b = dot(w, rays_.dir);
+        const vreal<Real> slack = madd(vreal<Real>(roundoffs(60.0f)), abs(b) + reach,
+                                       vreal<Real>(bundle.center_error) * length);
+        const auto leaves = (b > slack) & (dot(w, w) > outer * outer);
+        const vreal<Real> last = madd(rays_.dir2, vreal<Real>(bundle.t[ray]), b);
+        return bits(leaves) | bits(negated(last) > reach + slack);
+    }
+
     Quadratic<Real> quadratics(const abi::SphereBlock<Real>& block, int first) const
     {
         const Vec3v<Real> center{load(block.center[0] + first), load(block.center[1] + first),

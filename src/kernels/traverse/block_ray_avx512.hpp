@@ -7,6 +7,12 @@
 namespace packtrace::PACKTRACE_ISA {
 namespace {
 
+/// Eight values, and eight zeros.
+inline vreal<float> load_of_block(const float (&block)[abi::node_width], int)
+{
+    return _mm512_zextps256_ps512(_mm256_load_ps(block));
+}
+
 template <>
 class BlockRay<float> {
     static_assert(abi::node_width == 8);
@@ -50,21 +56,41 @@ public:
         return closed ? root_between(q, end) : any_root(q, end);
     }
 
-    std::uint32_t near(const abi::SphereBlock<float>& block, const RayBundle<float>& bundle) const
+    std::uint32_t near(const abi::SphereBlock<float>& block, const RayBundle<float>& bundle,
+                       int ray) const
     {
         __m256 o[3];
         for (int axis = 0; axis < 3; ++axis)
             o[axis] = _mm256_sub_ps(org_[axis], _mm256_load_ps(block.center[axis]));
         const __m256 moment[3] = {cross(o, 1, 2), cross(o, 2, 0), cross(o, 0, 1)};
-        // leaf_outer2() in eight lanes.
+        // leaf_outer() in eight lanes.
         const __m256 shift = _mm256_set1_ps(bundle.moment_error * (1.0f + roundoffs(12.0f)));
         const __m256 outer = _mm256_fmadd_ps(_mm256_load_ps(block.radius),
                                              _mm256_set1_ps(1.0f + roundoffs(12.0f)), shift);
         const __m256 limit = _mm256_mul_ps(signed_square(outer), dir2_);
-        return static_cast<__mmask8>(~_mm256_cmp_ps_mask(dot(moment, moment), limit, _CMP_GT_OQ));
+        const auto beside =
+            static_cast<__mmask8>(~_mm256_cmp_ps_mask(dot(moment, moment), limit, _CMP_GT_OQ));
+        return beside == 0 ? 0 : beside & ~before_or_behind(o, outer, bundle, ray);
     }
 
 private:
+    std::uint32_t before_or_behind(const __m256 (&w)[3], __m256 outer,
+                                   const RayBundle<float>& bundle, int ray) const
+    {
+        const __m256 length = _mm256_mul_ps(dir2_, _mm256_set1_ps(bundle.inverse[ray]));
+        const __m256 reach = _mm256_mul_ps(outer, length);
+        const __m256 b = dot(w, dir_);
+        const __m256 size = _mm256_add_ps(_mm256_andnot_ps(_mm256_set1_ps(-0.0f), b), reach);
+        const __m256 slack =
+            _mm256_fmadd_ps(_mm256_set1_ps(roundoffs(60.0f)), size,
+                            _mm256_mul_ps(_mm256_set1_ps(bundle.center_error), length));
+        const std::uint32_t leaves =
+            _mm256_cmp_ps_mask(b, slack, _CMP_GT_OQ) &
+            _mm256_cmp_ps_mask(dot(w, w), _mm256_mul_ps(outer, outer), _CMP_GT_OQ);
+        const __m256 last = _mm256_fmadd_ps(dir2_, _mm256_set1_ps(bundle.t[ray]), b);
+        return leaves | _mm256_cmp_ps_mask(negated(last), _mm256_add_ps(reach, slack), _CMP_GT_OQ);
+    }
+
     static __m256 signed_square(__m256 x)
     {
         return _mm256_mul_ps(x, _mm256_andnot_ps(_mm256_set1_ps(-0.0f), x));

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "kernel_abi/kernel_table.hpp"
+#include "kernels/precision/lone_sphere.hpp"
 #include "kernels/precision/own_surface.hpp"
 #include "kernels/stats/observe.hpp"
 
@@ -124,6 +125,16 @@ inline OwnSurface<vint<Real>> common_own_of(const RayBundle<Real>& bundle, int f
 {
     const vint<Real> own = load(bundle.own + first);
     return own_with_common<Real>(own, bundle.own[first + __builtin_ctz(active)], active);
+}
+
+/// A ray of a bundle by itself, in double.
+inline WideRay wide_ray(const RayBundle<float>& bundle, int ray)
+{
+    const float(&org)[3][bundle_rays] = bundle.org;
+    const float(&dir)[3][bundle_rays] = bundle.dir;
+    return {{org[0][ray], org[1][ray], org[2][ray]},
+            {dir[0][ray], dir[1][ray], dir[2][ray]},
+            bundle.t_min[ray]};
 }
 
 template <class Real>

@@ -102,10 +102,11 @@ private:
         Occlusion result{blocked, 0};
         for (; left != 0; left &= left - 1) {
             const std::uint32_t lane = left & -left;
-            const InTheWay in_double =
-                is_in_the_way(*tree_.shapes, surface, bundle_, first + __builtin_ctz(left));
-            result.blocked |= in_double == InTheWay::yes ? lane : 0;
-            result.unsure |= in_double == InTheWay::undecided ? lane : 0;
+            const int ray = first + __builtin_ctz(left);
+            const InDouble blocks = is_in_the_way(sphere_of(*tree_.shapes, surface),
+                                                  wide_ray(bundle_, ray), bundle_.t[ray]);
+            result.blocked |= blocks == InDouble::yes ? lane : 0;
+            result.unsure |= blocks == InDouble::undecided ? lane : 0;
         }
         return result;
     }

@@ -11,14 +11,14 @@ namespace {
 /// Takes the closest hit on a leaf's spheres, if it comes before that of the ray.
 template <abi::Features F, class Real>
 inline void closest_of_spheres(RayBundle<Real>& bundle, int ray, const BlockRay<Real>& alone,
-                               const SphereLeaf<Real>& leaf)
+                               const SphereLeaf<Real>& leaf, const abi::ShapesView& shapes)
 {
     const PartScope part(abi::Part::spheres);
     count_block_tests(leaf.block);
     if constexpr (F.exact) {
-        const std::uint32_t near = alone.near(leaf.block, bundle);
+        const std::uint32_t near = alone.near(leaf.block, bundle, ray);
         if (near != 0)
-            keep_near_spheres(bundle, ray, leaf, near);
+            keep_near_spheres(bundle, ray, leaf, shapes, near);
     } else {
         Real t[abi::node_width];
         std::uint32_t met = alone.first_roots(leaf.block, bundle.t[ray], t);
@@ -84,7 +84,7 @@ inline void closest_of_leaf(const abi::BvhView<Real>& tree, RayBundle<Real>& bun
         return closest_of_run<F>(tree, bundle, ray, abi::first_of_run(child),
                                  abi::run_count(child));
     abi::SphereBlock<Real> room;
-    closest_of_spheres<F>(bundle, ray, alone, sphere_leaf(tree, child, room));
+    closest_of_spheres<F>(bundle, ray, alone, sphere_leaf(tree, child, room), *tree.shapes);
 }
 
 /// The ray against all below `child`.

@@ -62,12 +62,15 @@ inline SphereBounds<vreal<float>> leaf_bounds(const RayBundle<float>& bundle,
                          vreal<float>(bundle.moment_error));
 }
 
-/// The outer bound alone, above the one of sphere_bounds().
-inline vreal<float> leaf_outer2(const RayBundle<float>& bundle, const vreal<float>& radius)
+/// The outer bound alone, above the one of sphere_bounds(); leaf_outer2() is its square.
+inline vreal<float> leaf_outer(const RayBundle<float>& bundle, const vreal<float>& radius)
 {
     const vreal<float> moment(bundle.moment_error * (1.0f + roundoffs(12.0f)));
-    const vreal<float> outer = madd(radius, vreal<float>(1.0f + roundoffs(12.0f)), moment);
-    return signed_square<float>(outer);
+    return madd(radius, vreal<float>(1.0f + roundoffs(12.0f)), moment);
+}
+inline vreal<float> leaf_outer2(const RayBundle<float>& bundle, const vreal<float>& radius)
+{
+    return signed_square<float>(leaf_outer(bundle, radius));
 }
 
 }  // namespace

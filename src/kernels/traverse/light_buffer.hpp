@@ -39,37 +39,17 @@ inline const abi::LightCell& cell_at(const abi::LightBuffer& buffer, const Light
                         static_cast<int>(cells.column[lane])];
 }
 
-/// One ray in every lane, and its scale.
-struct LightRay {
-    RayPacket<float> rays;
-    RayScale scale;
-    vreal<float> t_end;
-    vint<float> own;
-
-    LightRay(const RayBundle<float>& bundle, int ray)
-        : rays(broadcast_ray(bundle, ray)),
-          scale(rays, vreal<float>(bundle.inverse[ray])),
-          t_end(bundle.t[ray]),
-          own(bundle.own[ray])
-    {
-    }
-};
-
 /// What a packet of a block's spheres does to a ray.
-inline Occlusion spheres_occlude(const LightRay& ray, const RayBundle<float>& bundle,
+inline Occlusion spheres_occlude(const LoneRay& ray, const RayBundle<float>& bundle, int number,
                                  const abi::LightBlock& block, int first)
 {
     count_tests(abi::Primitive::sphere, 1);
-    const vreal<float> radius = load(block.radius + first);
-    const Vec3v<float> w =
-        ray.rays.org - Vec3v<float>{load(block.center[0] + first), load(block.center[1] + first),
-                                    load(block.center[2] + first)};
-    SphereApproach near = approach(w, leaf_outer2(bundle, radius), ray.rays);
-    near.near &= ~bits(int_equal(load(block.surface + first), ray.own));
+    const SphereTest test = test_of(ray, bundle, block, first);
+    SphereApproach near = approach(test.w, test.bounds.outer2, ray.rays);
+    near.near &= ~bits(int_equal(load(block.surface + first), vint<float>(bundle.own[number])));
     if (near.near == 0)
         return {};
-    return occludes({w, radius * radius, leaf_bounds(bundle, radius)}, near, ray.rays, ray.scale,
-                    ray.t_end);
+    return occludes(test, near, ray.rays, ray.scale, vreal<float>(bundle.t[number]));
 }
 
 /// The ray against the spheres of its cell.
@@ -80,24 +60,18 @@ inline void occluders_in_cell(const abi::LightBuffer& buffer, const abi::LightCe
 {
     const PartScope part(abi::Part::spheres);
     tell_live(all_lanes<float>);
-    const LightRay ray(bundle, number);
+    const LoneRay ray(bundle, number);
     for (int i = cell.first; i < cell.first + cell.count; ++i) {
         const abi::LightBlock& block = buffer.blocks[i];
         for (int first = 0; first < abi::light_block_width; first += lanes<float>) {
-            Occlusion occlusion = spheres_occlude(ray, bundle, block, first);
-            for (; occlusion.blocked == 0 && occlusion.unsure != 0;
-                 occlusion.unsure &= occlusion.unsure - 1) {
-                const int slot = __builtin_ctz(occlusion.unsure);
-                const InTheWay in_double =
-                    is_in_the_way(shapes, block.surface[first + slot], bundle, number);
-                if (in_double == InTheWay::yes)
-                    occlusion.blocked = 1u << slot;
-                else if (in_double == InTheWay::undecided)
-                    doubt_ray(bundle, number, occlusion.unsure & -occlusion.unsure);
-            }
-            if (occlusion.blocked != 0 &&
-                !goes_behind(bundle, number,
-                             block.surface[first + __builtin_ctz(occlusion.blocked)], occluder))
+            const Occlusion occlusion = spheres_occlude(ray, bundle, number, block, first);
+            std::uint32_t blocked = occlusion.blocked;
+            if (blocked == 0)
+                blocked = blocked_by_double(bundle, number, shapes, block.surface + first,
+                                            occlusion.unsure);
+            if (blocked != 0 &&
+                !goes_behind(bundle, number, block.surface[first + __builtin_ctz(blocked)],
+                             occluder))
                 return;
         }
     }

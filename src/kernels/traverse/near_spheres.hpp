@@ -1,67 +1,32 @@
 #pragma once
 
 #include "kernels/traverse/block_ray.hpp"
-#include "kernels/traverse/lone_sphere.hpp"
 
-// One ray against those spheres of a block that it does not miss for sure.
+// One ray against those spheres of a block that it does not miss for sure, side by side.
 namespace packtrace::PACKTRACE_ISA {
 namespace {
 
-inline float dot3(const float (&a)[3], const float (&b)[3])
-{
-    return madd(a[0], b[0], madd(a[1], b[1], a[2] * b[2]));
-}
-
-/// One ray of a bundle: few of a leaf's spheres are near, so that lanes would be idle.
+/// One ray of a bundle in every lane.
 struct LoneRay {
-    float org[3];
-    float dir[3];
-    float dir2;
-    float inverse;
-    float t_min;
+    RayPacket<float> rays;
+    RayScale scale;
 
     LoneRay(const RayBundle<float>& bundle, int ray)
-        : inverse(bundle.inverse[ray]), t_min(bundle.t_min[ray])
+        : rays(broadcast_ray(bundle, ray)), scale(rays, vreal<float>(bundle.inverse[ray]))
     {
-        for (int axis = 0; axis < 3; ++axis) {
-            org[axis] = bundle.org[axis][ray];
-            dir[axis] = bundle.dir[axis][ray];
-        }
-        dir2 = dot3(dir, dir);
     }
 };
 
-/// What crossing() says of packets, of one ray and one sphere.
-struct LoneCrossing {
-    float near, far;
-    float error;  ///< of either root, or half the interval around both where not sure
-    bool sure;
-};
-
-inline LoneCrossing crossing(const RayBundle<float>& bundle, const LoneRay& ray,
-                             const abi::SphereBlock<float>& block, int slot)
+/// The ray and the spheres from `first` on of a block.
+template <class Block>
+inline SphereTest test_of(const LoneRay& ray, const RayBundle<float>& bundle, const Block& block,
+                          int first)
 {
-    const float w[3] = {ray.org[0] - block.center[0][slot], ray.org[1] - block.center[1][slot],
-                        ray.org[2] - block.center[2][slot]};
-    const auto minor = [&](int i, int j) { return madd(w[i], ray.dir[j], -(w[j] * ray.dir[i])); };
-    const float moment[3] = {minor(1, 2), minor(2, 0), minor(0, 1)};
-    const float moment2 = dot3(moment, moment);
-    const float radius = block.radius[slot];
-    const SphereBounds<float> bounds =
-        sphere_bounds(radius, bundle.center_error, bundle.moment_error);
-    const float b = dot3(w, ray.dir);
-    const float reach = magnitude(b) * ray.inverse;
-    const float inverse2 = ray.inverse * ray.inverse;
-    const float middle = -b * inverse2;
-    const float along = along_error(bounds, reach) * ray.inverse;
-    if (!(moment2 < bounds.inner2 * ray.dir2)) {
-        const float quarter = __builtin_sqrtf(bounds.band2);
-        return {middle, middle, madd(2.0f * inflation * quarter, ray.inverse, along), false};
-    }
-    const float discriminant = madd(ray.dir2, radius * radius, -moment2);
-    const float root = __builtin_sqrtf(discriminant);
-    const float half = root * inverse2;
-    return {middle - half, middle + half, root_error(bounds, reach) / root + along, true};
+    const Vec3v<float> center{load_of_block(block.center[0], first),
+                              load_of_block(block.center[1], first),
+                              load_of_block(block.center[2], first)};
+    const vreal<float> radius = load_of_block(block.radius, first);
+    return {ray.rays.org - center, radius * radius, leaf_bounds(bundle, radius)};
 }
 
 /// As keep_sure() and keep_doubt() do with a packet of rays.
@@ -88,27 +53,104 @@ inline void keep_doubt(RayBundle<float>& bundle, int ray, float low, std::int32_
     note_rival_of_ray(ray, rival);
 }
 
-/// Keeps the hits of a ray on the spheres of `near`.
-[[gnu::noinline]] inline void keep_near_spheres(RayBundle<float>& bundle, int ray,
-                                                const SphereLeaf<float>& leaf, std::uint32_t near)
+/// Keeps the hit on a sphere of which bounds can't tell, as double has it. One of `at_end` may have
+/// it before t_min; another may touch the sphere or pass it.
+inline void keep_by_double(RayBundle<float>& bundle, int ray, const abi::SphereShape& sphere,
+                           float low, std::int32_t surface, bool at_end)
 {
-    const LoneRay lone(bundle, ray);
-    for (; near != 0; near &= near - 1) {
-        const int slot = __builtin_ctz(near);
-        const std::int32_t surface = leaf.surface_of(slot);
-        if (surface == bundle.own[ray])
-            continue;
-        const LoneCrossing at = crossing(bundle, lone, leaf.block, slot);
-        if (at.far + at.error < lone.t_min)
-            continue;
-        const bool near_behind = at.near + at.error < lone.t_min;
-        const float root = near_behind ? at.far : at.near;
-        const float low = root - at.error;
-        if (at.sure && low > lone.t_min)
-            keep_sure(bundle, ray, low, root + at.error, surface);
-        else
-            keep_doubt(bundle, ray, low, rival_in_doubt(at.sure));
+    const FirstMeeting meeting = first_meeting(sphere, wide_ray(bundle, ray));
+    if (meeting.there == InDouble::yes)
+        keep_sure(bundle, ray, meeting.low, meeting.high, surface);
+    else if (meeting.there == InDouble::undecided)
+        keep_doubt(bundle, ray, low, rival_in_doubt(at_end));
+}
+
+/// Where a ray may meet spheres first beyond its t_min, and not behind what it hits by then.
+struct BlockHits {
+    alignas(64) float low[lanes<float>];
+    alignas(64) float high[lanes<float>];
+    std::uint32_t may;     ///< lanes
+    std::uint32_t counts;  ///< those that it meets so for sure
+    std::uint32_t sure;    ///< those that it crosses for sure
+};
+
+inline void find_hits(BlockHits& hits, const LoneRay& ray, const SphereTest& test,
+                      const SphereApproach& near, float t_max)
+{
+    const SphereCrossing at = crossing(test, near, ray.rays, ray.scale);
+    const vreal<float>& t_min = ray.rays.t_min;
+    hits.sure = bits(at.sure);
+    const FirstRoot first = first_root_beyond(at.roots, t_min);
+    vreal<float> low = first.low;
+    hits.may = hits.sure & ~first.none;
+    const std::uint32_t band = near.near & ~hits.sure;
+    if (band != 0) {
+        const vreal<float> error = band_error(test, at, ray.scale);
+        hits.may |= band & ~bits(at.middle + error < t_min);
+        low = select(at.sure, low, at.middle - error);
     }
+    hits.may &= ~bits(low > vreal<float>(t_max));
+    if (hits.may == 0)
+        return;
+    hits.counts = bits(first.counts) & hits.sure;
+    store(hits.low, low);
+    store(hits.high, first.high);
+}
+
+/// Without the sphere that the ray starts on.
+inline std::uint32_t others_of(std::uint32_t near, const SphereLeaf<float>& leaf, std::int32_t own)
+{
+    for (std::uint32_t left = near; left != 0; left &= left - 1)
+        if (leaf.surface_of(__builtin_ctz(left)) == own)
+            near &= ~(left & -left);
+    return near;
+}
+
+/// Keeps the hits of a ray on the spheres of `near`. Where bounds can't tell, double is asked.
+[[gnu::noinline]] inline void keep_near_spheres(RayBundle<float>& bundle, int ray,
+                                                const SphereLeaf<float>& leaf,
+                                                const abi::ShapesView& shapes, std::uint32_t near)
+{
+    near = others_of(near, leaf, bundle.own[ray]);
+    if (near == 0)
+        return;
+    const LoneRay lone(bundle, ray);
+    for (int first = 0; first < abi::node_width; first += lanes<float>) {
+        const std::uint32_t some = near >> first & all_lanes<float>;
+        if (some == 0)
+            continue;
+        const SphereTest test = test_of(lone, bundle, leaf.block, first);
+        BlockHits hits;
+        find_hits(hits, lone, test, {moment2_of(test.w, lone.rays), some}, bundle.t[ray]);
+        for (; hits.may != 0; hits.may &= hits.may - 1) {
+            const int lane = __builtin_ctz(hits.may);
+            const std::int32_t surface = leaf.surface_of(first + lane);
+            if ((hits.counts >> lane & 1) != 0)
+                keep_sure(bundle, ray, hits.low[lane], hits.high[lane], surface);
+            else
+                keep_by_double(bundle, ray, sphere_of(shapes, surface), hits.low[lane], surface,
+                               (hits.sure >> lane & 1) != 0);
+        }
+    }
+}
+
+/// Asks double about the lanes of `unsure`, whose spheres may be in the way of a ray; `surface` are
+/// the spheres of all lanes. Returns those that are.
+inline std::uint32_t blocked_by_double(RayBundle<float>& bundle, int ray,
+                                       const abi::ShapesView& shapes, const std::int32_t* surface,
+                                       std::uint32_t unsure)
+{
+    std::uint32_t blocked = 0;
+    for (; unsure != 0; unsure &= unsure - 1) {
+        const std::uint32_t lane = unsure & -unsure;
+        const InDouble blocks = is_in_the_way(sphere_of(shapes, surface[__builtin_ctz(unsure)]),
+                                              wide_ray(bundle, ray), bundle.t[ray]);
+        if (blocks == InDouble::yes)
+            blocked |= lane;
+        else if (blocks == InDouble::undecided)
+            doubt_ray(bundle, ray, lane);
+    }
+    return blocked;
 }
 
 /// A bit for each sphere of `near` that is in the way of a ray up to its end for sure; rays that
@@ -118,33 +160,22 @@ inline void keep_doubt(RayBundle<float>& bundle, int ray, float low, std::int32_
                                                         const abi::ShapesView& shapes,
                                                         std::uint32_t near)
 {
+    near = others_of(near, leaf, bundle.own[ray]);
+    if (near == 0)
+        return 0;
     const LoneRay lone(bundle, ray);
-    const float end = bundle.t[ray];
     std::uint32_t blocking = 0;
-    for (; near != 0; near &= near - 1) {
-        const int slot = __builtin_ctz(near);
-        if (leaf.surface_of(slot) == bundle.own[ray])
+    for (int first = 0; first < abi::node_width; first += lanes<float>) {
+        const std::uint32_t some = near >> first & all_lanes<float>;
+        if (some == 0)
             continue;
-        const LoneCrossing at = crossing(bundle, lone, leaf.block, slot);
-        const auto outside = [&](float root) {
-            return root + at.error < lone.t_min || root - at.error > end;
-        };
-        const auto inside = [&](float root) {
-            return root - at.error > lone.t_min && root + at.error < end;
-        };
-        if (at.sure && (inside(at.near) || inside(at.far))) {
-            blocking |= 1u << slot;
-            continue;
-        }
-        if (outside(at.near) && outside(at.far))
-            continue;
-        const InTheWay in_double = is_in_the_way(shapes, leaf.surface_of(slot), bundle, ray);
-        if (in_double == InTheWay::yes) {
-            blocking |= 1u << slot;
-        } else if (in_double == InTheWay::undecided) {
-            note_in_the_way(1u, at.sure ? abi::Cause::range : abi::Cause::tangent);
-            doubt_ray(bundle, ray, 1u);
-        }
+        const SphereTest test = test_of(lone, bundle, leaf.block, first);
+        const Occlusion occlusion = occludes(test, {moment2_of(test.w, lone.rays), some}, lone.rays,
+                                             lone.scale, vreal<float>(bundle.t[ray]));
+        const std::uint32_t blocked =
+            occlusion.blocked |
+            blocked_by_double(bundle, ray, shapes, leaf.surface + first, occlusion.unsure);
+        blocking |= blocked << first;
     }
     return blocking;
 }

@@ -82,7 +82,7 @@ inline std::uint32_t blocking_spheres_of(RayBundle<Real>& bundle, int ray,
                                          const abi::ShapesView& shapes, bool closed)
 {
     if constexpr (F.exact) {
-        const std::uint32_t near = alone.near(leaf.block, bundle);
+        const std::uint32_t near = alone.near(leaf.block, bundle, ray);
         return near == 0 ? 0 : blocking_spheres(bundle, ray, leaf, shapes, near);
     } else {
         return alone.blocked_by(leaf.block, bundle.t[ray], closed);

@@ -1,0 +1,102 @@
+#pragma once
+
+#include "kernel_abi/shapes.hpp"
+
+// One ray and one sphere in double, where bounds in single precision can't tell whether they meet
+// or where: far quicker than to trace the ray again among all objects.
+namespace packtrace::PACKTRACE_ISA {
+namespace {
+
+/// Share of what enters a discriminant, or a root, by which double may be wrong; a hundred times
+/// more than its operations lose (docs/numerics_derivations.md).
+inline constexpr double lone_slack = 0x1p-44;
+
+/// Undecided is what is too near to double's own limits.
+enum class InDouble { yes, no, undecided };
+
+/// The sphere that has this surface number.
+inline const abi::SphereShape& sphere_of(const abi::ShapesView& shapes, std::int32_t surface)
+{
+    return shapes.spheres[shapes.index[surface].record];
+}
+
+/// A ray of single precision, in double.
+struct WideRay {
+    double org[3];
+    double dir[3];
+    double t_min;
+};
+
+/// Whether a ray crosses a sphere, and the roots, each within `error`.
+struct LoneRoots {
+    InDouble crosses;
+    double near, far;
+    double error;
+};
+
+inline LoneRoots lone_roots(const abi::SphereShape& sphere, const WideRay& ray)
+{
+    double w[3];
+    for (int axis = 0; axis < 3; ++axis)
+        w[axis] = ray.org[axis] - sphere.center[axis];
+    const double(&d)[3] = ray.dir;
+    const double a = d[0] * d[0] + d[1] * d[1] + d[2] * d[2];
+    const double b = w[0] * d[0] + w[1] * d[1] + w[2] * d[2];
+    const double distance2 = w[0] * w[0] + w[1] * w[1] + w[2] * w[2];
+    const double m[3] = {w[1] * d[2] - w[2] * d[1], w[2] * d[0] - w[0] * d[2],
+                         w[0] * d[1] - w[1] * d[0]};
+    const double radius2 = sphere.radius * sphere.radius;
+    const double discriminant = a * radius2 - (m[0] * m[0] + m[1] * m[1] + m[2] * m[2]);
+    const double slack = lone_slack * a * (distance2 + radius2);
+    if (discriminant < -slack)
+        return {InDouble::no, 0, 0, 0};
+    if (!(discriminant > slack))
+        return {InDouble::undecided, 0, 0, 0};
+    const double root = __builtin_sqrt(discriminant);
+    const double middle = -b / a;
+    const double half = root / a;
+    const double error = slack / (root * a) + lone_slack * ((middle < 0 ? -middle : middle) + half);
+    return {InDouble::yes, middle - half, middle + half, error};
+}
+
+/// Whether a root lies between the ray's t_min and `t_end`.
+[[gnu::noinline]] inline InDouble is_in_the_way(const abi::SphereShape& sphere, const WideRay& ray,
+                                                double t_end)
+{
+    const LoneRoots at = lone_roots(sphere, ray);
+    if (at.crosses != InDouble::yes)
+        return at.crosses;
+    const auto inside = [&](double t) { return t - at.error > ray.t_min && t + at.error < t_end; };
+    const auto outside = [&](double t) { return t + at.error < ray.t_min || t - at.error > t_end; };
+    if (inside(at.near) || inside(at.far))
+        return InDouble::yes;
+    return outside(at.near) && outside(at.far) ? InDouble::no : InDouble::undecided;
+}
+
+/// Whether a ray meets a sphere beyond its t_min, and in which interval of single precision first.
+struct FirstMeeting {
+    InDouble there;
+    float low, high;
+};
+
+/// Roots below this are left undecided: single precision has no interval of a few roundoffs there.
+inline constexpr double least_root = 1e-30;
+
+[[gnu::noinline]] inline FirstMeeting first_meeting(const abi::SphereShape& sphere,
+                                                    const WideRay& ray)
+{
+    const LoneRoots at = lone_roots(sphere, ray);
+    if (at.crosses != InDouble::yes)
+        return {at.crosses, 0, 0};
+    if (at.far + at.error < ray.t_min)
+        return {InDouble::no, 0, 0};
+    const double t = at.near + at.error < ray.t_min ? at.far : at.near;
+    if (!(t - at.error > ray.t_min) || !(t > least_root))
+        return {InDouble::undecided, 0, 0};
+    // Rounded to single precision, and out again by more than that.
+    return {InDouble::yes, static_cast<float>((t - at.error) * (1.0 - 0x1p-22)),
+            static_cast<float>((t + at.error) * (1.0 + 0x1p-22))};
+}
+
+}  // namespace
+}  // namespace packtrace::PACKTRACE_ISA
