@@ -77,6 +77,8 @@ TEST_CASE("scenes of earlier findings show nothing", "[soak]")
              Earlier{4242, 2686},   // as 533
              Earlier{4242, 12485},  // as 2565
              Earlier{4242, 13446},  // a ray that nearly runs along a saddle, and starts next to it
+             Earlier{4242, 28648},  // a hit near a long hyperboloid's side, far from its centre
+             Earlier{4242, 29921},  // as 28648
              Earlier{4242, 16800},  // an eye in an open quadric of glass, and in more glass
              Earlier{4242, 17416},  // as 16800
              Earlier{4242, 18344},  // a ray within the plane of a polygon
@@ -150,6 +152,69 @@ TEST_CASE("a cap of a general quadric is held to what its far centre leaves of d
                                {-0.38771051168441772, -0.26925483345985413, 2.8319318294525146},
                                0.0,
                                lab::no_end}}) == "");
+}
+
+TEST_CASE("a hit on a long hyperboloid keeps its digits far from the centre", "[soak]")
+{
+    // The centre is 600000 away, and the ray's point nearest to it is at t = -10⁷.
+    const Scene near = parse_scene(R"(
+        quadric {
+            coefficients = (0, 0, 0.20916609758149107, 0.0037555573918224283, 1.7440348060678352, 0,
+                            -0.15420128287996127, 1.1916414404481963, 0.8337514017737284,
+                            -1.5565156119400796)
+        }
+    )",
+                                   "near", {});
+    CHECK(faults_in_all_ways(near,
+                             {{{0.004255340900272131, 0.051672577857971191, 0.14732857048511505},
+                               {-0.01663760282099247, 0.027004577219486237, -0.023907508701086044},
+                               0.0,
+                               lab::no_end}}) == "");
+    // The same of a quadric placed by a matrix.
+    const Scene placed = parse_scene(R"(
+        quadric {
+            coefficients = (1.2057151840844114, 0, 0.11140713487581122, 0, -1.6491139787348126,
+                            0.002684399726291975, 1.9674865503337506, -1.1747519113827782,
+                            -1.8333710460462616, 0)
+            matrix = (14600, -879, 1050, 30900, 178, 5500, 650, -1920, -1240, -606, 5550, -916)
+        }
+    )",
+                                     "placed", {});
+    CHECK(faults_in_all_ways(placed, {{{16597.916015625, -666.66650390625, 16574.921875},
+                                       {28078.5859375, 33508.734375, 13071.90625},
+                                       0.0,
+                                       lab::no_end}}) == "");
+}
+
+TEST_CASE("quadrics whose centres are far are hit where their equations say", "[soak]")
+{
+    lab::StressRandom random(28648);
+    for (int i = 0; i < 40; ++i) {
+        const double s = random.sign() * random.power(0.1, 2.0);
+        Quadric quadric;
+        quadric.coefficients = {s,
+                                random.sign() * random.power(1e-7, 1e-5),
+                                -s * random.power(0.3, 3.0),
+                                random.sign() * random.power(1e-5, 1e-3),
+                                random.between(-1.0, 1.0),
+                                0.0,
+                                random.between(-1.0, 1.0),
+                                random.sign() * random.power(0.1, 1.0),
+                                random.between(-1.0, 1.0),
+                                random.between(-1.0, 1.0)};
+        Scene scene;
+        scene.objects.resize(1);
+        scene.objects[0].surface = quadric;
+        lab::round_to_precision<float>(scene);
+        std::vector<lab::StressRay> rays;
+        for (int ray = 0; ray < 100; ++ray) {
+            lab::StressRay next = lab::ray_towards(random.box(1.0), random.box(1.0));
+            lab::round_to_precision<float>(next);
+            rays.push_back(next);
+        }
+        CAPTURE(i);
+        CHECK(faults_in_all_ways(scene, rays) == "");
+    }
 }
 
 TEST_CASE("the smallest spheres are hit by rays of the shortest directions", "[soak]")

@@ -367,16 +367,20 @@ inline Vec3v<Real> unit_normal(const abi::QuadricRecord<double>& quadric, unsign
 }
 
 /// A root of the side, one step of Newton's nearer, where that leads to no other root: of rays that
-/// nearly run along the surface the discriminant loses digits that the equation has.
-inline vreal<double> bettered(const SideQuadratic<double>& side, const vreal<double>& t,
+/// nearly run along the surface the discriminant loses digits that the equation has. The residual
+/// is that of the point p + t v itself. Taken from a place far from the hit, as the point nearest
+/// to the centre is on long hyperboloids, its terms would be larger, and lose more than is gained.
+inline vreal<double> bettered(const abi::QuadricRecord<double>& quadric, const Vec3v<double>& p,
+                              const Vec3v<double>& v, const vreal<double>& t,
                               const vreal<double>& t_min)
 {
-    const Quadratic<double>& q = side.from_start;
-    const vreal<double> x = t - side.start;
-    const vreal<double> slope = madd(q.a, x, q.b);
-    const vreal<double> value = madd(slope + q.b, x, q.c);
+    const Vec3v<double> square = broadcast(quadric.square);
+    const Vec3v<double> at = madd<double>(t, v, p);
+    const vreal<double> value = quadric_value<double>(quadric, at);
+    const vreal<double> slope = madd(vreal<double>(quadric.linear), v.z, dot(square * at, v));
     const vreal<double> better = t - value / (slope + slope);
-    const auto near = abs(q.a * (better - t)) <= vreal<double>(0x1p-11) * abs(slope);
+    const vreal<double> a = dot(square * v, v);
+    const auto near = abs(a * (better - t)) <= vreal<double>(0x1p-11) * abs(slope);
     return select(near & (better > t_min), better, t);
 }
 
@@ -393,7 +397,7 @@ inline vreal<double> bettered(const SideQuadratic<double>& side, const vreal<dou
                     });
     const Vec3v<double> v = apply_inverse(quadric, rays.dir);
     if (wanted == 0)
-        first = bettered(side_quadratic<double>(quadric, origin.p, v), first, rays.t_min);
+        first = bettered(quadric, origin.p, v, first, rays.t_min);
     RefinedHalf hit;
     hit.t = first;
     hit.point = point_at(rays, first);
