@@ -79,6 +79,7 @@ TEST_CASE("scenes of earlier findings show nothing", "[soak]")
              Earlier{4242, 13446},  // a ray that nearly runs along a saddle, and starts next to it
              Earlier{4242, 28648},  // a hit near a long hyperboloid's side, far from its centre
              Earlier{4242, 29921},  // as 28648
+             Earlier{4242, 44944},  // a checker too fine for single precision, far away
              Earlier{4242, 16800},  // an eye in an open quadric of glass, and in more glass
              Earlier{4242, 17416},  // as 16800
              Earlier{4242, 18344},  // a ray within the plane of a polygon
