@@ -1,6 +1,8 @@
 // Random scenes in every way there is, and what is done with a finding.
 #include "lab/soak/soak.hpp"
 
+#include <cmath>
+
 #include <packtrace/read_scene.hpp>
 
 #include <tbb/global_control.h>
@@ -238,6 +240,52 @@ TEST_CASE("the smallest spheres are hit by rays of the shortest directions", "[s
         }
         CAPTURE(i, radius);
         CHECK(faults_in_all_ways(scene, rays) == "");
+    }
+}
+
+TEST_CASE("normals of spheres that are seen from afar are of unit length", "[soak]")
+{
+    lab::StressRandom random(21);
+    // A sphere off the world's origin, and an anchored one.
+    for (const double distance : {2.0, 1.0}) {
+        const double radius = random.power(0.1, 1.0);
+        const double angle = random.between(0.0, 6.0);
+        const Vec3 center =
+            radius * distance * Vec3(0.2, 0.98 * std::cos(angle), 0.98 * std::sin(angle));
+        Scene scene;
+        scene.objects = {lab::sphere_object(center, radius)};
+        lab::round_to_precision<float>(scene);
+        lab::StressGroup group = lab::stress_group(scene);
+        for (int i = 0; i < 200; ++i) {
+            // At t = 1 the ray is where x = 0, inside the sphere: org and dir round alike.
+            const double x = random.power(1e6, 1e13);
+            const double turn = random.between(0.0, 6.0);
+            const double off = radius * random.between(0.0, 0.8);
+            lab::StressRay ray;
+            ray.org = {x, random.between(-4.0, 4.0), random.between(-4.0, 4.0)};
+            ray.dir = {-x, center.y + off * std::cos(turn) - ray.org.y,
+                       center.z + off * std::sin(turn) - ray.org.z};
+            ray.t_min = 0.0;
+            ray.t_max = lab::no_end;
+            lab::round_to_precision<float>(ray);
+            group.expected.push_back(lab::expect(ray, group.hits_of(ray), roundoff_of_floats));
+            group.rays.push_back(ray);
+        }
+        for (const lab::SoakGroup& ways :
+             lab::packet_groups("single", Accuracy::exact, SelfHits::exact))
+            for (const lab::SoakWay& way : ways.ways) {
+                const lab::StressRun run = lab::run_subject<float>(
+                    {"packet", "", way.options.isa, true, way.options}, group);
+                lab::Evaluation evaluation(roundoff_of_floats);
+                for (std::size_t i = 0; i < group.rays.size(); ++i)
+                    lab::evaluate_ray(evaluation, group, run, i);
+                const lab::Errors errors = evaluation.errors();
+                CAPTURE(distance, lab::intersect_words(way));
+                CHECK(errors.hits == 200);
+                CHECK(errors.undecided < 20);
+                CHECK(errors.wrong() + errors.not_finite == 0);
+                CHECK(errors.no_normal == 0);
+            }
     }
 }
 

@@ -125,7 +125,8 @@ inline RefinedHalf refine(const abi::AnchoredSphere<double>& sphere, unsigned,
     RefinedHalf hit;
     hit.t = first_root(quadratic_of(sphere, rays), rays.t_min);
     hit.point = point_at(rays, hit.t);
-    hit.normal = normal_at<double>(sphere, hit.point);
+    // As of a sphere that is not anchored.
+    hit.normal = unit_normal<double>(sphere, 0, hit.point, rays.dir);
     return hit;
 }
 

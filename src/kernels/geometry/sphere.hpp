@@ -195,7 +195,8 @@ inline RefinedHalf refine(const abi::SphereShape& sphere, unsigned, const RayPac
         first_root(sphere_quadratic<double>(rays, o, radius2, sphere_constant<double>(o, radius2)),
                    rays.t_min);
     hit.point = point_at(rays, hit.t);
-    hit.normal = normal_at<double>(sphere, hit.point);
+    // From afar double misplaces the point by more than the normal's length may be off.
+    hit.normal = unit_normal<double>(sphere, 0, hit.point, rays.dir);
     return hit;
 }
 
