@@ -135,6 +135,12 @@ def exact_cost(report):
         exact_table(frames, "frame, ms", {**modes, "note": "`note`"})])
 
 
+def lone_rays(report):
+    return (f"Commit {report['commit']}, {report['machine']}, {report['repetitions']} repetitions. "
+            f"Before is {report['before']}.\n\n" +
+            exact_table(report["rows"], "rays, million a second", {"double": "double", "before": "before"}))
+
+
 def exact_range(rows, mode):
     medians = [row[f"exact_over_{mode}"]["median"] for row in rows if f"exact_over_{mode}" in row]
     return f"{min(medians):.2f} to {max(medians):.2f}"
@@ -344,6 +350,7 @@ TABLES = {
     "results/peers_frames.json: frames": peers_frames,
     "results/exact_cost.json: tables": exact_cost,
     "results/exact_cost.json: ranges": exact_cost_ranges,
+    "results/lone_rays.json: table": lone_rays,
     "results/scaling.json: objects": scaling_objects,
     "results/scaling.json: pixels": scaling_pixels,
     "results/lanes.json: frames": lanes,

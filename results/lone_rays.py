@@ -1,0 +1,42 @@
+#!/usr/bin/env python3
+"""Writes results/lone_rays.json: rates of a caller's rays through hierarchies of few overlapping
+spheres, and of many, where rays go one by one: in `exact`, in double precision and by an earlier
+build, by turns, on one thread.
+
+usage: results/lone_rays.py BUILD BEFORE [REPETITIONS]
+BUILD and BEFORE are build folders with `bench/scaling/packtrace_rays`.
+"""
+import sys
+
+from exact_cost import DEFAULT, row_of, rates
+from provenance import commit, commit_of_build, machine, write
+
+SCENES = [("spheres32", "avx512"), ("spheres64", "avx512"), ("spheres128", "avx512"),
+          ("spheres64", "avx2"), ("flake4", "avx512"), ("flake6", "avx512")]
+DOUBLE = {"rays": ["--double"]}
+SIZE = 256
+
+
+def main():
+    if len(sys.argv) not in (3, 4):
+        sys.exit(__doc__)
+    ways = {"exact": (sys.argv[1], DEFAULT), "double": (sys.argv[1], DOUBLE),
+            "before": (sys.argv[2], DEFAULT)}
+    repetitions = int(sys.argv[3]) if len(sys.argv) == 4 else 9
+    report = {"command": "results/lone_rays.py build/release BEFORE", "commit": commit(),
+              "before": commit_of_build(sys.argv[2]), "machine": machine(),
+              "repetitions": repetitions, "rows": []}
+    for scene, isa in SCENES:
+        found = {}
+        for _ in range(repetitions):
+            for way, (build, options) in ways.items():
+                for kind, rate in rates(build, scene, SIZE, isa, options).items():
+                    found.setdefault(kind, {}).setdefault(way, []).append(rate)
+        report["rows"] += [row_of({"scene": scene, "isa": isa, "rays": kind,
+                                   "unit": "million rays a second"}, of, lambda rate: rate)
+                           for kind, of in found.items() if "double" in of]
+    write(report | {"machine_after": machine()}, "lone_rays.json")
+
+
+if __name__ == "__main__":
+    main()
