@@ -65,6 +65,25 @@ Words own_lines(const std::string& text)
 
 constexpr int ranks_tested[] = {1, 2, 3, 5};
 
+/// What the system says of a process behind its name, its state first; empty where there is none.
+std::string stat_of(const std::string& process)
+{
+    try {
+        const std::string stat = read_text("/proc/" + process + "/stat");
+        const std::size_t end = stat.rfind(')');
+        return end == std::string::npos || stat.size() < end + 5 ? "" : stat.substr(end + 2);
+    } catch (const std::exception&) {
+        return "";
+    }
+}
+
+/// Whether a process has ended, even if nobody has waited for it.
+bool has_ended(pid_t process)
+{
+    const std::string stat = stat_of(std::to_string(process));
+    return stat.empty() || stat.front() == 'Z';
+}
+
 /// Children of a process: the ranks of mpirun.
 std::vector<pid_t> children_of(pid_t parent)
 {
@@ -73,15 +92,8 @@ std::vector<pid_t> children_of(pid_t parent)
         const std::string name = entry.path().filename().string();
         if (name.find_first_not_of("0123456789") != std::string::npos)
             continue;
-        std::string stat;
-        try {
-            stat = read_text(entry.path() / "stat");
-        } catch (const std::exception&) {
-            continue;  // it has just ended
-        }
-        const std::size_t end = stat.rfind(')');
-        if (end != std::string::npos && stat.size() > end + 4 &&
-            std::atoi(stat.c_str() + end + 4) == parent)
+        const std::string stat = stat_of(name);
+        if (!stat.empty() && std::atoi(stat.c_str() + 2) == parent)
             children.push_back(std::atoi(name.c_str()));
     }
     std::sort(children.begin(), children.end());
@@ -114,14 +126,23 @@ int kill_rank(int ranks, const Words& words, const std::filesystem::path& errors
     }
     int status = 0;
     bool killed = false;
-    while (waitpid(job, &status, killed ? 0 : WNOHANG) == 0) {
+    auto alive = std::chrono::steady_clock::now();
+    while (waitpid(job, &status, WNOHANG) == 0) {
         const std::vector<pid_t> children = children_of(job);
-        if (children.size() == static_cast<std::size_t>(ranks))
+        if (!killed && children.size() == static_cast<std::size_t>(ranks))
             if (const pid_t victim = choose(children); victim != 0)
                 killed = kill(victim, SIGKILL) == 0;
+        const auto now = std::chrono::steady_clock::now();
+        if (!std::all_of(children.begin(), children.end(), has_ended))
+            alive = now;
+        // Open MPI's launcher may lock itself out at its end (in PMIx_server_finalize).
+        if (killed && now - alive > std::chrono::seconds(30))
+            kill(job, SIGKILL);
         std::this_thread::sleep_for(std::chrono::milliseconds(2));
     }
-    return killed ? WEXITSTATUS(status) : -1;
+    if (!killed)
+        return -1;
+    return WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status);
 }
 
 /// Kills the rank of a number once `when` holds.
