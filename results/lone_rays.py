@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 """Writes results/lone_rays.json: rates of a caller's rays through hierarchies of few overlapping
-spheres, and of many, where rays go one by one: in `exact`, in double precision and by an earlier
+spheres, and of a flake, where rays go one by one: in `exact`, in double precision and by an earlier
 build, by turns, on one thread.
 
 usage: results/lone_rays.py BUILD BEFORE [REPETITIONS]
@@ -12,7 +12,7 @@ from exact_cost import DEFAULT, row_of, rates
 from provenance import commit, commit_of_build, machine, write
 
 SCENES = [("spheres32", "avx512"), ("spheres64", "avx512"), ("spheres128", "avx512"),
-          ("spheres64", "avx2"), ("flake4", "avx512"), ("flake6", "avx512")]
+          ("spheres64", "avx2"), ("flake4", "avx512")]
 DOUBLE = {"rays": ["--double"]}
 SIZE = 256
 
