@@ -85,6 +85,7 @@ TEST_CASE("scenes of earlier findings show nothing", "[soak]")
              Earlier{4242, 16800},  // an eye in an open quadric of glass, and in more glass
              Earlier{4242, 17416},  // as 16800
              Earlier{4242, 18344},  // a ray within the plane of a polygon
+             Earlier{4242, 83511},  // light from a direction along a plane
              Earlier{4242, 10989},  // `fast` makes up a second hit below its resolution
          }) {
         lab::SoakOptions options{.seed = seed, .first = number, .scenes = 1};

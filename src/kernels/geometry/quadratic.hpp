@@ -111,9 +111,12 @@ struct RayEnd {
         });
         return from_bits<Real>(blocked);
     }
+    /// A ray that runs along a plane meets it at infinity, which is not in the way.
     vmask<Real> blocked_at(const vreal<Real>& t, const RayPacket<Real>& rays) const
     {
-        return closed ? (t >= rays.t_min) & (t <= t_end) : (t > rays.t_min) & (t < t_end);
+        const vreal<Real> never(static_cast<Real>(__builtin_inf()));
+        return closed ? (t >= rays.t_min) & (t <= t_end) & (t < never)
+                      : (t > rays.t_min) & (t < t_end);
     }
 };
 

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <limits>
+
 #include "kernels/shade/lighting.hpp"
 #include "kernels/shade/shade_context.hpp"
 #include "kernels/traverse/occluded.hpp"
@@ -81,6 +83,16 @@ inline std::uint32_t own_shadow(const abi::SceneView<Real>& scene,
     return bits(again < vreal<Real>(end)) & wanted;
 }
 
+/// Where the way from a point to a directional light begins: behind the point itself, so that what
+/// is met exactly there is not in the way, also where rules let rays start at 0. The least normal
+/// number, as products with it keep the sign that decides (root_between).
+template <class Real>
+inline Real way_begin(const abi::SceneView<Real>& scene)
+{
+    constexpr Real least = std::numeric_limits<Real>::min();
+    return scene.rules.secondary_t_min > least ? scene.rules.secondary_t_min : least;
+}
+
 /// Calls `trace(t_end, rays)` for the shadow rays of one light; those along a directional one
 /// have no end.
 template <abi::Features F, class Real, class Trace>
@@ -93,7 +105,7 @@ inline auto with_shadow_ray(const ShadeContext<F, Real>& context, int light,
     if (record.kind == abi::LightKind::directional)
         return trace(vreal<Real>(static_cast<Real>(__builtin_inf())),
                      make_rays<Real>(lit_point(scene, surface, packet.to_light, false),
-                                     packet.to_light, scene.rules.secondary_t_min));
+                                     packet.to_light, way_begin(scene)));
     const Vec3v<Real> away =
         lit_point(scene, surface, packet.to_light, true) - broadcast(record.vector);
     return trace(segment_end(scene, packet),
