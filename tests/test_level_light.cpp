@@ -66,7 +66,7 @@ void check_all_packets(const Scene& scene)
 
 }  // namespace
 
-TEST_CASE("What runs along parallel light is not in its way", "[shadows]")
+TEST_CASE("What runs along parallel light is not in its way", "[level_light]")
 {
     // The light is level: along the floor and the ceiling, which it neither meets nor touches.
     for (const char* light : {"(1, 0, -1)", "(-1, 0, -1)"})
@@ -91,7 +91,7 @@ TEST_CASE("What runs along parallel light is not in its way", "[shadows]")
     }
 }
 
-TEST_CASE("What a lit point lies on exactly is not in its way", "[shadows]")
+TEST_CASE("What a lit point lies on exactly is not in its way", "[level_light]")
 {
     // The middle column of pixels is at x = 0, in the plane across it.
     for (const char* light : {"(1, 0.5, -1)", "(-1, 0.5, -1)"})
@@ -103,7 +103,7 @@ TEST_CASE("What a lit point lies on exactly is not in its way", "[shadows]")
         }
 }
 
-TEST_CASE("Glass along parallel light passes all of it on", "[shadows]")
+TEST_CASE("Glass along parallel light passes all of it on", "[level_light]")
 {
     for (const char* normal : {"(0, 1, 0)", "(0, -1, 0)"}) {
         CAPTURE(normal);
