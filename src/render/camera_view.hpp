@@ -1,5 +1,7 @@
 #pragma once
 
+#include <cmath>
+
 #include <packtrace/scene.hpp>
 
 #include "kernel_abi/scene_view.hpp"
@@ -23,7 +25,8 @@ template <class Real>
     }
     view.first_x = static_cast<Real>(sample.x - 0.5 * scene.width);
     view.first_y = static_cast<Real>(0.5 * scene.height - sample.y);
-    view.t_min = static_cast<Real>(lowered.camera_t_min);
+    // Packets count what is beyond t_min, the notes also what is there.
+    view.t_min = std::nextafter(static_cast<Real>(lowered.camera_t_min), Real(0));
     for (std::size_t i = 0; i < lowered.eye_inside.size(); ++i)
         view.inside[i] = lowered.eye_inside[i];
     return view;

@@ -78,10 +78,10 @@ void print_report(const SoakArguments& arguments, const lab::SoakReport& report)
 }
 
 /// What is found in a scene by either rule for self-hits.
-std::optional<lab::SoakFinding> finding_in(const Scene& scene, std::uint64_t seed)
+std::optional<lab::SoakFinding> finding_in(const Scene& scene, std::uint64_t seed, bool aligned)
 {
     for (const SelfHits self_hits : {SelfHits::exact, SelfHits::note})
-        if (auto finding = lab::check_scene(scene, self_hits, seed))
+        if (auto finding = lab::check_scene(scene, self_hits, seed, aligned))
             return finding;
     return std::nullopt;
 }
@@ -92,7 +92,8 @@ int check_files(const SoakArguments& arguments)
     int findings = 0;
     for (const std::string& file : arguments.files) {
         const SceneInput input = read_scene_input(file);
-        const auto finding = finding_in(input.scene, arguments.options.seed);
+        const auto finding =
+            finding_in(input.scene, arguments.options.seed, arguments.options.aligned);
         std::cout << language::escape(input.name) << ": "
                   << (finding ? finding->what : "as it should be") << '\n';
         if (finding && !finding->ray)
@@ -157,6 +158,10 @@ void add_soak(CLI::App& app)
                      "Number of the first scene (default 0); a finding names its own")
         ->check(whole_number(0, most_scenes))
         ->type_name("N");
+    command->add_flag(
+        "--aligned", arguments->options.aligned,
+        "Round the random scenes and rays to a coarse grid and its axes, so that much of them "
+        "touches, coincides or runs parallel; answers are held against each other alone");
     command
         ->add_option("--findings", arguments->options.most_findings,
                      "Stop after so many findings (default 10)")

@@ -44,11 +44,12 @@ inline void keep_first_root(HitPacket<Real>& hit, const Quadratic<Real>& quadrat
     keep_closer<Real>(hit, active & (t > t_min), t, surface);
 }
 
-/// Calls `visit(valid, t)` for either root, which may be infinite or NaN.
+/// Calls `visit(valid, t)` for either root, which may be infinite or NaN, where one may lie at
+/// t > 0: of what closest hits leave out rounding makes no hit here.
 template <class Real, class Visit>
 inline void visit_roots(const Quadratic<Real>& quadratic, const Visit& visit)
 {
-    const auto crosses = quadratic.discriminant >= vreal<Real>(Real(0));
+    const auto crosses = may_hit(quadratic);
     if (none(crosses))
         return;
     const vreal<Real> root = sqrt(quadratic.discriminant);
@@ -103,8 +104,6 @@ struct RayEnd {
         // begins: nothing is in it.
         if (closed)
             return root_between(quadratic, rays.t_min, max(t_end, rays.t_min));
-        if (none(may_hit(quadratic)))
-            return from_bits<Real>(0);
         std::uint32_t blocked = 0;
         visit_roots(quadratic, [&](vmask<Real> valid, const vreal<Real>& t) {
             blocked |= bits(valid & (t > rays.t_min) & (t < t_end));

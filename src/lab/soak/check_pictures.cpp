@@ -206,7 +206,7 @@ std::optional<SoakFinding> check_reference(const Scene& scene, const SoakWay& wa
 }
 
 std::optional<SoakFinding> check_mode(const Scene& scene, const std::string& precision,
-                                      Accuracy accuracy, SelfHits self_hits)
+                                      Accuracy accuracy, SelfHits self_hits, bool aligned)
 {
     Values first;
     Values values;
@@ -218,21 +218,23 @@ std::optional<SoakFinding> check_mode(const Scene& scene, const std::string& pre
         if (first.empty())
             first = values;
     }
-    // By the note's rule, starts are 0.001 away: that counts where things are small.
-    if (accuracy == Accuracy::fast || groups.empty() || twins || self_hits == SelfHits::note)
+    // By the note's rule, starts are 0.001 away: that counts where things are small. Where things
+    // touch and run along each other, rounding decides, in every kernel its own.
+    if (accuracy == Accuracy::fast || groups.empty() || twins || self_hits == SelfHits::note ||
+        aligned)
         return std::nullopt;
     return check_reference(scene, groups.front().ways.front(), first, self_hits);
 }
 
 }  // namespace
 
-std::optional<SoakFinding> check_pictures(const Scene& scene, SelfHits self_hits)
+std::optional<SoakFinding> check_pictures(const Scene& scene, SelfHits self_hits, bool aligned)
 {
-    if (auto finding = check_mode(scene, "double", Accuracy::exact, self_hits))
+    if (auto finding = check_mode(scene, "double", Accuracy::exact, self_hits, aligned))
         return finding;
-    if (auto finding = check_mode(scene, "single", Accuracy::exact, self_hits))
+    if (auto finding = check_mode(scene, "single", Accuracy::exact, self_hits, aligned))
         return finding;
-    return check_mode(scene, "single", Accuracy::fast, self_hits);
+    return check_mode(scene, "single", Accuracy::fast, self_hits, aligned);
 }
 
 }  // namespace packtrace::lab

@@ -4,6 +4,7 @@
 
 #include <glm/geometric.hpp>
 
+#include "lab/soak/align.hpp"
 #include "lab/soak/soak_finding.hpp"
 #include "lab/soak/soak_scene.hpp"
 #include "lab/stress/ray_faults.hpp"
@@ -20,16 +21,21 @@ constexpr int rays_of_a_scene = 48;
 constexpr int rays_among_many = 8;
 constexpr std::size_t many_objects = 30;
 
-StressRay any_ray(StressRandom& random, const Scene& scene)
+/// `step` is that of the grid that both ends lie on; 0 for none.
+StressRay any_ray(StressRandom& random, const Scene& scene, double step)
 {
     const auto any_point = [&] {
         const int count = static_cast<int>(scene.objects.size());
         return point_near(random, scene.objects[static_cast<std::size_t>(random.below(count))]);
     };
-    const Vec3 aim = any_point();
+    Vec3 aim = any_point();
     Vec3 org = random.below(2) == 0 ? scene.camera.position : any_point();
     if (random.below(3) == 0)
         org += glm::length(aim - org) * random.power(1e-3, 10.0) * random.unit();
+    if (step > 0.0) {
+        aim = on_grid(aim, step);
+        org = on_grid(org, step);
+    }
     StressRay ray = ray_towards(org, aim);
     if (random.below(4) == 0)
         ray.dir *= random.power(1e-3, 1e3);
@@ -175,11 +181,12 @@ SoakFinding one_way(std::string what, const StressRay& ray, const SoakWay& way)
 }
 
 template <class Real>
-std::optional<SoakFinding> check_group(const StressGroup& group, const SoakGroup& ways)
+std::optional<SoakFinding> check_group(const StressGroup& group, const SoakGroup& ways,
+                                       bool aligned)
 {
     const SoakWay& first = ways.ways.front();
     const StressRun run = run_way<Real>(first, group);
-    const bool held = first.options.accuracy == Accuracy::exact;
+    const bool held = first.options.accuracy == Accuracy::exact && !aligned;
     for (std::size_t i = 0; i < group.rays.size() && held; ++i)
         if (std::string what = fault_in<Real>(group, run, i); !what.empty())
             return one_way<Real>(std::move(what), group.rays[i], first);
@@ -197,7 +204,7 @@ std::optional<SoakFinding> check_group(const StressGroup& group, const SoakGroup
 
 template <class Real>
 std::optional<SoakFinding> check_precision(const Scene& scene, const std::vector<StressRay>& rays,
-                                           const std::string& precision)
+                                           const std::string& precision, bool aligned)
 {
     const StressGroup group = group_of<Real>(scene, rays);
     for (const Accuracy accuracy : {Accuracy::exact, Accuracy::fast}) {
@@ -205,7 +212,7 @@ std::optional<SoakFinding> check_precision(const Scene& scene, const std::vector
         if (precision == "double" && accuracy == Accuracy::fast)
             continue;
         for (const SoakGroup& ways : packet_groups(precision, accuracy, SelfHits::exact))
-            if (auto finding = check_group<Real>(group, ways))
+            if (auto finding = check_group<Real>(group, ways, aligned))
                 return finding;
     }
     return std::nullopt;
@@ -213,16 +220,16 @@ std::optional<SoakFinding> check_precision(const Scene& scene, const std::vector
 
 }  // namespace
 
-std::optional<SoakFinding> check_rays(const Scene& scene, std::uint64_t seed)
+std::optional<SoakFinding> check_rays(const Scene& scene, std::uint64_t seed, bool aligned)
 {
     StressRandom random(seed);
     const int count = scene.objects.size() > many_objects ? rays_among_many : rays_of_a_scene;
     std::vector<StressRay> rays;
     for (int i = 0; i < count; ++i)
-        rays.push_back(any_ray(random, scene));
-    if (auto finding = check_precision<float>(scene, rays, "single"))
+        rays.push_back(any_ray(random, scene, aligned ? grid_step(scene) : 0.0));
+    if (auto finding = check_precision<float>(scene, rays, "single", aligned))
         return finding;
-    return check_precision<double>(scene, rays, "double");
+    return check_precision<double>(scene, rays, "double", aligned);
 }
 
 }  // namespace packtrace::lab

@@ -9,6 +9,7 @@
 
 #include <tbb/parallel_for.h>
 
+#include "lab/soak/align.hpp"
 #include "lab/soak/shrink.hpp"
 #include "lab/soak/soak_scene.hpp"
 #include "lab/stress/stress_family.hpp"
@@ -32,17 +33,19 @@ std::uint64_t seed_of(std::uint64_t seed, std::uint64_t number)
     return StressRandom(StressRandom(seed).bits() ^ number).bits();
 }
 
-Outcome outcome_of(std::uint64_t seed)
+Outcome outcome_of(std::uint64_t seed, bool aligned)
 {
     StressRandom random(seed);
-    const Scene made = soak_scene(random);
+    Scene made = soak_scene(random);
+    if (aligned)
+        align(made);
     Outcome outcome;
     try {
         outcome.scene = as_read(made);
         const std::uint64_t rays = random.bits();
         // The notes' own rule is for comparison: it is tried now and then.
         const SelfHits self_hits = rays % 5 == 0 ? SelfHits::note : SelfHits::exact;
-        outcome.finding = check_scene(outcome.scene, self_hits, rays);
+        outcome.finding = check_scene(outcome.scene, self_hits, rays, aligned);
     } catch (const SceneError&) {
         outcome.refused = true;
     } catch (const std::invalid_argument&) {
@@ -83,11 +86,12 @@ SoakReport report_of(std::uint64_t number, Outcome outcome)
 
 }  // namespace
 
-std::optional<SoakFinding> check_scene(const Scene& scene, SelfHits self_hits, std::uint64_t seed)
+std::optional<SoakFinding> check_scene(const Scene& scene, SelfHits self_hits, std::uint64_t seed,
+                                       bool aligned)
 {
-    if (auto finding = check_pictures(scene, self_hits))
+    if (auto finding = check_pictures(scene, self_hits, aligned))
         return finding;
-    return check_rays(scene, seed);
+    return check_rays(scene, seed, aligned);
 }
 
 SoakCounts run_soak(const SoakOptions& options, const std::function<void(const SoakReport&)>& take)
@@ -98,7 +102,7 @@ SoakCounts run_soak(const SoakOptions& options, const std::function<void(const S
         const std::uint64_t first = options.first + counts.scenes;
         std::vector<Outcome> outcomes(count);
         tbb::parallel_for(std::uint64_t{0}, count, [&](std::uint64_t i) {
-            outcomes[i] = outcome_of(seed_of(options.seed, first + i));
+            outcomes[i] = outcome_of(seed_of(options.seed, first + i), options.aligned);
         });
         for (std::uint64_t i = 0; i < count; ++i) {
             ++counts.scenes;

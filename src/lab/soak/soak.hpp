@@ -14,6 +14,7 @@ struct SoakOptions {
     std::uint64_t first = 0;              ///< number of the first scene
     std::optional<std::uint64_t> scenes;  ///< how many; not set: as many as there is time for
     double seconds = 0.0;                 ///< after so long no more are begun; 0: no end
+    bool aligned = false;                 ///< scenes and rays of much that coincides (align.hpp)
     int most_findings = 10;               ///< the search ends after so many
 };
 
@@ -35,8 +36,9 @@ struct SoakCounts {
 [[nodiscard]] SoakCounts run_soak(const SoakOptions& options,
                                   const std::function<void(const SoakReport&)>& take);
 
-/// Checks one scene; its pictures by one rule for self-hits, with the rays that follow from `seed`.
+/// Checks one scene; its pictures by one rule for self-hits, with the rays that follow from `seed`,
+/// `aligned` or not.
 [[nodiscard]] std::optional<SoakFinding> check_scene(const Scene& scene, SelfHits self_hits,
-                                                     std::uint64_t seed);
+                                                     std::uint64_t seed, bool aligned = false);
 
 }  // namespace packtrace::lab

@@ -20,12 +20,14 @@ struct SoakFinding {
     std::function<std::string(const Scene&)> again;
 };
 
-/// Renders a scene in all ways and holds the pictures against each other and against the scalar
-/// kernel. Throws what rendering throws.
-[[nodiscard]] std::optional<SoakFinding> check_pictures(const Scene& scene, SelfHits self_hits);
+/// Renders a scene in all ways and holds the pictures against each other and, where much does not
+/// coincide, against the scalar kernel. Throws what rendering throws.
+[[nodiscard]] std::optional<SoakFinding> check_pictures(const Scene& scene, SelfHits self_hits,
+                                                        bool aligned);
 
 /// Traces rays of the caller's own through a scene in all ways; holds the answers against each
-/// other, and those of `exact` and of doubles against 113 bits.
-[[nodiscard]] std::optional<SoakFinding> check_rays(const Scene& scene, std::uint64_t seed);
+/// other, and those of `exact` and of doubles likewise against 113 bits.
+[[nodiscard]] std::optional<SoakFinding> check_rays(const Scene& scene, std::uint64_t seed,
+                                                    bool aligned);
 
 }  // namespace packtrace::lab
