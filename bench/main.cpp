@@ -11,6 +11,7 @@ int main(int argc, char** argv)
     packtrace::bench::register_frames();
     packtrace::bench::register_power();
     packtrace::bench::register_updates();
+    packtrace::bench::register_lit();
 
     benchmark::Initialize(&argc, argv);
     if (benchmark::ReportUnrecognizedArguments(argc, argv))

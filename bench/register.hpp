@@ -7,5 +7,6 @@ void register_kernels();
 void register_frames();
 void register_power();
 void register_updates();
+void register_lit();
 
 }  // namespace packtrace::bench

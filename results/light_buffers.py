@@ -8,6 +8,7 @@ Usage: results/light_buffers.py BUILD BEFORE [REPETITIONS]
 BUILD and BEFORE are build folders with `packtrace`.
 """
 import json
+import pathlib
 import re
 import statistics
 import subprocess
@@ -25,6 +26,19 @@ SCENES = {
     "mirrored flake6": ["sphereflake", "--depth", "6", "--reflective", "0.3", "--ground"],
     "random100k": ["random", "--count", "100000"],
 }
+# The same with light from the directions of their lamps.
+PARALLEL = ["mirrored flake4", "mirrored flake5", "mirrored flake6", "random100k"]
+
+
+def make(build, scene, name):
+    """Writes the scene of a row, and lights it by directions if that is its last word."""
+    subprocess.run([f"{build}/packtrace", "generate", *SCENES[name.removesuffix(", parallel")], "-o", scene],
+                   check=True)
+    if not name.endswith(", parallel"):
+        return
+    path = pathlib.Path(scene)
+    path.write_text(re.sub(r"light { type=point (.*)position=", r"light { type=directional \1direction=",
+                           path.read_text()))
 
 
 def milliseconds(build, scene, folder):
@@ -50,9 +64,9 @@ def main():
     load = machine()
     rows = []
     with tempfile.TemporaryDirectory() as folder:
-        for name, options in SCENES.items():
+        for name in [*SCENES, *(f"{name}, parallel" for name in PARALLEL)]:
             scene = f"{folder}/scene.scene"
-            subprocess.run([f"{sys.argv[1]}/packtrace", "generate", *options, "-o", scene], check=True)
+            make(sys.argv[1], scene, name)
             times = {build: [] for build in builds}
             for _ in range(repetitions):
                 for build, path in builds.items():

@@ -36,6 +36,12 @@ void light_from(Scene& scene, const Vec3& position)
     scene.lights = {Light{.type = LightType::point, .intensity = Rgb(0.6), .vector = position}};
 }
 
+void light_along(Scene& scene, const Vec3& direction)
+{
+    scene.lights = {
+        Light{.type = LightType::directional, .intensity = Rgb(0.6), .vector = direction}};
+}
+
 /// Of the only light.
 bool has_buffer(const Scene& scene)
 {
@@ -80,6 +86,33 @@ TEST_CASE("A light's view of a crowd of spheres gives the shadows of lists", "[l
         }
 }
 
+TEST_CASE("Parallel light's view of a crowd of spheres gives the shadows of lists",
+          "[light_buffer]")
+{
+    const Vec3 directions[] = {{1, 2, -1}, {0, 1, 0}, {-3e5, 1e5, 2e5}, {1, 0.02, -0.3}};
+    for (const Vec3& direction : directions)
+        for (const SelfHits self_hits : {SelfHits::exact, SelfHits::note}) {
+            INFO(direction.x << ' ' << direction.y << ' ' << direction.z);
+            Scene scene = crowd(400, 11);
+            light_along(scene, direction);
+            REQUIRE(has_buffer(scene));
+            check_against_lists(scene, self_hits);
+        }
+}
+
+TEST_CASE("Parallel light reaches what is far behind its view of the spheres", "[light_buffer]")
+{
+    // A wall so far away that rounding there is as large as a cell of the view.
+    Scene scene = crowd(400, 12);
+    scene.camera.fov = 3.0;
+    scene.camera.position = {0, 0, -60};
+    scene.camera.rotation = Mat3(1.0);
+    add_sphere(scene, {0, 0, 3000000}, 2000000, scratch(Rgb(0.5), 50, 0));
+    light_along(scene, {0.001, 0.0005, -1});
+    REQUIRE(has_buffer(scene));
+    check_against_lists(scene, SelfHits::exact);
+}
+
 TEST_CASE("A light's view leaves out what casts no shadow", "[light_buffer]")
 {
     Scene scene = crowd(400, 8);
@@ -109,6 +142,9 @@ TEST_CASE("Spheres side by side and one that hides others have the shadows of li
     Scene scene = generate_sphereflake({.depth = 3, .reflective = 0.3});
     set_size(scene, 200, 160);
     light_from(scene, {4, 3, 2});
+    REQUIRE(has_buffer(scene));
+    check_against_lists(scene, SelfHits::exact);
+    light_along(scene, {4, 3, -2});
     REQUIRE(has_buffer(scene));
     check_against_lists(scene, SelfHits::exact);
 }

@@ -55,6 +55,15 @@ struct StartsView {
     const std::int32_t* surface = nullptr;
 };
 
+/// Points of earlier hits, `count` elements each: `point` and `surface` are what HitsView got. A
+/// point from elsewhere has a surface below 0; where all are, `surface` may be null.
+template <class Real>
+struct PointsView {
+    const Real* point[3] = {};
+    const std::int32_t* surface = nullptr;
+    std::size_t count = 0;
+};
+
 inline constexpr std::int32_t no_start = std::numeric_limits<std::int32_t>::min();
 
 /// One hit of a ray with a surface.

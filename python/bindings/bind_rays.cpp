@@ -164,6 +164,29 @@ public:
         });
     }
 
+    void lit(const py::array& points, const std::optional<Numbers>& surface, std::size_t light,
+             py::array mask)
+    {
+        auto* const to = static_cast<std::uint8_t*>(mask.mutable_data());
+        const std::int32_t* const number = surface ? surface->data() : nullptr;
+        with_real(points.dtype(), [&](auto real) {
+            using Real = decltype(real);
+            const HeldScene<Real> scene = ready<Real>();
+            scene->lit({}, light, to);  // refuses what is no light, also where there is no point
+            GatheredBlocks<Real, 3> places{ColumnBlocks<Real, 3>(
+                {column_of(points, 0), column_of(points, 1), column_of(points, 2)})};
+            for_each_ray_block(
+                static_cast<std::size_t>(points.shape(0)), places.blocks.block_size(),
+                scenes_.threads(), [&](std::size_t first, std::size_t count) {
+                    const auto at = places.at(first, count);
+                    scene->lit({{at[0], at[1], at[2]},
+                                number == nullptr ? nullptr : number + first,
+                                count},
+                               light, to + first);
+                });
+        });
+    }
+
     py::tuple all_hits(const RayArrays& rays)
     {
         return with_real(rays.origins.dtype(),
@@ -385,6 +408,9 @@ void bind_rays(py::module_& module)
                 Array mask) {
                  self.occluded({origins, directions, t_min, t_max}, mask);
              })
+        .def("lit",
+             [](Native& self, Array points, const std::optional<Numbers>& surface,
+                std::size_t light, Array mask) { self.lit(points, surface, light, mask); })
         .def("all_hits",
              [](Native& self, Array origins, Array directions, Array t_min, Array t_max) {
                  return self.all_hits({origins, directions, t_min, t_max});

@@ -10,6 +10,7 @@ copied, as float64. All work runs without the GIL.
 
 from __future__ import annotations
 
+import operator
 from dataclasses import dataclass
 from typing import Any, Dict, List, Literal, Optional, Tuple, Union
 
@@ -171,6 +172,30 @@ class RayScene:
         rays = _Rays(origins, directions, t_min, t_max)
         mask = np.empty(rays.shape, np.bool_)
         self._native.occluded(*rays.columns, mask.reshape(-1))
+        return mask
+
+    def lit(self, points: Any, light: int) -> Array:
+        """Whether the light of number `light` in Scene.lights reaches each point: bool, of shape
+        (...). Nothing that casts a shadow is in the way, transparent or not.
+
+        points: `Hits` of detail="start", of which misses are not lit; or places in space, (..., 3).
+            Of hits it is known what they are on: no surface shadows itself by rounding.
+        light: a point or directional one; ValueError for others.
+        """
+        hits = points if isinstance(points, Hits) else None
+        if hits is not None and (hits.point is None or hits.surface is None):
+            raise ValueError('these hits have no surfaces; ask for them: '
+                             'closest(..., detail="start")')
+        places = _array(points if hits is None else hits.point)
+        _checked_dtype(places.dtype, "points")
+        if places.ndim == 0 or places.shape[-1] != 3:
+            raise ValueError(f"points has shape {places.shape}; use (..., 3), such as (n, 3)")
+        mask = np.empty(places.shape[:-1], np.bool_)
+        surface = None if hits is None or hits.surface is None else hits.surface.reshape(-1)
+        number = operator.index(light)
+        if number < 0:
+            raise ValueError(f"light {number}; lights count from 0, as in Scene.lights")
+        self._native.lit(places.reshape(-1, 3), surface, number, mask.reshape(-1))
         return mask
 
     def all_hits(self, origins: Any, directions: Any, t_min: Any = 0.0,

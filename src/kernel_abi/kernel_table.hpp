@@ -104,13 +104,19 @@ struct PrecisionTable {
     FeatureKernels<Real> kernels[2 * feature_set_count];
     // Rays of the caller's own, against surfaces of every kind.
     // `scratch` is working memory of `stream_scratch_bytes`, 64-byte aligned, for one call at a
-    // time.
+    // time; for `lit` of `lit_scratch_bytes`.
     std::size_t (*stream_scratch_bytes)(const SceneView<Real>& scene) = nullptr;
+    std::size_t (*lit_scratch_bytes)(const SceneView<Real>& scene) = nullptr;
     void (*closest_hits)(const SceneView<Real>& scene, const RaysView<Real>& rays,
                          const HitsView<Real>& hits, void* scratch) = nullptr;
     /// mask[i] is 1 where ray i hits anything, else 0.
     void (*occluded)(const SceneView<Real>& scene, const RaysView<Real>& rays, std::uint8_t* mask,
                      void* scratch) = nullptr;
+    /// mask[i] is 1 where nothing that casts a shadow is between point i and the light, else 0.
+    /// `buffer` is the light's view of what casts shadows, or null.
+    void (*lit)(const SceneView<Real>& scene, const PointsView<Real>& points,
+                const LightRecord<Real>& light, const LightBuffer* buffer, std::uint8_t* mask,
+                void* scratch) = nullptr;
     void (*all_hits)(const SceneView<Real>& scene, const RaysView<Real>& rays,
                      const HitSink<Real>& sink) = nullptr;
     /// y[i] = x[i]^n[i] as highlights use it: x in [0, 1 + 1e-6], n > 0.

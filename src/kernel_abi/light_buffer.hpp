@@ -18,19 +18,25 @@ struct alignas(64) LightBlock {
 struct LightCell {
     std::int32_t first = 0;
     std::int32_t count = 0;
-    /// No sphere of the cell is nearer to the light, by the square of the distance.
-    float near2 = 0;
+    /// No sphere of the cell is nearer to the light: by the square of the distance from a point
+    /// light, by the distance ahead of `origin` for one from a direction.
+    float near = 0;
 };
 
-/// The spheres of a hierarchy as a point light sees them, in a square grid of cells across its
-/// view of all of them (E. Haines and D. Greenberg, "The Light Buffer: A Shadow-Testing
-/// Accelerator", IEEE Computer Graphics and Applications 6(9), 1986). A direction d from the light
-/// is seen at (across·d, up·d) / forward·d + size / 2, in cells. Cells leave out what is behind a
-/// sphere that fills them.
+/// The spheres of a hierarchy as a light sees them, in a square grid of cells across its view of
+/// all of them (E. Haines and D. Greenberg, "The Light Buffer: A Shadow-Testing Accelerator", IEEE
+/// Computer Graphics and Applications 6(9), 1986). A direction d from a point light is seen at
+/// (across·d, up·d) / forward·d + size / 2, in cells; a point at d from `origin` that parallel
+/// light falls on, at (across·d, up·d) + size / 2. Cells leave out what is behind a sphere that
+/// fills them.
 struct LightBuffer {
     float across[3] = {};
     float up[3] = {};
     float forward[3] = {};
+    bool parallel = false;  ///< the light comes from a direction
+    float origin[3] = {};   ///< of parallel light, on the light's side of all spheres
+    /// What |x| + |y| + |z| of d may be for rounding not to matter, for parallel light.
+    float reach = 0;
     int size = 0;                      ///< cells in a row and in a column
     const LightCell* cells = nullptr;  ///< row by row; null: the light has no such grid
     const LightBlock* blocks = nullptr;

@@ -21,6 +21,15 @@ struct RaysView {
 
 inline constexpr std::int32_t no_start = INT32_MIN;
 
+/// Points that a light is looked for from: hits' own, with their surfaces; one from elsewhere has a
+/// number below 0, and all are where `surface` is null.
+template <class Real>
+struct PointsView {
+    const Real* point[3] = {};
+    const std::int32_t* surface = nullptr;
+    int count = 0;
+};
+
 /// Results of closest hits; `object` is -1 and `t` the ray's t_max for a miss.
 template <class Real>
 struct HitsView {

@@ -4,6 +4,7 @@
 
 #include "kernels/simd/self_test.hpp"
 #include "kernels/stream/closest_tile.hpp"
+#include "kernels/stream/lit_points.hpp"
 #include "kernels/stream/ray_streams.hpp"
 #include "kernels/stream/tile.hpp"
 #include "onedim/onedim_kernel.hpp"
@@ -98,6 +99,27 @@ void any_occluded(const abi::SceneView<Real>& scene, const abi::RaysView<Real>& 
 }
 
 template <class Real>
+std::size_t any_lit_bytes(const abi::SceneView<Real>& scene)
+{
+    const abi::SceneView<Real>& casters = casters_of(scene);
+    if constexpr (sizeof(Real) == sizeof(float))
+        if (is_exact(scene))
+            return LitWork<any_surface<true>, Real>(nullptr, casters).bytes;
+    return LitWork<any_surface<false>, Real>(nullptr, casters).bytes;
+}
+
+template <class Real>
+void any_lit(const abi::SceneView<Real>& scene, const abi::PointsView<Real>& points,
+             const abi::LightRecord<Real>& light, const abi::LightBuffer* buffer,
+             std::uint8_t* mask, void* scratch)
+{
+    if constexpr (sizeof(Real) == sizeof(float))
+        if (is_exact(scene))
+            return lit_points<any_surface<true>>(scene, points, light, buffer, mask, scratch);
+    lit_points<any_surface<false>>(scene, points, light, buffer, mask, scratch);
+}
+
+template <class Real>
 void any_all_hits(const abi::SceneView<Real>& scene, const abi::RaysView<Real>& rays,
                   const abi::HitSink<Real>& sink)
 {
@@ -116,6 +138,8 @@ constexpr abi::PrecisionTable<Real> precision_table()
     table.stream_scratch_bytes = any_stream_bytes<Real>;
     table.closest_hits = any_closest_hits<Real>;
     table.occluded = any_occluded<Real>;
+    table.lit_scratch_bytes = any_lit_bytes<Real>;
+    table.lit = any_lit<Real>;
     table.all_hits = any_all_hits<Real>;
     table.highlight_power = power_of_arrays<Real>;
     table.self_test = self_test<Real>;

@@ -32,18 +32,27 @@ int grid_size(int blocks)
     return spheres < 20000 ? 64 : spheres < 200000 ? 128 : 256;
 }
 
-/// The light's axes, and how many cells there are to a tangent of 1.
+/// Share of their ball's radius by which spheres are taken to be nearer to parallel light.
+constexpr double depth_margin = 1e-4;
+
+/// Rounding moves where a point lies in the grid by no more than this share of |x| + |y| + |z|,
+/// in both axes: four roundings, and those of the axes.
+constexpr double place_error = 0x1p-21;
+
+/// The light's axes, and how many cells there are to a tangent of 1, or for parallel light to a
+/// length of 1.
 struct LightAxes {
-    Vec3 position;
+    Vec3 origin;  ///< a point light's place
     Vec3 across;
     Vec3 up;
     Vec3 forward;
     double scale;
     int size;
+    bool parallel;
 
     [[nodiscard]] Vec3 seen(const Vec3& point) const
     {
-        const Vec3 d = point - position;
+        const Vec3 d = point - origin;
         return {glm::dot(across, d), glm::dot(up, d), glm::dot(forward, d)};
     }
 };
@@ -51,9 +60,10 @@ struct LightAxes {
 /// A sphere as the light sees it.
 struct SeenSphere {
     Vec3 center;
-    double distance = 0.0;  ///< of the centre
+    double distance = 0.0;  ///< of the centre; ahead of the origin, for parallel light
     double radius = -1.0;   ///< negative: none
     double larger = 0.0;    ///< a radius that holds what rounding does, too
+    double size = 0.0;      ///< that it looks
     std::int16_t low[2] = {0, 0};
     std::int16_t high[2] = {-1, -1};  ///< its cells, the last ones included
 
@@ -63,17 +73,29 @@ struct SeenSphere {
     }
 };
 
-/// The range of cells along one axis, for a circle of the plane of that axis and the way ahead.
+/// What a circle of the plane of one axis and the way ahead covers, before scaling.
+struct Covered {
+    double low;
+    double high;
+};
+Covered covered(const Vec3& center, double radius, int axis, bool parallel)
+{
+    const double x = center[axis];
+    if (parallel)
+        return {x - radius, x + radius};
+    const double z = center.z;
+    const double root = radius * std::sqrt(std::max(0.0, x * x + z * z - radius * radius));
+    const double below = z * z - radius * radius;
+    return {(x * z - root) / below, (x * z + root) / below};
+}
+
+/// The range of cells along one axis.
 void set_range(SeenSphere& sphere, int axis, const LightAxes& axes)
 {
-    const double x = sphere.center[axis];
-    const double z = sphere.center.z;
-    const double r = sphere.larger;
-    const double root = r * std::sqrt(std::max(0.0, x * x + z * z - r * r));
-    const double below = z * z - r * r;
+    const Covered at = covered(sphere.center, sphere.larger, axis, axes.parallel);
     const double half = 0.5 * axes.size;
-    const double low = (x * z - root) / below * axes.scale + half - cell_margin;
-    const double high = (x * z + root) / below * axes.scale + half + cell_margin;
+    const double low = at.low * axes.scale + half - cell_margin;
+    const double high = at.high * axes.scale + half + cell_margin;
     const double last = axes.size - 1;
     sphere.low[axis] = static_cast<std::int16_t>(std::clamp(std::floor(low), 0.0, last));
     sphere.high[axis] = static_cast<std::int16_t>(std::clamp(std::floor(high), 0.0, last));
@@ -88,10 +110,12 @@ SeenSphere see(const LightAxes& axes, const abi::BvhView<float>& tree, int place
         return sphere;
     sphere.center = axes.seen({double{block.center[0][slot]}, double{block.center[1][slot]},
                                double{block.center[2][slot]}});
-    sphere.distance = glm::length(sphere.center);
+    const double distance = glm::length(sphere.center);
+    sphere.distance = axes.parallel ? sphere.center.z : distance;
     sphere.radius = double{block.radius[slot]};
-    sphere.larger = sphere.radius * (1.0 + size_margin) + 2.0 * double{tree.center_error} +
-                    1e-6 * sphere.distance;
+    sphere.larger =
+        sphere.radius * (1.0 + size_margin) + 2.0 * double{tree.center_error} + 1e-6 * distance;
+    sphere.size = axes.parallel ? sphere.radius : sphere.radius / distance;
     set_range(sphere, 0, axes);
     set_range(sphere, 1, axes);
     return sphere;
@@ -117,8 +141,11 @@ bool fills(const SeenSphere& sphere, const LightAxes& axes, int cell)
     for (int corner = 0; corner < 4; ++corner) {
         const double column = cell % axes.size + (corner % 2 == 0 ? -cell_margin : 1 + cell_margin);
         const double row = cell / axes.size + (corner / 2 == 0 ? -cell_margin : 1 + cell_margin);
-        const Vec3 way((column - half) / axes.scale, (row - half) / axes.scale, 1.0);
-        const Vec3 moment = glm::cross(sphere.center, way);
+        const double x = (column - half) / axes.scale;
+        const double y = (row - half) / axes.scale;
+        const Vec3 way = axes.parallel ? Vec3(0, 0, 1) : Vec3(x, y, 1);
+        const Vec3 from = axes.parallel ? sphere.center - Vec3(x, y, 0) : sphere.center;
+        const Vec3 moment = glm::cross(from, way);
         if (glm::dot(moment, moment) > smaller * smaller * glm::dot(way, way))
             return false;
     }
@@ -176,23 +203,41 @@ CellSpheres sort_into_cells(const std::vector<SeenSphere>& spheres, const LightA
     return cells;
 }
 
-LightAxes axes_of(const float (&position)[3], const abi::BvhView<float>& tree, int size)
+/// The direction that a light sees the spheres' middle in, and the radius of what it sees around
+/// that by the measure of its grid; no number for one that does not see all of them ahead of it.
+double look_at_spheres(LightAxes& axes, const abi::LightRecord<float>& light,
+                       const abi::BvhView<float>& tree)
+{
+    const Vec3 vector(double{light.vector[0]}, double{light.vector[1]}, double{light.vector[2]});
+    const Vec3 middle(double{tree.middle[0]}, double{tree.middle[1]}, double{tree.middle[2]});
+    const double radius = double{tree.radius} * 1.001;
+    if (axes.parallel) {
+        axes.forward = -glm::normalize(vector);
+        const Vec3 origin = middle - 1.5 * radius * axes.forward;
+        // As the kernels have it.
+        for (int axis = 0; axis < 3; ++axis)
+            axes.origin[axis] = double{static_cast<float>(origin[axis])};
+        return radius * 1.001;
+    }
+    axes.origin = vector;
+    const Vec3 way = middle - vector;
+    const double distance = glm::length(way);
+    axes.forward = way / distance;
+    return radius / std::sqrt(std::max(0.0, distance * distance - radius * radius));
+}
+
+LightAxes axes_of(const abi::LightRecord<float>& light, const abi::BvhView<float>& tree, int size)
 {
     LightAxes axes{};
-    axes.position = {double{position[0]}, double{position[1]}, double{position[2]}};
-    const Vec3 middle(double{tree.middle[0]}, double{tree.middle[1]}, double{tree.middle[2]});
-    const Vec3 way = middle - axes.position;
-    const double distance = glm::length(way);
-    const double radius = double{tree.radius} * 1.001;
-    const double tangent = radius / std::sqrt(std::max(0.0, distance * distance - radius * radius));
-    if (!(tangent < widest))
+    axes.parallel = light.kind == abi::LightKind::directional;
+    const double radius = look_at_spheres(axes, light, tree);
+    if (!(radius < (axes.parallel ? std::numeric_limits<double>::infinity() : widest)))
         return axes;
-    axes.forward = way / distance;
     const Vec3 side = std::abs(axes.forward.x) < 0.5 ? Vec3(1, 0, 0) : Vec3(0, 1, 0);
     axes.across = glm::normalize(glm::cross(axes.forward, side));
     axes.up = glm::cross(axes.forward, axes.across);
     axes.size = size;
-    axes.scale = 0.5 * size / (1.001 * tangent);
+    axes.scale = 0.5 * size / (1.001 * radius);
     return axes;
 }
 
@@ -202,19 +247,21 @@ void sort_by_size(std::span<int> places, const std::vector<SeenSphere>& spheres)
     std::sort(places.begin(), places.end(), [&](int a, int b) {
         const SeenSphere& one = spheres[static_cast<std::size_t>(a)];
         const SeenSphere& other = spheres[static_cast<std::size_t>(b)];
-        const double larger = one.radius * other.distance;
-        const double smaller = other.radius * one.distance;
-        return larger != smaller ? larger > smaller : a < b;
+        return one.size != other.size ? one.size > other.size : a < b;
     });
 }
 
-float nearest2(std::span<const int> places, const std::vector<SeenSphere>& spheres)
+/// LightCell::near.
+float nearest(std::span<const int> places, const std::vector<SeenSphere>& spheres,
+              const LightAxes& axes)
 {
-    double nearest = 1e18;
+    double distance = 1e18;
     for (const int place : places)
-        nearest = std::min(nearest, spheres[static_cast<std::size_t>(place)].near());
-    nearest = std::max(0.0, nearest * (1.0 - size_margin));
-    return static_cast<float>(nearest * nearest);
+        distance = std::min(distance, spheres[static_cast<std::size_t>(place)].near());
+    if (axes.parallel)
+        return static_cast<float>(distance - depth_margin * axes.size / axes.scale);
+    distance = std::max(0.0, distance * (1.0 - size_margin));
+    return static_cast<float>(distance * distance);
 }
 
 void fill_blocks(std::span<abi::LightBlock> blocks, std::span<const int> places,
@@ -242,10 +289,10 @@ void round_axis(float (&rounded)[3], const Vec3& axis)
 
 }  // namespace
 
-PackedLightBuffer::PackedLightBuffer(const float (&position)[3], const abi::BvhView<float>& tree,
-                                     int blocks)
+PackedLightBuffer::PackedLightBuffer(const abi::LightRecord<float>& light,
+                                     const abi::BvhView<float>& tree, int blocks)
 {
-    const LightAxes axes = axes_of(position, tree, grid_size(blocks));
+    const LightAxes axes = axes_of(light, tree, grid_size(blocks));
     if (axes.size == 0)
         return;
     std::vector<SeenSphere> spheres(static_cast<std::size_t>(blocks) * abi::node_width);
@@ -268,7 +315,7 @@ PackedLightBuffer::PackedLightBuffer(const float (&position)[3], const abi::BvhV
         const std::span<int> places(sorted.place.data() + sorted.first[cell],
                                     sorted.place.data() + sorted.first[cell + 1]);
         sort_by_size(places, spheres);
-        cells_[cell].near2 = nearest2(places, spheres);
+        cells_[cell].near = nearest(places, spheres, axes);
         fill_blocks(
             {blocks_.data() + cells_[cell].first, static_cast<std::size_t>(cells_[cell].count)},
             places, tree);
@@ -277,6 +324,9 @@ PackedLightBuffer::PackedLightBuffer(const float (&position)[3], const abi::BvhV
     round_axis(view_.across, axes.across * axes.scale);
     round_axis(view_.up, axes.up * axes.scale);
     round_axis(view_.forward, axes.forward);
+    round_axis(view_.origin, axes.origin);
+    view_.parallel = axes.parallel;
+    view_.reach = static_cast<float>(0.25 * cell_margin / (place_error * axes.scale));
     view_.size = axes.size;
     view_.cells = cells_.data();
     view_.blocks = blocks_.data();

@@ -12,9 +12,9 @@ namespace packtrace {
 class PackedLightBuffer {
 public:
     PackedLightBuffer() = default;
-    /// Of the point light at `position`; empty where that is too near to the spheres to see all of
-    /// them ahead of it.
-    PackedLightBuffer(const float (&position)[3], const abi::BvhView<float>& tree, int blocks);
+    /// Empty where a point light is too near to the spheres to see all of them ahead of it.
+    PackedLightBuffer(const abi::LightRecord<float>& light, const abi::BvhView<float>& tree,
+                      int blocks);
 
     /// Valid as long as this object.
     [[nodiscard]] const abi::LightBuffer& view() const

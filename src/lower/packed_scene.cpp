@@ -74,10 +74,38 @@ Traversal frame_traversal(const LoweredScene& lowered, Traversal traversal, int 
 }
 
 template <class Real>
+std::vector<abi::LightRecord<Real>> pack_lights(const LoweredScene& lowered)
+{
+    std::vector<abi::LightRecord<Real>> records(lowered.lights.size());
+    for (std::size_t i = 0; i < records.size(); ++i) {
+        const Light& light = lowered.lights[i];
+        round_to(records[i].intensity, light.intensity);
+        round_to(records[i].vector, light.vector);
+        records[i].kind =
+            light.type == LightType::point ? abi::LightKind::point : abi::LightKind::directional;
+        records[i].casts_shadow = lowered.shadows && light.casts_shadow;
+    }
+    return records;
+}
+
+LoweredScene shadow_casters(const LoweredScene& lowered)
+{
+    const auto& casts = lowered.casts_shadow;
+    LoweredScene casters = lowered;
+    casters.casts_shadow.clear();
+    const auto casts_none = [&](const auto& surface) {
+        return !casts[static_cast<std::size_t>(surface.surface)];
+    };
+    for_each_list(casters, [&](auto& list) { std::erase_if(list, casts_none); });
+    return casters;
+}
+
+template <class Real>
 PackedScene<Real>::PackedScene(const LoweredScene& lowered, Traversal traversal, Bvh* keep)
     : tree_(pack_tree<Real>(lowered, traversal, keep)),
       lists_(lowered, !tree_.view().empty()),
-      shapes_(lowered)
+      shapes_(lowered),
+      lights_(pack_lights<Real>(lowered))
 {
     tree_.set_shapes(shapes_.view());
     view_.tree = tree_.view();
@@ -87,7 +115,7 @@ PackedScene<Real>::PackedScene(const LoweredScene& lowered, Traversal traversal,
         pack_wide(lowered);
     pack_materials(lowered);
     pack_ior(lowered);
-    pack_lights(lowered);
+    view_.lighting.lights = {lights_.data(), static_cast<int>(lights_.size())};
     pack_casters(lowered);
     round_to(view_.rules.background, lowered.background);
     round_to(view_.rules.limit_color, lowered.limit_color);
@@ -183,35 +211,13 @@ void PackedScene<Real>::pack_ior(const LoweredScene& lowered)
 }
 
 template <class Real>
-void PackedScene<Real>::pack_lights(const LoweredScene& lowered)
-{
-    lights_ = AlignedArray<abi::LightRecord<Real>>(lowered.lights.size());
-    for (std::size_t i = 0; i < lowered.lights.size(); ++i) {
-        const Light& light = lowered.lights[i];
-        round_to(lights_[i].intensity, light.intensity);
-        round_to(lights_[i].vector, light.vector);
-        lights_[i].kind =
-            light.type == LightType::point ? abi::LightKind::point : abi::LightKind::directional;
-        lights_[i].casts_shadow = lowered.shadows && light.casts_shadow;
-    }
-    view_.lighting.lights = {lights_.data(), static_cast<int>(lowered.lights.size())};
-}
-
-template <class Real>
 void PackedScene<Real>::pack_casters(const LoweredScene& lowered)
 {
-    const auto& casts = lowered.casts_shadow;
-    if (!lowered.shadows || casts.empty())
+    if (!lowered.shadows || lowered.casts_shadow.empty())
         return;
-    LoweredScene casters = lowered;
-    casters.casts_shadow.clear();
-    const auto casts_none = [&](const auto& surface) {
-        return !casts[static_cast<std::size_t>(surface.surface)];
-    };
-    for_each_list(casters, [&](auto& list) { std::erase_if(list, casts_none); });
     // Without a hierarchy for the camera's rays there are no groups of shadow rays either.
     casters_ = std::make_unique<PackedScene>(
-        casters, tree_.view().empty() ? Traversal::list : Traversal::automatic);
+        shadow_casters(lowered), tree_.view().empty() ? Traversal::list : Traversal::automatic);
     view_.casters = &casters_->view();
 }
 
@@ -225,30 +231,44 @@ std::size_t PackedScene<Real>::light_buffer_bytes() const
 }
 
 template <class Real>
+double PackedScene<Real>::rays_for_light_buffer() const
+{
+    const bool looked_for = sizeof(Real) == sizeof(float) && view_.wide != nullptr &&
+                            !view_.tree.empty() && tree_.holds_spheres_alone();
+    return looked_for ? light_buffer_rays * static_cast<double>(tree_.block_count())
+                      : std::numeric_limits<double>::infinity();
+}
+
+template <class Real>
+PackedLightBuffer PackedScene<Real>::light_buffer(const abi::LightRecord<Real>& light) const
+{
+    if constexpr (sizeof(Real) == sizeof(float))
+        return {light, view_.tree, tree_.block_count()};
+    else
+        return {};
+}
+
+template <class Real>
 void PackedScene<Real>::add_light_buffers(const LoweredScene& lowered, double camera_rays)
 {
     if (casters_)
         return casters_->add_light_buffers(lowered, camera_rays);
     const double spread_rays = camera_rays * (lowered.features.bounces ? 1 : spread_share_of_eye);
-    if constexpr (sizeof(Real) == sizeof(float)) {
-        const abi::BvhView<float>& tree = view_.tree;
-        if (view_.wide == nullptr || tree.empty() || !tree_.holds_spheres_alone() ||
-            view_.lighting.transparent_shadows ||
-            spread_rays < light_buffer_rays * static_cast<double>(tree_.block_count()))
+    if (view_.lighting.transparent_shadows || !(spread_rays >= rays_for_light_buffer()))
+        return;
+    light_buffers_.resize(lights_.size());
+    light_buffer_views_ = AlignedArray<abi::LightBuffer>(lights_.size());
+    tbb::parallel_for(std::size_t{0}, lights_.size(), [&](std::size_t light) {
+        if (!lights_[light].casts_shadow)
             return;
-        light_buffers_.resize(lights_.size());
-        light_buffer_views_ = AlignedArray<abi::LightBuffer>(lights_.size());
-        tbb::parallel_for(std::size_t{0}, lights_.size(), [&](std::size_t light) {
-            if (lights_[light].kind != abi::LightKind::point || !lights_[light].casts_shadow)
-                return;
-            light_buffers_[light] =
-                PackedLightBuffer(lights_[light].vector, tree, tree_.block_count());
-            light_buffer_views_[light] = light_buffers_[light].view();
-        });
-        view_.lighting.buffers = light_buffer_views_.data();
-    }
+        light_buffers_[light] = light_buffer(lights_[light]);
+        light_buffer_views_[light] = light_buffers_[light].view();
+    });
+    view_.lighting.buffers = light_buffer_views_.data();
 }
 
+template std::vector<abi::LightRecord<float>> pack_lights(const LoweredScene&);
+template std::vector<abi::LightRecord<double>> pack_lights(const LoweredScene&);
 template class PackedScene<float>;
 template class PackedScene<double>;
 

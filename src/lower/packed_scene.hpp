@@ -20,6 +20,13 @@ namespace packtrace {
 [[nodiscard]] Traversal frame_traversal(const LoweredScene& lowered, Traversal traversal,
                                         int lanes);
 
+/// The lights as kernels read them.
+template <class Real>
+[[nodiscard]] std::vector<abi::LightRecord<Real>> pack_lights(const LoweredScene& lowered);
+
+/// What casts shadows, where not all does.
+[[nodiscard]] LoweredScene shadow_casters(const LoweredScene& lowered);
+
 /// A lowered scene in the arrays and the precision the kernels read. Values are rounded once,
 /// from double, here.
 template <class Real>
@@ -42,10 +49,17 @@ public:
         return view_;
     }
 
-    /// Gives the point lights that cast shadows their own views of a hierarchy of spheres, where
-    /// shadow rays are then looked for in single precision and exact mode, if they pay for
-    /// themselves in a frame of so many camera rays.
+    /// Gives the lights that cast shadows their own views of a hierarchy of spheres, where shadow
+    /// rays are then looked for in single precision and exact mode, if they pay for themselves in a
+    /// frame of so many camera rays.
     void add_light_buffers(const LoweredScene& lowered, double camera_rays);
+
+    /// From how many rays towards a light on that share no way its view of the hierarchy pays for
+    /// itself; no number is large enough where there is none.
+    [[nodiscard]] double rays_for_light_buffer() const;
+
+    /// The view of one light, where rays_for_light_buffer() is a number.
+    [[nodiscard]] PackedLightBuffer light_buffer(const abi::LightRecord<Real>& light) const;
 
     [[nodiscard]] bool has_light_buffers() const
     {
@@ -57,8 +71,9 @@ public:
     {
         return sizeof *this + tree_.bytes() + lists_.bytes() + shapes_.bytes() +
                (wide_lists_ ? wide_lists_->bytes() : 0) + material_index_.bytes() +
-               materials_.bytes() + checkers_.bytes() + ior_.bytes() + lights_.bytes() +
-               most_light_.bytes() + light_buffer_bytes() + (casters_ ? casters_->bytes() : 0);
+               materials_.bytes() + checkers_.bytes() + ior_.bytes() +
+               lights_.capacity() * sizeof(lights_[0]) + most_light_.bytes() +
+               light_buffer_bytes() + (casters_ ? casters_->bytes() : 0);
     }
 
 private:
@@ -66,7 +81,6 @@ private:
     void pack_materials(const LoweredScene& lowered);
     void pack_ior(const LoweredScene& lowered);
     void pack_min_weight(const LoweredScene& lowered);
-    void pack_lights(const LoweredScene& lowered);
     void pack_casters(const LoweredScene& lowered);
     [[nodiscard]] std::size_t light_buffer_bytes() const;
 
@@ -79,7 +93,7 @@ private:
     AlignedArray<abi::MaterialRecord<Real>> materials_;
     AlignedArray<abi::CheckerRecord<Real>> checkers_;
     AlignedArray<Real> ior_;
-    AlignedArray<abi::LightRecord<Real>> lights_;
+    std::vector<abi::LightRecord<Real>> lights_;
     AlignedArray<abi::MostLight> most_light_;       // where some rays are not traced
     std::vector<PackedLightBuffer> light_buffers_;  // by light; none where none pays
     AlignedArray<abi::LightBuffer> light_buffer_views_;

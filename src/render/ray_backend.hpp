@@ -17,6 +17,9 @@ public:
     virtual void closest_hits(const RaysView<Real>& rays, const StartsView<Real>* starts,
                               const HitsView<Real>& hits) const = 0;
     virtual void occluded(const RaysView<Real>& rays, std::uint8_t* mask) const = 0;
+    /// `light` is the number among those of the scene that are not ambient.
+    virtual void lit(const PointsView<Real>& points, std::size_t light,
+                     std::uint8_t* mask) const = 0;
     virtual void all_hits(const RaysView<Real>& rays,
                           const typename RayScene<Real>::TakeHits& take) const = 0;
     /// As RayScene::update; `moved` are objects of the scene, each there once, without a fault.

@@ -14,6 +14,7 @@
 #include "dispatch/kernels.hpp"
 #include "lower/move_objects.hpp"
 #include "lower/packed_scene.hpp"
+#include "render/lit_scene.hpp"
 #include "render/ray_backend.hpp"
 
 namespace packtrace {
@@ -42,6 +43,14 @@ abi::RaysView<Real> piece_of(const RaysView<Real>& rays, std::size_t first, std:
     piece.t_max = rays.t_max + first;
     piece.count = static_cast<int>(std::min(rays.count - first, longest));
     return piece;
+}
+
+template <class Real>
+abi::PointsView<Real> piece_of(const PointsView<Real>& points, std::size_t first, int count)
+{
+    return {{points.point[0] + first, points.point[1] + first, points.point[2] + first},
+            points.surface == nullptr ? nullptr : points.surface + first,
+            count};
 }
 
 template <class Real>
@@ -110,11 +119,10 @@ public:
         : accuracy_(accuracy_in<Real>(options)),
           self_hits_(options.self_hits),
           traversal_(options.traversal),
-          packed_(std::make_unique<PackedScene<Real>>(lower_shapes(scene), traversal_)),
           kernels_(precision<Real>(kernels_of(choose_isa(options.isa, options.width).name))),
-          scratch_bytes_(kernels_.stream_scratch_bytes(packed_->view())),
           scratch_([this] { return AlignedArray<std::byte>::unset(scratch_bytes_); })
     {
+        pack(lower(scene, accuracy_, self_hits_), nullptr);
     }
 
     void closest_hits(const RaysView<Real>& rays, const StartsView<Real>* starts,
@@ -134,6 +142,14 @@ public:
         for (std::size_t first = 0; first < rays.count; first += longest_stream)
             kernels_.occluded(packed_->view(), piece_of(rays, first, longest_stream), mask + first,
                               scratch_.local().data());
+    }
+
+    void lit(const PointsView<Real>& points, std::size_t light, std::uint8_t* mask) const override
+    {
+        for (std::size_t first = 0; first < points.count; first += longest_stream) {
+            const auto count = static_cast<int>(std::min(points.count - first, longest_stream));
+            lit_->lit(piece_of(points, first, count), light, mask + first);
+        }
     }
 
     void all_hits(const RaysView<Real>& rays,
@@ -172,12 +188,21 @@ private:
         double built_cost = 0.0;
     };
 
-    /// Rays of a caller know no shadows.
-    [[nodiscard]] LoweredScene lower_shapes(const Scene& scene) const
+    /// Takes over a lowered scene; `keep`, if any, gets what refit() starts from.
+    void pack(LoweredScene lowered, Kept* keep)
     {
-        LoweredScene lowered = lower(scene, accuracy_, self_hits_);
-        lowered.casts_shadow.clear();
-        return lowered;
+        // Rays of a caller know no shadows.
+        std::vector<bool> casts_shadow;
+        casts_shadow.swap(lowered.casts_shadow);
+        auto packed = std::make_unique<PackedScene<Real>>(lowered, traversal_,
+                                                          keep == nullptr ? nullptr : &keep->bvh);
+        casts_shadow.swap(lowered.casts_shadow);
+        lit_ = std::make_unique<LitScene<Real>>(lowered, *packed, traversal_, kernels_);
+        packed_ = std::move(packed);
+        scratch_bytes_ = kernels_.stream_scratch_bytes(packed_->view());
+        scratch_.clear();
+        if (keep != nullptr)
+            keep->lowered = std::move(lowered);
     }
 
     /// Returns the hierarchy's cost against that when it was built, or nothing where it has to be
@@ -195,6 +220,7 @@ private:
         if (!(cost <= most_refit_cost))
             return std::nullopt;
         packed_->refit(kept->lowered, kept->bvh);
+        lit_ = std::make_unique<LitScene<Real>>(kept->lowered, *packed_, traversal_, kernels_);
         kept_ = std::move(kept);
         return cost;
     }
@@ -202,10 +228,7 @@ private:
     void rebuild(const Scene& scene)
     {
         auto kept = std::make_unique<Kept>();
-        kept->lowered = lower_shapes(scene);
-        packed_ = std::make_unique<PackedScene<Real>>(kept->lowered, traversal_, &kept->bvh);
-        scratch_bytes_ = kernels_.stream_scratch_bytes(packed_->view());
-        scratch_.clear();
+        pack(lower(scene, accuracy_, self_hits_), kept.get());
         if (kept->bvh.nodes.empty())
             return;
         kept->built_cost = surface_area_cost(kept->bvh);
@@ -215,10 +238,11 @@ private:
     Accuracy accuracy_;
     SelfHits self_hits_;
     Traversal traversal_;
-    std::unique_ptr<PackedScene<Real>> packed_;
-    std::unique_ptr<Kept> kept_;  ///< from the first update on, where there is a hierarchy
     const abi::PrecisionTable<Real>& kernels_;
-    std::size_t scratch_bytes_;
+    std::unique_ptr<PackedScene<Real>> packed_;
+    std::unique_ptr<LitScene<Real>> lit_;
+    std::unique_ptr<Kept> kept_;  ///< from the first update on, where there is a hierarchy
+    std::size_t scratch_bytes_ = 0;
     mutable tbb::enumerable_thread_specific<AlignedArray<std::byte>> scratch_;
 };
 

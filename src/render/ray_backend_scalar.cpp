@@ -30,8 +30,12 @@ struct ScalarRay {
 template <class Real>
 class ScalarBackend final : public RayBackend<Real> {
 public:
-    explicit ScalarBackend(const Scene& scene) : bodies_(scene)
+    explicit ScalarBackend(const Scene& scene) : bodies_(scene), casters_(casters_of(scene))
     {
+        for (const Light& light : scene.lights)
+            if (light.type != LightType::ambient)
+                lights_.push_back(light);
+        shadows_ = scene.shadows != ShadowKind::none;
     }
 
     void closest_hits(const RaysView<Real>& rays, const StartsView<Real>*,
@@ -58,6 +62,18 @@ public:
             mask[i] = closest(ScalarRay<Real>(rays, i)) ? 1 : 0;
     }
 
+    void lit(const PointsView<Real>& points, std::size_t light, std::uint8_t* mask) const override
+    {
+        const Light& from = lights_[light];
+        const reference::Vec3<Real> vector(from.vector);
+        const bool is_point = from.type == LightType::point;
+        for (std::size_t i = 0; i < points.count; ++i) {
+            const reference::Vec3<Real> point{points.point[0][i], points.point[1][i],
+                                              points.point[2][i]};
+            mask[i] = reaches(from, point, is_point ? vector - point : vector) ? 1 : 0;
+        }
+    }
+
     void all_hits(const RaysView<Real>& rays,
                   const typename RayScene<Real>::TakeHits& take) const override
     {
@@ -77,6 +93,7 @@ public:
     SceneUpdate update(const Scene& scene, std::span<const MovedShape>) override
     {
         bodies_ = reference::Bodies<Real>(scene);
+        casters_ = casters_of(scene);
         return {.rebuilt = true};
     }
 
@@ -90,7 +107,29 @@ private:
                                                std::nextafter(ray.t_max, -inf));
     }
 
+    [[nodiscard]] static reference::Bodies<Real> casters_of(const Scene& scene)
+    {
+        return reference::Bodies<Real>(scene, default_self_hits,
+                                       [](const Object& object) { return object.casts_shadow; });
+    }
+
+    [[nodiscard]] bool reaches(const Light& light, const reference::Vec3<Real>& point,
+                               const reference::Vec3<Real>& way) const
+    {
+        if (!shadows_ || !light.casts_shadow)
+            return true;
+        if (std::isnan(point.x) || std::isnan(point.y) || std::isnan(point.z))
+            return false;
+        const Real least = std::numeric_limits<Real>::min();
+        const Real end = light.type == LightType::point ? std::nextafter(Real(1), Real(0))
+                                                        : std::numeric_limits<Real>::max();
+        return !reference::closest_intersection(casters_, point, way, least, end);
+    }
+
     reference::Bodies<Real> bodies_;
+    reference::Bodies<Real> casters_;
+    std::vector<Light> lights_;
+    bool shadows_ = true;
 };
 
 }  // namespace

@@ -45,4 +45,12 @@ StartsView<Real> part_of(const StartsView<Real>& starts, std::size_t first)
             starts.surface + first};
 }
 
+template <class Real>
+PointsView<Real> part_of(const PointsView<Real>& points, std::size_t first, std::size_t count)
+{
+    return {{points.point[0] + first, points.point[1] + first, points.point[2] + first},
+            part_of(points.surface, first),
+            count};
+}
+
 }  // namespace packtrace

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <numeric>
+#include <stdexcept>
+#include <string>
 #include <vector>
 
 #include <packtrace/validate.hpp>
@@ -20,12 +22,18 @@ template <class Real>
 struct RayScene<Real>::State {
     explicit State(const Scene& scene) : bounded(scene)
     {
+        for (const Light& light : scene.lights)
+            lights.push_back(light.type);
     }
+
+    /// Of a light that something may be in the way of, its number among those.
+    [[nodiscard]] std::size_t place_of_light(std::size_t light) const;
 
     /// Of objects that are there, each named once.
     SceneUpdate update(const Scene& scene, const std::vector<std::int32_t>& moved);
 
     bounds::BoundedScene bounded;
+    std::vector<LightType> lights;
     std::vector<MovedShape> shapes;  ///< of the last update, kept for its memory
     std::unique_ptr<RayBackend<Real>> backend;
 };
@@ -60,6 +68,21 @@ SceneUpdate RayScene<Real>::State::update(const Scene& scene,
     const SceneUpdate done = backend->update(scene, shapes);
     bounded.replace(scene, shapes);
     return done;
+}
+
+template <class Real>
+std::size_t RayScene<Real>::State::place_of_light(std::size_t light) const
+{
+    if (light >= lights.size())
+        throw std::invalid_argument("light " + std::to_string(light) + " of " +
+                                    std::to_string(lights.size()) +
+                                    "; lights count from 0, as in Scene::lights");
+    if (lights[light] == LightType::ambient)
+        throw std::invalid_argument("light " + std::to_string(light) +
+                                    " is ambient, which nothing is in the way of; give a point or "
+                                    "directional light");
+    const auto end = lights.begin() + static_cast<std::ptrdiff_t>(light);
+    return light - static_cast<std::size_t>(std::count(lights.begin(), end, LightType::ambient));
 }
 
 template <class Real>
@@ -101,6 +124,16 @@ void RayScene<Real>::occluded(const RaysView<Real>& rays, std::uint8_t* mask,
 {
     for_watched_pieces(rays.count, watch, [&](std::size_t first, std::size_t count) {
         state_->backend->occluded(part_of(rays, first, count), mask + first);
+    });
+}
+
+template <class Real>
+void RayScene<Real>::lit(const PointsView<Real>& points, std::size_t light, std::uint8_t* mask,
+                         const QueryWatch& watch) const
+{
+    const std::size_t place = state_->place_of_light(light);
+    for_watched_pieces(points.count, watch, [&](std::size_t first, std::size_t count) {
+        state_->backend->lit(part_of(points, first, count), place, mask + first);
     });
 }
 

@@ -109,6 +109,37 @@ class TestAnswers(unittest.TestCase):
         with self.assertRaisesRegex(ValueError, 'detail="start"'):
             rays.closest(origins, directions).leave(directions)
 
+    def test_lights(self):
+        scene = hand_scene()
+        scene.lights = [pt.Light("point", 1, (0, 4, 5)), pt.Light("ambient", 1),
+                        pt.Light("directional", 1, (0, 1, 0))]
+        rays = pt.RayScene(scene)
+        # The ball's shadow on the floor: the light is 4 over its centre and 6 over the floor.
+        edge = 6 * np.tan(np.arcsin(1 / 4))
+        places = np.array([[edge - 0.01, -2, 5], [edge + 0.01, -2, 5], [0, 0.9, 5], [0, 1.1, 5],
+                           [np.nan, 0, 0]])
+        places[:, 1] += 1e-9
+        self.assertEqual(rays.lit(places, 0).tolist(), [False, True, False, True, False])
+        self.assertEqual(rays.lit(places, 2).tolist(), [True, True, False, True, False])
+        for dtype in DTYPES:
+            origins, directions = random_rays(20000, dtype)
+            hits = rays.closest(origins, directions, detail="start")
+            for light, way in ((0, np.array([0, 4, 5]) - hits.point), (2, np.array([0, 1.0, 0]))):
+                way = np.broadcast_to(way, hits.point.shape).astype(dtype)
+                lit = rays.lit(hits, light)
+                self.assertEqual(lit.shape, hits.t.shape)
+                self.assertFalse(lit[~hits.hit].any())
+                self.assertTrue(lit.any())
+                dark = rays.occluded(hits.leave(way).origin, way, 0, 1.0 - 1e-5 if light == 0 else np.inf)
+                self.assertGreater(np.mean((lit == ~dark)[hits.hit]), 0.9999)
+        for light in (1, 3, -1):
+            with self.assertRaisesRegex(ValueError, f"light {light}"):
+                rays.lit(hits, light)
+        with self.assertRaisesRegex(ValueError, 'detail="start"'):
+            rays.lit(rays.closest(origins, directions), 0)
+        with self.assertRaisesRegex(ValueError, "shape"):
+            rays.lit(np.zeros((4, 2)), 0)
+
     def test_threads_change_nothing(self):
         origins, directions = random_rays(100_000)
         answers = [pt.RayScene(hand_scene(), threads=threads).closest(origins, directions)

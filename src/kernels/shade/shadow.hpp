@@ -95,29 +95,26 @@ inline Real way_begin(const abi::SceneView<Real>& scene)
 
 /// Calls `trace(t_end, rays)` for the shadow rays of one light; those along a directional one
 /// have no end.
-template <abi::Features F, class Real, class Trace>
-inline auto with_shadow_ray(const ShadeContext<F, Real>& context, int light,
+template <class Real, class Trace>
+inline auto with_shadow_ray(const abi::SceneView<Real>& scene, const abi::LightRecord<Real>& light,
                             const LightPacket<Real>& packet, const SurfacePacket<Real>& surface,
                             const Trace& trace)
 {
-    const abi::SceneView<Real>& scene = *context.scene;
-    const abi::LightRecord<Real>& record = scene.lighting.lights.data[light];
-    if (record.kind == abi::LightKind::directional)
+    if (light.kind == abi::LightKind::directional)
         return trace(vreal<Real>(static_cast<Real>(__builtin_inf())),
                      make_rays<Real>(lit_point(scene, surface, packet.to_light, false),
                                      packet.to_light, way_begin(scene)));
     const Vec3v<Real> away =
-        lit_point(scene, surface, packet.to_light, true) - broadcast(record.vector);
+        lit_point(scene, surface, packet.to_light, true) - broadcast(light.vector);
     return trace(segment_end(scene, packet),
-                 make_rays<Real>(broadcast(record.vector), away, Real(0)));
+                 make_rays<Real>(broadcast(light.vector), away, Real(0)));
 }
 
 /// Whether the reach of shadow rays is closed (occluded.hpp).
 template <class Real>
-inline bool has_closed_reach(const abi::SceneView<Real>& scene, int light)
+inline bool has_closed_reach(const abi::SceneView<Real>& scene, const abi::LightRecord<Real>& light)
 {
-    return scene.lighting.lights.data[light].kind == abi::LightKind::directional ||
-           !(scene.rules.start_error > 0);
+    return light.kind == abi::LightKind::directional || !(scene.rules.start_error > 0);
 }
 
 /// Calls `visit(objects)` with what may be in the way of a light.
@@ -142,7 +139,7 @@ inline std::uint32_t blocked_lanes(const ShadeContext<F, Real>& context, int lig
 {
     const abi::SceneView<Real>& scene = *context.scene;
     const OwnSurface<vint<Real>> own = common_own_of(scene, surface, open);
-    const bool closed = has_closed_reach(scene, light);
+    const bool closed = has_closed_reach(scene, scene.lighting.lights.data[light]);
     return with_light_objects(context, light, [&](const auto& objects) -> std::uint32_t {
         if constexpr (F.exact) {
             const Occlusion occlusion = occluded<F>(t_end, objects, rays, own, open);
@@ -170,7 +167,7 @@ inline void visit_light_occluders(const ShadeContext<F, Real>& context, int ligh
 {
     const abi::SceneView<Real>& scene = *context.scene;
     const OwnSurface<vint<Real>> own = common_own_of(scene, surface, wanted);
-    const bool closed = has_closed_reach(scene, light);
+    const bool closed = has_closed_reach(scene, scene.lighting.lights.data[light]);
     with_light_objects(context, light, [&](const auto& objects) {
         if constexpr (F.exact) {
             const std::uint32_t unsure =
@@ -237,12 +234,12 @@ inline std::uint32_t unshadowed(const ShadeContext<F, Real>& context, int light,
     tell_live(wanted);
     tell_first(first);
     const abi::SceneView<Real>& scene = *context.scene;
-    const std::uint32_t open =
-        wanted & ~own_shadow(scene, scene.lighting.lights.data[light], packet, surface, wanted);
+    const abi::LightRecord<Real>& record = scene.lighting.lights.data[light];
+    const std::uint32_t open = wanted & ~own_shadow(scene, record, packet, surface, wanted);
     if (open == 0 || nothing_between(context, light, packet, surface, open))
         return count_lit<Real>(wanted, open);
     return count_lit<Real>(
-        wanted, open & ~with_shadow_ray(context, light, packet, surface,
+        wanted, open & ~with_shadow_ray(scene, record, packet, surface,
                                         [&](const vreal<Real>& t_end, const RayPacket<Real>& rays) {
                                             return blocked_lanes(context, light, surface, rays,
                                                                  t_end, open);
@@ -281,8 +278,8 @@ inline Vec3v<Real> transmitted(const ShadeContext<F, Real>& context, int light,
         share = select(from_bits<Real>(blocked), share * broadcast(material.transmit), share);
         return (any_channel(share) & wanted) != 0;
     };
-    const std::uint32_t by_own =
-        own_shadow(scene, scene.lighting.lights.data[light], packet, surface, wanted);
+    const abi::LightRecord<Real>& record = scene.lighting.lights.data[light];
+    const std::uint32_t by_own = own_shadow(scene, record, packet, surface, wanted);
     const auto pass_on_own = [&](std::uint32_t lanes_of) {
         for_each_distinct<Real>(
             surface.number, lanes_of, [&](lane_int<Real> number, vmask<Real> same) {
@@ -299,7 +296,7 @@ inline Vec3v<Real> transmitted(const ShadeContext<F, Real>& context, int light,
         share = select(from_bits<Real>(lanes_of), {one, one, one}, share);
         pass_on_own(by_own & lanes_of);
     };
-    with_shadow_ray(context, light, packet, surface,
+    with_shadow_ray(scene, record, packet, surface,
                     [&](const vreal<Real>& t_end, const RayPacket<Real>& rays) {
                         visit_light_occluders(context, light, surface, rays, t_end, wanted,
                                               pass_on_once, start_again);

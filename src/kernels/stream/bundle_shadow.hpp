@@ -24,7 +24,7 @@ inline void gather_shadow_rays(const ShadeContext<F, Real>& context, const HitSt
         const SurfacePacket<Real>& surface = context.surfaces[first / lanes<Real>];
         const MaterialPacket<Real>& material = materials.fetch(scene, surface, active);
         const LightPacket<Real> packet = light_at<F>(scene, record, surface, material, active);
-        with_shadow_ray(context, light, packet, surface,
+        with_shadow_ray(scene, record, packet, surface,
                         [&](const vreal<Real>& t_end, const RayPacket<Real>& rays) {
                             store_rays(bundle, first, rays);
                             HitPacket<Real> none = no_hit<Real>(Real(0));
@@ -53,7 +53,7 @@ inline void visit_shadow_occluders(const ShadeContext<F, Real>& context, int lig
 {
     const abi::SceneView<Real>& scene = *context.scene;
     const abi::SceneView<Real>& casters = casters_of(scene);
-    const bool closed = has_closed_reach(scene, light);
+    const bool closed = has_closed_reach(scene, scene.lighting.lights.data[light]);
     with_light_objects(context, light, [&](const auto& objects) {
         visit_occluders_of_bundle<F>(casters, objects, bundle, closed, occluder,
                                      light_buffer(casters, light));
@@ -82,9 +82,10 @@ inline void settle_shadow_bundle(const ShadeContext<F, Real>& context, int light
         context.counts->unsure += static_cast<unsigned>(wide.count);
         for (int i = 0; i < wide.count; ++i)
             count_unsure_shadow(wide.from[i]);
-        block_wide<F>(*casters_of(*context.scene).wide, wide,
-                      has_closed_reach(*context.scene, light),
-                      context.scene->lighting.transparent_shadows ? Occluders::all : Occluders::any,
+        const abi::SceneView<Real>& scene = *context.scene;
+        block_wide<F>(*casters_of(scene).wide, wide,
+                      has_closed_reach(scene, scene.lighting.lights.data[light]),
+                      scene.lighting.transparent_shadows ? Occluders::all : Occluders::any,
                       [&](int ray, std::int32_t surface) {
                           const int first = ray / lanes<Real> * lanes<Real>;
                           const std::uint32_t lane = 1u << (ray - first);

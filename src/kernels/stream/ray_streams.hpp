@@ -330,9 +330,11 @@ template <abi::Features F, class Objects, class Real>
     }
 }
 
-/// Blocks the rays of a bundle by what is in their way in double, where they are unsure.
+/// Blocks the rays of a bundle by what is in their way in double, where they are unsure. They end
+/// at the bundle's `t`, which is `closed` or not (RayEnd).
 template <abi::Features F>
-[[gnu::noinline]] void settle_occluded(const abi::SceneView<float>& scene, RayBundle<float>& bundle)
+[[gnu::noinline]] void settle_occluded(const abi::SceneView<float>& scene, RayBundle<float>& bundle,
+                                       bool closed)
 {
     WideBundle wide;
     for (int first = 0; first < bundle_rays; first += lanes<float>) {
@@ -343,7 +345,7 @@ template <abi::Features F>
     }
     if (wide.count == 0)
         return;
-    block_wide<F>(*scene.wide, wide, false, Occluders::any, [&](int ray, std::int32_t) {
+    block_wide<F>(*scene.wide, wide, closed, Occluders::any, [&](int ray, std::int32_t) {
         const int first = ray / lanes<float> * lanes<float>;
         finish_lanes(bundle, first, 1u << (ray - first));
         return true;
@@ -372,7 +374,7 @@ template <abi::Features F, class Real>
         wanted[cell] = bundle.active[cell];
     visit_occluders_of_bundle<F>(scene, work.nearby, bundle, false, EndsRays{});
     if constexpr (F.exact)
-        settle_occluded<F>(scene, bundle);
+        settle_occluded<F>(scene, bundle, false);
     for (int first = 0; first < count; first += lanes<Real>) {
         const std::uint32_t before = wanted[first / cell_rays] >> first % cell_rays;
         store_mask<Real>(mask + begin + first, before & ~active_lanes(bundle, first),

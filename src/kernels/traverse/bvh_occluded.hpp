@@ -219,7 +219,7 @@ inline constexpr float blocked_spread = 0.7f;
 inline constexpr float buffered_spread = 0.2f;
 
 /// Meets the active rays of a bundle with what blocks them in the hierarchy. Those that share no
-/// way go by the `buffer` of the light that all rays start at, if there is one.
+/// way go by the `buffer` of the light that all rays start at or run towards, if there is one.
 template <abi::Features F, class Real, class Occluder>
 [[gnu::noinline]] void visit_occluders_in_tree(const abi::BvhView<Real>& tree,
                                                const abi::LightBuffer* buffer,
@@ -230,12 +230,15 @@ template <abi::Features F, class Real, class Occluder>
     CellBounds bounds;
     const float share = F.exact && buffer != nullptr ? buffered_spread : blocked_spread;
     bound_cells(bounds, bundle, tree, share * tree.spread);
-    const std::uint32_t others = active_cells(bundle) & ~bounds.coherent;
+    std::uint32_t others = active_cells(bundle) & ~bounds.coherent;
     if (bounds.coherent != 0)
         occluders_of_cells<F>(tree, bundle, bounds, closed, occluder);
     if constexpr (F.exact)
-        if (buffer != nullptr)
-            return occluders_in_light_buffer(*buffer, *tree.shapes, bundle, others, occluder);
+        if (buffer != nullptr && others != 0) {
+            const std::uint32_t beyond = cells_beyond(*buffer, bundle, others);
+            occluders_in_light_buffer(*buffer, *tree.shapes, bundle, others & ~beyond, occluder);
+            others = beyond;
+        }
     if (others != 0)
         occluders_of_others<F>(tree, bundle, others, closed, occluder);
 }

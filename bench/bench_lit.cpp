@@ -1,0 +1,230 @@
+// Points that lights reach: RayScene::lit() against occluded() with rays to the light, for points
+// that camera rays hit and for those that their mirrored rays hit, which share no way to the light.
+#include <benchmark/benchmark.h>
+
+#include <array>
+#include <cmath>
+#include <cstdint>
+#include <limits>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include <packtrace/camera.hpp>
+#include <packtrace/generate.hpp>
+#include <packtrace/intersect.hpp>
+
+#include <glm/geometric.hpp>
+
+#include "names.hpp"
+#include "register.hpp"
+#include "scenes.hpp"
+
+namespace packtrace::bench {
+namespace {
+
+constexpr int edge = 512;
+
+/// So many have a light's own view built in all scenes here.
+constexpr std::size_t enough_points = 2'000'000;
+
+using Columns = std::array<std::vector<float>, 8>;
+
+RaysView<float> view(const Columns& c)
+{
+    return {c[0].data(), c[1].data(), c[2].data(), c[3].data(), c[4].data(),
+            c[5].data(), c[6].data(), c[7].data(), c[0].size()};
+}
+
+void add(Columns& rays, const Vec3& org, const Vec3& dir, float t_max)
+{
+    for (int axis = 0; axis < 3; ++axis) {
+        rays[static_cast<std::size_t>(axis)].push_back(static_cast<float>(org[axis]));
+        rays[static_cast<std::size_t>(axis) + 3].push_back(static_cast<float>(dir[axis]));
+    }
+    rays[6].push_back(0.0f);
+    rays[7].push_back(t_max);
+}
+
+/// What rays hit; misses are left out.
+struct Points {
+    std::array<std::vector<float>, 3> point, normal, outer;
+    std::vector<std::int32_t> surface;
+    std::vector<Vec3> dir;  ///< of the rays
+
+    [[nodiscard]] std::size_t size() const
+    {
+        return surface.size();
+    }
+    [[nodiscard]] PointsView<float> points() const
+    {
+        return {{point[0].data(), point[1].data(), point[2].data()}, surface.data(), size()};
+    }
+};
+
+Vec3 at(const std::array<std::vector<float>, 3>& columns, std::size_t i)
+{
+    return {columns[0][i], columns[1][i], columns[2][i]};
+}
+
+Points points_of(const RayScene<float>& scene, const Columns& rays)
+{
+    const std::size_t count = rays[0].size();
+    std::array<std::vector<float>, 13> found;
+    for (auto& column : found)
+        column.resize(count);
+    std::vector<std::int32_t> object(count);
+    std::vector<std::int32_t> surface(count);
+    HitsView<float> hits{found[0].data(), object.data(), found[1].data(), found[2].data(),
+                         found[3].data()};
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+        hits.point[axis] = found[4 + axis].data();
+        hits.outer_start[axis] = found[7 + axis].data();
+        hits.inner_start[axis] = found[10 + axis].data();
+    }
+    hits.surface = surface.data();
+    scene.closest_hits(view(rays), hits);
+    Points points;
+    for (std::size_t i = 0; i < count; ++i) {
+        if (object[i] < 0)
+            continue;
+        for (std::size_t axis = 0; axis < 3; ++axis) {
+            points.normal[axis].push_back(found[1 + axis][i]);
+            points.point[axis].push_back(found[4 + axis][i]);
+            points.outer[axis].push_back(found[7 + axis][i]);
+        }
+        points.surface.push_back(surface[i]);
+        points.dir.push_back({rays[3][i], rays[4][i], rays[5][i]});
+    }
+    return points;
+}
+
+Columns camera_rays(const Scene& scene)
+{
+    const CameraBasis basis = camera_basis(scene.camera, edge, edge);
+    Columns rays;
+    for (int row = 0; row < edge; ++row)
+        for (int column = 0; column < edge; ++column)
+            add(rays, basis.origin,
+                basis.forward + (column + 0.5 - edge / 2) * basis.right +
+                    (edge / 2 - row - 0.5) * basis.up,
+                std::numeric_limits<float>::infinity());
+    return rays;
+}
+
+Columns mirrored_rays(const Points& points)
+{
+    Columns rays;
+    for (std::size_t i = 0; i < points.size(); ++i) {
+        const Vec3 normal = at(points.normal, i);
+        add(rays, at(points.outer, i), points.dir[i] - 2 * glm::dot(points.dir[i], normal) * normal,
+            std::numeric_limits<float>::infinity());
+    }
+    return rays;
+}
+
+/// Points that one light may reach, by their surface's side.
+struct Asked {
+    std::unique_ptr<RayScene<float>> scene;
+    std::array<std::vector<float>, 3> point;
+    std::vector<std::int32_t> surface;
+    Columns shadow_rays;
+    std::size_t light = 0;
+    std::vector<std::uint8_t> mask;
+
+    [[nodiscard]] PointsView<float> points() const
+    {
+        return {
+            {point[0].data(), point[1].data(), point[2].data()}, surface.data(), surface.size()};
+    }
+};
+
+Asked ask(const Scene& scene, std::size_t light, bool mirrored)
+{
+    Asked asked;
+    asked.scene = std::make_unique<RayScene<float>>(scene);
+    asked.light = light;
+    Points points = points_of(*asked.scene, camera_rays(scene));
+    if (mirrored)
+        points = points_of(*asked.scene, mirrored_rays(points));
+    const Light& from = scene.lights[light];
+    const bool endless = from.type == LightType::directional;
+    for (std::size_t i = 0; i < points.size(); ++i) {
+        const Vec3 way = endless ? from.vector : from.vector - at(points.point, i);
+        if (glm::dot(way, at(points.normal, i)) <= 0)
+            continue;
+        for (std::size_t axis = 0; axis < 3; ++axis)
+            asked.point[axis].push_back(points.point[axis][i]);
+        asked.surface.push_back(points.surface[i]);
+        // From the light, where rays share their origin: so they are quickest.
+        const Vec3 start = at(points.outer, i);
+        if (endless)
+            add(asked.shadow_rays, start, from.vector, std::numeric_limits<float>::infinity());
+        else
+            add(asked.shadow_rays, from.vector, start - from.vector, 1.0f - 1e-5f);
+    }
+    asked.mask.resize(asked.surface.size());
+    return asked;
+}
+
+Scene shapes_of(const std::string& name)
+{
+    if (name == "four_spheres")
+        return test::four_spheres(edge, edge);
+    if (name.starts_with("flake"))
+        return generate_sphereflake({.depth = std::stoi(name.substr(5))});
+    const int count = std::stoi(name.substr(6));
+    return generate_random_spheres({.count = count, .radius = 0.3 / std::cbrt(count)});
+}
+
+Scene lit_scene(const std::string& name)
+{
+    Scene scene = shapes_of(name);
+    scene.lights = {{LightType::point, Rgb(0.6), {4, 6, -4}},
+                    {LightType::directional, Rgb(0.2), {4, 6, -4}}};
+    return scene;
+}
+
+void run(benchmark::State& state, const std::string& name, std::size_t light, bool mirrored,
+         bool by_lit)
+{
+    Asked asked = ask(lit_scene(name), light, mirrored);
+    // A light's own view is built when enough points were asked about: here before time counts.
+    for (std::size_t points = 0; by_lit && points < enough_points; points += asked.mask.size())
+        asked.scene->lit(asked.points(), light, asked.mask.data());
+    for (auto _ : state) {
+        if (by_lit)
+            asked.scene->lit(asked.points(), light, asked.mask.data());
+        else
+            asked.scene->occluded(view(asked.shadow_rays), asked.mask.data());
+        benchmark::DoNotOptimize(asked.mask.data());
+    }
+    std::int64_t reached = 0;
+    for (const std::uint8_t bit : asked.mask)
+        reached += by_lit ? bit : 1 - bit;
+    state.SetItemsProcessed(state.iterations() * static_cast<std::int64_t>(asked.mask.size()));
+    state.counters["points"] = static_cast<double>(asked.mask.size());
+    state.counters["lit"] = static_cast<double>(reached);
+}
+
+}  // namespace
+
+void register_lit()
+{
+    for (const char* scene : {"four_spheres", "flake4", "flake5", "random10000", "random100000"})
+        for (const bool mirrored : {false, true})
+            for (const std::size_t light : {std::size_t{0}, std::size_t{1}})
+                for (const bool by_lit : {true, false})
+                    benchmark::RegisterBenchmark(
+                        benchmark_name({"lit", scene, light == 0 ? "point" : "directional",
+                                        mirrored ? "mirrored" : "camera",
+                                        by_lit ? "lit" : "occluded"})
+                            .c_str(),
+                        [=, name = std::string(scene)](benchmark::State& state) {
+                            run(state, name, light, mirrored, by_lit);
+                        })
+                        ->UseRealTime()
+                        ->Unit(benchmark::kMillisecond);
+}
+
+}  // namespace packtrace::bench

@@ -1,0 +1,176 @@
+#pragma once
+
+#include "kernels/shade/shadow.hpp"
+#include "kernels/stream/ray_streams.hpp"
+
+// Which of a caller's points a light reaches: the shadow rays of frames, for points from outside.
+namespace packtrace::PACKTRACE_ISA {
+namespace {
+
+/// What is prepared for one call.
+template <abi::Features F, class Real>
+struct LitWork {
+    FromPoint<F, Real> from_light;
+    FromAnywhere<F, Real> from_points;  ///< in its place for light from a direction
+    RayBundle<Real>* bundle = nullptr;
+    std::size_t bytes = 0;
+
+    /// With no `scratch`, only `bytes` is of use.
+    LitWork(void* scratch, const abi::SceneView<Real>& casters)
+    {
+        Arena arena(scratch);
+        from_light = take_objects<F, FromPoint<F, Real>>(arena, casters);
+        from_points = take_objects<F, FromAnywhere<F, Real>>(arena, casters);
+        bundle = arena.template take<RayBundle<Real>>(1);
+        bytes = arena.used();
+    }
+};
+
+/// The outward unit normals at points of one surface.
+template <abi::Features F, class Real>
+inline Vec3v<Real> outward_at(const abi::ShapesView& shapes, const abi::SurfaceIndex& index,
+                              const Vec3v<Real>& point, const Vec3v<Real>& to_light)
+{
+    if constexpr (F.exact)
+        return narrow(
+            surface_normal<double>(shapes, index, widen_low(point), widen_low(to_light)),
+            surface_normal<double>(shapes, index, widen_high(point), widen_high(to_light)));
+    else
+        return surface_normal<Real>(shapes, index, point, to_light);
+}
+
+/// A packet of points, and what is known of the surfaces they are on.
+template <class Real>
+struct GivenPoints {
+    SurfacePacket<Real> surface;
+    LightPacket<Real> light;
+    std::uint32_t numbers;  ///< lanes in which nothing is NaN
+    std::uint32_t on_any;   ///< lanes on a surface
+};
+
+template <abi::Features F, class Real>
+inline GivenPoints<Real> points_at(const abi::SceneView<Real>& scene,
+                                   const abi::PointsView<Real>& view,
+                                   const abi::LightRecord<Real>& light, int first)
+{
+    const int count = view.count - first;
+    const vreal<Real> zero(Real(0));
+    GivenPoints<Real> points{};
+    SurfacePacket<Real>& surface = points.surface;
+    surface.point = load_some3(view.point, first, count);
+    surface.normal = surface.lift = {zero, zero, zero};
+    surface.number = no_surface<Real>();
+    const Vec3v<Real>& at = surface.point;
+    points.numbers = bits((at.x == at.x) & (at.y == at.y) & (at.z == at.z));
+    Vec3v<Real>& to_light = points.light.to_light;
+    to_light = broadcast(light.vector);
+    if (light.kind == abi::LightKind::point)
+        to_light = to_light - at;
+    points.light.inverse_length = vreal<Real>(Real(1)) / sqrt(dot(to_light, to_light));
+    if (view.surface == nullptr || !(scene.rules.start_error > 0))
+        return points;
+
+    surface.number = load_numbers<Real>(view.surface + first, count);
+    points.on_any =
+        first_lanes<Real>(count) & ~bits(int_less(surface.number, vint<Real>(lane_int<Real>(0))));
+    for_each_distinct<Real>(
+        surface.number, points.on_any, [&](lane_int<Real> number, const vmask<Real>& same) {
+            const Vec3v<Real> outward =
+                outward_at<F>(scene.shapes, scene.shapes.index[number], at, to_light);
+            surface.normal =
+                select(from_bits<Real>(bits(same) & points.on_any), outward, surface.normal);
+        });
+    surface.lift = origin_offset<Real>(scene.rules.start_error, at, surface.normal);
+    return points;
+}
+
+/// Fills a bundle with the rays between the points from `begin` on and a light, but for those that
+/// their own body keeps from it.
+template <abi::Features F, class Real>
+inline void gather_ways(const abi::SceneView<Real>& scene, const abi::PointsView<Real>& view,
+                        const abi::LightRecord<Real>& light, int begin, int count,
+                        RayBundle<Real>& bundle)
+{
+    for (int first = 0; first < count; first += lanes<Real>) {
+        const GivenPoints<Real> points = points_at<F>(scene, view, light, begin + first);
+        const std::uint32_t by_own = points.on_any == 0 ? 0
+                                                        : own_shadow(scene, light, points.light,
+                                                                     points.surface, points.on_any);
+        const std::uint32_t open = first_lanes<Real>(count - first) & points.numbers & ~by_own;
+        with_shadow_ray(scene, light, points.light, points.surface,
+                        [&](const vreal<Real>& t_end, const RayPacket<Real>& rays) {
+                            HitPacket<Real> none = no_hit<Real>(Real(0));
+                            none.t = t_end;
+                            store_rays(bundle, first, rays);
+                            start_rays<F>(bundle, first, none, points.surface.number, open);
+                        });
+    }
+    end_bundle(bundle, count);
+}
+
+/// Prepares the lists for all rays from a light, wherever they go.
+template <abi::Features F, class Real>
+inline void find_from_light(LitWork<F, Real>& work, const abi::SceneView<Real>& casters,
+                            const abi::LightRecord<Real>& light)
+{
+    Cone<Real> anywhere;
+    for (int axis = 0; axis < 3; ++axis)
+        anywhere.base[axis] = light.vector[axis];
+    find_objects<F>(work.from_light, anywhere, casters);
+}
+
+/// Prepares the lists for the rays of a bundle, which start at points.
+template <abi::Features F, class Real>
+inline void find_from_points(LitWork<F, Real>& work, const abi::SceneView<Real>& casters, int count)
+{
+    if constexpr (F.exact) {
+        const RayBundle<Real>& bundle = *work.bundle;
+        const float* const org[3] = {bundle.org[0], bundle.org[1], bundle.org[2]};
+        find_objects<F>(work.from_points, origins_of(org, count), casters);
+    } else {
+        work.from_points.scene = &casters;
+    }
+}
+
+/// Ends the rays of a bundle that anything keeps from a light.
+template <abi::Features F, class Objects, class Real>
+[[gnu::noinline]] void block_ways(const abi::SceneView<Real>& casters, const Objects& objects,
+                                  RayBundle<Real>& bundle, bool closed,
+                                  const abi::LightBuffer* buffer)
+{
+    visit_occluders_of_bundle<F>(casters, objects, bundle, closed, EndsRays{}, buffer);
+    if constexpr (F.exact)
+        settle_occluded<F>(casters, bundle, closed);
+}
+
+/// mask[i] becomes 1 where nothing that casts a shadow is between point i and a light. Points on
+/// surfaces are looked for as frames have it: their own body by its equation, and others a little
+/// off it.
+template <abi::Features F, class Real>
+inline void lit_points(const abi::SceneView<Real>& scene, const abi::PointsView<Real>& view,
+                       const abi::LightRecord<Real>& light, const abi::LightBuffer* buffer,
+                       std::uint8_t* mask, void* scratch)
+{
+    const abi::SceneView<Real>& casters = casters_of(scene);
+    LitWork<F, Real> work(scratch, casters);
+    RayBundle<Real>& bundle = *work.bundle;
+    const bool closed = has_closed_reach(scene, light);
+    const bool from_point = light.kind == abi::LightKind::point;
+    if (from_point)
+        find_from_light(work, casters, light);
+    for (int begin = 0; begin < view.count; begin += bundle_rays) {
+        const int count = view.count - begin < bundle_rays ? view.count - begin : bundle_rays;
+        gather_ways<F>(scene, view, light, begin, count, bundle);
+        if (from_point) {
+            block_ways<F>(casters, work.from_light, bundle, closed, buffer);
+        } else {
+            find_from_points(work, casters, count);
+            block_ways<F>(casters, work.from_points, bundle, closed, buffer);
+        }
+        for (int first = 0; first < count; first += lanes<Real>)
+            store_mask<Real>(mask + begin + first, active_lanes(bundle, first), count - first);
+    }
+}
+
+}  // namespace
+}  // namespace packtrace::PACKTRACE_ISA

@@ -1,0 +1,73 @@
+#include "render/lit_scene.hpp"
+
+#include <algorithm>
+
+#include <tbb/task_arena.h>
+
+namespace packtrace {
+
+template <class Real>
+LitScene<Real>::LitScene(const LoweredScene& lowered, const PackedScene<Real>& shapes,
+                         Traversal traversal, const abi::PrecisionTable<Real>& kernels)
+    : shapes_(shapes),
+      traversal_(traversal),
+      kernels_(kernels),
+      lights_(pack_lights<Real>(lowered)),
+      buffers_(lights_.size()),
+      scratch_([this] { return AlignedArray<std::byte>::unset(scratch_bytes_); })
+{
+    if (!lowered.casts_shadow.empty() && lowered.shadows)
+        lowered_casters_ = std::make_unique<LoweredScene>(shadow_casters(lowered));
+}
+
+template <class Real>
+void LitScene<Real>::prepare()
+{
+    casters_ = &shapes_;
+    view_ = shapes_.view();
+    if (lowered_casters_ != nullptr) {
+        // No thread takes up other work that might wait for this.
+        tbb::this_task_arena::isolate([&] {
+            packed_casters_ = std::make_unique<PackedScene<Real>>(*lowered_casters_, traversal_);
+        });
+        lowered_casters_.reset();
+        casters_ = packed_casters_.get();
+        view_.casters = &packed_casters_->view();
+    }
+    scratch_bytes_ = kernels_.lit_scratch_bytes(view_);
+}
+
+template <class Real>
+const abi::LightBuffer* LitScene<Real>::buffer_of(std::size_t light, std::size_t rays)
+{
+    Buffer& buffer = buffers_[light];
+    if (!buffer.built.load(std::memory_order_acquire)) {
+        const std::size_t asked = buffer.rays.fetch_add(rays, std::memory_order_relaxed) + rays;
+        if (static_cast<double>(asked) < casters_->rays_for_light_buffer() ||
+            buffer.building.test_and_set())
+            return nullptr;
+        tbb::this_task_arena::isolate(
+            [&] { buffer.packed = casters_->light_buffer(lights_[light]); });
+        buffer.built.store(true, std::memory_order_release);
+    }
+    const abi::LightBuffer& view = buffer.packed.view();
+    return view.cells != nullptr ? &view : nullptr;
+}
+
+template <class Real>
+void LitScene<Real>::lit(const abi::PointsView<Real>& points, std::size_t light, std::uint8_t* mask)
+{
+    if (!lights_[light].casts_shadow) {
+        std::fill_n(mask, points.count, std::uint8_t{1});
+        return;
+    }
+    std::call_once(prepared_, [this] { prepare(); });
+    const auto rays = static_cast<std::size_t>(points.count);
+    kernels_.lit(view_, points, lights_[light], buffer_of(light, rays), mask,
+                 scratch_.local().data());
+}
+
+template class LitScene<float>;
+template class LitScene<double>;
+
+}  // namespace packtrace

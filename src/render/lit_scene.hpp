@@ -1,0 +1,58 @@
+#pragma once
+
+#include <atomic>
+#include <memory>
+#include <mutex>
+#include <vector>
+
+#include <tbb/enumerable_thread_specific.h>
+
+#include <packtrace/traversal.hpp>
+
+#include "core/aligned_array.hpp"
+#include "dispatch/kernels.hpp"
+#include "lower/lowered_scene.hpp"
+#include "lower/packed_scene.hpp"
+
+namespace packtrace {
+
+/// What a RayScene's lights reach. What that takes beyond the shapes themselves is made when it is
+/// first asked for. lit() may be called from several threads at once.
+template <class Real>
+class LitScene {
+public:
+    /// `shapes` is `lowered` with all of its objects, packed, and outlives this.
+    LitScene(const LoweredScene& lowered, const PackedScene<Real>& shapes, Traversal traversal,
+             const abi::PrecisionTable<Real>& kernels);
+
+    /// As RayScene::lit(); `light` counts those that are not ambient.
+    void lit(const abi::PointsView<Real>& points, std::size_t light, std::uint8_t* mask);
+
+private:
+    /// A light's own view of a hierarchy, built by the rays that it pays for itself with.
+    struct Buffer {
+        std::atomic<std::size_t> rays{0};
+        std::atomic_flag building;
+        PackedLightBuffer packed;
+        std::atomic<bool> built{false};
+    };
+
+    void prepare();
+    [[nodiscard]] const abi::LightBuffer* buffer_of(std::size_t light, std::size_t rays);
+
+    const PackedScene<Real>& shapes_;
+    Traversal traversal_;
+    const abi::PrecisionTable<Real>& kernels_;
+    std::unique_ptr<LoweredScene> lowered_casters_;  ///< where some objects cast no shadow, others
+    std::vector<abi::LightRecord<Real>> lights_;
+    std::vector<Buffer> buffers_;  ///< by light
+
+    std::once_flag prepared_;
+    std::unique_ptr<PackedScene<Real>> packed_casters_;
+    const PackedScene<Real>* casters_ = nullptr;
+    abi::SceneView<Real> view_;
+    std::size_t scratch_bytes_ = 0;
+    tbb::enumerable_thread_specific<AlignedArray<std::byte>> scratch_;
+};
+
+}  // namespace packtrace

@@ -1,0 +1,416 @@
+// Which points lights reach: RayScene::lit().
+#include <packtrace/intersect.hpp>
+
+#include <array>
+#include <cmath>
+#include <limits>
+#include <optional>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+#include <packtrace/generate.hpp>
+#include <packtrace/isa.hpp>
+#include <packtrace/read_scene.hpp>
+#include <packtrace/render.hpp>
+
+#include <glm/gtc/matrix_transform.hpp>
+
+#include "catch.hpp"
+#include "lower/packed_scene.hpp"
+#include "scenes.hpp"
+
+namespace packtrace::test {
+namespace {
+
+using Mask = std::vector<std::uint8_t>;
+
+/// Rays, what they hit, and where.
+template <class Real>
+struct Seen {
+    std::array<std::vector<Real>, 8> rays;
+    std::vector<Real> t;
+    std::array<std::vector<Real>, 3> normal, outer, inner, point;
+    std::vector<std::int32_t> object, surface;
+
+    [[nodiscard]] std::size_t count() const
+    {
+        return rays[0].size();
+    }
+    [[nodiscard]] PointsView<Real> points() const
+    {
+        return {{point[0].data(), point[1].data(), point[2].data()}, surface.data(), count()};
+    }
+};
+
+/// From around a place into a cube around another.
+template <class Real>
+Seen<Real> look(const RayScene<Real>& scene, std::size_t count, const Vec3& from, double spread,
+                const Vec3& to, double size)
+{
+    SceneRandom random(5);
+    Seen<Real> seen;
+    for (std::size_t i = 0; i < count; ++i)
+        for (int axis = 0; axis < 3; ++axis) {
+            const double org = from[axis] + random.between(-spread, spread);
+            const double target = to[axis] + random.between(-size, size);
+            seen.rays[static_cast<std::size_t>(axis)].push_back(static_cast<Real>(org));
+            seen.rays[static_cast<std::size_t>(axis) + 3].push_back(
+                static_cast<Real>(target - org));
+        }
+    seen.rays[6].assign(count, Real(0));
+    seen.rays[7].assign(count, std::numeric_limits<Real>::infinity());
+    HitsView<Real> hits;
+    seen.t.resize(count);
+    seen.object.resize(count);
+    seen.surface.resize(count);
+    hits.t = seen.t.data();
+    hits.object = seen.object.data();
+    hits.surface = seen.surface.data();
+    const auto room = [&](std::vector<Real>& column) {
+        column.resize(count);
+        return column.data();
+    };
+    hits.normal_x = room(seen.normal[0]);
+    hits.normal_y = room(seen.normal[1]);
+    hits.normal_z = room(seen.normal[2]);
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+        hits.outer_start[axis] = room(seen.outer[axis]);
+        hits.inner_start[axis] = room(seen.inner[axis]);
+        hits.point[axis] = room(seen.point[axis]);
+    }
+    const auto& r = seen.rays;
+    scene.closest_hits({r[0].data(), r[1].data(), r[2].data(), r[3].data(), r[4].data(),
+                        r[5].data(), r[6].data(), r[7].data(), count},
+                       hits);
+    return seen;
+}
+
+template <class Real>
+Mask lit(const RayScene<Real>& scene, const PointsView<Real>& points, std::size_t light = 0)
+{
+    Mask mask(points.count, 7);
+    scene.lit(points, light, mask.data());
+    return mask;
+}
+
+using Vec = std::array<long double, 3>;
+
+long double dot(const Vec& a, const Vec& b)
+{
+    return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
+}
+
+/// Whether a sphere is between a point and a light, in more digits; nothing where rounding the
+/// point might decide.
+std::optional<bool> is_between(const Sphere& ball, const Vec& point, const Vec& way, bool endless,
+                               bool own)
+{
+    const Vec center{ball.center.x, ball.center.y, ball.center.z};
+    const Vec w{point[0] - center[0], point[1] - center[1], point[2] - center[2]};
+    const long double a = dot(way, way);
+    const long double b = dot(w, way);
+    const long double r = ball.radius;
+    const long double size =
+        r + std::sqrt(dot(w, w)) + std::sqrt(dot(point, point)) + std::sqrt(dot(center, center));
+    const long double tolerance = 4e-6L * size;
+    if (own)
+        return std::abs(b) < tolerance * std::sqrt(a) ? std::optional<bool>() : b < 0;
+    const long double nearest = -b / a;
+    const long double end = endless ? std::numeric_limits<long double>::infinity() : 1.0L;
+    const long double at = std::min(std::max(nearest, 0.0L), end);
+    const Vec closest{w[0] + at * way[0], w[1] + at * way[1], w[2] + at * way[2]};
+    const Vec start = w;
+    const long double distance = std::sqrt(dot(closest, closest));
+    if (std::abs(distance - r) < tolerance ||
+        std::abs(std::sqrt(dot(start, start)) - r) < tolerance)
+        return {};
+    if (distance > r)
+        return false;
+    // The way comes into the ball: it crosses the sphere unless both ends are inside.
+    if (endless)
+        return true;
+    const Vec last{w[0] + way[0], w[1] + way[1], w[2] + way[2]};
+    const long double from_last = std::sqrt(dot(last, last));
+    if (std::abs(from_last - r) < tolerance)
+        return {};
+    return from_last > r || dot(start, start) > r * r;
+}
+
+/// The same of all spheres of a scene.
+template <class Real>
+std::optional<bool> is_lit(const Scene& scene, const Light& light, const Seen<Real>& seen,
+                           std::size_t i)
+{
+    const Vec point{seen.point[0][i], seen.point[1][i], seen.point[2][i]};
+    const bool endless = light.type == LightType::directional;
+    Vec way{};
+    for (int axis = 0; axis < 3; ++axis) {
+        const auto at = static_cast<std::size_t>(axis);
+        const long double vector = static_cast<Real>(light.vector[axis]);
+        way[at] = endless ? vector : vector - point[at];
+    }
+    bool unknown = false;
+    for (std::size_t k = 0; k < scene.objects.size(); ++k) {
+        if (!scene.objects[k].casts_shadow)
+            continue;
+        const auto between = is_between(std::get<Sphere>(scene.objects[k].surface), point, way,
+                                        endless, static_cast<std::int32_t>(k) == seen.object[i]);
+        if (between && *between)
+            return false;
+        unknown |= !between;
+    }
+    return unknown ? std::optional<bool>() : true;
+}
+
+/// Of spheres alone, answers against more digits. Most points have to be decidable.
+template <class Real>
+void check_spheres(const Scene& scene, const RenderOptions& options, const Seen<Real>& seen,
+                   const RayScene<Real>& rays)
+{
+    INFO(options.isa);
+    for (std::size_t light = 0; light < scene.lights.size(); ++light) {
+        if (scene.lights[light].type == LightType::ambient)
+            continue;
+        const Mask mask = lit(rays, seen.points(), light);
+        int wrong = 0;
+        int decided = 0;
+        int reached = 0;
+        for (std::size_t i = 0; i < seen.count(); ++i) {
+            if (seen.object[i] < 0)
+                continue;
+            const auto expected = is_lit(scene, scene.lights[light], seen, i);
+            decided += expected ? 1 : 0;
+            reached += mask[i];
+            wrong += expected && *expected != (mask[i] == 1) ? 1 : 0;
+        }
+        CAPTURE(light);
+        CHECK(wrong == 0);
+        CHECK(decided > static_cast<int>(seen.count()) / 4);
+        CHECK(reached > decided / 20);
+    }
+}
+
+/// Overlapping spheres over a large one.
+Scene crowd(int count)
+{
+    SceneRandom random(31);
+    Scene scene;
+    const Material material = scratch(Rgb(0.5), 50, 0);
+    for (int i = 0; i < count; ++i) {
+        const double x = random.between(-3, 3);
+        const double y = random.between(-3, 3);
+        const double z = random.between(3, 9);
+        add_sphere(scene, {x, y, z}, random.between(0.05, 0.6), material);
+    }
+    add_sphere(scene, {0, -5004, 0}, 5000, material);
+    scene.lights = {{LightType::point, Rgb(0.6), {6, 9, -4}},
+                    {LightType::ambient, Rgb(0.2), Vec3(0.0)},
+                    {LightType::directional, Rgb(0.2), {1, 4, -2}},
+                    {LightType::point, Rgb(0.6), {0.2, 0.1, 5.5}}};
+    return scene;
+}
+
+std::vector<RenderOptions> all_ways()
+{
+    std::vector<RenderOptions> ways;
+    for (const IsaInfo& isa : list_isas())
+        for (const Traversal traversal : {Traversal::list, Traversal::tree})
+            if (isa.supported) {
+                RenderOptions options;
+                options.isa = isa.name;
+                options.traversal = traversal;
+                ways.push_back(options);
+            }
+    return ways;
+}
+
+/// One point of the world, from elsewhere.
+Mask one_point(const RayScene<double>& scene, const Vec3& at, std::size_t light)
+{
+    const double x[] = {at.x};
+    const double y[] = {at.y};
+    const double z[] = {at.z};
+    return lit(scene, {{x, y, z}, nullptr, 1}, light);
+}
+
+}  // namespace
+
+TEST_CASE("a ball's shadow is where it is worked out by hand", "[lit]")
+{
+    const Scene scene = parse_scene(R"(
+        sphere { center = (0, 2, 0)  radius = 1 }
+        plane { point = (0, 0, 0)  normal = (0, 1, 0) }
+        light { type = point  position = (0, 4, 0)  intensity = 1 }
+        light { type = directional  direction = (0, 1, 0)  intensity = 1 }
+    )",
+                                    "ball", {});
+    RenderOptions scalar;
+    scalar.kernel = Kernel::scalar;
+    std::vector<RenderOptions> ways = all_ways();
+    ways.push_back(scalar);
+    for (const RenderOptions& options : ways) {
+        const RayScene<double> rays(scene, options);
+        // The cone from the light touches the ball at 30 degrees: its shadow ends at 4 tan 30.
+        const double edge = 4.0 / std::sqrt(3.0);
+        CHECK(one_point(rays, {edge - 1e-6, 0.0, 0}, 0) == Mask{0});
+        CHECK(one_point(rays, {edge + 1e-6, 0.0, 0}, 0) == Mask{1});
+        CHECK(one_point(rays, {0, 2.5, 0}, 0) == Mask{0});
+        CHECK(one_point(rays, {0, 3.5, 0}, 0) == Mask{1});
+        CHECK(one_point(rays, {0, -1, 5}, 0) == Mask{0});
+        CHECK(one_point(rays, {0.999999, 0.5, 0}, 1) == Mask{0});
+        CHECK(one_point(rays, {1.000001, 0.5, 0}, 1) == Mask{1});
+        CHECK(one_point(rays, {0, 7, 0}, 1) == Mask{1});
+        CHECK(one_point(rays, {std::nan(""), 7, 0}, 1) == Mask{0});
+        CHECK(one_point(rays, {5, std::nan(""), 0}, 0) == Mask{0});
+    }
+}
+
+TEST_CASE("lights reach what infinite precision lets them reach among spheres", "[lit]")
+{
+    const Scene scene = crowd(150);
+    for (RenderOptions options : all_ways()) {
+        {
+            const RayScene<double> rays(scene, options);
+            check_spheres(scene, options, look(rays, 3000, {0, 1, -6}, 2, {0, -1, 6}, 4), rays);
+        }
+        const RayScene<float> rays(scene, options);
+        const auto seen = look(rays, 3000, {0, 1, -6}, 2, {0, -1, 6}, 4);
+        check_spheres(scene, options, seen, rays);
+        options.accuracy = Accuracy::fast;
+        check_spheres(scene, options, seen, RayScene<float>(scene, options));
+    }
+}
+
+TEST_CASE("lights' own views change no answer, in as many calls as it takes", "[lit]")
+{
+    const Scene scene = crowd(300);
+    RenderOptions options;
+    options.traversal = Traversal::list;
+    const RayScene<float> by_lists(scene, options);
+    const auto seen = look(by_lists, 20000, {0, 1, -6}, 2, {0, -1, 6}, 4);
+    options.traversal = Traversal::tree;
+    const PackedScene<float> packed(lower(scene), Traversal::tree);
+    REQUIRE(packed.rays_for_light_buffer() > 1000);
+    REQUIRE(packed.rays_for_light_buffer() < 20000);
+    for (const IsaInfo& isa : list_isas()) {
+        if (!isa.supported)
+            continue;
+        INFO(isa.name);
+        options.isa = isa.name;
+        const RayScene<float> by_tree(scene, options);
+        for (const std::size_t light : std::array<std::size_t, 3>{0, 2, 3}) {
+            const Mask expected = lit(by_lists, seen.points(), light);
+            PointsView<float> few = seen.points();
+            few.count = 500;
+            CHECK(lit(by_tree, few, light) == Mask(expected.begin(), expected.begin() + 500));
+            CHECK(lit(by_tree, seen.points(), light) == expected);
+            CHECK(lit(by_tree, seen.points(), light) == expected);
+        }
+    }
+}
+
+TEST_CASE("points on every kind of surface are lit as rays that leave them see it", "[lit]")
+{
+    const Scene scene = parse_scene(R"(
+        plane { point = (0, -2, 0)  normal = (0.1, 1, 0) }
+        sphere { center = (0, 0, 6)  radius = 1.2 }
+        ellipsoid { scale = (1, 0.4, 0.7)  translate = (2, 0.5, 5) }
+        cylinder { z_range = (-1, 1)  capped = true  rotate = (1, 1, 0, 50)  translate = (-2, 0, 5) }
+        hyperboloid { z_range = (-1, 1)  scale = (0.5, 0.5, 0.8)  translate = (0, 1.5, 4) }
+        polygon { vertices = (-3, -1, 7), (3, -1, 7), (3, 3, 8), (-3, 3, 8) }
+        light { type = point  position = (3, 5, 0)  intensity = 1 }
+        light { type = directional  direction = (-1, 2, -1.5)  intensity = 1 }
+    )",
+                                    "kinds", {});
+    for (const RenderOptions& options : all_ways()) {
+        INFO(options.isa);
+        const RayScene<double> rays(scene, options);
+        const auto seen = look(rays, 4000, {0, 1, -3}, 1, {0, 0, 6}, 4);
+        for (std::size_t light = 0; light < 2; ++light) {
+            const Light& from = scene.lights[light];
+            const bool endless = from.type == LightType::directional;
+            const Mask mask = lit(rays, seen.points(), light);
+            int differ = 0;
+            int hits = 0;
+            for (std::size_t i = 0; i < seen.count(); ++i) {
+                if (seen.object[i] < 0)
+                    continue;
+                ++hits;
+                const Vec3 point(seen.point[0][i], seen.point[1][i], seen.point[2][i]);
+                const Vec3 way = endless ? from.vector : from.vector - point;
+                const bool outside = way.x * seen.normal[0][i] + way.y * seen.normal[1][i] +
+                                         way.z * seen.normal[2][i] >=
+                                     0;
+                const auto& start = outside ? seen.outer : seen.inner;
+                Ray<double> ray{{start[0][i], start[1][i], start[2][i]}, {way.x, way.y, way.z}};
+                if (!endless)
+                    ray.t_max = 1.0 - 1e-12;
+                differ += rays.occluded(ray) == (mask[i] == 0) ? 0 : 1;
+            }
+            CAPTURE(light);
+            CHECK(hits > 2000);
+            CHECK(differ == 0);
+        }
+    }
+}
+
+TEST_CASE("what casts no shadow is in no light's way", "[lit]")
+{
+    Scene scene = crowd(150);
+    for (std::size_t i = 0; i < scene.objects.size(); i += 2)
+        scene.objects[i].casts_shadow = false;
+    RenderOptions options;
+    options.traversal = Traversal::tree;
+    const RayScene<float> rays(scene, options);
+    const auto seen = look(rays, 3000, {0, 1, -6}, 2, {0, -1, 6}, 4);
+    check_spheres(scene, options, seen, rays);
+
+    for (Light& light : scene.lights)
+        light.casts_shadow = light.type == LightType::ambient;
+    CHECK(lit(RayScene<float>(scene, options), seen.points(), 0) == Mask(seen.count(), 1));
+    for (Light& light : scene.lights)
+        light.casts_shadow = true;
+    scene.shadows = ShadowKind::none;
+    CHECK(lit(RayScene<float>(scene, options), seen.points(), 2) == Mask(seen.count(), 1));
+}
+
+TEST_CASE("lights reach where objects are now", "[lit]")
+{
+    Scene scene = crowd(150);
+    scene.objects[1].casts_shadow = false;
+    RenderOptions options;
+    options.traversal = Traversal::tree;
+    RayScene<float> rays(scene, options);
+    const auto before = look(rays, 2000, {0, 1, -6}, 2, {0, -1, 6}, 4);
+    const Mask old = lit(rays, before.points(), 0);
+    for (int step = 0; step < 3; ++step) {
+        for (std::size_t i = 0; i < 150; ++i)
+            scene.objects[i].transform =
+                glm::translate(Mat4(1.0), Vec3(0.1 * step, 0.02 * step, -0.05 * step));
+        rays.update(scene);
+        const auto seen = look(rays, 2000, {0, 1, -6}, 2, {0, -1, 6}, 4);
+        const RayScene<float> anew(scene, options);
+        CHECK(lit(rays, seen.points(), 0) == lit(anew, seen.points(), 0));
+        CHECK(lit(rays, seen.points(), 2) == lit(anew, seen.points(), 2));
+        if (step > 0)
+            CHECK(lit(rays, seen.points(), 0) != old);
+    }
+}
+
+TEST_CASE("lights that nothing can be in the way of are refused", "[lit]")
+{
+    const Scene scene = crowd(3);
+    RenderOptions scalar;
+    scalar.kernel = Kernel::scalar;
+    for (const RenderOptions& options : {RenderOptions(), scalar}) {
+        const RayScene<double> rays(scene, options);
+        CHECK_THROWS_WITH(one_point(rays, {0, 0, 0}, 1),
+                          Catch::Matchers::StartsWith("light 1 is ambient"));
+        CHECK_THROWS_WITH(one_point(rays, {0, 0, 0}, 4),
+                          Catch::Matchers::StartsWith("light 4 of 4"));
+        CHECK(one_point(rays, {0, 50, 0}, 3).size() == 1);
+    }
+}
+
+}  // namespace packtrace::test
