@@ -30,8 +30,10 @@ StressRay any_ray(StressRandom& random, const Scene& scene, double step)
     };
     Vec3 aim = any_point();
     Vec3 org = random.below(2) == 0 ? scene.camera.position : any_point();
-    if (random.below(3) == 0)
-        org += glm::length(aim - org) * random.power(1e-3, 10.0) * random.unit();
+    if (random.below(3) == 0) {
+        const Vec3 direction = random.unit();
+        org += glm::length(aim - org) * random.power(1e-3, 10.0) * direction;
+    }
     if (step > 0.0) {
         aim = on_grid(aim, step);
         org = on_grid(org, step);

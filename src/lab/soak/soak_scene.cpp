@@ -108,13 +108,22 @@ Material any_material(StressRandom& random, Illumination illumination)
     return material;
 }
 
+/// A vector of any direction, `scale` to 10^5 times as long. Its numbers are drawn one after the
+/// other, as all are here: arguments of one call are evaluated in an order that each compiler
+/// chooses.
+Vec3 any_way(StressRandom& random, double scale)
+{
+    const Vec3 direction = random.unit();
+    return scale * random.power(1.0, 1e5) * direction;
+}
+
 /// Sizes of a scene's things: mostly of one order, in some scenes of any.
 class Sizes {
 public:
     explicit Sizes(StressRandom& random)
         : scale_(chance(random, 0.25) ? random.power(1e-6, 1e6) : 1.0),
           spread_(chance(random, 0.25) ? 1e4 : 6.0),
-          place_(chance(random, 0.1) ? scale_ * random.power(1.0, 1e5) * random.unit() : Vec3(0.0))
+          place_(chance(random, 0.1) ? any_way(random, scale_) : Vec3(0.0))
     {
     }
     [[nodiscard]] double length(StressRandom& random) const
@@ -170,7 +179,8 @@ Polygon any_polygon(StressRandom& random, double size)
 {
     Polygon polygon;
     const Vec3 u(size, 0.0, 0.0);
-    const Vec3 v(0.3 * size * random.between(-1.0, 1.0), size * random.power(0.1, 2.0), 0.0);
+    const double height = size * random.power(0.1, 2.0);
+    const Vec3 v(0.3 * size * random.between(-1.0, 1.0), height, 0.0);
     polygon.contours.push_back(ring(random, Vec3(0.0), u, v));
     if (chance(random, 0.4))
         polygon.contours.push_back(ring(random, Vec3(0.0), 0.4 * u, 0.4 * v));
@@ -284,7 +294,8 @@ void add_camera(StressRandom& random, const Sizes& sizes, Scene& scene)
     Camera& camera = scene.camera;
     // Some stand inside a body.
     camera.position = sizes.point(random, chance(random, 0.2) ? 1.0 : 8.0);
-    camera.rotation = look_at(camera.position, sizes.point(random, 1.5), random.unit());
+    const Vec3 up = random.unit();
+    camera.rotation = look_at(camera.position, sizes.point(random, 1.5), up);
     camera.fov = random.between(15.0, 100.0);
     camera.pixel_sample = {random.between(0.0, 1.0), random.between(0.0, 1.0)};
 }
@@ -315,10 +326,11 @@ Vec3 point_near(StressRandom& random, const Object& object)
 {
     Vec3 own(0.0);
     if (const auto* const sphere = std::get_if<Sphere>(&object.surface)) {
-        own = sphere->center + random.between(0.9, 1.02) * sphere->radius * random.unit();
+        const Vec3 direction = random.unit();
+        own = sphere->center + random.between(0.9, 1.02) * sphere->radius * direction;
     } else if (const auto* const plane = std::get_if<Plane>(&object.surface)) {
-        own = plane->point + random.between(-3.0, 3.0) * plane->u +
-              random.between(-3.0, 3.0) * plane->v;
+        const double v = random.between(-3.0, 3.0);
+        own = plane->point + random.between(-3.0, 3.0) * plane->u + v * plane->v;
     } else if (const auto* const polygon = std::get_if<Polygon>(&object.surface)) {
         const auto& corners = polygon->contours[0];
         const auto others = static_cast<int>(corners.size()) - 2;
