@@ -10,9 +10,8 @@
 
 namespace packtrace {
 
-/// Memory at a 64-byte boundary; in huge pages, where the system has any, from the size of one
-/// (2 MiB) on: the system takes its time for each page that is touched first. Throws
-/// std::bad_alloc.
+/// Memory at a 64-byte boundary; in huge pages (2 MiB), where the system has any, from a quarter of
+/// one on: the system takes its time for each page that is touched first. Throws std::bad_alloc.
 [[nodiscard]] PACKTRACE_API void* take_pages(std::size_t bytes);
 /// What take_pages() gave, or null.
 PACKTRACE_API void return_pages(void* memory);
