@@ -14,6 +14,7 @@
 
 #include "catch.hpp"
 #include "lab/soak/soak.hpp"
+#include "scenes.hpp"
 
 namespace packtrace::test {
 namespace {
@@ -77,6 +78,60 @@ TEST_CASE("A ray that only touches the sphere it starts on meets it in no query"
         CHECK(rays.closest_hit(ray).object == -1);
         CHECK_FALSE(rays.occluded(ray));
         CHECK(rays.all_hits(ray).empty());
+    }
+}
+
+TEST_CASE("Rays along planes meet them nowhere, however the planes are turned", "[coincidences]")
+{
+    struct Turned {
+        const char* normal;
+        Vec3 along;  ///< across the normal, as is `other`
+        Vec3 other;
+    };
+    const Turned turned[] = {{"(1, 1, 0)", {1, -1, 0}, {0, 0, 1}},
+                             {"(0, 1, -1)", {0, 1, 1}, {1, 0, 0}},
+                             {"(1, 1, 1)", {1, -1, 0}, {0, 1, -1}},
+                             {"(-1, 1, -1)", {1, 1, 0}, {0, 1, 1}}};
+    SceneRandom random(3);
+    for (const auto& [normal, along, other] : turned) {
+        CAPTURE(normal);
+        const Scene scene = parse_scene(
+            std::string("plane { point = (3, -2, 7)  normal = ") + normal + " }", "turned", {});
+        for (RenderOptions options : packet_ways()) {
+            // Only `exact` tells.
+            options.accuracy = Accuracy::exact;
+            const RayScene<float> single(scene, options);
+            const RayScene<double> wide(scene, options);
+            // Without fused products doubles have no more digits.
+            const bool fused = options.isa != "sse42";
+            int hits = 0;
+            for (int i = 0; i < 200; ++i) {
+                // Whole numbers that are exact in every product and sum.
+                const double a = std::round(random.between(-999, 999));
+                const double b = std::round(random.between(-999, 999));
+                const Vec3 dir = a * along + b * other;
+                const double off = i % 2 == 0 ? 0.0 : std::round(random.between(1, 99));
+                const Vec3 org = Vec3(3, -2, 7) + std::round(random.between(-99, 99)) * along -
+                                 std::round(random.between(-99, 99)) * other + Vec3(off, 0, 0);
+                if (dir == Vec3(0.0))
+                    continue;
+                Ray<float> narrow;
+                Ray<double> ray;
+                for (int axis = 0; axis < 3; ++axis) {
+                    ray.org[axis] = org[axis];
+                    ray.dir[axis] = dir[axis];
+                    narrow.org[axis] = static_cast<float>(org[axis]);
+                    narrow.dir[axis] = static_cast<float>(dir[axis]);
+                }
+                hits += single.closest_hit(narrow).object == 0 ? 1 : 0;
+                hits += wide.closest_hit(ray).object == 0 ? 1 : 0;
+                hits += single.occluded(narrow) ? 1 : 0;
+                hits += static_cast<int>(wide.all_hits(ray).size());
+            }
+            INFO(options.isa);
+            if (fused)
+                CHECK(hits == 0);
+        }
     }
 }
 

@@ -91,6 +91,20 @@ TEST_CASE("What runs along parallel light is not in its way", "[level_light]")
     }
 }
 
+TEST_CASE("A surface that runs along parallel light to infinity is no shadow of its own",
+          "[level_light]")
+{
+    // The light runs along lines of the cones that these come near to, far away.
+    for (const char* surface :
+         {"hyperboloid2 { translate = (0, 0, 0.5)  diffuse = 0.5 }",
+          "hyperboloid { scale = (0.5, 0.5, 0.5)  diffuse = 0.5 }",
+          "hyperboloid2 { rotate = (1, 0, 0, 90)  translate = (0, -2, 0)  diffuse = 0.5 }"})
+        for (const char* light : {"(0, 1, -1)", "(0, -1, -1)", "(1, 0, -1)", "(-1, 0, -1)"}) {
+            CAPTURE(surface, light);
+            check_all_packets(lit_wall(light, surface));
+        }
+}
+
 TEST_CASE("What a lit point lies on exactly is not in its way", "[level_light]")
 {
     // The middle column of pixels is at x = 0, in the plane across it.

@@ -14,6 +14,10 @@
 #include <packtrace/read_scene.hpp>
 #include <packtrace/render.hpp>
 
+#include <tbb/blocked_range.h>
+#include <tbb/global_control.h>
+#include <tbb/parallel_for.h>
+#include <tbb/task_arena.h>
 #include <glm/gtc/matrix_transform.hpp>
 
 #include "catch.hpp"
@@ -396,6 +400,35 @@ TEST_CASE("lights reach where objects are now", "[lit]")
         if (step > 0)
             CHECK(lit(rays, seen.points(), 0) != old);
     }
+}
+
+TEST_CASE("several threads may ask about lights at once", "[lit]")
+{
+    const tbb::global_control threads(tbb::global_control::max_allowed_parallelism, 3);
+    Scene scene = crowd(300);
+    for (std::size_t i = 0; i < scene.objects.size(); i += 10)
+        scene.objects[i].casts_shadow = false;
+    RenderOptions options;
+    options.traversal = Traversal::list;
+    const RayScene<float> by_lists(scene, options);
+    const auto seen = look(by_lists, 16384, {0, 1, -6}, 2, {0, -1, 6}, 4);
+    const Mask expected = lit(by_lists, seen.points());
+    options.traversal = Traversal::tree;
+    const RayScene<float> rays(scene, options);
+    // What the first calls prepare, and the light's own view in the midst of them.
+    Mask mask(seen.count(), 7);
+    tbb::task_arena(3).execute([&] {
+        tbb::parallel_for(tbb::blocked_range<std::size_t>(0, seen.count(), 512),
+                          [&](const auto& range) {
+                              PointsView<float> points = seen.points();
+                              for (auto& component : points.point)
+                                  component += range.begin();
+                              points.surface += range.begin();
+                              points.count = range.size();
+                              rays.lit(points, 0, mask.data() + range.begin());
+                          });
+    });
+    CHECK(mask == expected);
 }
 
 TEST_CASE("lights that nothing can be in the way of are refused", "[lit]")

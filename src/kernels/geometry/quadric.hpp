@@ -68,6 +68,18 @@ inline vreal<Real> quadric_discriminant(const abi::QuadricRecord<Real>& quadric,
     return madd(l + l, turn, msub(lifted, lifted, madd(vreal<Real>(quadric.constant), a, squares)));
 }
 
+/// The coefficient of t² along v in canonical space, `scaled` being v times the squares. What is no
+/// more than its own rounding is 0: the ray runs along a generator or an asymptote.
+template <class Real>
+inline vreal<Real> bend_along(const Vec3v<Real>& scaled, const Vec3v<Real>& v)
+{
+    const vreal<Real> bend = dot(scaled, v);
+    const vreal<Real> size =
+        madd(abs(scaled.x), abs(v.x), madd(abs(scaled.y), abs(v.y), abs(scaled.z) * abs(v.z)));
+    constexpr Real rounding = sizeof(Real) == sizeof(float) ? Real(0x1p-22) : Real(0x1p-51);
+    return select(abs(bend) <= vreal<Real>(rounding) * size, vreal<Real>(Real(0)), bend);
+}
+
 /// The ray p + t v in canonical space against the unclipped side, from the ray's point nearest to
 /// the centre, `start` along it: there no term is larger than it must be.
 template <class Real>
@@ -81,16 +93,10 @@ inline SideQuadratic<Real> side_quadratic(const abi::QuadricRecord<Real>& quadri
                                           const Vec3v<Real>& p, const Vec3v<Real>& v)
 {
     const Vec3v<Real> scaled = broadcast(quadric.square) * v;
-    const vreal<Real> zero(Real(0));
     const vreal<Real> start = negated(dot(p, v)) / dot(v, v);
     const Vec3v<Real> near = madd<Real>(start, v, p);
     Quadratic<Real> q;
-    q.a = dot(scaled, v);
-    // What is no more than its own rounding is 0: the ray runs along a generator or an asymptote.
-    const vreal<Real> size =
-        madd(abs(scaled.x), abs(v.x), madd(abs(scaled.y), abs(v.y), abs(scaled.z) * abs(v.z)));
-    constexpr Real rounding = sizeof(Real) == sizeof(float) ? Real(0x1p-22) : Real(0x1p-51);
-    q.a = select(abs(q.a) <= vreal<Real>(rounding) * size, zero, q.a);
+    q.a = bend_along<Real>(scaled, v);
     q.b = madd(vreal<Real>(quadric.linear), v.z, dot(scaled, near));
     q.c = quadric_value<Real>(quadric, near);
     q.discriminant = quadric_discriminant<Real>(quadric, cross(near, v), v, q.a);

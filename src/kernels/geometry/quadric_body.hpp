@@ -50,7 +50,7 @@ inline OwnCrossing crossing_from_side(const abi::QuadricRecord<double>& quadric,
     const Vec3v<double> v = apply_inverse(quadric, dir);
     const Vec3v<double> scaled = broadcast(quadric.square) * v;
     const SurfaceLine line{madd(vreal<double>(quadric.linear), v.z, dot(scaled, p)),
-                           dot(scaled, v)};
+                           bend_along<double>(scaled, v)};
     if (!quadric.clipped)
         return only_crossing(line, t_min, outside);
     const ClipCrossings<double> clip = clip_crossings<double>(quadric, height, dir);
