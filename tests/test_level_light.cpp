@@ -95,10 +95,8 @@ TEST_CASE("A surface that runs along parallel light to infinity is no shadow of 
           "[level_light]")
 {
     // The light runs along lines of the cones that these come near to, far away.
-    for (const char* surface :
-         {"hyperboloid2 { translate = (0, 0, 0.5)  diffuse = 0.5 }",
-          "hyperboloid { scale = (0.5, 0.5, 0.5)  diffuse = 0.5 }",
-          "hyperboloid2 { rotate = (1, 0, 0, 90)  translate = (0, -2, 0)  diffuse = 0.5 }"})
+    for (const char* surface : {"hyperboloid2 { translate = (0, 0, 0.5)  diffuse = 0.5 }",
+                                "hyperboloid { scale = (0.5, 0.5, 0.5)  diffuse = 0.5 }"})
         for (const char* light : {"(0, 1, -1)", "(0, -1, -1)", "(1, 0, -1)", "(-1, 0, -1)"}) {
             CAPTURE(surface, light);
             check_all_packets(lit_wall(light, surface));
