@@ -68,16 +68,16 @@ public:
     PACKTRACE_API void occluded(const RaysView<Real>& rays, std::uint8_t* mask,
                                 const QueryWatch& watch = {}) const;
 
-    /// mask[i] becomes 1 where the light of number `light` in Scene::lights reaches point i, else
-    /// 0: nothing that casts a shadow is in the way, transparent or not. Points on surfaces are
-    /// taken as pictures take them: whether their own object keeps the light from them follows from
-    /// its equation, and they are no occluders of themselves. Quicker than occluded() with rays to
-    /// the light: rays from a point light share their origin, and in a hierarchy of spheres, in
-    /// single precision with Accuracy::exact, a light asked for often gets a light buffer (Haines
-    /// and Greenberg 1986), with the same answers. A point with a NaN is not lit. Works on the
-    /// calling thread, but for what a first call prepares. With SelfHits::note, and the scalar
-    /// kernel, all points are from elsewhere. Throws std::invalid_argument where there is no such
-    /// light, or it is ambient and has no way that something could be in.
+    /// mask[i] becomes 1 where the light of number `light` in Scene::lights reaches point i, else 0:
+    /// nothing that casts a shadow is in the way, transparent or not. Points on surfaces are taken
+    /// as pictures take them: whether their own object keeps the light from them follows from its
+    /// equation, and they are no occluders of themselves. In a hierarchy of spheres, in single
+    /// precision with Accuracy::exact, a light asked for often gets a light buffer (Haines and
+    /// Greenberg 1986): then this is quicker than occluded() with rays to the light, with the same
+    /// answers. A point with a NaN is not lit. Works on the calling thread, but for what a first
+    /// call prepares. With SelfHits::note, and the scalar kernel, all points are from elsewhere.
+    /// Throws std::invalid_argument where there is no such light, or it is ambient and has no way
+    /// that something could be in.
     PACKTRACE_API void lit(const PointsView<Real>& points, std::size_t light, std::uint8_t* mask,
                            const QueryWatch& watch = {}) const;
 

@@ -183,6 +183,24 @@ inline void leave_out(CellRange& range, std::uint32_t cells)
     }
 }
 
+/// Those of `cells` whose origins are no further apart than that: rays of one direction share no
+/// way from places far apart.
+inline std::uint32_t close_cells(const CellRange (&org)[3], float furthest, std::uint32_t cells)
+{
+    std::uint32_t close = 0;
+    for (int first = 0; first < bundle_cells; first += 8) {
+        vfloat8 apart(0.0f);
+        for (int axis = 0; axis < 3; ++axis)
+            apart = max(apart, load8(org[axis].high + first) - load8(org[axis].low + first));
+        close |= less_equal8(apart, vfloat8(furthest)) << first;
+    }
+    return cells & close;
+}
+
+/// How far apart a coherent cell's origins may be, by what its directions may be apart over all of
+/// the hierarchy: results/parallel_rays.json.
+inline constexpr float origins_apart = 2.0f;
+
 /// The bounds of a bundle's active rays, to meet the boxes of a hierarchy. Cells are coherent up to
 /// `spread` (abi::BvhView).
 template <class Real>
@@ -196,9 +214,13 @@ inline void bound_cells(CellBounds& bounds, const RayBundle<Real>& bundle,
     bounds.coherent = active_cells(bundle) & coherent_cells(dir, spread);
     if (bounds.coherent == 0)
         return;
+    for (int axis = 0; axis < 3; ++axis)
+        find_cells(org[axis], bundle.org[axis], bundle);
+    bounds.coherent = close_cells(org, origins_apart * spread * tree.extent, bounds.coherent);
+    if (bounds.coherent == 0)
+        return;
     const std::uint32_t others = ~bounds.coherent & ((1u << bundle_cells) - 1u);
     for (int axis = 0; axis < 3; ++axis) {
-        find_cells(org[axis], bundle.org[axis], bundle);
         leave_out(org[axis], others);
         leave_out(dir[axis], others);
         join_cells(org[axis]);

@@ -1,0 +1,83 @@
+#!/usr/bin/env python3
+"""What rays of one direction from places far apart cost: results/parallel_rays.json.
+
+Times of frames lit from directions, of 512 x 512 pixels, and of closest hits of 200 000 rays of a caller's that
+are parallel and start anywhere, one thread, avx512, in the default mode, by turns with an earlier build.
+
+usage: results/parallel_rays.py BUILD BEFORE [REPETITIONS]
+BUILD and BEFORE are build folders with `packtrace`.
+"""
+import json
+import pathlib
+import random
+import re
+import statistics
+import subprocess
+import sys
+import tempfile
+import time
+
+from provenance import commit, commit_of_build, machine, write
+from ratios import share
+
+SCENES = {
+    "flake5": ["sphereflake", "--depth", "5"],
+    "mirrored flake4": ["sphereflake", "--depth", "4", "--reflective", "0.3", "--ground"],
+    "mirrored flake5": ["sphereflake", "--depth", "5", "--reflective", "0.3", "--ground"],
+    "random100k": ["random", "--count", "100000"],
+}
+RAYS = 200_000
+
+
+def frame(build, scene, folder):
+    command = [f"{build}/packtrace", "render", scene, "--size", "512x512", "--threads", "1", "--isa", "avx512",
+               "-o", f"{folder}/frame.pfm"]
+    done = subprocess.run(command, capture_output=True, text=True, check=True)
+    return 1e-3 * float(re.search(r"([\d.]+) ms", done.stdout + done.stderr).group(1))
+
+
+def rays(build, scene, folder):
+    """Seconds, those of reading and writing included."""
+    begin = time.perf_counter()
+    subprocess.run([f"{build}/packtrace", "intersect", scene, f"{folder}/rays.csv", "--precision", "single",
+                    "--threads", "1", "--isa", "avx512", "-o", f"{folder}/hits.csv"], capture_output=True, check=True)
+    return time.perf_counter() - begin
+
+
+def write_rays(folder):
+    draw = random.Random(1)
+    lines = [f"{draw.random():.6f},{draw.random():.6f},2,0.1,0.2,-1" for _ in range(RAYS)]
+    pathlib.Path(f"{folder}/rays.csv").write_text("ox,oy,oz,dx,dy,dz\n" + "\n".join(lines) + "\n")
+
+
+def main():
+    if len(sys.argv) not in (3, 4):
+        sys.exit(__doc__)
+    builds = {"now": sys.argv[1], "before": sys.argv[2]}
+    repetitions = int(sys.argv[3]) if len(sys.argv) == 4 else 9
+    report = {"command": "results/parallel_rays.py build/release BEFORE", "commit": commit(),
+              "before": commit_of_build(sys.argv[2]), "machine": machine(), "repetitions": repetitions, "rows": []}
+    with tempfile.TemporaryDirectory() as folder:
+        write_rays(folder)
+        scene = f"{folder}/scene.scene"
+        for name, options in SCENES.items():
+            subprocess.run([f"{sys.argv[1]}/packtrace", "generate", *options, "-o", scene], check=True)
+            text = pathlib.Path(scene).read_text()
+            pathlib.Path(scene).write_text(
+                re.sub(r"light { type=point (.*)position=", r"light { type=directional \1direction=", text))
+            for what, measured in (("frame, parallel light", frame), ("parallel rays", rays)):
+                if measured is rays and name != "random100k":
+                    continue
+                times = {build: [] for build in builds}
+                for _ in range(repetitions):
+                    for build, path in builds.items():
+                        times[build].append(measured(path, scene, folder))
+                row = {"scene": name, "what": what, "seconds": statistics.median(times["now"]),
+                       "before": statistics.median(times["before"]), "share": share(times["now"], times["before"])}
+                print(json.dumps(row))
+                report["rows"].append(row)
+    write(report | {"machine_after": machine()}, "parallel_rays.json")
+
+
+if __name__ == "__main__":
+    main()
