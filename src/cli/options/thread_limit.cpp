@@ -66,9 +66,12 @@ int possible_threads(int threads, int others)
 
 ThreadLimit::ThreadLimit(int threads, int others)
 {
+    // Never lifted, but held where who looks for leaks finds it.
+    [[maybe_unused]] static const tbb::global_control* volatile limit = nullptr;
     if (threads > 0)
-        new tbb::global_control(tbb::global_control::max_allowed_parallelism,
-                                static_cast<std::size_t>(possible_threads(threads, others)));
+        limit =
+            new tbb::global_control(tbb::global_control::max_allowed_parallelism,
+                                    static_cast<std::size_t>(possible_threads(threads, others)));
 }
 
 }  // namespace packtrace::cli
