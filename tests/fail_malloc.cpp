@@ -1,6 +1,9 @@
 // Preloaded into a program, it lets one allocation fail: the one whose number, counted from the
 // start of main(), the variable FAIL_MALLOC_AT names. With FAIL_MALLOC_AT=count none fails, and the
-// end of standard error says how many there were.
+// end of standard error says how many there were. Programs that are linked with it choose for
+// themselves, and count what they have not freed (fail_malloc.hpp).
+#include "fail_malloc.hpp"
+
 #include <dlfcn.h>
 
 #include <atomic>
@@ -15,6 +18,7 @@ void* __libc_malloc(std::size_t size);
 void* __libc_calloc(std::size_t count, std::size_t size);
 void* __libc_realloc(void* block, std::size_t size);
 void* __libc_memalign(std::size_t alignment, std::size_t size);
+void __libc_free(void* block);
 }
 
 namespace {
@@ -24,6 +28,7 @@ using StartMain = int (*)(Main, int, char**, void (*)(), void (*)(), void (*)(),
 
 constexpr long enough = 1000000000;
 std::atomic<long> left{0};
+std::atomic<long> live{0};
 Main real_main = nullptr;
 
 bool fails()
@@ -32,6 +37,13 @@ bool fails()
         return false;
     errno = ENOMEM;
     return true;
+}
+
+void* counted(void* block)
+{
+    if (block != nullptr)
+        ++live;
+    return block;
 }
 
 void print_count()
@@ -53,35 +65,59 @@ int counted_main(int count, char** words, char** environment)
 
 extern "C" {
 
+bool fail_malloc_at(long number)
+{
+    return left.exchange(number) <= 0;
+}
+
+long live_blocks()
+{
+    return live.load();
+}
+
 void* malloc(std::size_t size) noexcept
 {
-    return fails() ? nullptr : __libc_malloc(size);
+    return fails() ? nullptr : counted(__libc_malloc(size));
 }
 
 void* calloc(std::size_t count, std::size_t size) noexcept
 {
-    return fails() ? nullptr : __libc_calloc(count, size);
+    return fails() ? nullptr : counted(__libc_calloc(count, size));
 }
 
 void* realloc(void* block, std::size_t size) noexcept
 {
-    return fails() ? nullptr : __libc_realloc(block, size);
+    if (fails())
+        return nullptr;
+    void* const moved = __libc_realloc(block, size);
+    if (block == nullptr)
+        counted(moved);
+    else if (moved == nullptr && size == 0)
+        --live;
+    return moved;
 }
 
 void* aligned_alloc(std::size_t alignment, std::size_t size) noexcept
 {
-    return fails() ? nullptr : __libc_memalign(alignment, size);
+    return fails() ? nullptr : counted(__libc_memalign(alignment, size));
 }
 
 void* memalign(std::size_t alignment, std::size_t size) noexcept
 {
-    return fails() ? nullptr : __libc_memalign(alignment, size);
+    return fails() ? nullptr : counted(__libc_memalign(alignment, size));
 }
 
 int posix_memalign(void** block, std::size_t alignment, std::size_t size) noexcept
 {
-    *block = fails() ? nullptr : __libc_memalign(alignment, size);
+    *block = fails() ? nullptr : counted(__libc_memalign(alignment, size));
     return *block == nullptr ? ENOMEM : 0;
+}
+
+void free(void* block) noexcept
+{
+    if (block != nullptr)
+        --live;
+    __libc_free(block);
 }
 
 int __libc_start_main(Main main, int count, char** words, void (*init)(), void (*fini)(),

@@ -68,6 +68,16 @@ TEST_CASE("none of a render's last allocations fails a whole picture", "[no_memo
     CHECK(failed > 0);
 }
 
+// The library, used by a program that goes on after it has run out of memory.
+TEST_CASE("what runs out of memory gives back what it had taken", "[no_memory]")
+{
+    for (const std::string work : {"picture", "tree", "queries", "lights", "update"}) {
+        const ProgramResult result = run_command({PACKTRACE_LEAKS, work});
+        CAPTURE(work, result.out, result.err);
+        CHECK(result.exit_code == 0);
+    }
+}
+
 TEST_CASE("each of the first ten thousand allocations of a render may fail", "[no_memory][slow]")
 {
     const std::string expected = whole_picture();
