@@ -51,15 +51,6 @@ struct Points {
     std::array<std::vector<float>, 3> point, normal, outer;
     std::vector<std::int32_t> surface;
     std::vector<Vec3> dir;  ///< of the rays
-
-    [[nodiscard]] std::size_t size() const
-    {
-        return surface.size();
-    }
-    [[nodiscard]] PointsView<float> points() const
-    {
-        return {{point[0].data(), point[1].data(), point[2].data()}, surface.data(), size()};
-    }
 };
 
 Vec3 at(const std::array<std::vector<float>, 3>& columns, std::size_t i)
@@ -115,7 +106,7 @@ Columns camera_rays(const Scene& scene)
 Columns mirrored_rays(const Points& points)
 {
     Columns rays;
-    for (std::size_t i = 0; i < points.size(); ++i) {
+    for (std::size_t i = 0; i < points.surface.size(); ++i) {
         const Vec3 normal = at(points.normal, i);
         add(rays, at(points.outer, i), points.dir[i] - 2 * glm::dot(points.dir[i], normal) * normal,
             std::numeric_limits<float>::infinity());
@@ -129,7 +120,6 @@ struct Asked {
     std::array<std::vector<float>, 3> point;
     std::vector<std::int32_t> surface;
     Columns shadow_rays;
-    std::size_t light = 0;
     std::vector<std::uint8_t> mask;
 
     [[nodiscard]] PointsView<float> points() const
@@ -143,13 +133,12 @@ Asked ask(const Scene& scene, std::size_t light, bool mirrored)
 {
     Asked asked;
     asked.scene = std::make_unique<RayScene<float>>(scene);
-    asked.light = light;
     Points points = points_of(*asked.scene, camera_rays(scene));
     if (mirrored)
         points = points_of(*asked.scene, mirrored_rays(points));
     const Light& from = scene.lights[light];
     const bool endless = from.type == LightType::directional;
-    for (std::size_t i = 0; i < points.size(); ++i) {
+    for (std::size_t i = 0; i < points.surface.size(); ++i) {
         const Vec3 way = endless ? from.vector : from.vector - at(points.point, i);
         if (glm::dot(way, at(points.normal, i)) <= 0)
             continue;

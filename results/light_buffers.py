@@ -41,8 +41,8 @@ def make(build, scene, name):
                            path.read_text()))
 
 
-def milliseconds(build, scene, folder):
-    command = [f"{build}/packtrace", "render", scene, "--size", "1024x1024", "--threads", "1", "--isa", "avx512",
+def milliseconds(build, scene, folder, size=1024):
+    command = [f"{build}/packtrace", "render", scene, "--size", f"{size}x{size}", "--threads", "1", "--isa", "avx512",
                "-o", f"{folder}/frame.pfm"]
     done = subprocess.run(command, capture_output=True, text=True, check=True)
     return float(re.search(r"([\d.]+) ms", done.stdout + done.stderr).group(1))

@@ -10,30 +10,22 @@ BUILD and BEFORE are build folders with `packtrace`.
 import json
 import pathlib
 import random
-import re
 import statistics
 import subprocess
 import sys
 import tempfile
 import time
 
+from light_buffers import make, milliseconds
 from provenance import commit, commit_of_build, machine, write
 from ratios import share
 
-SCENES = {
-    "flake5": ["sphereflake", "--depth", "5"],
-    "mirrored flake4": ["sphereflake", "--depth", "4", "--reflective", "0.3", "--ground"],
-    "mirrored flake5": ["sphereflake", "--depth", "5", "--reflective", "0.3", "--ground"],
-    "random100k": ["random", "--count", "100000"],
-}
+SCENES = ["flake5", "mirrored flake4", "mirrored flake5", "random100k"]
 RAYS = 200_000
 
 
 def frame(build, scene, folder):
-    command = [f"{build}/packtrace", "render", scene, "--size", "512x512", "--threads", "1", "--isa", "avx512",
-               "-o", f"{folder}/frame.pfm"]
-    done = subprocess.run(command, capture_output=True, text=True, check=True)
-    return 1e-3 * float(re.search(r"([\d.]+) ms", done.stdout + done.stderr).group(1))
+    return 1e-3 * milliseconds(build, scene, folder, 512)
 
 
 def rays(build, scene, folder):
@@ -60,11 +52,8 @@ def main():
     with tempfile.TemporaryDirectory() as folder:
         write_rays(folder)
         scene = f"{folder}/scene.scene"
-        for name, options in SCENES.items():
-            subprocess.run([f"{sys.argv[1]}/packtrace", "generate", *options, "-o", scene], check=True)
-            text = pathlib.Path(scene).read_text()
-            pathlib.Path(scene).write_text(
-                re.sub(r"light { type=point (.*)position=", r"light { type=directional \1direction=", text))
+        for name in SCENES:
+            make(sys.argv[1], scene, f"{name}, parallel")
             for what, measured in (("frame, parallel light", frame), ("parallel rays", rays)):
                 if measured is rays and name != "random100k":
                     continue

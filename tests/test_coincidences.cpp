@@ -1,12 +1,9 @@
 // What lies exactly where something begins: hits in the plane of projection, rays along and on
 // surfaces.
-#include <algorithm>
 #include <cmath>
 #include <string>
-#include <vector>
 
 #include <packtrace/intersect.hpp>
-#include <packtrace/isa.hpp>
 #include <packtrace/read_scene.hpp>
 #include <packtrace/render.hpp>
 
@@ -14,36 +11,13 @@
 
 #include "catch.hpp"
 #include "lab/soak/soak.hpp"
+#include "packet_ways.hpp"
 #include "scenes.hpp"
 
 namespace packtrace::test {
 namespace {
 
-std::vector<RenderOptions> packet_ways()
-{
-    std::vector<RenderOptions> ways;
-    for (const IsaInfo& isa : list_isas())
-        for (const Traversal traversal : {Traversal::list, Traversal::tree})
-            for (const Accuracy accuracy : {Accuracy::exact, Accuracy::fast})
-                if (isa.supported) {
-                    RenderOptions options;
-                    options.isa = isa.name;
-                    options.traversal = traversal;
-                    options.accuracy = accuracy;
-                    ways.push_back(options);
-                }
-    return ways;
-}
-
-template <class Real>
-double largest_difference(const Image<Real>& image, const Image<double>& truth)
-{
-    REQUIRE(image.rgb.size() == truth.rgb.size());
-    double most = 0.0;
-    for (std::size_t i = 0; i < truth.rgb.size(); ++i)
-        most = std::max(most, std::abs(static_cast<double>(image.rgb[i]) - truth.rgb[i]));
-    return most;
-}
+constexpr Accuracy both[] = {Accuracy::exact, Accuracy::fast};
 
 }  // namespace
 
@@ -61,24 +35,26 @@ TEST_CASE("What lies in the plane of projection is seen", "[coincidences]")
     const Image<double> truth = render<double>(scene, {.kernel = Kernel::scalar});
     CHECK(truth.rgb[0] == 1.0);
     CHECK(truth.rgb[1] == 0.0);
-    for (const RenderOptions& options : packet_ways()) {
-        INFO(options.isa);
-        CHECK(largest_difference(render<double>(scene, options), truth) == 0.0);
-        CHECK(largest_difference(render<float>(scene, options), truth) == 0.0);
-    }
+    for (const Accuracy accuracy : both)
+        for (const RenderOptions& options : packet_ways(accuracy)) {
+            INFO(options.isa);
+            CHECK(largest_difference(render<double>(scene, options), truth) == 0.0);
+            CHECK(largest_difference(render<float>(scene, options), truth) == 0.0);
+        }
 }
 
 TEST_CASE("A ray that only touches the sphere it starts on meets it in no query", "[coincidences]")
 {
     const Scene scene = parse_scene("sphere { center = (0, 2, 1)  radius = 1 }", "ball", {});
     const Ray<double> ray{{-0.0, 2, 0}, {0.12511034345577374, -0.25022068691154747, 0}};
-    for (const RenderOptions& options : packet_ways()) {
-        INFO(options.isa);
-        const RayScene<double> rays(scene, options);
-        CHECK(rays.closest_hit(ray).object == -1);
-        CHECK_FALSE(rays.occluded(ray));
-        CHECK(rays.all_hits(ray).empty());
-    }
+    for (const Accuracy accuracy : both)
+        for (const RenderOptions& options : packet_ways(accuracy)) {
+            INFO(options.isa);
+            const RayScene<double> rays(scene, options);
+            CHECK(rays.closest_hit(ray).object == -1);
+            CHECK_FALSE(rays.occluded(ray));
+            CHECK(rays.all_hits(ray).empty());
+        }
 }
 
 TEST_CASE("Rays along planes meet them nowhere, however the planes are turned", "[coincidences]")
@@ -97,9 +73,8 @@ TEST_CASE("Rays along planes meet them nowhere, however the planes are turned", 
         CAPTURE(normal);
         const Scene scene = parse_scene(
             std::string("plane { point = (3, -2, 7)  normal = ") + normal + " }", "turned", {});
-        for (RenderOptions options : packet_ways()) {
-            // Only `exact` tells.
-            options.accuracy = Accuracy::exact;
+        // Only `exact` tells.
+        for (const RenderOptions& options : packet_ways()) {
             const RayScene<float> single(scene, options);
             const RayScene<double> wide(scene, options);
             // Without fused products doubles have no more digits.

@@ -22,6 +22,7 @@
 
 #include "catch.hpp"
 #include "lower/packed_scene.hpp"
+#include "packet_ways.hpp"
 #include "scenes.hpp"
 
 namespace packtrace::test {
@@ -215,20 +216,6 @@ Scene crowd(int count)
     return scene;
 }
 
-std::vector<RenderOptions> all_ways()
-{
-    std::vector<RenderOptions> ways;
-    for (const IsaInfo& isa : list_isas())
-        for (const Traversal traversal : {Traversal::list, Traversal::tree})
-            if (isa.supported) {
-                RenderOptions options;
-                options.isa = isa.name;
-                options.traversal = traversal;
-                ways.push_back(options);
-            }
-    return ways;
-}
-
 /// One point of the world, from elsewhere.
 Mask one_point(const RayScene<double>& scene, const Vec3& at, std::size_t light)
 {
@@ -251,7 +238,7 @@ TEST_CASE("a ball's shadow is where it is worked out by hand", "[lit]")
                                     "ball", {});
     RenderOptions scalar;
     scalar.kernel = Kernel::scalar;
-    std::vector<RenderOptions> ways = all_ways();
+    std::vector<RenderOptions> ways = packet_ways();
     ways.push_back(scalar);
     for (const RenderOptions& options : ways) {
         const RayScene<double> rays(scene, options);
@@ -273,7 +260,7 @@ TEST_CASE("a ball's shadow is where it is worked out by hand", "[lit]")
 TEST_CASE("lights reach what infinite precision lets them reach among spheres", "[lit]")
 {
     const Scene scene = crowd(150);
-    for (RenderOptions options : all_ways()) {
+    for (RenderOptions options : packet_ways()) {
         {
             const RayScene<double> rays(scene, options);
             check_spheres(scene, options, look(rays, 3000, {0, 1, -6}, 2, {0, -1, 6}, 4), rays);
@@ -327,7 +314,7 @@ TEST_CASE("points on every kind of surface are lit as rays that leave them see i
         light { type = directional  direction = (-1, 2, -1.5)  intensity = 1 }
     )",
                                     "kinds", {});
-    for (const RenderOptions& options : all_ways()) {
+    for (const RenderOptions& options : packet_ways()) {
         INFO(options.isa);
         const RayScene<double> rays(scene, options);
         const auto seen = look(rays, 4000, {0, 1, -3}, 1, {0, 0, 6}, 4);
@@ -377,6 +364,12 @@ TEST_CASE("what casts no shadow is in no light's way", "[lit]")
         light.casts_shadow = true;
     scene.shadows = ShadowKind::none;
     CHECK(lit(RayScene<float>(scene, options), seen.points(), 2) == Mask(seen.count(), 1));
+    for (const Kernel kernel : {Kernel::packet, Kernel::scalar}) {
+        options.kernel = kernel;
+        const RayScene<double> without(scene, options);
+        CHECK(one_point(without, {0, std::nan(""), 0}, 0) == Mask{0});
+        CHECK(one_point(without, {0, 2, 0}, 0) == Mask{1});
+    }
 }
 
 TEST_CASE("lights reach where objects are now", "[lit]")

@@ -73,21 +73,6 @@ Traversal frame_traversal(const LoweredScene& lowered, Traversal traversal, int 
     return chosen(traversal, lowered, frame_tree_objects(lanes));
 }
 
-template <class Real>
-std::vector<abi::LightRecord<Real>> pack_lights(const LoweredScene& lowered)
-{
-    std::vector<abi::LightRecord<Real>> records(lowered.lights.size());
-    for (std::size_t i = 0; i < records.size(); ++i) {
-        const Light& light = lowered.lights[i];
-        round_to(records[i].intensity, light.intensity);
-        round_to(records[i].vector, light.vector);
-        records[i].kind =
-            light.type == LightType::point ? abi::LightKind::point : abi::LightKind::directional;
-        records[i].casts_shadow = lowered.shadows && light.casts_shadow;
-    }
-    return records;
-}
-
 LoweredScene shadow_casters(const LoweredScene& lowered)
 {
     const auto& casts = lowered.casts_shadow;
@@ -104,8 +89,7 @@ template <class Real>
 PackedScene<Real>::PackedScene(const LoweredScene& lowered, Traversal traversal, Bvh* keep)
     : tree_(pack_tree<Real>(lowered, traversal, keep)),
       lists_(lowered, !tree_.view().empty()),
-      shapes_(lowered),
-      lights_(pack_lights<Real>(lowered))
+      shapes_(lowered)
 {
     tree_.set_shapes(shapes_.view());
     view_.tree = tree_.view();
@@ -115,7 +99,7 @@ PackedScene<Real>::PackedScene(const LoweredScene& lowered, Traversal traversal,
         pack_wide(lowered);
     pack_materials(lowered);
     pack_ior(lowered);
-    view_.lighting.lights = {lights_.data(), static_cast<int>(lights_.size())};
+    pack_lights(lowered);
     pack_casters(lowered);
     round_to(view_.rules.background, lowered.background);
     round_to(view_.rules.limit_color, lowered.limit_color);
@@ -211,6 +195,21 @@ void PackedScene<Real>::pack_ior(const LoweredScene& lowered)
 }
 
 template <class Real>
+void PackedScene<Real>::pack_lights(const LoweredScene& lowered)
+{
+    lights_ = AlignedArray<abi::LightRecord<Real>>(lowered.lights.size());
+    for (std::size_t i = 0; i < lowered.lights.size(); ++i) {
+        const Light& light = lowered.lights[i];
+        round_to(lights_[i].intensity, light.intensity);
+        round_to(lights_[i].vector, light.vector);
+        lights_[i].kind =
+            light.type == LightType::point ? abi::LightKind::point : abi::LightKind::directional;
+        lights_[i].casts_shadow = lowered.shadows && light.casts_shadow;
+    }
+    view_.lighting.lights = {lights_.data(), static_cast<int>(lowered.lights.size())};
+}
+
+template <class Real>
 void PackedScene<Real>::pack_casters(const LoweredScene& lowered)
 {
     if (!lowered.shadows || lowered.casts_shadow.empty())
@@ -267,8 +266,6 @@ void PackedScene<Real>::add_light_buffers(const LoweredScene& lowered, double ca
     view_.lighting.buffers = light_buffer_views_.data();
 }
 
-template std::vector<abi::LightRecord<float>> pack_lights(const LoweredScene&);
-template std::vector<abi::LightRecord<double>> pack_lights(const LoweredScene&);
 template class PackedScene<float>;
 template class PackedScene<double>;
 

@@ -20,10 +20,6 @@ namespace packtrace {
 [[nodiscard]] Traversal frame_traversal(const LoweredScene& lowered, Traversal traversal,
                                         int lanes);
 
-/// The lights as kernels read them.
-template <class Real>
-[[nodiscard]] std::vector<abi::LightRecord<Real>> pack_lights(const LoweredScene& lowered);
-
 /// What casts shadows, where not all does.
 [[nodiscard]] LoweredScene shadow_casters(const LoweredScene& lowered);
 
@@ -71,9 +67,8 @@ public:
     {
         return sizeof *this + tree_.bytes() + lists_.bytes() + shapes_.bytes() +
                (wide_lists_ ? wide_lists_->bytes() : 0) + material_index_.bytes() +
-               materials_.bytes() + checkers_.bytes() + ior_.bytes() +
-               lights_.capacity() * sizeof(lights_[0]) + most_light_.bytes() +
-               light_buffer_bytes() + (casters_ ? casters_->bytes() : 0);
+               materials_.bytes() + checkers_.bytes() + ior_.bytes() + lights_.bytes() +
+               most_light_.bytes() + light_buffer_bytes() + (casters_ ? casters_->bytes() : 0);
     }
 
 private:
@@ -81,6 +76,7 @@ private:
     void pack_materials(const LoweredScene& lowered);
     void pack_ior(const LoweredScene& lowered);
     void pack_min_weight(const LoweredScene& lowered);
+    void pack_lights(const LoweredScene& lowered);
     void pack_casters(const LoweredScene& lowered);
     [[nodiscard]] std::size_t light_buffer_bytes() const;
 
@@ -93,7 +89,7 @@ private:
     AlignedArray<abi::MaterialRecord<Real>> materials_;
     AlignedArray<abi::CheckerRecord<Real>> checkers_;
     AlignedArray<Real> ior_;
-    std::vector<abi::LightRecord<Real>> lights_;
+    AlignedArray<abi::LightRecord<Real>> lights_;
     AlignedArray<abi::MostLight> most_light_;       // where some rays are not traced
     std::vector<PackedLightBuffer> light_buffers_;  // by light; none where none pays
     AlignedArray<abi::LightBuffer> light_buffer_views_;

@@ -1,10 +1,22 @@
 #include "render/lit_scene.hpp"
 
-#include <algorithm>
+#include <cmath>
 
 #include <tbb/task_arena.h>
 
 namespace packtrace {
+namespace {
+
+/// All but what is no point.
+template <class Real>
+void light_all(const abi::PointsView<Real>& points, std::uint8_t* mask)
+{
+    for (int i = 0; i < points.count; ++i)
+        mask[i] = !std::isnan(points.point[0][i]) && !std::isnan(points.point[1][i]) &&
+                  !std::isnan(points.point[2][i]);
+}
+
+}  // namespace
 
 template <class Real>
 LitScene<Real>::LitScene(const LoweredScene& lowered, const PackedScene<Real>& shapes,
@@ -12,8 +24,7 @@ LitScene<Real>::LitScene(const LoweredScene& lowered, const PackedScene<Real>& s
     : shapes_(shapes),
       traversal_(traversal),
       kernels_(kernels),
-      lights_(pack_lights<Real>(lowered)),
-      buffers_(lights_.size()),
+      buffers_(lowered.lights.size()),
       scratch_([this] { return AlignedArray<std::byte>::unset(scratch_bytes_); })
 {
     if (!lowered.casts_shadow.empty() && lowered.shadows)
@@ -47,7 +58,7 @@ const abi::LightBuffer* LitScene<Real>::buffer_of(std::size_t light, std::size_t
             buffer.building.test_and_set())
             return nullptr;
         tbb::this_task_arena::isolate(
-            [&] { buffer.packed = casters_->light_buffer(lights_[light]); });
+            [&] { buffer.packed = casters_->light_buffer(record_of(light)); });
         buffer.built.store(true, std::memory_order_release);
     }
     const abi::LightBuffer& view = buffer.packed.view();
@@ -57,13 +68,13 @@ const abi::LightBuffer* LitScene<Real>::buffer_of(std::size_t light, std::size_t
 template <class Real>
 void LitScene<Real>::lit(const abi::PointsView<Real>& points, std::size_t light, std::uint8_t* mask)
 {
-    if (!lights_[light].casts_shadow) {
-        std::fill_n(mask, points.count, std::uint8_t{1});
+    if (!record_of(light).casts_shadow) {
+        light_all(points, mask);
         return;
     }
     std::call_once(prepared_, [this] { prepare(); });
     const auto rays = static_cast<std::size_t>(points.count);
-    kernels_.lit(view_, points, lights_[light], buffer_of(light, rays), mask,
+    kernels_.lit(view_, points, record_of(light), buffer_of(light, rays), mask,
                  scratch_.local().data());
 }
 

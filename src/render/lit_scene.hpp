@@ -38,14 +38,17 @@ private:
     };
 
     void prepare();
+    [[nodiscard]] const abi::LightRecord<Real>& record_of(std::size_t light) const
+    {
+        return shapes_.view().lighting.lights.data[light];
+    }
     [[nodiscard]] const abi::LightBuffer* buffer_of(std::size_t light, std::size_t rays);
 
     const PackedScene<Real>& shapes_;
     Traversal traversal_;
     const abi::PrecisionTable<Real>& kernels_;
     std::unique_ptr<LoweredScene> lowered_casters_;  ///< where some objects cast no shadow, others
-    std::vector<abi::LightRecord<Real>> lights_;
-    std::vector<Buffer> buffers_;  ///< by light
+    std::vector<Buffer> buffers_;                    ///< by light
 
     std::once_flag prepared_;
     std::unique_ptr<PackedScene<Real>> packed_casters_;

@@ -16,6 +16,7 @@
 #include "lower/packed_scene.hpp"
 #include "render/lit_scene.hpp"
 #include "render/ray_backend.hpp"
+#include "render/ray_parts.hpp"
 
 namespace packtrace {
 namespace {
@@ -49,7 +50,7 @@ template <class Real>
 abi::PointsView<Real> piece_of(const PointsView<Real>& points, std::size_t first, int count)
 {
     return {{points.point[0] + first, points.point[1] + first, points.point[2] + first},
-            points.surface == nullptr ? nullptr : points.surface + first,
+            part_of(points.surface, first),
             count};
 }
 

@@ -1,5 +1,7 @@
+#include <algorithm>
 #include <cmath>
 #include <limits>
+#include <optional>
 #include <vector>
 
 #include "reference/all_hits.hpp"
@@ -107,27 +109,31 @@ private:
                                                std::nextafter(ray.t_max, -inf));
     }
 
-    [[nodiscard]] static reference::Bodies<Real> casters_of(const Scene& scene)
+    /// Where some objects cast no shadow, the others.
+    [[nodiscard]] static std::optional<reference::Bodies<Real>> casters_of(const Scene& scene)
     {
-        return reference::Bodies<Real>(scene, default_self_hits,
-                                       [](const Object& object) { return object.casts_shadow; });
+        const auto casts = [](const Object& object) { return object.casts_shadow; };
+        if (std::all_of(scene.objects.begin(), scene.objects.end(), casts))
+            return std::nullopt;
+        return reference::Bodies<Real>(scene, default_self_hits, casts);
     }
 
     [[nodiscard]] bool reaches(const Light& light, const reference::Vec3<Real>& point,
                                const reference::Vec3<Real>& way) const
     {
-        if (!shadows_ || !light.casts_shadow)
-            return true;
         if (std::isnan(point.x) || std::isnan(point.y) || std::isnan(point.z))
             return false;
+        if (!shadows_ || !light.casts_shadow)
+            return true;
         const Real least = std::numeric_limits<Real>::min();
         const Real end = light.type == LightType::point ? std::nextafter(Real(1), Real(0))
                                                         : std::numeric_limits<Real>::max();
-        return !reference::closest_intersection(casters_, point, way, least, end);
+        return !reference::closest_intersection(casters_ ? *casters_ : bodies_, point, way, least,
+                                                end);
     }
 
     reference::Bodies<Real> bodies_;
-    reference::Bodies<Real> casters_;
+    std::optional<reference::Bodies<Real>> casters_;
     std::vector<Light> lights_;
     bool shadows_ = true;
 };

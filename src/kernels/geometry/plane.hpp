@@ -48,9 +48,7 @@ inline vreal<Real> dot_across(const Vec3v<Real>& n, const Vec3v<Real>& v)
 {
     const vreal<Real> rounded = dot(n, v);
     if constexpr (sizeof(Real) == sizeof(double)) {
-        const vreal<double> size =
-            madd(abs(n.x), abs(v.x), madd(abs(n.y), abs(v.y), abs(n.z) * abs(v.z)));
-        const auto cancels = abs(rounded) <= size * vreal<double>(0x1p-48);
+        const auto cancels = abs(rounded) <= magnitude_dot(n, v) * vreal<double>(0x1p-48);
         if (any(cancels))
             return select(cancels, dot_in_twice(n, v), rounded);
     }

@@ -74,10 +74,9 @@ template <class Real>
 inline vreal<Real> bend_along(const Vec3v<Real>& scaled, const Vec3v<Real>& v)
 {
     const vreal<Real> bend = dot(scaled, v);
-    const vreal<Real> size =
-        madd(abs(scaled.x), abs(v.x), madd(abs(scaled.y), abs(v.y), abs(scaled.z) * abs(v.z)));
     constexpr Real rounding = sizeof(Real) == sizeof(float) ? Real(0x1p-22) : Real(0x1p-51);
-    return select(abs(bend) <= vreal<Real>(rounding) * size, vreal<Real>(Real(0)), bend);
+    const auto none = abs(bend) <= vreal<Real>(rounding) * magnitude_dot(scaled, v);
+    return select(none, vreal<Real>(Real(0)), bend);
 }
 
 /// The ray p + t v in canonical space against the unclipped side, from the ray's point nearest to

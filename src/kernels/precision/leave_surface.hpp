@@ -165,13 +165,6 @@ inline SecondHit<Real> second_hit(const abi::ShapesView& shapes, const vint<Real
     return look_for_second_hit<Real>(shapes, surface, point, dir, t_min, outside, may_meet);
 }
 
-/// The sum of |a_i| |b_i|.
-template <class Real>
-inline vreal<Real> magnitude_dot(const Vec3v<Real>& a, const Vec3v<Real>& b)
-{
-    return madd(abs(a.x), abs(b.x), madd(abs(a.y), abs(b.y), abs(a.z) * abs(b.z)));
-}
-
 /// How much of a point's size counts in its offset where its coordinate across the surface is near
 /// 0: points that are refined in double are off by double's roundoffs then.
 template <class Real>

@@ -78,6 +78,13 @@ inline vreal<Real> dot(const Vec3v<Real>& a, const Vec3v<Real>& b)
     return madd(a.x, b.x, madd(a.y, b.y, a.z * b.z));
 }
 
+/// The sum of |a_i| |b_i|: what rounding of a·b is to be measured by.
+template <class Real>
+inline vreal<Real> magnitude_dot(const Vec3v<Real>& a, const Vec3v<Real>& b)
+{
+    return madd(abs(a.x), abs(b.x), madd(abs(a.y), abs(b.y), abs(a.z) * abs(b.z)));
+}
+
 template <class Real>
 inline Vec3v<Real> cross(const Vec3v<Real>& a, const Vec3v<Real>& b)
 {

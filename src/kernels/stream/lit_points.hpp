@@ -108,17 +108,6 @@ inline void gather_ways(const abi::SceneView<Real>& scene, const abi::PointsView
     end_bundle(bundle, count);
 }
 
-/// Prepares the lists for all rays from a light, wherever they go.
-template <abi::Features F, class Real>
-inline void find_from_light(LitWork<F, Real>& work, const abi::SceneView<Real>& casters,
-                            const abi::LightRecord<Real>& light)
-{
-    Cone<Real> anywhere;
-    for (int axis = 0; axis < 3; ++axis)
-        anywhere.base[axis] = light.vector[axis];
-    find_objects<F>(work.from_light, anywhere, casters);
-}
-
 /// Prepares the lists for the rays of a bundle, which start at points.
 template <abi::Features F, class Real>
 inline void find_from_points(LitWork<F, Real>& work, const abi::SceneView<Real>& casters, int count)
@@ -157,7 +146,7 @@ inline void lit_points(const abi::SceneView<Real>& scene, const abi::PointsView<
     const bool closed = has_closed_reach(scene, light);
     const bool from_point = light.kind == abi::LightKind::point;
     if (from_point)
-        find_from_light(work, casters, light);
+        find_from_point<F>(work.from_light, light.vector, casters);
     for (int begin = 0; begin < view.count; begin += bundle_rays) {
         const int count = view.count - begin < bundle_rays ? view.count - begin : bundle_rays;
         gather_ways<F>(scene, view, light, begin, count, bundle);

@@ -131,17 +131,6 @@ inline bool start_together(const abi::RaysView<Real>& view, int begin, int count
     return true;
 }
 
-/// Prepares the lists for rays from the origin of the ray `begin`, wherever they go.
-template <abi::Features F, class Real>
-inline void find_from_origin(StreamWork<F, Real>& work, const abi::SceneView<Real>& scene,
-                             const abi::RaysView<Real>& view, int begin)
-{
-    Cone<Real> anywhere;
-    for (int axis = 0; axis < 3; ++axis)
-        anywhere.base[axis] = view.org[axis][begin];
-    find_objects<F>(work.from_point, anywhere, scene);
-}
-
 /// Prepares the lists for a chunk of a stream.
 template <abi::Features F, class Real>
 inline void find_nearby_of(StreamWork<F, Real>& work, const abi::SceneView<Real>& scene,
@@ -150,7 +139,8 @@ inline void find_nearby_of(StreamWork<F, Real>& work, const abi::SceneView<Real>
     work.shares_origin =
         scene.tree.empty() && view.start_surface == nullptr && start_together(view, begin, count);
     if (work.shares_origin)
-        return find_from_origin(work, scene, view, begin);
+        return find_from_point<F, Real>(
+            work.from_point, {view.org[0][begin], view.org[1][begin], view.org[2][begin]}, scene);
     if constexpr (F.exact) {
         const vreal<float> never(__builtin_inff());
         const vreal<float> before = negated(never);

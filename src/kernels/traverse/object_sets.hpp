@@ -99,6 +99,17 @@ inline Cone<float> cone_of(const Origins& origins, const float* const (&dir)[3],
     return cone;
 }
 
+/// Prepares the objects for all rays from a point, wherever they go.
+template <abi::Features F, class Real>
+inline void find_from_point(FromPoint<F, Real>& objects, const Real (&point)[3],
+                            const abi::SceneView<Real>& scene)
+{
+    Cone<Real> anywhere;
+    for (int axis = 0; axis < 3; ++axis)
+        anywhere.base[axis] = point[axis];
+    find_objects<F>(objects, anywhere, scene);
+}
+
 /// Prepares the objects for a run of rays.
 template <abi::Features F, class Real>
 inline void find_nearby(FromAnywhere<F, Real>& objects, const Real* const (&org)[3],

@@ -6,6 +6,8 @@
 #include <glm/geometric.hpp>
 #include <glm/vec4.hpp>
 
+#include "lab/stress/placed_quadric.hpp"
+
 namespace packtrace::lab {
 namespace {
 
@@ -16,7 +18,7 @@ Vec3 place_of(const Object& object)
     const Vec3 own = sphere != nullptr  ? sphere->center
                      : plane != nullptr ? plane->point
                                         : Vec3(0.0);
-    return Vec3(object.transform * glm::dvec4(own, 1.0));
+    return to_world(object.transform, own);
 }
 
 double power_of_two(double value)

@@ -1,0 +1,41 @@
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+#include <packtrace/isa.hpp>
+#include <packtrace/render.hpp>
+
+#include "catch.hpp"
+
+namespace packtrace::test {
+
+/// Every instruction set of this machine, by lists and by a hierarchy, in one accuracy.
+[[nodiscard]] inline std::vector<RenderOptions> packet_ways(Accuracy accuracy = Accuracy::exact)
+{
+    std::vector<RenderOptions> ways;
+    for (const IsaInfo& isa : list_isas())
+        for (const Traversal traversal : {Traversal::list, Traversal::tree})
+            if (isa.supported) {
+                RenderOptions options;
+                options.isa = isa.name;
+                options.traversal = traversal;
+                options.accuracy = accuracy;
+                ways.push_back(options);
+            }
+    return ways;
+}
+
+/// Of any channel of any pixel.
+template <class Real>
+[[nodiscard]] double largest_difference(const Image<Real>& image, const Image<double>& truth)
+{
+    REQUIRE(image.rgb.size() == truth.rgb.size());
+    double most = 0.0;
+    for (std::size_t i = 0; i < truth.rgb.size(); ++i)
+        most = std::max(most, std::abs(static_cast<double>(image.rgb[i]) - truth.rgb[i]));
+    return most;
+}
+
+}  // namespace packtrace::test
