@@ -82,7 +82,8 @@ def peers_rates(report):
     head = ["scene", "rays", "Embree `user`", f"`{mode}` stream", "× user", "`fast` stream × user",
             f"`{mode}` tiles × user", "`fast` tiles × user", f"`{mode}` stream × sphere"]
     parts = [f"{source(report['context'])} {about_mode(mode)}"]
-    for isa in ("avx512", "avx2"):
+    raced = {t["tracer"].split()[1] for t in report["races"][0]["tracers"]}
+    for isa in (isa for isa in ("avx512", "avx2") if isa in raced):
         parts += [f"With `{isa}`:", table(head, [a + b for a, b in peers_rows(report, isa)], 2)]
     return "\n\n".join(parts)
 
@@ -348,6 +349,8 @@ TABLES = {
     "results/peers.json: rates": peers_rates,
     "results/peers.json: builds": peers_builds,
     "results/peers_frames.json: frames": peers_frames,
+    "results/peers_avx2.json: rates": peers_rates,
+    "results/peers_frames_avx2.json: frames": peers_frames,
     "results/exact_cost.json: tables": exact_cost,
     "results/exact_cost.json: ranges": exact_cost_ranges,
     "results/lone_rays.json: table": lone_rays,
