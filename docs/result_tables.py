@@ -343,12 +343,74 @@ def fuzz(report):
     return head + runs + found("fuzzer", findings)
 
 
+# Instructions and cycles of kernels: instructions.json, roofline.json
+
+# Vectors of 8 floats: what Zen 3 begins in a cycle at most, from AMD's "Software Optimization Guide
+# for AMD EPYC 7003": instructions in all, and products, fused or not.
+DISPATCHED = 6
+PRODUCTS = 2
+ARITHMETIC = ("single", "double", "conversion", "division, root")
+
+
+def instruction_table(report):
+    head = ["scene", "function", "instructions now", "before"]
+    rows = []
+    for row in report["rows"]:
+        now, before = row["now"]["functions"], row["before"]["functions"]
+        rows.append([row["scene"], "all", f"{row['now']['instructions']:.0f}",
+                     f"{row['before']['instructions']:.0f}"])
+        names = sorted({*now, *before}, key=lambda name: -max(
+            counts.get(name, {"instructions": 0})["instructions"] for counts in (now, before)))
+        rows += [["", f"`{name}`", *(f"{counts[name]['instructions']:.0f}" if name in counts else "–"
+                                     for counts in (now, before))]
+                 for name in names[:8]]
+    return (f"Commit {report['commit']}; before is {report['before']}. `{report['isa']}`, for "
+            f"{report['pixels']} pixels.\n\n" + table(head, rows, 2))
+
+
+def share_of(kinds, names):
+    return sum(kinds.get(name, 0) for name in names) / sum(kinds.values())
+
+
+def roofline_row(scene, name, cycles, instructions, kinds):
+    arithmetic = sum(kinds.get(kind, 0) for kind in ARITHMETIC)
+    return [scene, name, f"{instructions:.0f}", f"{cycles:.0f}", f"{instructions / cycles:.1f}",
+            *(f"{100 * share_of(kinds, names):.0f} %" for names in (
+                ARITHMETIC, ("compare, select", "shuffle"), ("move, spilled", "move"),
+                ("scalar", "branch"))),
+            f"{instructions / DISPATCHED:.0f}", f"{arithmetic / PRODUCTS:.0f}"]
+
+
+def roofline(report):
+    head = ["scene", "function", "instructions", "cycles", "a cycle", "arithmetic",
+            "masks, shuffles", "moves", "scalar, branches", "cycles if only begun",
+            "cycles of arithmetic"]
+    rows = []
+    for row in report["rows"]:
+        functions = row["functions"]
+        kinds = {}
+        for function in functions.values():
+            for kind, count in function["kinds"].items():
+                kinds[kind] = kinds.get(kind, 0) + count
+        rows.append(roofline_row(row["scene"], "all", row["cycles"],
+                                 sum(f["instructions"] for f in functions.values()), kinds))
+        rows += [roofline_row("", f"`{name}`", f["cycles"], f["instructions"], f["kinds"])
+                 for name, f in functions.items() if f["cycles"] > 0.03 * row["cycles"]]
+    waits = table(["scene", "branches mispredicted", "lines missed in the first-level cache"],
+                  [[row["scene"], f"{row['mispredicted']:.1f}", f"{row['missed_lines']:.0f}"]
+                   for row in report["rows"]])
+    return (f"Commit {report['commit']}, {report['machine']}, {report['gigahertz']:.2f} GHz. "
+            f"`{report['isa']}`, for {report['pixels']} pixels.\n\n{table(head, rows, 2)}\n\n{waits}")
+
+
 # The name of a block after its file, as markers give it: results/peers.json: summary.
 TABLES = {
     "results/peers.json: summary": peers_summary,
     "results/peers.json: rates": peers_rates,
     "results/peers.json: builds": peers_builds,
     "results/peers_frames.json: frames": peers_frames,
+    "results/instructions.json: functions": instruction_table,
+    "results/roofline.json: functions": roofline,
     "results/peers_avx2.json: rates": peers_rates,
     "results/peers_frames_avx2.json: frames": peers_frames,
     "results/exact_cost.json: tables": exact_cost,
