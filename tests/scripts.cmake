@@ -51,11 +51,11 @@ endif()
 
 foreach(example IN ITEMS picture first_hit million_rays animation)
     packtrace_script_test(example.${example} fast check_examples.sh ${example}
-                          $<TARGET_FILE:packtrace_example_${example}>
+                          ${CMAKE_CROSSCOMPILING_EMULATOR} $<TARGET_FILE:packtrace_example_${example}>
                           "$<$<STREQUAL:${example},animation>:3>")
 endforeach()
 packtrace_script_test(example.scalar_against_simd fast check_examples.sh scalar_against_simd
-                      env PACKTRACE=$<TARGET_FILE:packtrace_cli>
+                      env PACKTRACE=${packtrace_program}
                       ${PROJECT_SOURCE_DIR}/examples/scalar_against_simd.sh
                       ${PROJECT_SOURCE_DIR}/scenes/four_spheres.scene)
 packtrace_script_test(run_script fast check_run.sh ${PROJECT_SOURCE_DIR}/run)
@@ -105,7 +105,7 @@ if(Python3_Interpreter_FOUND)
     set_tests_properties(figures provenance PROPERTIES LABELS fast)
     if(PACKTRACE_BUILD_STUDY)
         add_test(NAME commands COMMAND ${Python3_EXECUTABLE} -B
-                 ${PROJECT_SOURCE_DIR}/docs/write_commands.py --check $<TARGET_FILE:packtrace_cli>)
+                 ${PROJECT_SOURCE_DIR}/docs/write_commands.py --check ${packtrace_program})
         set_tests_properties(commands PROPERTIES LABELS fast)
     endif()
 endif()
