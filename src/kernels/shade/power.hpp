@@ -1,5 +1,9 @@
 #pragma once
 
+#include <array>
+#include <cstddef>
+#include <utility>
+
 #include "kernels/simd/exact_product.hpp"
 #include "kernels/simd/float_bits.hpp"
 
@@ -15,41 +19,75 @@ struct TwoPart {
     vreal<Real> low;
 };
 
+/// How many terms give the two series to half a unit in Real's last place.
 template <class Real>
 struct PowerSeries;
 template <>
 struct PowerSeries<float> {
-    static constexpr int log_terms = 4;
-    static constexpr int exp_terms = 7;
+    static constexpr std::size_t log_terms = 4;
+    static constexpr std::size_t exp_terms = 8;
 };
 template <>
 struct PowerSeries<double> {
-    static constexpr int log_terms = 11;
-    static constexpr int exp_terms = 13;
+    static constexpr std::size_t log_terms = 11;
+    static constexpr std::size_t exp_terms = 14;
 };
 
 inline constexpr long double ln_2 = 0.693147180559945309417232121458176568L;
 inline constexpr long double two_over_ln_2 = 2.88539008177792681471984936200378427L;
 inline constexpr double sqrt_2 = 1.41421356237309504880;
 
-constexpr long double exp2_coefficient(int k)
+/// 2/(3 ln 2), 2/(5 ln 2), …: the coefficients of log2_tail.
+template <class Real>
+consteval auto log2_coefficients()
 {
-    long double c = 1.0L;
-    for (int i = 1; i <= k; ++i)
-        c *= ln_2 / i;
+    std::array<Real, PowerSeries<Real>::log_terms> c{};
+    for (std::size_t k = 0; k < c.size(); ++k)
+        c[k] = Real(two_over_ln_2 / static_cast<long double>(2 * k + 3));
     return c;
+}
+
+/// (ln 2)^k / k!: Taylor's coefficients of 2^f.
+template <class Real>
+consteval auto exp2_coefficients()
+{
+    std::array<Real, PowerSeries<Real>::exp_terms> c{};
+    long double next = 1.0L;
+    for (std::size_t k = 0; k < c.size(); ++k) {
+        c[k] = Real(next);
+        next *= ln_2 / static_cast<long double>(k + 1);
+    }
+    return c;
+}
+
+// As static arrays, the coefficients can't end as long doubles that are divided at run time.
+template <class Real>
+inline constexpr auto log2_series = log2_coefficients<Real>();
+template <class Real>
+inline constexpr auto exp2_series = exp2_coefficients<Real>();
+
+/// c[0] + x (c[1] + x (c[2] + …)) by Horner's rule, one statement a term: GCC keeps a loop over
+/// the array as one.
+template <class Real, std::size_t n, std::size_t... k>
+inline batch<Real> horner(const std::array<Real, n>& c, batch<Real> x, std::index_sequence<k...>)
+{
+    vreal<Real> sum(c[n - 1]);
+    ((sum = madd(sum, x, vreal<Real>(c[n - 2 - k]))), ...);
+    return sum;
+}
+
+template <class Real, std::size_t n>
+inline batch<Real> horner(const std::array<Real, n>& c, batch<Real> x)
+{
+    return horner<Real>(c, x, std::make_index_sequence<n - 1>{});
 }
 
 /// (2/ln 2) s³ (1/3 + s²/5 + s⁴/7 + …): what atanh's series adds to its first term, |s| < 0.172.
 template <class Real>
 inline batch<Real> log2_tail(batch<Real> s)
 {
-    constexpr int terms = PowerSeries<Real>::log_terms;
     const vreal<Real> z = s * s;
-    vreal<Real> sum(Real(two_over_ln_2 / (2 * terms + 1)));
-    for (int k = terms - 1; k >= 1; --k)
-        sum = madd(sum, z, vreal<Real>(Real(two_over_ln_2 / (2 * k + 1))));
-    return s * z * sum;
+    return s * z * horner<Real>(log2_series<Real>, z);
 }
 
 /// log2 of a normal positive x, as (2/ln 2) atanh(s) with s = (m - 1) / (m + 1) and the
@@ -86,15 +124,11 @@ inline TwoPart<Real> log2_two_part(batch<Real> x)
     return result;
 }
 
-/// 2^f for |f| <= 0.51, by Taylor's series.
+/// 2^f for |f| <= 0.51.
 template <class Real>
 inline batch<Real> exp2_fraction(batch<Real> f)
 {
-    constexpr int terms = PowerSeries<Real>::exp_terms;
-    vreal<Real> sum(Real(exp2_coefficient(terms)));
-    for (int k = terms - 1; k >= 0; --k)
-        sum = madd(sum, f, vreal<Real>(Real(exp2_coefficient(k))));
-    return sum;
+    return horner<Real>(exp2_series<Real>, f);
 }
 
 /// x^n for x in [0, 1 + 1e-6], 0 < n <= 10 000; exactly 0 where the result would be below the
