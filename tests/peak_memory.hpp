@@ -6,6 +6,20 @@
 // What this process holds in memory, from Linux' /proc.
 namespace packtrace::test {
 
+#if defined(__has_feature)
+#if __has_feature(address_sanitizer)
+#define PACKTRACE_TEST_SHADOWED 1
+#endif
+#endif
+
+/// What the address sanitizer may hold beside the program's own memory: shadows of what is
+/// touched, and blocks that were freed.
+#if defined(PACKTRACE_TEST_SHADOWED) || defined(__SANITIZE_ADDRESS__)
+inline constexpr long sanitizer_kilobytes = 16384;
+#else
+inline constexpr long sanitizer_kilobytes = 0;
+#endif
+
 /// A line of /proc/self/status in kB; 0 where there is none.
 [[nodiscard]] inline long memory_status(const std::string& name)
 {
