@@ -3,7 +3,7 @@
 #include <cstddef>
 #include <exception>
 #include <string>
-#include <utility>
+#include <vector>
 
 #include <tbb/global_control.h>
 #include <tbb/parallel_pipeline.h>
@@ -32,15 +32,15 @@ void attempt(Task& task, const Step& step)
     }
 }
 
-Task read_block(RayBlocks& rays, tbb::flow_control& control, bool& ended)
+// Fills `task`; stops the pipeline behind the last block or the first error.
+void read_block(Task& task, RayBlocks& rays, tbb::flow_control& control, bool& ended)
 {
-    Task task;
+    task = {};
     if (!ended)
         attempt(task, [&](Task& reading) { reading.block = rays.next(); });
     if (ended || (!task.error && task.block.text.empty()))
         control.stop();
     ended = static_cast<bool>(task.error);
-    return task;
 }
 
 }  // namespace
@@ -48,24 +48,33 @@ Task read_block(RayBlocks& rays, tbb::flow_control& control, bool& ended)
 template <class Real>
 void intersect_rays(BlockTracer<Real>& tracer, RayBlocks& rays, const TakeRows& take)
 {
-    bool ended = false;
-    const auto read = [&](tbb::flow_control& control) { return read_block(rays, control, ended); };
-    const auto trace = [&](Task task) {
-        attempt(task, [&](Task& reading) { reading.rows = tracer.rows_of(reading.block); });
-        return task;
-    };
-    const auto write = [&](const Task& task) {
-        if (task.error)
-            std::rethrow_exception(task.error);
-        take(task.block, task.rows);
-    };
     // Two blocks a thread: one to work on, one that waits.
     const std::size_t blocks =
         2 * tbb::global_control::active_value(tbb::global_control::max_allowed_parallelism);
+    // Held here, as a pipeline that ends early loses what is between its stages. Blocks are written
+    // in the order they are read in, and so many are under way at most: a place is free again when
+    // its turn comes.
+    std::vector<Task> tasks(blocks);
+    std::size_t next = 0;
+    bool ended = false;
+    const auto read = [&](tbb::flow_control& control) {
+        Task& task = tasks[next++ % blocks];
+        read_block(task, rays, control, ended);
+        return &task;
+    };
+    const auto trace = [&](Task* task) {
+        attempt(*task, [&](Task& reading) { reading.rows = tracer.rows_of(reading.block); });
+        return task;
+    };
+    const auto write = [&](const Task* task) {
+        if (task->error)
+            std::rethrow_exception(task->error);
+        take(task->block, task->rows);
+    };
     tbb::parallel_pipeline(
-        blocks, tbb::make_filter<void, Task>(tbb::filter_mode::serial_in_order, read) &
-                    tbb::make_filter<Task, Task>(tbb::filter_mode::parallel, trace) &
-                    tbb::make_filter<Task, void>(tbb::filter_mode::serial_in_order, write));
+        blocks, tbb::make_filter<void, Task*>(tbb::filter_mode::serial_in_order, read) &
+                    tbb::make_filter<Task*, Task*>(tbb::filter_mode::parallel, trace) &
+                    tbb::make_filter<Task*, void>(tbb::filter_mode::serial_in_order, write));
 }
 
 template void intersect_rays(BlockTracer<float>&, RayBlocks&, const TakeRows&);
