@@ -40,7 +40,8 @@ inline void closest_tile(const abi::TileJob<Real>& job, abi::TileHits<Real>& hit
 {
     const abi::SceneView<Real>& scene = *job.scene;
     Arena arena(job.scratch);
-    auto visible = take_objects<F, FromPoint<F, Real>>(arena, scene);
+    FromPoint<F, Real> visible;
+    take_objects<F>(arena, visible, scene);
     find_objects<F>(visible, camera_cone(job), scene);
     if (!scene.tree.empty()) {
         auto& bundle = *arena.take<RayBundle<Real>>(1);

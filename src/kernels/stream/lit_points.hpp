@@ -19,8 +19,8 @@ struct LitWork {
     LitWork(void* scratch, const abi::SceneView<Real>& casters)
     {
         Arena arena(scratch);
-        from_light = take_objects<F, FromPoint<F, Real>>(arena, casters);
-        from_points = take_objects<F, FromAnywhere<F, Real>>(arena, casters);
+        take_objects<F>(arena, from_light, casters);
+        take_objects<F>(arena, from_points, casters);
         bundle = arena.template take<RayBundle<Real>>(1);
         bytes = arena.used();
     }

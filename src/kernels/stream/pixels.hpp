@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstddef>
 #include <utility>
 
 #include "kernel_abi/kernel_table.hpp"
@@ -87,21 +88,13 @@ inline void write_colors(TilePixelColors<Real>& pixels, const vint<Real>& number
 template <class Real>
 inline void fill_pixels(TilePixelColors<Real>& pixels, const Real (&color)[3])
 {
-    alignas(64) Real pattern[pixel_elements * lanes<Real>];
-    for (int i = 0; i < pixel_elements * lanes<Real>; ++i)
-        pattern[i] = i % pixel_elements < 3 ? color[i % pixel_elements] : Real(0);
-    const vreal<Real> values = load(pattern);
-    if constexpr (lanes<Real> == 1) {
-        for (int i = 0; i < pixel_elements * abi::tile_pixels; ++i)
-            pixels[i] = pattern[i % pixel_elements];
-        return;
-    }
-    constexpr int step = lanes<Real> >= 4 ? lanes<Real> : 2;
-    const vreal<Real> more = load(pattern + step % pixel_elements);
-    for (int i = 0; i < pixel_elements * abi::tile_pixels; i += 2 * step) {
-        store(pixels + i, values);
-        store(pixels + i + step, more);
-    }
+    constexpr int repeats = pixel_elements < lanes<Real> ? lanes<Real> : pixel_elements;
+    alignas(64) Real pattern[static_cast<std::size_t>(repeats)];
+    const Reals<Real, pixel_elements> pixel{color[0], color[1], color[2], Real(0)};
+    for (int i = 0; i < repeats; i += pixel_elements)
+        __builtin_memcpy(pattern + i, &pixel, sizeof pixel);
+    for (int i = 0; i < pixel_elements * abi::tile_pixels; i += lanes<Real>)
+        store(pixels + i, load(pattern + i % repeats));
 }
 
 /// Every second bit position of `number` filled from its low bits.
@@ -110,15 +103,30 @@ constexpr int spread_bits(int number)
     return (number & 1) | ((number & 2) << 1) | ((number & 4) << 2) | ((number & 8) << 3);
 }
 
-/// Two neighbours in a row, of which the number of the first is even, into `to`, and two elements
-/// more that the next ones overwrite.
+/// The channels of two neighbours in a row, of which the number of the first is even, and two
+/// elements more.
 template <class Real>
-inline void write_two(Real* to, const Real* pixels)
+inline Reals<Real, 2 * pixel_elements> channels_of_two(const Real* pixels)
 {
     Reals<Real, 2 * pixel_elements> two;
     __builtin_memcpy(&two, pixels, sizeof two);
-    two = __builtin_shufflevector(two, two, 0, 1, 2, 4, 5, 6, 3, 7);
+    return __builtin_shufflevector(two, two, 0, 1, 2, 4, 5, 6, 3, 7);
+}
+
+/// Two neighbours into `to`, and two elements more that the next ones overwrite.
+template <class Real>
+inline void write_two(Real* to, const Real* pixels)
+{
+    const auto two = channels_of_two(pixels);
     __builtin_memcpy(to, &two, sizeof two);
+}
+
+/// Two neighbours that no others come after.
+template <class Real>
+inline void write_last_two(Real* to, const Real* pixels)
+{
+    const auto two = channels_of_two(pixels);
+    __builtin_memcpy(to, &two, 6 * sizeof(Real));
 }
 
 template <class Real>
@@ -128,11 +136,13 @@ inline void write_one(Real* to, const Real* pixel)
         to[channel] = pixel[channel];
 }
 
-/// A whole row of a tile but its last two pixels.
+/// A whole row of a tile; `Pair` are all its pairs of pixels but the last.
 template <class Real, int... Pair>
 inline void write_pairs(Real* to, const Real* row, std::integer_sequence<int, Pair...>)
 {
     (write_two(to + 6 * Pair, row + pixel_elements * spread_bits(2 * Pair)), ...);
+    constexpr int last = sizeof...(Pair);
+    write_last_two(to + 6 * last, row + pixel_elements * spread_bits(2 * last));
 }
 
 /// One row of a tile into `to`, interleaved.
@@ -140,13 +150,9 @@ template <class Real>
 inline void write_row(Real* to, const TilePixelColors<Real>& pixels, int row, int width)
 {
     const Real* const first = pixels + pixel_elements * (spread_bits(row) << 1);
-    int column = 0;
-    if (width == abi::tile_size) {
-        constexpr int pairs = abi::tile_size / 2 - 1;
-        write_pairs(to, first, std::make_integer_sequence<int, pairs>{});
-        column = 2 * pairs;
-    }
-    for (; column < width; ++column)
+    if (width == abi::tile_size)
+        return write_pairs(to, first, std::make_integer_sequence<int, abi::tile_size / 2 - 1>{});
+    for (int column = 0; column < width; ++column)
         write_one(to + 3 * column, first + pixel_elements * spread_bits(column));
 }
 

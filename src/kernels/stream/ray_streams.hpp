@@ -93,9 +93,9 @@ struct StreamWork {
     StreamWork(void* scratch, const abi::SceneView<Real>& scene)
     {
         Arena arena(scratch);
-        nearby = take_objects<F, FromAnywhere<F, Real>>(arena, scene);
+        take_objects<F>(arena, nearby, scene);
         if (scene.tree.empty())
-            from_point = take_objects<F, FromPoint<F, Real>>(arena, scene);
+            take_objects<F>(arena, from_point, scene);
         else
             bundle = arena.template take<RayBundle<Real>>(1);
         bytes = arena.used();

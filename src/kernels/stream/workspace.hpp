@@ -56,18 +56,16 @@ inline RayStream<F, Real>* take_streams(Arena& arena, const abi::SceneView<Real>
 
 /// Room for what may stand between one light and hits.
 template <abi::Features F, class Real>
-inline LightObjects<F, Real> take_occluders(Arena& arena, const abi::SceneView<Real>& scene,
-                                            const abi::LightRecord<Real>& light)
+inline void take_occluders(Arena& arena, LightObjects<F, Real>& objects,
+                           const abi::SceneView<Real>& scene, const abi::LightRecord<Real>& light)
 {
-    LightObjects<F, Real> objects{};
     if (!light.casts_shadow)
-        return objects;
+        return;
     const bool is_point = light.kind == abi::LightKind::point;
     if (is_point || !F.exact)
-        objects.from_point = take_objects<F, FromPoint<F, Real>>(arena, casters_of(scene));
+        take_objects<F>(arena, objects.from_point, casters_of(scene));
     if (!is_point || !F.exact)
-        objects.along = take_objects<F, FromAnywhere<F, Real>>(arena, casters_of(scene));
-    return objects;
+        take_objects<F>(arena, objects.along, casters_of(scene));
 }
 
 /// Of what a scene does not need there is none.
@@ -105,17 +103,23 @@ struct Workspace {
             surfaces = arena.take<SurfacePacket<Real>>(chunk_rays / lanes<Real>);
             shadows = arena.take<LightShadows<F, Real>>(lights);
         }
-        visible = take_objects<F, FromPoint<F, Real>>(arena, scene);
+        take_objects<F>(arena, visible, scene);
         if constexpr (F.bounces)
-            nearby = take_objects<F, FromAnywhere<F, Real>>(arena, scene);
+            take_objects<F>(arena, nearby, scene);
         if (shadowed > 0)
             occluders = arena.take<LightObjects<F, Real>>(lights);
-        for (std::size_t light = 0; shadowed > 0 && light < lights; ++light) {
-            const auto objects = take_occluders<F>(arena, scene, scene.lighting.lights.data[light]);
-            if (scratch != nullptr)
-                occluders[light] = objects;
-        }
+        if (shadowed > 0)
+            take_occluders(arena, scene, scratch != nullptr);
         bytes = arena.used();
+    }
+
+private:
+    void take_occluders(Arena& arena, const abi::SceneView<Real>& scene, bool has_room)
+    {
+        LightObjects<F, Real> measured;
+        for (int i = 0; i < scene.lighting.lights.count; ++i)
+            packtrace::PACKTRACE_ISA::take_occluders<F, Real>(
+                arena, has_room ? occluders[i] : measured, scene, scene.lighting.lights.data[i]);
     }
 };
 

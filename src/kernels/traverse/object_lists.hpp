@@ -128,19 +128,22 @@ inline void find_objects(FilteredObjects<false>& objects, const Origins& origins
     filter_objects<F, false>(objects, origins, Cone<float>{}, scene);
 }
 
-/// Room for the objects of a scene with features `F`.
+/// Gives `objects`, which need not be initialised, room for those of a scene with features `F`. In
+/// place: a copy of lists costs a tile more than to fill them.
 template <abi::Features F, class Objects, class Arena, class Real>
-inline Objects take_objects(Arena& arena, const abi::GeometryView<Real>& scene)
+inline void take_objects(Arena& arena, Objects& objects, const abi::GeometryView<Real>& scene)
 {
     if constexpr (std::is_same_v<Objects, AllObjects<Real>>) {
-        return {&scene};
+        objects.scene = &scene;
     } else {
-        Objects objects{};
+        for_each_kind<abi::Features{.quadrics = true}>([&](auto kind) {
+            list_of<decltype(kind)>(objects).count = 0;
+            return true;
+        });
         for_each_kind<F>([&](auto kind) {
             take_room(arena, list_of<decltype(kind)>(objects), kind.list(scene).count);
             return true;
         });
-        return objects;
     }
 }
 
