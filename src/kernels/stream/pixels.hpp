@@ -103,30 +103,16 @@ constexpr int spread_bits(int number)
     return (number & 1) | ((number & 2) << 1) | ((number & 4) << 2) | ((number & 8) << 3);
 }
 
-/// The channels of two neighbours in a row, of which the number of the first is even, and two
-/// elements more.
-template <class Real>
-inline Reals<Real, 2 * pixel_elements> channels_of_two(const Real* pixels)
+/// The channels of two neighbours in a row, of which the number of the first is even: `Written`
+/// elements into `to`, 6 of the channels and up to two more that the next ones overwrite. (No
+/// vector of both is returned: it is wider than a register of SSE, and so has no fixed ABI.)
+template <std::size_t Written, class Real>
+inline void write_two(Real* to, const Real* pixels)
 {
     Reals<Real, 2 * pixel_elements> two;
     __builtin_memcpy(&two, pixels, sizeof two);
-    return __builtin_shufflevector(two, two, 0, 1, 2, 4, 5, 6, 3, 7);
-}
-
-/// Two neighbours into `to`, and two elements more that the next ones overwrite.
-template <class Real>
-inline void write_two(Real* to, const Real* pixels)
-{
-    const auto two = channels_of_two(pixels);
-    __builtin_memcpy(to, &two, sizeof two);
-}
-
-/// Two neighbours that no others come after.
-template <class Real>
-inline void write_last_two(Real* to, const Real* pixels)
-{
-    const auto two = channels_of_two(pixels);
-    __builtin_memcpy(to, &two, 6 * sizeof(Real));
+    two = __builtin_shufflevector(two, two, 0, 1, 2, 4, 5, 6, 3, 7);
+    __builtin_memcpy(to, &two, Written * sizeof(Real));
 }
 
 template <class Real>
@@ -140,9 +126,10 @@ inline void write_one(Real* to, const Real* pixel)
 template <class Real, int... Pair>
 inline void write_pairs(Real* to, const Real* row, std::integer_sequence<int, Pair...>)
 {
-    (write_two(to + 6 * Pair, row + pixel_elements * spread_bits(2 * Pair)), ...);
+    (write_two<2 * pixel_elements>(to + 6 * Pair, row + pixel_elements * spread_bits(2 * Pair)),
+     ...);
     constexpr int last = sizeof...(Pair);
-    write_last_two(to + 6 * last, row + pixel_elements * spread_bits(2 * last));
+    write_two<6>(to + 6 * last, row + pixel_elements * spread_bits(2 * last));
 }
 
 /// One row of a tile into `to`, interleaved.
