@@ -1,0 +1,222 @@
+"""Rays of the default mode against rational arithmetic (rational.py): no wrong object, no wrong
+shadow, t as near as its precision has it, bounds that hold the truth."""
+
+import collections
+import math
+import random
+import unittest
+from fractions import Fraction
+
+import numpy as np
+
+import packtrace as pt
+from rational import Plane, Polygon, Quadric, Sphere, hits_along, overlap, rational
+
+SCENES_OF_A_FAMILY = 12
+RAYS_OF_A_SCENE = 40
+ISAS = [isa["name"] for isa in pt.isas() if isa["supported"]]
+
+
+def power(rng, low, high):
+    """A number of any magnitude between 10^low and 10^high."""
+    return 10 ** rng.uniform(low, high)
+
+
+def point(rng, size=1.0):
+    return [size * rng.uniform(-1, 1) for _ in range(3)]
+
+
+def unit(rng):
+    vector = [rng.gauss(0, 1) for _ in range(3)]
+    length = math.hypot(*vector)
+    return [x / length for x in vector]
+
+
+def shells(rng):
+    """Spheres within each other that differ by less than single precision tells apart."""
+    return [Sphere((0.1, 0.2, 0.3), 1 + number * 2.0 ** -rng.randint(10, 30))
+            for number in range(6)]
+
+
+def all_sizes(rng):
+    return [Sphere(point(rng, power(rng, -2, 5)), power(rng, -3, 4)) for _ in range(6)]
+
+
+def on_a_ground(rng):
+    """Balls that touch a ground of any size, or nearly do."""
+    radius = power(rng, 2, 7)
+    balls = []
+    for _ in range(5):
+        size = power(rng, -2, 1)
+        lift = 1 + rng.choice([0, 1e-7, -1e-7, 1e-3])
+        balls.append(Sphere((rng.uniform(-3, 3), size * lift, rng.uniform(-3, 3)), size))
+    return [Sphere((0, -radius, 0), radius), *balls]
+
+
+def far_away(rng):
+    center = point(rng, power(rng, 3, 7))
+    return [Sphere([x + y for x, y in zip(center, point(rng, 2))], power(rng, -2, 0.5))
+            for _ in range(5)]
+
+
+def tiny(rng):
+    return [Sphere(point(rng, 1e-3), power(rng, -7, -4)) for _ in range(5)]
+
+
+def creases(rng):
+    """Spheres of one size in nearly one place."""
+    return [Sphere(point(rng, 0.01), 1 + rng.uniform(-1, 1) * 1e-3) for _ in range(8)]
+
+
+def planes(rng):
+    """Planes that cross at any angle, one of them level, and a sphere."""
+    level = [0, 0, 0]
+    level[rng.randrange(3)] = rng.choice([-1, 1])
+    tilted = [[x + y for x, y in zip(level, point(rng, power(rng, -6, 0)))] for _ in range(2)]
+    return [*(Plane(point(rng), way) for way in (level, *tilted)),
+            Sphere(point(rng), power(rng, -2, 0))]
+
+
+def polygons(rng):
+    """A star of any thinness, and a square with a hole, one of them near the other."""
+    height = rng.uniform(-1, 1)
+    inner = power(rng, -4, 0)
+    corners = [[(1 if i % 2 == 0 else inner) * f(math.pi * i / 7) for f in (math.cos, math.sin)]
+               for i in range(14)]
+    square = [(-1.0, -1.0), (-1.0, 1.0), (1.0, 1.0), (1.0, -1.0)]
+    hole = [(0.5 * u, power(rng, -5, 0) * v) for u, v in square]
+    axis = rng.randrange(3)
+    return [Polygon(axis, height, [corners]),
+            Polygon(axis, height + power(rng, -7, 0), [square, hole]),
+            Sphere(point(rng), power(rng, -2, 0))]
+
+
+def quadrics(rng):
+    """Of any kind, whole, cut off or capped, as thin slabs too."""
+    found = []
+    for _ in range(rng.randint(1, 3)):
+        kind = rng.choice(list(Quadric.KINDS))
+        low = rng.uniform(-2, 2)
+        high = low + power(rng, -6, 0.5)
+        ends = rng.choice([None, (low, high), (low, high)])
+        found.append(Quadric(kind, ends, ends is not None and kind != "saddle"
+                             and rng.random() < 0.6))
+    return [*found, Sphere(point(rng, 2), power(rng, -2, 0))]
+
+
+FAMILIES = [shells, all_sizes, on_a_ground, far_away, tiny, creases, planes, polygons, quadrics]
+
+
+def target(rng, org, center, size):
+    """Where a ray goes: anywhere at a ball, or just beside its silhouette."""
+    w = [c - x for c, x in zip(center, org)]
+    distance2 = sum(x * x for x in w)
+    radius = size * (1 + rng.choice([-1, 1]) * power(rng, -9, -2))
+    if rng.random() < 0.5 or distance2 <= radius**2:
+        return [c + 1.1 * x for c, x in zip(center, point(rng, size))]
+    share = 1 - radius**2 / distance2
+    side = unit(rng)
+    back = sum(s * x for s, x in zip(side, w)) / distance2
+    across = [s - back * x for s, x in zip(side, w)]
+    reach = radius * math.sqrt(share) / math.hypot(*across)
+    return [o + share * x + reach * a for o, x, a in zip(org, w, across)]
+
+
+def aimed_ray(rng, surface, dtype):
+    """Org, dir, t_min and t_max of a ray at a surface from any distance, of any length; some end or
+    begin near to a hit."""
+    center, size = [0, 0, 0], 1.0
+    if isinstance(surface, Sphere):
+        center, size = [float(x) for x in surface.center], float(surface.radius)
+    away = size * rng.choice([1, 1, 1, 0.3]) * (1 + power(rng, -4, 5))
+    org = [dtype(c + away * x) for c, x in zip(center, unit(rng))]
+    length = rng.choice([1, 1, power(rng, -6, 6)])
+    way = [dtype(length * (to - float(x)))
+           for to, x in zip(target(rng, [float(x) for x in org], center, size), org)]
+    if rng.random() < 0.1:
+        way[rng.randrange(3)] = dtype(0)
+    if not any(way):
+        way[0] = dtype(1)
+    ends = [dtype(0), dtype(math.inf)]
+    found = surface.meets(rational(org), rational(way))
+    if found and found[0][0] > 0 and rng.random() < 0.3:
+        near = float(found[0][0]) * (1 + rng.choice([-1, 1]) * power(rng, -9, -3))
+        ends[rng.randrange(2)] = dtype(near)
+    return org, way, ends
+
+
+# What the library says of one ray.
+Answer = collections.namedtuple("Answer", "object t occluded bounds objects ts")
+
+
+def answers_of(rays, org, way, t_min, t_max):
+    hits = rays.closest(org, way, t_min, t_max)
+    every = rays.all_hits(org, way, t_min, t_max)
+    runs = [slice(*run) for run in zip(every.offsets, every.offsets[1:])]
+    return [Answer(*of_ray, every.object[run], every.t[run]) for run, *of_ray in zip(
+        runs, hits.object, hits.t, rays.occluded(org, way, t_min, t_max),
+        rays.bounds(org, way, hits.object, t_min, t_max))]
+
+
+class TestExactRays(unittest.TestCase):
+    def check_t(self, t, at, error):
+        """Rounded once, to within what double precision may have lost before."""
+        ulp = Fraction(float(np.spacing(type(t)(float(at)))))
+        share = Fraction(51, 100) if t.dtype == np.float32 else 4
+        self.assertLessEqual(abs(Fraction(float(t)) - at), error + ulp * share)
+
+    def check_bounds(self, bounds, at):
+        low, high = (Fraction(float(x)) for x in bounds)
+        self.assertLessEqual(low, at)
+        self.assertLessEqual(at, high)
+
+    def check_first(self, surfaces, true_hits, answer):
+        if not true_hits:
+            self.assertEqual((-1, False), (answer.object, answer.occluded))
+            return
+        t, error, number = true_hits[0]
+        self.assertTrue(answer.occluded)
+        if any(overlap(true_hits[0], other) for other in true_hits[1:]):
+            return
+        self.assertEqual(number, answer.object)
+        self.check_t(answer.t, t, error)
+        if surfaces[number].is_held:
+            self.check_bounds(answer.bounds, t)
+
+    def check_all(self, true_hits, answer):
+        if any(overlap(*pair) for pair in zip(true_hits, true_hits[1:])):
+            return
+        self.assertEqual([hit[2] for hit in true_hits], list(answer.objects))
+        for (t, error, _), found in zip(true_hits, answer.ts):
+            self.check_t(found, t, error)
+
+    def check_scene(self, rng, surfaces, dtype):
+        """Compares the rays of which doubles can tell what they hit; returns their number."""
+        rays = pt.RayScene(pt.Scene(objects=[pt.Object(surface.surface, pt.ScratchMaterial())
+                                             for surface in surfaces]), isa=rng.choice(ISAS))
+        aimed = [aimed_ray(rng, rng.choice(surfaces), dtype) for _ in range(RAYS_OF_A_SCENE)]
+        org, way, ends = (np.array(part, dtype) for part in zip(*aimed))
+        answers = answers_of(rays, org, way, *ends.T)
+        checked = 0
+        for i, answer in enumerate(answers):
+            true_hits = hits_along(surfaces, rational(org[i]), rational(way[i]), *ends[i])
+            if true_hits is None:
+                continue
+            checked += 1
+            with self.subTest(org=org[i], way=way[i], ends=ends[i]):
+                self.check_first(surfaces, true_hits, answer)
+                self.check_all(true_hits, answer)
+        return checked
+
+    def test_no_answer_is_wrong(self):
+        for seed, family in enumerate(FAMILIES):
+            for dtype in (np.float32, np.float64):
+                with self.subTest(family=family.__name__, dtype=dtype.__name__):
+                    rng = random.Random(seed)
+                    checked = sum(self.check_scene(rng, family(rng), dtype)
+                                  for _ in range(SCENES_OF_A_FAMILY))
+                    self.assertGreater(checked, SCENES_OF_A_FAMILY * RAYS_OF_A_SCENE // 2)
+
+
+if __name__ == "__main__":
+    unittest.main()
