@@ -59,6 +59,16 @@ class Sphere:
         a, size = dot(direction, direction), dot(w, w) + self.radius**2
         return crossings(a, dot(w, direction), dot(w, w) - self.radius**2, a * size)
 
+    def meets_again(self, point, direction, rounding):
+        """Of a ray from a point of the sphere, which was rounded by so much a coordinate; None
+        where that decides the side on which the ray leaves."""
+        w = [x - c for x, c in zip(point, self.center)]
+        way = dot(w, direction)
+        if abs(way) <= 2 * dot(rounding, [abs(d) for d in direction]):
+            return None
+        t = -2 * way / dot(direction, direction)
+        return [(t, t * Fraction(1, 10**6))] if t > 0 else []
+
 
 class Plane:
     def __init__(self, point, normal):
@@ -189,10 +199,15 @@ class Quadric:
 def hits_along(surfaces, org, direction, t_min, t_max):
     """(t, its error, number of the surface) of all crossings where t_min < t < t_max, in order;
     None where doubles may count them otherwise."""
+    crossed = [surface.meets(org, direction) for surface in surfaces]
+    return in_order(crossed, t_min, t_max)
+
+
+def in_order(crossed, t_min, t_max):
+    """The same of what each surface's meets() gave."""
     ends = [Fraction(float(t)) for t in (t_min, t_max) if not math.isinf(t)]
     hits = []
-    for number, surface in enumerate(surfaces):
-        found = surface.meets(org, direction)
+    for number, found in enumerate(crossed):
         if found is None or any(abs(t - end) <= error for t, error in found for end in ends):
             return None
         hits += [(t, error, number) for t, error in found if t_min < t < t_max]
