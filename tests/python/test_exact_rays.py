@@ -1,6 +1,7 @@
 """Rays of the default mode against rational arithmetic (rational.py): no wrong object, no wrong
 shadow, no ray that meets the surface it leaves where there is none, t as near as its precision
 has it, bounds that hold the truth."""
+
 import collections
 import math
 import random
