@@ -179,6 +179,18 @@ def answers_of(rays, org, way, t_min, t_max):
         rays.bounds(org, way, hits.object, t_min, t_max))]
 
 
+def is_first_clear(true_hits):
+    return not any(overlap(true_hits[0], other) for other in true_hits[1:])
+
+
+def crossed_by_start(surfaces, own, origin, point, way):
+    """What each surface's meets() gives of a ray that leaves the one of number `own`."""
+    rounding = rational(np.spacing(abs(point)))
+    return [surface.meets_again(rational(point), rational(way), rounding) if number == own
+            else surface.meets(rational(origin), rational(way))
+            for number, surface in enumerate(surfaces)]
+
+
 class TestExactRays(unittest.TestCase):
     def check_t(self, t, at, error):
         """Rounded once, to within what double precision may have lost before."""
@@ -186,23 +198,21 @@ class TestExactRays(unittest.TestCase):
         share = Fraction(51, 100) if t.dtype == np.float32 else 4
         self.assertLessEqual(abs(Fraction(float(t)) - at), error + ulp * share)
 
-    def check_bounds(self, bounds, at):
-        low, high = (Fraction(float(x)) for x in bounds)
-        self.assertLessEqual(low, at)
-        self.assertLessEqual(at, high)
-
-    def check_first(self, surfaces, true_hits, answer):
+    def check_first(self, true_hits, number, t):
         if not true_hits:
-            self.assertEqual((-1, False), (answer.object, answer.occluded))
+            self.assertEqual(-1, number)
+        elif is_first_clear(true_hits):
+            self.assertEqual(true_hits[0][2], number)
+            self.check_t(t, *true_hits[0][:2])
+
+    def check_bounds(self, surfaces, true_hits, bounds):
+        if not true_hits or not is_first_clear(true_hits):
             return
-        t, error, number = true_hits[0]
-        self.assertTrue(answer.occluded)
-        if any(overlap(true_hits[0], other) for other in true_hits[1:]):
-            return
-        self.assertEqual(number, answer.object)
-        self.check_t(answer.t, t, error)
+        at, _, number = true_hits[0]
         if surfaces[number].is_held:
-            self.check_bounds(answer.bounds, t)
+            low, high = (Fraction(float(x)) for x in bounds)
+            self.assertLessEqual(low, at)
+            self.assertLessEqual(at, high)
 
     def check_all(self, true_hits, answer):
         if any(overlap(*pair) for pair in zip(true_hits, true_hits[1:])):
@@ -222,7 +232,9 @@ class TestExactRays(unittest.TestCase):
                 continue
             checked += 1
             with self.subTest(org=org[i], way=way[i], ends=ends[i]):
-                self.check_first(surfaces, true_hits, answer)
+                self.assertEqual(bool(true_hits), answer.occluded)
+                self.check_first(true_hits, answer.object, answer.t)
+                self.check_bounds(surfaces, true_hits, answer.bounds)
                 self.check_all(true_hits, answer)
         return checked
 
@@ -236,24 +248,14 @@ class TestExactRays(unittest.TestCase):
         again = rays.closest(starts, way)
         checked = 0
         for i in np.flatnonzero(hits.hit):
-            direction = rational(way[i])
-            crossed = [surface.meets(rational(starts.origin[i]), direction) for surface in surfaces]
-            crossed[hits.object[i]] = surfaces[hits.object[i]].meets_again(
-                rational(starts.point[i]), direction, rational(np.spacing(abs(starts.point[i]))))
-            true_hits = in_order(crossed, 0, math.inf)
+            true_hits = in_order(crossed_by_start(surfaces, hits.object[i], starts.origin[i],
+                                                  starts.point[i], way[i]), 0, math.inf)
             if true_hits is None:
                 continue
             checked += 1
             with self.subTest(point=starts.point[i], way=way[i], own=hits.object[i]):
-                self.check_next(true_hits, again.object[i], again.t[i])
+                self.check_first(true_hits, again.object[i], again.t[i])
         return checked
-
-    def check_next(self, true_hits, number, t):
-        if not true_hits:
-            self.assertEqual(-1, number)
-        elif not any(overlap(true_hits[0], other) for other in true_hits[1:]):
-            self.assertEqual(true_hits[0][2], number)
-            self.check_t(t, *true_hits[0][:2])
 
     def check_families(self, families, check, least):
         """`least` is the share of rays that double can tell the answers of."""
