@@ -106,20 +106,20 @@ struct Workspace {
         take_objects<F>(arena, visible, scene);
         if constexpr (F.bounces)
             take_objects<F>(arena, nearby, scene);
-        if (shadowed > 0)
+        if (shadowed > 0) {
             occluders = arena.take<LightObjects<F, Real>>(lights);
-        if (shadowed > 0)
-            take_occluders(arena, scene, scratch != nullptr);
+            take_all_occluders(arena, scene, scratch != nullptr);
+        }
         bytes = arena.used();
     }
 
 private:
-    void take_occluders(Arena& arena, const abi::SceneView<Real>& scene, bool has_room)
+    void take_all_occluders(Arena& arena, const abi::SceneView<Real>& scene, bool has_room)
     {
         LightObjects<F, Real> measured;
         for (int i = 0; i < scene.lighting.lights.count; ++i)
-            packtrace::PACKTRACE_ISA::take_occluders<F, Real>(
-                arena, has_room ? occluders[i] : measured, scene, scene.lighting.lights.data[i]);
+            take_occluders<F, Real>(arena, has_room ? occluders[i] : measured, scene,
+                                    scene.lighting.lights.data[i]);
     }
 };
 
