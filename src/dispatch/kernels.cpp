@@ -7,9 +7,10 @@ namespace packtrace {
 
 // kernel_list.inc is written by the build: a line KERNELS(isa) for each set compiled in, followed
 // by PROBES(isa) where its probes are, too.
-#define KERNELS(isa)                        \
-    namespace isa {                         \
-    const abi::KernelTable& kernel_table(); \
+#define KERNELS(isa)                                 \
+    namespace isa {                                  \
+    const abi::KernelTable& kernel_table();          \
+    const abi::FusedKernels<float>& fused_kernels(); \
     }
 #define PROBES(isa)                           \
     namespace isa {                           \
@@ -33,7 +34,9 @@ namespace {
 std::vector<abi::KernelTable> whole_tables()
 {
     std::vector<abi::KernelTable> tables;
-#define KERNELS(isa) tables.push_back(isa::kernel_table());
+#define KERNELS(isa)                          \
+    tables.push_back(isa::kernel_table());    \
+    tables.back().single_precision.fused = isa::fused_kernels();
 #define PROBES(isa) add_probes(isa::probe_kernels(), tables.back());
 #include "dispatch/kernel_list.inc"
 #undef KERNELS

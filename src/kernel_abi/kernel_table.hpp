@@ -45,6 +45,8 @@ struct TileJob {
     /// Null: one ray a pixel. Else the colour of sample i goes to rgb[3 i], and `width`, `height`
     /// and `row_stride` are not looked at. closest_tile takes none.
     const TileSamples<Real>* samples = nullptr;
+    /// What FusedKernels::make_plan made for the scene and the camera; others don't look at it.
+    const void* plan = nullptr;
     /// What kernels of Features::probe tell of, where set; not looked at by others.
     const Probe<Real>* probe = nullptr;
     Observation* observation = nullptr;
@@ -96,12 +98,28 @@ struct FeatureKernels {
     void (*closest_tile)(const TileJob<Real>& job, TileHits<Real>& hits) = nullptr;
 };
 
+/// The kernels that trace paths from the eye to the last mirror in registers, for scenes of few
+/// objects; all null where they are not compiled in.
+template <class Real>
+struct FusedKernels {
+    Features features;
+    /// Of what the tiles of a frame share; 0 where a scene can't be rendered so.
+    std::size_t (*plan_bytes)(const SceneView<Real>& scene) = nullptr;
+    /// `memory` is 64-byte aligned, and of `plan_bytes`. Of the camera its origin counts.
+    void (*make_plan)(const SceneView<Real>& scene, const CameraView<Real>& camera,
+                      void* memory) = nullptr;
+    std::size_t (*scratch_bytes)(const SceneView<Real>& scene) = nullptr;
+    /// As FeatureKernels::render_tile, bit for bit. TileJob::plan is set.
+    RayCounts (*render_tile)(const TileJob<Real>& job) = nullptr;
+};
+
 /// The kernels of one precision.
 template <class Real>
 struct PrecisionTable {
     int lanes = 0;
     /// Those of Features::exact first, for floats alone; then for each set the others.
     FeatureKernels<Real> kernels[2 * feature_set_count];
+    FusedKernels<Real> fused;
     // Rays of the caller's own, against surfaces of every kind.
     // `scratch` is working memory of `stream_scratch_bytes`, 64-byte aligned, for one call at a
     // time; for `lit` of `lit_scratch_bytes`.

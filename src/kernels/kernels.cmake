@@ -7,7 +7,7 @@
 # weak copy of them leaves the object. -Wno-maybe-uninitialized: GCC 12's own AVX-512 header
 # starts from undefined registers. -fno-stack-protector: Ubuntu's compilers guard each function that
 # has arrays on its stack, which is every one here, and call libc where a guard is broken.
-set_source_files_properties(kernels/table.cpp PROPERTIES
+set_source_files_properties(kernels/table.cpp kernels/fused_kernels.cpp PROPERTIES
     COMPILE_OPTIONS "$<$<CONFIG:Release>:${packtrace_frame_flags}>")
 
 set(PACKTRACE_ISAS "all" CACHE STRING

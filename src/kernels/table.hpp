@@ -13,4 +13,8 @@ namespace packtrace::PACKTRACE_ISA {
 /// A reference, which takes no instruction that the machine may lack.
 [[nodiscard]] const abi::ProbeKernels& probe_kernels();
 
+/// The kernels that trace paths in registers, empty where there are none for sets of features. In a
+/// source of their own for the same reasons.
+[[nodiscard]] const abi::FusedKernels<float>& fused_kernels();
+
 }  // namespace packtrace::PACKTRACE_ISA

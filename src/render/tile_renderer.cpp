@@ -28,6 +28,20 @@ const LoweredScene& fitted(LoweredScene& lowered, const RenderOptions& options)
     return lowered;
 }
 
+/// What tiles that are traced in registers share; empty where streams render the scene.
+template <class Real>
+AlignedArray<std::byte> make_plan(const abi::PrecisionTable<Real>& table, abi::Features needed,
+                                  const abi::SceneView<Real>& scene,
+                                  const abi::CameraView<Real>& camera)
+{
+    const abi::FusedKernels<Real>& fused = table.fused;
+    const bool fits = fused.render_tile != nullptr && abi::covers(fused.features, needed);
+    AlignedArray<std::byte> plan(fits ? fused.plan_bytes(scene) : 0);
+    if (plan.size() > 0)
+        fused.make_plan(scene, camera, plan.data());
+    return plan;
+}
+
 }  // namespace
 
 template <class Real>
@@ -40,7 +54,11 @@ TileRenderer<Real>::TileRenderer(const Scene& scene, LoweredScene lowered,
       pattern_(sample_pattern(options.samples)),
       once_(camera_view<Real>(scene, lowered, only_sample(scene, options))),
       corner_(camera_view<Real>(scene, lowered, Vec2(0.0))),
-      scratch_bytes_(kernels_.scratch_bytes(packed_.view())),
+      plan_(make_plan(precision<Real>(table), kernels_.set.features, packed_.view(), once_)),
+      render_tile_(plan_.size() > 0 ? precision<Real>(table).fused.render_tile
+                                    : kernels_.render_tile),
+      scratch_bytes_(plan_.size() > 0 ? precision<Real>(table).fused.scratch_bytes(packed_.view())
+                                      : kernels_.scratch_bytes(packed_.view())),
       scratch_([this] { return AlignedArray<std::byte>(scratch_bytes_); })
 {
     packed_.add_light_buffers(lowered,
@@ -59,6 +77,7 @@ abi::TileJob<Real> TileRenderer<Real>::job_at(const abi::CameraView<Real>& camer
     job.width = std::min(abi::tile_size, width_ - x);
     job.height = std::min(abi::tile_size, height_ - y);
     job.scratch = scratch_.local().data();
+    job.plan = plan_.data();
     job.observation = observation;
     return job;
 }
@@ -90,7 +109,7 @@ abi::RayCounts TileRenderer<Real>::render_once(const Canvas<Real>& canvas, int x
     abi::TileJob<Real> job = job_at(once_, x, y, observation);
     job.rgb = canvas.pixel(x, y);
     job.row_stride = std::ptrdiff_t{3} * canvas.image.width;
-    return kernels_.render_tile(job);
+    return render_tile_(job);
 }
 
 // One sample of all pixels after the other, so that packets are as compact as with one sample.
@@ -109,7 +128,7 @@ abi::RayCounts TileRenderer<Real>::render_mean(const Canvas<Real>& canvas, int x
     for (const Vec2& place : pattern_) {
         camera.first_x = corner_.first_x + static_cast<Real>(place.x);
         camera.first_y = corner_.first_y - static_cast<Real>(place.y);
-        counts += kernels_.render_tile(job);
+        counts += render_tile_(job);
         for (int i = 0; i < row_length * abi::tile_size; ++i)
             sums[i] += sample[i];
     }
@@ -129,7 +148,7 @@ abi::RayCounts TileRenderer<Real>::refine(const Canvas<Real>& canvas,
     SampleBatch<Real> batch(pattern_, [&](const abi::TileSamples<Real>& samples, Real* rgb) {
         job.samples = &samples;
         job.rgb = rgb;
-        counts += kernels_.render_tile(job);
+        counts += render_tile_(job);
     });
     for (int number = 0; number < abi::tile_pixels; ++number) {
         const auto [column, row] = z_order_place(number);

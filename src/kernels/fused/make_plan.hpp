@@ -1,0 +1,349 @@
+#pragma once
+
+#include "kernels/fused/plan.hpp"
+#include "kernels/precision/lone_sphere.hpp"
+
+// Makes the plan of a frame (plan.hpp). All bounds are computed in double, once.
+namespace packtrace::PACKTRACE_ISA {
+namespace {
+
+/// Origins this many times as far from the middle of what is bounded as its edge, or as the eye,
+/// are still near: error bounds are for all of them, so that further ones would cost more rays that
+/// single precision is unsure of.
+inline constexpr double near_scale = 8.0;
+
+/// A relative margin for whatever rounds in the tests of clear_way.hpp, and for the places that
+/// shadow rays end at, which are lifted off the hits: 64 and more of what operations lose.
+inline constexpr double clear_slack = 64.0 * 0x1p-24;
+/// How much the direction of a shadow ray may differ from that to the hit.
+inline constexpr double clear_turn = 0x1p-12;
+/// The share of the size of its scene that a point has to be away from a point light for that.
+inline constexpr double clear_distance = 1.0 / 64.0;
+
+inline double distance_of(const double (&a)[3], const double (&b)[3])
+{
+    double sum = 0;
+    for (int axis = 0; axis < 3; ++axis)
+        sum += (a[axis] - b[axis]) * (a[axis] - b[axis]);
+    return __builtin_sqrt(sum);
+}
+
+/// The ball of origins that a plan's bounds are for: around the bounded objects and the eye.
+inline Origins near_origins(const abi::SceneView<float>& scene, const float (&eye)[3])
+{
+    float low[3];
+    float high[3];
+    for (int axis = 0; axis < 3; ++axis)
+        low[axis] = high[axis] = eye[axis];
+    const abi::SphereListView<float>& spheres = scene.spheres;
+    for (int i = 0; i < spheres.count; ++i) {
+        const float center[3] = {spheres.center_x[i], spheres.center_y[i], spheres.center_z[i]};
+        for (int axis = 0; axis < 3; ++axis) {
+            low[axis] = min(low[axis], center[axis] - spheres.radius[i]);
+            high[axis] = max(high[axis], center[axis] + spheres.radius[i]);
+        }
+    }
+    Origins origins = origins_in(low, high);
+    // Around the eye alone: what it stands on counts.
+    origins.radius = max(origins.radius, 1.0f) * static_cast<float>(near_scale);
+    return origins;
+}
+
+/// A length that no point of the origins, nor a light, is further from the world's origin.
+inline double extent_of(const Origins& origins)
+{
+    double center2 = 0;
+    for (const float x : origins.center)
+        center2 += double{x} * x;
+    return __builtin_sqrt(center2) + double{origins.radius};
+}
+
+/// What is in front of a plane through `point` with the unit normal `normal`, as seen from a light.
+inline void add_front_plane(ClearTests& tests, FrontPlane* planes, const double (&point)[3],
+                            const double (&normal)[3], const abi::LightRecord<float>& light,
+                            double extent, std::int32_t behind)
+{
+    const bool is_point = light.kind == abi::LightKind::point;
+    double size = extent;
+    double level = 0;
+    double height = 0;
+    double length = 0;
+    for (int axis = 0; axis < 3; ++axis) {
+        const double x = light.vector[axis];
+        level += normal[axis] * point[axis];
+        height += normal[axis] * (is_point ? x - point[axis] : x);
+        size += __builtin_fabs(x) + __builtin_fabs(point[axis]);
+        length += __builtin_fabs(x);
+    }
+    const double slack = clear_slack * size;
+    if (!(height > (is_point ? slack : clear_slack * length))) {
+        tests.complete = false;
+        return;
+    }
+    FrontPlane& plane = planes[tests.plane_count++];
+    for (int axis = 0; axis < 3; ++axis)
+        plane.normal[axis] = static_cast<float>(normal[axis]);
+    plane.offset = above(level + slack + 0x1p-22 * __builtin_fabs(level));
+    plane.behind = behind;
+}
+
+/// Planes that touch anchored spheres where these are nearest to a light, or to all that is near.
+inline void add_anchored(ClearTests& tests, FrontPlane* planes, const abi::SceneView<float>& casters,
+                         const abi::LightRecord<float>& light, const Origins& origins,
+                         double extent)
+{
+    const auto& list = casters.wide->anchored_spheres;
+    for (int i = 0; i < list.count; ++i) {
+        const abi::AnchoredSphere<double>& sphere = list.data[i];
+        double to[3];
+        for (int axis = 0; axis < 3; ++axis)
+            to[axis] = light.kind == abi::LightKind::point ? double{light.vector[axis]}
+                                                           : double{origins.center[axis]};
+        const double distance = distance_of(to, sphere.center);
+        if (!(distance > sphere.radius)) {
+            tests.complete = false;
+            continue;
+        }
+        double normal[3];
+        double point[3];
+        for (int axis = 0; axis < 3; ++axis) {
+            normal[axis] = (to[axis] - sphere.center[axis]) / distance;
+            point[axis] = sphere.center[axis] + sphere.radius * normal[axis];
+        }
+        add_front_plane(tests, planes, point, normal, light, extent, sphere.surface);
+    }
+}
+
+inline void add_planes(ClearTests& tests, FrontPlane* planes, const abi::SceneView<float>& casters,
+                       const abi::LightRecord<float>& light, double extent)
+{
+    const auto& list = casters.wide->planes;
+    for (int i = 0; i < list.count; ++i) {
+        const abi::PlaneRecord<double>& plane = list.data[i];
+        double height = 0;
+        for (int axis = 0; axis < 3; ++axis)
+            height += plane.normal[axis] *
+                      (light.kind == abi::LightKind::point
+                           ? double{light.vector[axis]} - plane.point[axis]
+                           : double{light.vector[axis]});
+        const double side = height < 0 ? -1.0 : 1.0;
+        const double normal[3] = {side * plane.normal[0], side * plane.normal[1],
+                                  side * plane.normal[2]};
+        add_front_plane(tests, planes, plane.point, normal, light, extent, plane.surface);
+    }
+}
+
+/// The largest |x| of a vector's sum of components.
+inline double size_of(const float (&v)[3])
+{
+    return __builtin_fabs(double{v[0]}) + __builtin_fabs(double{v[1]}) +
+           __builtin_fabs(double{v[2]});
+}
+
+/// The radius that a shadow ray must pass a sphere's rounded centre by to be clear of it.
+inline double clear_radius(const abi::SphereListView<float>& list, int i, double extent)
+{
+    const float center[3] = {list.center_x[i], list.center_y[i], list.center_z[i]};
+    return double{list.radius[i]} + double{list.center_error[i]} +
+           clear_slack * (extent + double{list.radius[i]} + size_of(center));
+}
+
+inline void add_across(ClearTests& tests, AcrossSphere* spheres,
+                       const abi::SphereListView<float>& list, const double (&light)[3],
+                       double extent)
+{
+    for (int i = 0; i < list.count; ++i) {
+        const double outer = clear_radius(list, i, extent);
+        const double center[3] = {list.center_x[i], list.center_y[i], list.center_z[i]};
+        AcrossSphere& sphere = spheres[tests.sphere_count++];
+        double along = 0;
+        double length2 = 0;
+        double across[2] = {};
+        for (int axis = 0; axis < 3; ++axis) {
+            along += center[axis] * light[axis];
+            length2 += light[axis] * light[axis];
+            for (int of = 0; of < 2; ++of)
+                across[of] += center[axis] * double{tests.axis[of][axis]};
+        }
+        sphere.center[0] = static_cast<float>(across[0]);
+        sphere.center[1] = static_cast<float>(across[1]);
+        sphere.outer2 = static_cast<float>(outer * outer * (1.0 + clear_slack));
+        const double past = along + outer * __builtin_sqrt(length2) * (1.0 + clear_slack);
+        sphere.along = static_cast<float>(past + clear_slack * __builtin_fabs(past));
+        sphere.surface = list.surface[i];
+    }
+}
+
+inline void add_cones(ClearTests& tests, ConeSphere* spheres,
+                      const abi::SphereListView<float>& list, const float (&light)[3],
+                      double extent)
+{
+    for (int i = 0; i < list.count; ++i) {
+        const float center[3] = {list.center_x[i], list.center_y[i], list.center_z[i]};
+        ConeSphere& sphere = spheres[tests.sphere_count++];
+        double distance2 = 0;
+        for (int axis = 0; axis < 3; ++axis) {
+            const double to = double{center[axis]} - double{light[axis]};
+            sphere.to[axis] = static_cast<float>(to);
+            sphere.center[axis] = center[axis];
+            distance2 += to * to;
+        }
+        const double radius = clear_radius(list, i, extent);
+        const double outer = radius + clear_turn * (radius + __builtin_sqrt(distance2));
+        // The cosine's square is 1 - outer²/distance²; the product with the distance is compared.
+        const double edge2 = distance2 * (1.0 - clear_slack) - outer * outer;
+        sphere.edge = edge2 > 0 ? static_cast<float>(__builtin_sqrt(edge2) * (1.0 - clear_slack))
+                                : -__builtin_inff();
+        sphere.outer2 = static_cast<float>(outer * outer * (1.0 + clear_slack));
+        sphere.surface = list.surface[i];
+    }
+}
+
+/// Two unit vectors across `v`.
+inline void set_axes(float (&axis)[2][3], const double (&v)[3])
+{
+    const int least = __builtin_fabs(v[0]) < __builtin_fabs(v[1])
+                          ? (__builtin_fabs(v[0]) < __builtin_fabs(v[2]) ? 0 : 2)
+                          : (__builtin_fabs(v[1]) < __builtin_fabs(v[2]) ? 1 : 2);
+    double length2 = 0;
+    for (const double x : v)
+        length2 += x * x;
+    double first[3];
+    double first2 = 0;
+    for (int i = 0; i < 3; ++i) {
+        first[i] = (i == least ? 1.0 : 0.0) - v[least] * v[i] / length2;
+        first2 += first[i] * first[i];
+    }
+    const double scale = 1.0 / __builtin_sqrt(first2);
+    const double scale2 = scale / __builtin_sqrt(length2);
+    for (int i = 0; i < 3; ++i) {
+        const int j = (i + 1) % 3;
+        const int k = (i + 2) % 3;
+        axis[0][i] = static_cast<float>(first[i] * scale);
+        axis[1][i] = static_cast<float>((v[j] * first[k] - v[k] * first[j]) * scale2);
+    }
+}
+
+/// Whether magnitudes are such that squares of single precision hold.
+inline bool is_moderate(double extent)
+{
+    return extent < 1e8 && extent > 1e-8;
+}
+
+inline void make_clear_tests(ClearTests& tests, const abi::SceneView<float>& scene,
+                             const abi::LightRecord<float>& light, const Origins& origins)
+{
+    const abi::SceneView<float>& casters = casters_of(scene);
+    double extent = extent_of(origins);
+    double length2 = 0;
+    for (const float x : light.vector)
+        length2 += double{x} * x;
+    if (light.kind == abi::LightKind::point)
+        extent += __builtin_sqrt(length2);
+    const Vec3v<float> vector = broadcast(light.vector);
+    const vreal<float> squared = dot(vector, vector);
+    tests.length2 = first_lane<float>(squared);
+    tests.inverse_length = first_lane<float>(vreal<float>(1.0f) / sqrt(squared));
+    tests.least_distance2 = static_cast<float>(clear_distance * extent * clear_distance * extent);
+    tests.complete = is_moderate(extent) && casters.certifiable &&
+                     (light.kind == abi::LightKind::point || is_moderate(length2));
+    // The arrays are the plan's own.
+    auto* const planes = const_cast<FrontPlane*>(tests.planes);
+    add_anchored(tests, planes, casters, light, origins, extent);
+    add_planes(tests, planes, casters, light, extent);
+    if (light.kind == abi::LightKind::point)
+        return add_cones(tests, const_cast<ConeSphere*>(tests.cones), casters.spheres,
+                         light.vector, extent);
+    const double direction[3] = {light.vector[0], light.vector[1], light.vector[2]};
+    set_axes(tests.axis, direction);
+    add_across(tests, const_cast<AcrossSphere*>(tests.across), casters.spheres, direction, extent);
+}
+
+/// Its list from_near has the bounds.
+template <abi::Features F>
+inline void fill_spheres(FramePlan<F>& plan, const abi::SceneView<float>& scene)
+{
+    const SphereFilters& list = list_of<Sphere>(plan.from_near);
+    for (int i = 0; i < list.count; ++i) {
+        PlanSphere& sphere = plan.spheres[i];
+        sphere.center[0] = list.x[i];
+        sphere.center[1] = list.y[i];
+        sphere.center[2] = list.z[i];
+        sphere.outer2 = list.bounds.outer2[i];
+        sphere.inner2 = list.bounds.inner2[i];
+        // Of an origin in the ball, its distance from the centre counts whole.
+        double distance = double{plan.origins.radius};
+        for (int axis = 0; axis < 3; ++axis)
+            distance += __builtin_fabs(double{sphere.center[axis]} -
+                                       double{plan.origins.center[axis]});
+        sphere.slack = above(double{list.bounds.along[i]} + roundoffs(28.0f) * distance);
+        const double clear = clear_radius(scene.spheres, i, extent_of(plan.origins));
+        sphere.clear2 = above(clear * clear * (1.0 + clear_slack));
+        sphere.surface = list.surface[i];
+        const abi::SphereShape& shape = sphere_of(scene.shapes, sphere.surface);
+        for (int axis = 0; axis < 3; ++axis)
+            sphere.exact_center[axis] = shape.center[axis];
+        sphere.exact_radius2 = shape.radius * shape.radius;
+        const float radius = static_cast<float>(shape.radius);
+        sphere.radius2 = radius * radius;
+        sphere.inverse_radius = 1.0f / radius;
+    }
+}
+
+template <abi::Features F>
+inline void fill_grounds(FramePlan<F>& plan, const abi::SceneView<float>& scene)
+{
+    const auto& list = list_of<AnchoredSphere>(plan.from_near);
+    for (int i = 0; i < list.count; ++i) {
+        PlanGround& ground = plan.grounds[i];
+        ground.filter = list.data[i];
+        ground.surface = list.data[i].surface;
+        const abi::AnchoredSphere<double>& shape =
+            scene.shapes.anchored_spheres[scene.shapes.index[ground.surface].record];
+        for (int axis = 0; axis < 3; ++axis) {
+            ground.exact_base[axis] = shape.anchor[axis];
+            ground.exact_normal[axis] = shape.normal[axis];
+            ground.base[axis] = static_cast<float>(shape.anchor[axis]);
+            ground.normal[axis] = static_cast<float>(shape.normal[axis]);
+        }
+        ground.exact_curvature = shape.curvature;
+        ground.exact_offset = shape.offset;
+        ground.curvature = static_cast<float>(shape.curvature);
+        ground.offset = static_cast<float>(shape.offset);
+    }
+}
+
+/// Fills a plan whose arrays have room.
+template <abi::Features F>
+inline void fill_plan(FramePlan<F>& plan, const abi::SceneView<float>& scene,
+                      const abi::CameraView<float>& camera)
+{
+    Cone<float> anywhere;
+    for (int axis = 0; axis < 3; ++axis)
+        anywhere.base[axis] = camera.origin[axis];
+    find_objects<F>(plan.from_camera, anywhere, scene);
+    plan.origins = near_origins(scene, camera.origin);
+    find_objects<F>(plan.from_near, plan.origins, scene);
+    fill_spheres(plan, scene);
+    fill_grounds(plan, scene);
+    for (int i = 0; i < 256; ++i)
+        plan.numbers[i] = static_cast<std::uint8_t>(i);
+    plan.has_common_hits = plan.from_near.certifiable && scene.planes.count == 0 &&
+                           is_moderate(extent_of(plan.origins));
+    for (int i = 0; i < scene.spheres.count; ++i)
+        plan.has_common_hits &= scene.spheres.radius[i] > 1e-15f;
+    const abi::SceneView<float>& casters = casters_of(scene);
+    for (int i = 0; i < scene.lighting.lights.count; ++i) {
+        const abi::LightRecord<float>& light = scene.lighting.lights.data[i];
+        make_clear_tests(plan.clear[i], scene, light, plan.origins);
+        if (!light.casts_shadow)
+            continue;
+        if (light.kind == abi::LightKind::point)
+            find_from_point<F, float>(plan.occluders[i].from_point, light.vector, casters);
+        else
+            find_objects<F>(plan.occluders[i].along, plan.origins, casters);
+    }
+}
+
+}  // namespace
+}  // namespace packtrace::PACKTRACE_ISA

@@ -1,0 +1,130 @@
+#pragma once
+
+#include "kernels/stream/workspace.hpp"
+#include "kernels/traverse/object_sets.hpp"
+
+// What the tiles of a frame share that is traced in registers (fused_tile.hpp): the objects with
+// their error bounds, for camera rays, for rays from around the bounded objects, and for shadow
+// rays. It is made once a frame; tiles only read it.
+namespace packtrace::PACKTRACE_ISA {
+namespace {
+
+/// A plane that a light is in front of, and an object behind: the way from the light to a point
+/// that is in front of it by more than `offset` is clear of the object.
+struct FrontPlane {
+    float normal[3];
+    float offset;
+    std::int32_t behind;  ///< the object's surface
+};
+
+/// A sphere that a directional light misses where its line through a point passes further off than
+/// the root of `outer2`, in the plane across the light.
+struct AcrossSphere {
+    float center[2];  ///< in that plane
+    float outer2;
+    float along;  ///< points further on than this are past the sphere
+    std::int32_t surface;
+};
+
+/// A sphere that the way from a point light misses whose cosine with the way to the sphere, `to`,
+/// is less than `edge` over its length.
+struct ConeSphere {
+    float to[3];  ///< from the light to the centre
+    float edge;   ///< infinite for a light that is not outside
+    float center[3];
+    float outer2;
+    std::int32_t surface;
+};
+
+/// What can be told of shadow rays without an interval (clear_way.hpp), of points in the plan's
+/// `origins`.
+struct ClearTests {
+    const FrontPlane* planes = nullptr;
+    const AcrossSphere* across = nullptr;  ///< of a directional light
+    const ConeSphere* cones = nullptr;     ///< of a point light
+    int plane_count = 0;
+    int sphere_count = 0;
+    float axis[2][3] = {};      ///< of the plane across a directional light
+    float length2 = 0;          ///< of its vector, and the inverse root
+    float inverse_length = 0;
+    float least_distance2 = 0;  ///< points nearer to a point light than its root are not told of
+    bool complete = false;      ///< these tests know all objects that may be in the way
+};
+
+/// A sphere for rays from the plan's `origins` (sphere_filter.hpp), and its record for refining.
+struct PlanSphere {
+    float center[3];
+    float outer2, inner2;
+    float clear2;  ///< squared radius that points within the plan's origins are outside by
+    float slack;   ///< of the slope w·d, per |d|, but for what the distance adds
+    float radius2;
+    float inverse_radius;
+    double exact_center[3];
+    double exact_radius2;
+    std::int32_t surface;
+};
+
+/// A sphere by a point of it or a plane, likewise. The filter's anchor is the plan's own.
+struct PlanGround {
+    AnchoredFilter filter;
+    float base[3], normal[3], curvature, offset;
+    double exact_base[3], exact_normal[3], exact_curvature, exact_offset;
+    std::int32_t surface;
+};
+
+/// `F` is a feature set of exact mode without glass.
+template <abi::Features F>
+struct FramePlan {
+    FilteredObjects<true> from_camera;
+    FilteredObjects<false> from_near;  ///< from `origins`
+    Origins origins;
+    LightObjects<F, float>* occluders = nullptr;  ///< by light; of directional ones from `origins`
+    ClearTests* clear = nullptr;                  ///< by light
+    PlanSphere* spheres = nullptr;                ///< in the scene's order
+    PlanGround* grounds = nullptr;                ///< likewise
+    std::uint8_t* numbers = nullptr;              ///< 0, 1, …: all spheres, or all grounds
+    bool has_common_hits = false;  ///< bounds hold, and common_hit.hpp knows all objects
+    std::size_t bytes = 0;
+
+    /// With no `memory`, only `bytes` is of use.
+    FramePlan(void* memory, const abi::SceneView<float>& scene)
+    {
+        const abi::SceneView<float>& casters = casters_of(scene);
+        const int lights = scene.lighting.lights.count;
+        Arena arena(memory);
+        arena.take<FramePlan>(1);
+        take_objects<F>(arena, from_camera, scene);
+        take_objects<F>(arena, from_near, scene);
+        spheres = arena.take<PlanSphere>(static_cast<std::size_t>(scene.spheres.count));
+        grounds = arena.take<PlanGround>(static_cast<std::size_t>(scene.anchored_spheres.count));
+        numbers = arena.take<std::uint8_t>(256);
+        occluders = arena.take<LightObjects<F, float>>(static_cast<std::size_t>(lights));
+        clear = arena.take<ClearTests>(static_cast<std::size_t>(lights));
+        LightObjects<F, float> measured;
+        for (int i = 0; i < lights; ++i) {
+            take_occluders<F, float>(arena, memory != nullptr ? occluders[i] : measured, scene,
+                                     scene.lighting.lights.data[i]);
+            take_clear(arena, memory != nullptr ? clear + i : nullptr, casters);
+        }
+        bytes = arena.used();
+    }
+
+private:
+    static void take_clear(Arena& arena, ClearTests* tests, const abi::SceneView<float>& casters)
+    {
+        const auto spheres = static_cast<std::size_t>(casters.spheres.count);
+        FrontPlane* const planes = arena.take<FrontPlane>(
+            static_cast<std::size_t>(casters.planes.count + casters.anchored_spheres.count));
+        AcrossSphere* const across = arena.take<AcrossSphere>(spheres);
+        ConeSphere* const cones = arena.take<ConeSphere>(spheres);
+        if (tests == nullptr)
+            return;
+        *tests = {};
+        tests->planes = planes;
+        tests->across = across;
+        tests->cones = cones;
+    }
+};
+
+}  // namespace
+}  // namespace packtrace::PACKTRACE_ISA
