@@ -10,15 +10,18 @@
 namespace packtrace::PACKTRACE_ISA {
 namespace {
 
-/// Whether rays of a generation come from the eye.
-enum class Generation { camera, mirrored };
-
-/// What a packet hits; `surface` is -1 for nothing.
+/// Places of hits.
 struct CommonHit {
-    std::uint32_t lanes = 0;
-    std::int32_t surface = -1;
     Vec3v<float> point;
     Vec3v<float> normal;  ///< outwards and unit
+};
+
+/// What a packet may hit first, by numbers in the plan; -1 for none.
+struct Choice {
+    bool is_known;  ///< false where find_any_hits() has to look
+    std::uint32_t lanes;
+    std::int8_t sphere, ground;
+    std::int8_t behind;  ///< another sphere that has to be behind
 };
 
 /// Where rays start relative to a point, in double.
@@ -173,15 +176,13 @@ inline MaybeLanes look_at(const PlanSphere& sphere, const RayPacket<float>& rays
 struct GroundLanes {
     std::uint32_t open;
     std::uint32_t sure;
-    AnchoredLine line;
 };
 
 inline GroundLanes look_at(const PlanGround& ground, const RayPacket<float>& rays,
                            const RayScale& scale, std::uint32_t active)
 {
     GroundLanes lanes_of;
-    lanes_of.line = line_of<false>(ground.filter, rays, scale);
-    const AnchoredLine& line = lanes_of.line;
+    const AnchoredLine line = line_of<false>(ground.filter, rays, scale);
     const std::uint32_t outside = bits(line.value > line.value_error);
     const std::uint32_t away = bits(line.b > line.slope_error);
     const std::uint32_t misses = bits(line.discriminant < negated(line.discriminant_error));
@@ -210,16 +211,14 @@ inline bool is_behind(const PlanSphere& sphere, const Vec3v<float>& point,
                          (dot(from, rays.dir) < vreal<float>(0.0f)))) == 0;
 }
 
-/// False where it can't be told; `hit` is then of no use. `own` is the surface that all rays start
-/// on, or -1 for none.
-template <Generation G, abi::Features F>
-inline bool find_common_hit(CommonHit& hit, const FusedTile<F>& tile, const Candidates& candidates,
-                            const RayPacket<float>& rays, std::int32_t own, std::uint32_t active)
+/// Chooses what the rays of a packet hit, if anything. `own` is the surface that all start on, or -1
+/// for none.
+template <abi::Features F>
+inline Choice choose_hit(const FramePlan<F>& plan, const Candidates& candidates,
+                         const RayPacket<float>& rays, std::int32_t own, std::uint32_t active)
 {
-    const FramePlan<F>& plan = tile.plan;
+    constexpr Choice unknown{false, 0, -1, -1, -1};
     const RayScale scale(rays);
-    if ((active & ~bits(certifiable(rays))) != 0)
-        return false;
     int first = -1;
     int second = -1;
     std::uint32_t sure = 0;
@@ -233,7 +232,7 @@ inline bool find_common_hit(CommonHit& hit, const FusedTile<F>& tile, const Cand
         if (maybe.open == 0)
             continue;
         if (second >= 0)
-            return false;
+            return unknown;
         if (first < 0 || (bits(maybe.b > nearness) & active) == active) {
             second = first;
             first = number;
@@ -245,7 +244,6 @@ inline bool find_common_hit(CommonHit& hit, const FusedTile<F>& tile, const Cand
         }
     }
     int ground = -1;
-    GroundLanes at_ground;
     for (int i = 0; i < candidates.ground_count; ++i) {
         const int number = candidates.grounds[i];
         if (plan.grounds[number].surface == own)
@@ -254,36 +252,51 @@ inline bool find_common_hit(CommonHit& hit, const FusedTile<F>& tile, const Cand
         if (maybe.open == 0)
             continue;
         if (ground >= 0)
-            return false;
+            return unknown;
         ground = number;
-        at_ground = maybe;
-    }
-    const float(&eye)[3] = tile.eye;
-    if (first < 0 && ground < 0)
-        return true;
-    if (first < 0) {
-        if (at_ground.sure != at_ground.open)
-            return false;
-        hit.lanes = at_ground.open;
-        hit.surface = plan.grounds[ground].surface;
-        return (hit.lanes & ~refine_common<G>(hit, plan.grounds[ground], rays, eye)) == 0;
+        if (first < 0) {
+            sure = maybe.sure;
+            open = maybe.open;
+        }
     }
     // With something else near, the sphere has to be what all rays hit.
-    if (sure != open || ((second >= 0 || ground >= 0) && sure != active))
-        return false;
+    const bool others = first >= 0 && (second >= 0 || ground >= 0);
+    if (sure != open || (others && sure != active))
+        return unknown;
+    return {true, sure, static_cast<std::int8_t>(first), static_cast<std::int8_t>(ground),
+            static_cast<std::int8_t>(second)};
+}
+
+/// Refines what was chosen. False where that, or what comes first, can't be told.
+template <Generation G, abi::Features F>
+inline bool refine_choice(CommonHit& hit, const FusedTile<F>& tile, const Choice& choice,
+                          const RayPacket<float>& rays)
+{
+    const FramePlan<F>& plan = tile.plan;
+    const std::uint32_t lanes_of = choice.lanes;
+    if (choice.sphere < 0)
+        return (lanes_of & ~refine_common<G>(hit, plan.grounds[choice.ground], rays, tile.eye)) ==
+               0;
     vreal<float> t;
-    hit.lanes = sure;
-    hit.surface = plan.spheres[first].surface;
-    if ((sure & ~refine_common<G>(hit, t, plan.spheres[first], rays, eye)) != 0)
+    if ((lanes_of & ~refine_common<G>(hit, t, plan.spheres[choice.sphere], rays, tile.eye)) != 0)
         return false;
-    if (second >= 0 && (far_lanes(plan, hit.point) & sure) != 0)
+    if (choice.behind >= 0 &&
+        ((far_lanes(plan, hit.point) & lanes_of) != 0 ||
+         !is_behind(plan.spheres[choice.behind], hit.point, rays, lanes_of)))
         return false;
-    if (second >= 0 && !is_behind(plan.spheres[second], hit.point, rays, sure))
-        return false;
-    if (ground < 0)
+    if (choice.ground < 0)
         return true;
     const vreal<float> further = t * vreal<float>(1.0f + 0x1p-20f);
-    return (sure & ~bits(stays_above(at_ground.line, further))) == 0;
+    const AnchoredLine line =
+        line_of<false>(plan.grounds[choice.ground].filter, rays, RayScale(rays));
+    return (lanes_of & ~bits(stays_above(line, further))) == 0;
+}
+
+template <abi::Features F>
+inline std::int32_t surface_of(const FramePlan<F>& plan, const Choice& choice)
+{
+    return choice.sphere >= 0 ? plan.spheres[choice.sphere].surface
+                              : plan.grounds[choice.ground].surface;
 }
 
 }  // namespace

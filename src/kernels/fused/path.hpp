@@ -4,23 +4,53 @@
 #include "kernels/stream/camera_rays.hpp"
 #include "kernels/stream/probe.hpp"
 
-// A packet of paths, from the eye to the last mirror, while it is traced in registers.
+// Packets of paths, from the eye to the last mirror, and the memory of a thread for them.
 namespace packtrace::PACKTRACE_ISA {
 namespace {
 
-/// A packet of paths: the rays of one generation, with what they bring to their pixels.
+/// Rays of a packet of paths, and what they bring to their pixels so far.
 struct PathState {
-    RayPacket<float> rays;
-    StartPacket<float> start;
+    Vec3v<float> org;
+    Vec3v<float> dir;
+    vreal<float> dir2;
     vreal<float> weight;
-    Vec3v<float> color;    ///< of the pixels so far
-    std::uint32_t active;  ///< lanes whose path goes on
-    std::int32_t own;      ///< what all of them start on; -1 for nothing, or several surfaces
-    bool is_far;           ///< some start beyond the plan's origins
-    bool is_plain;         ///< find_common_hit() may be asked
+    Vec3v<float> color;
+    std::uint32_t active;    ///< lanes whose path goes on
+    std::int32_t own;        ///< the surface that all of them start on; -1: none, or several
+    bool is_far;             ///< some start beyond the plan's origins
+    bool is_plain;           ///< find_common_hit() may be asked
+    bool meets_own;          ///< some may meet the body again that they start on, as `second` says
+    SecondHit<float> second; ///< set where meets_own
 };
 
-/// Materials of packets, by number; those of packets that share one are kept.
+/// Hits of a packet of paths; those that paths start on until the next are found.
+struct HitState {
+    Vec3v<float> point;
+    Vec3v<float> outward;  ///< unit normal
+    Vec3v<float> normal;   ///< turned against the ray where the surface's is
+    vint<float> number;    ///< of the surfaces
+    vreal<float> normal_dir;  ///< N·D
+    vreal<float> floor_dir2;  ///< squared cosine below which nothing shines, times D·D
+    Vec3v<float> color;       ///< of their own light
+    const MaterialPacket<float>* material;
+    std::uint32_t lanes;
+    std::uint32_t leaving;  ///< lanes that come from the inside
+    std::int32_t common;    ///< the surface that all are on; -1 for several
+    bool is_far;            ///< some are beyond the plan's origins
+};
+
+/// A packet of paths while it is traced.
+struct PacketWork {
+    PathState path;
+    HitState hit;
+    MaterialPacket<float> mixed;  ///< of hits that do not share one
+};
+
+/// Packets are traced side by side, stage by stage: while one waits for a root or a division, the
+/// processor goes on with the next.
+inline constexpr int packets_at_once = 4;
+
+/// Materials of packets that share one, by number.
 class MaterialCache {
 public:
     void clear()
@@ -29,14 +59,8 @@ public:
             number = -1;
     }
 
-    const MaterialPacket<float>& fetch(const abi::SceneView<float>& scene,
-                                       const SurfacePacket<float>& surface, std::uint32_t active)
+    const MaterialPacket<float>& fetch(const abi::SceneView<float>& scene, std::int32_t number)
     {
-        const lane_int<float> number = surface.common_material;
-        if (number < 0) {
-            mixed_ = fetch_materials(scene, surface.material, active);
-            return mixed_;
-        }
         const int slot = number % slots;
         if (number_[slot] != number) {
             number_[slot] = number;
@@ -46,9 +70,10 @@ public:
     }
 
 private:
+    // More than a chunk of packets has.
     static constexpr int slots = 8;
+    static_assert(slots > packets_at_once);
     MaterialPacket<float> material_[slots];
-    MaterialPacket<float> mixed_;
     lane_int<float> number_[slots];
 };
 
@@ -56,9 +81,10 @@ private:
 template <abi::Features F>
 struct FusedMemory {
     TilePixelColors<float>* color = nullptr;
+    PacketWork* packets = nullptr;
     MaterialCache* materials = nullptr;
-    FilteredObjects<true> visible;                ///< from the eye through the tile
-    std::uint8_t* visible_spheres = nullptr;      ///< the same, by their numbers in the plan
+    FilteredObjects<true> visible;            ///< from the eye through the tile
+    std::uint8_t* visible_spheres = nullptr;  ///< the same, by their numbers in the plan
     std::uint8_t* visible_grounds = nullptr;
     FilteredObjects<false> from_far;              ///< for a packet of origins beyond the plan's
     LightObjects<F, float>* occluders = nullptr;  ///< likewise, by light
@@ -69,6 +95,7 @@ struct FusedMemory {
     {
         Arena arena(scratch);
         color = arena.take<TilePixelColors<float>>(1);
+        packets = arena.take<PacketWork>(packets_at_once);
         materials = arena.take<MaterialCache>(1);
         take_objects<F>(arena, visible, scene);
         visible_spheres = arena.take<std::uint8_t>(static_cast<std::size_t>(scene.spheres.count));
@@ -93,7 +120,35 @@ struct FusedTile {
     FusedMemory<F>& memory;
     abi::RayCounts& counts;
     float eye[3];
+    float eye_t_min;
 };
+
+/// Whether rays of a generation come from the eye.
+enum class Generation { camera, mirrored };
+
+template <Generation G, abi::Features F>
+inline float least_t(const FusedTile<F>& tile)
+{
+    return G == Generation::camera ? tile.eye_t_min : tile.scene.rules.secondary_t_min;
+}
+
+template <Generation G, abi::Features F>
+inline RayPacket<float> rays_of(const FusedTile<F>& tile, const PathState& path)
+{
+    const vreal<float> t_min(least_t<G>(tile));
+    if constexpr (G == Generation::camera)
+        return {broadcast(tile.eye), path.dir, path.dir2, t_min};
+    else
+        return {path.org, path.dir, path.dir2, t_min};
+}
+
+/// What paths start on, which stands in the hits of the generation before.
+inline StartPacket<float> start_of(const PacketWork& work)
+{
+    if (work.path.meets_own)
+        return {work.hit.point, work.hit.number, work.path.second};
+    return {work.hit.point, work.hit.number, no_second_hit<float>()};
+}
 
 /// The surface of each ray's start, which its search passes over, for rays that count alone.
 struct ActiveOwn {

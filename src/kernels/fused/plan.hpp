@@ -22,7 +22,9 @@ struct FrontPlane {
 struct AcrossSphere {
     float center[2];  ///< in that plane
     float outer2;
-    float along;  ///< points further on than this are past the sphere
+    float inner2;  ///< lines that pass nearer cross it
+    float along;   ///< points further on than this are past the sphere
+    float before;  ///< points less far on have it all before them
     std::int32_t surface;
 };
 
@@ -30,10 +32,19 @@ struct AcrossSphere {
 /// is less than `edge` over its length.
 struct ConeSphere {
     float to[3];  ///< from the light to the centre
-    float edge;   ///< infinite for a light that is not outside
+    float edge;   ///< -infinite for a light that is not outside
+    float inner_edge;  ///< what is more crosses the sphere
     float center[3];
     float outer2;
     std::int32_t surface;
+};
+
+/// Which of a light's tests points on one surface need: the others can't fail for any point of it.
+struct NeededTests {
+    std::uint8_t* planes = nullptr;
+    std::uint8_t* spheres = nullptr;
+    int plane_count = 0;
+    int sphere_count = 0;
 };
 
 /// What can be told of shadow rays without an interval (clear_way.hpp), of points in the plan's
@@ -48,7 +59,8 @@ struct ClearTests {
     float length2 = 0;          ///< of its vector, and the inverse root
     float inverse_length = 0;
     float least_distance2 = 0;  ///< points nearer to a point light than its root are not told of
-    bool complete = false;      ///< these tests know all objects that may be in the way
+    NeededTests* needed = nullptr;  ///< by surface; [-1] for points on any
+    bool complete = false;          ///< these tests know all objects that may be in the way
 };
 
 /// A sphere for rays from the plan's `origins` (sphere_filter.hpp), and its record for refining.
@@ -104,25 +116,50 @@ struct FramePlan {
         for (int i = 0; i < lights; ++i) {
             take_occluders<F, float>(arena, memory != nullptr ? occluders[i] : measured, scene,
                                      scene.lighting.lights.data[i]);
-            take_clear(arena, memory != nullptr ? clear + i : nullptr, casters);
+            take_clear(arena, memory != nullptr ? clear + i : nullptr, casters, scene);
         }
         bytes = arena.used();
     }
 
 private:
-    static void take_clear(Arena& arena, ClearTests* tests, const abi::SceneView<float>& casters)
+    static void take_clear(Arena& arena, ClearTests* tests, const abi::SceneView<float>& casters,
+                           const abi::SceneView<float>& scene)
     {
         const auto spheres = static_cast<std::size_t>(casters.spheres.count);
-        FrontPlane* const planes = arena.take<FrontPlane>(
-            static_cast<std::size_t>(casters.planes.count + casters.anchored_spheres.count));
+        const auto flats =
+            static_cast<std::size_t>(casters.planes.count + casters.anchored_spheres.count);
+        const std::size_t surfaces = 1 + surface_count(scene);
+        FrontPlane* const planes = arena.take<FrontPlane>(flats);
         AcrossSphere* const across = arena.take<AcrossSphere>(spheres);
         ConeSphere* const cones = arena.take<ConeSphere>(spheres);
+        NeededTests* const needed = arena.take<NeededTests>(surfaces);
+        std::uint8_t* const numbers = arena.take<std::uint8_t>(surfaces * (flats + spheres));
         if (tests == nullptr)
             return;
         *tests = {};
         tests->planes = planes;
         tests->across = across;
         tests->cones = cones;
+        tests->needed = needed + 1;
+        for (std::size_t i = 0; i < surfaces; ++i) {
+            needed[i].planes = numbers + i * (flats + spheres);
+            needed[i].spheres = needed[i].planes + flats;
+        }
+    }
+
+    /// One more than the largest number.
+    static std::size_t surface_count(const abi::SceneView<float>& scene)
+    {
+        std::int32_t most = -1;
+        for_each_kind<F>([&](auto kind) {
+            const auto& list = kind.list(scene);
+            for (int i = 0; i < list.count; ++i) {
+                const Body body = body_of(object_at(list, i));
+                most = most < body.first ? body.first : most;
+            }
+            return true;
+        });
+        return static_cast<std::size_t>(most) + 1;
     }
 };
 
