@@ -11,7 +11,7 @@ namespace {
 /// The lanes of `among` that are on other objects than `surface`.
 inline std::uint32_t on_others(const HitState& at, std::uint32_t among, std::int32_t surface)
 {
-    return among == 0 || at.common >= 0 ? among
+    return at.common >= 0 || among == 0 ? among
                                         : among & ~lanes_on_body<float>(at.number, surface);
 }
 
@@ -98,19 +98,10 @@ inline QuickShadow shadow_towards(const ClearTests& tests, const HitState& at,
 template <abi::Features F>
 [[gnu::noinline]] std::uint32_t trace_to_light(const FusedTile<F>& tile, int light,
                                                const LightObjects<F, float>* occluders,
-                                               const PacketWork& work,
+                                               const SurfacePacket<float>& surface,
                                                const LightPacket<float>& packet,
                                                std::uint32_t wanted)
 {
-    SurfacePacket<float> surface;
-    surface.point = work.hit.point;
-    surface.normal = work.hit.normal;
-    surface.dir = work.path.dir;
-    surface.number = work.hit.number;
-    surface.common = work.hit.common;
-    surface.leaving = work.hit.leaving;
-    surface.lift =
-        origin_offset<float>(tile.scene.rules.start_error, surface.point, work.hit.outward);
     const ShadeContext<F, float> context{&tile.scene, occluders,    nullptr, nullptr,
                                          0,           &tile.counts, nullptr};
     const abi::LightRecord<float>& record = tile.scene.lighting.lights.data[light];

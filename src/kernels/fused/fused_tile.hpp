@@ -70,34 +70,25 @@ inline Candidates number_visible(const FramePlan<F>& plan, const FusedMemory<F>&
     return candidates;
 }
 
-/// Begins the paths of camera rays from number `first` on.
+/// Traces the paths of a packet of camera rays, from number `first` on; returns their colours.
 template <abi::Features F>
-inline void start_paths(const FusedTile<F>& tile, const abi::TileJob<float>& job,
-                        const TileCamera<float>& camera, int first)
+inline Vec3v<float> trace_paths(const FusedTile<F>& tile, const Candidates& visible,
+                                const Candidates& all, const RayPacket<float>& rays,
+                                std::uint32_t active)
 {
-    for (int i = 0; i < packets_at_once; ++i) {
-        PathState& path = tile.memory.packets[i].path;
-        const int ray = first + i * lanes<float>;
-        const RayPacket<float> rays = camera_rays(camera, ray, tile.scene.rules.units);
-        path.active = lanes_inside(job, ray);
-        path.dir = rays.dir;
-        path.dir2 = rays.dir2;
-        path.weight = vreal<float>(1.0f);
-        path.own = -1;
-        path.is_far = path.meets_own = false;
-        // Mirrors keep lengths but for a little.
-        path.is_plain = tile.plan.has_common_hits &&
-                        (path.active & ~bits(certifiable(rays))) == 0;
-    }
-}
-
-template <abi::Features F>
-inline bool goes_on(const FusedMemory<F>& memory)
-{
-    std::uint32_t active = 0;
-    for (int i = 0; i < packets_at_once; ++i)
-        active |= memory.packets[i].path.active;
-    return active != 0;
+    PathState path;
+    PathStart start;
+    path.dir = rays.dir;
+    path.dir2 = rays.dir2;
+    path.weight = vreal<float>(1.0f);
+    path.active = active;
+    path.is_far = false;
+    // Mirrors keep lengths but for a little.
+    path.is_plain = tile.plan.has_common_hits && (active & ~bits(certifiable(rays))) == 0;
+    trace_generation<Generation::camera>(tile, visible, path, start, 0);
+    for (int depth = 1; path.active != 0; ++depth)
+        trace_generation<Generation::mirrored>(tile, all, path, start, depth);
+    return path.color;
 }
 
 template <abi::Features F>
@@ -115,8 +106,6 @@ inline abi::RayCounts trace_fused_tile(const abi::TileJob<float>& job)
         write_tile(job, *memory.color);
         return counts;
     }
-    memory.materials->clear();
-    counts.stages |= abi::stage_hits | abi::stage_normals | abi::stage_refined;
     const auto& plan = *static_cast<const FramePlan<F>*>(job.plan);
     const float(&eye)[3] = job.camera->origin;
     const FusedTile<F> tile{
@@ -125,17 +114,13 @@ inline abi::RayCounts trace_fused_tile(const abi::TileJob<float>& job)
     const Candidates all{plan.numbers, plan.numbers, scene.spheres.count,
                          scene.anchored_spheres.count};
     const TileCamera<float> camera(job);
-    constexpr int step = packets_at_once * lanes<float>;
-    for (int first = 0; first < abi::tile_pixels; first += step) {
-        start_paths(tile, job, camera, first);
-        trace_generation<Generation::camera>(tile, visible, packets_at_once, 0);
-        for (int depth = 1; goes_on(memory); ++depth)
-            trace_generation<Generation::mirrored>(tile, all, packets_at_once, depth);
-        for (int i = 0; i < packets_at_once; ++i) {
-            const Vec3v<float>& color = memory.packets[i].path.color;
-            store_pixels(*memory.color + pixel_elements * (first + i * lanes<float>), color.x,
-                         color.y, color.z);
-        }
+    for (int first = 0; first < abi::tile_pixels; first += lanes<float>) {
+        const std::uint32_t active = lanes_inside(job, first);
+        if (active == 0)
+            continue;
+        const RayPacket<float> rays = camera_rays(camera, first, scene.rules.units);
+        const Vec3v<float> color = trace_paths(tile, visible, all, rays, active);
+        store_pixels(*memory.color + pixel_elements * first, color.x, color.y, color.z);
     }
     write_tile(job, *memory.color);
     return counts;

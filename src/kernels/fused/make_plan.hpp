@@ -286,7 +286,8 @@ inline void fill_spheres(FramePlan<F>& plan, const abi::SceneView<float>& scene)
         for (int axis = 0; axis < 3; ++axis)
             distance += __builtin_fabs(double{sphere.center[axis]} -
                                        double{plan.origins.center[axis]});
-        sphere.slack = above(double{list.bounds.along[i]} + roundoffs(28.0f) * distance);
+        const double slack = double{list.bounds.along[i]} + roundoffs(28.0f) * distance;
+        sphere.slack2 = above(slack * slack * (1.0 + clear_slack));
         const double clear = clear_radius(scene.spheres, i, extent_of(plan.origins));
         sphere.clear2 = above(clear * clear * (1.0 + clear_slack));
         sphere.surface = list.surface[i];
@@ -300,26 +301,86 @@ inline void fill_spheres(FramePlan<F>& plan, const abi::SceneView<float>& scene)
     }
 }
 
-template <abi::Features F>
-inline void fill_grounds(FramePlan<F>& plan, const abi::SceneView<float>& scene)
+/// The errors of a ground's form for origins up to `distance` from its base. Rounding moves the base
+/// itself, too.
+inline void set_ground_errors(PlanGround& ground, double distance)
 {
-    const auto& list = list_of<AnchoredSphere>(plan.from_near);
+    double moved = 0;
+    for (int axis = 0; axis < 3; ++axis)
+        moved += __builtin_fabs(double{ground.base[axis]} - ground.exact_base[axis]);
+    AnchoredFilter errors{};
+    errors.curvature = ground.curvature;
+    errors.offset = ground.offset;
+    set_anchored_errors(errors, distance, false);
+    const double size = 1.0 + ground.exact_curvature * distance;
+    const double slope = double{errors.slope_error} + 2.0 * ground.exact_curvature * moved;
+    ground.value_error = above(double{errors.value_error} + 3.0 * size * moved);
+    ground.slope_error2 = above(slope * slope * (1.0 + clear_slack));
+    ground.discriminant_error =
+        above(double{errors.discriminant_error} + 8.0 * size * ground.exact_curvature * moved);
+}
+
+/// The plane that touches a ground where it is nearest to all that is near.
+inline void set_top(PlanGround& ground, const abi::AnchoredSphere<double>& shape,
+                    const Origins& origins, const float (&eye)[3])
+{
+    const double to[3] = {origins.center[0], origins.center[1], origins.center[2]};
+    const double distance = distance_of(to, shape.center);
+    double size = extent_of(origins);
+    double level = 0;
+    double eye_level = 0;
+    for (int axis = 0; axis < 3; ++axis) {
+        const double normal = distance > 0 ? (to[axis] - shape.center[axis]) / distance : 0.0;
+        const double point = shape.center[axis] + shape.radius * normal;
+        ground.top[axis] = static_cast<float>(normal);
+        level += normal * point;
+        eye_level += normal * double{eye[axis]};
+        size += __builtin_fabs(point);
+    }
+    ground.top_offset = distance > 0 ? above(level + clear_slack * size + 0x1p-22 * __builtin_fabs(level))
+                                     : __builtin_inff();
+    ground.eye_above = eye_level > level + clear_slack * size;
+}
+
+template <abi::Features F>
+inline void fill_grounds(FramePlan<F>& plan, const abi::SceneView<float>& scene,
+                         const float (&eye)[3])
+{
+    const auto& list = scene.anchored_spheres;
     for (int i = 0; i < list.count; ++i) {
         PlanGround& ground = plan.grounds[i];
-        ground.filter = list.data[i];
         ground.surface = list.data[i].surface;
         const abi::AnchoredSphere<double>& shape =
             scene.shapes.anchored_spheres[scene.shapes.index[ground.surface].record];
+        double distance = double{plan.origins.radius};
         for (int axis = 0; axis < 3; ++axis) {
             ground.exact_base[axis] = shape.anchor[axis];
             ground.exact_normal[axis] = shape.normal[axis];
             ground.base[axis] = static_cast<float>(shape.anchor[axis]);
             ground.normal[axis] = static_cast<float>(shape.normal[axis]);
+            distance += __builtin_fabs(double{plan.origins.center[axis]} - shape.anchor[axis]);
         }
         ground.exact_curvature = shape.curvature;
         ground.exact_offset = shape.offset;
         ground.curvature = static_cast<float>(shape.curvature);
         ground.offset = static_cast<float>(shape.offset);
+        set_ground_errors(ground, distance * 1.00001);
+        set_top(ground, shape, plan.origins, eye);
+    }
+}
+
+template <abi::Features F>
+inline void fill_materials(FramePlan<F>& plan, const abi::SceneView<float>& scene)
+{
+    const auto count = static_cast<std::int32_t>(FramePlan<F>::material_count(scene));
+    for (std::int32_t i = 0; i < count; ++i) {
+        PlanMaterial& material = plan.materials[i];
+        material.packet = fetch_materials(scene, vint<float>(i), all_lanes<float>);
+        const vreal<float> floor = material.packet.highlight_floor;
+        // Rounding can't make a shine of a cosine that is below this.
+        material.floor2 = max(floor * floor * vreal<float>(1.0f - 0x1p-18f),
+                              vreal<float>(std::numeric_limits<float>::min()));
+        material.mirrors = any_channel(material.packet.reflect) != 0;
     }
 }
 
@@ -446,7 +507,9 @@ inline void fill_plan(FramePlan<F>& plan, const abi::SceneView<float>& scene,
     plan.origins = near_origins(scene, camera.origin);
     find_objects<F>(plan.from_near, plan.origins, scene);
     fill_spheres(plan, scene);
-    fill_grounds(plan, scene);
+    fill_grounds(plan, scene, camera.origin);
+    fill_materials(plan, scene);
+    plan.near2 = plan.origins.radius * plan.origins.radius * 0.999f;
     for (int i = 0; i < 256; ++i)
         plan.numbers[i] = static_cast<std::uint8_t>(i);
     plan.has_common_hits = plan.from_near.certifiable && scene.planes.count == 0 &&

@@ -15,74 +15,36 @@ struct PathState {
     vreal<float> dir2;
     vreal<float> weight;
     Vec3v<float> color;
-    std::uint32_t active;    ///< lanes whose path goes on
-    std::int32_t own;        ///< the surface that all of them start on; -1: none, or several
-    bool is_far;             ///< some start beyond the plan's origins
-    bool is_plain;           ///< find_common_hit() may be asked
-    bool meets_own;          ///< some may meet the body again that they start on, as `second` says
-    SecondHit<float> second; ///< set where meets_own
+    std::uint32_t active;  ///< lanes whose path goes on
+    bool is_far;           ///< some start beyond the plan's origins
+    bool is_plain;         ///< find_common_hit() may be asked
 };
 
-/// Hits of a packet of paths; those that paths start on until the next are found.
+/// Hits of a packet of paths.
 struct HitState {
     Vec3v<float> point;
     Vec3v<float> outward;  ///< unit normal
-    Vec3v<float> normal;   ///< turned against the ray where the surface's is
-    vint<float> number;    ///< of the surfaces
-    vreal<float> normal_dir;  ///< N·D
-    vreal<float> floor_dir2;  ///< squared cosine below which nothing shines, times D·D
-    Vec3v<float> color;       ///< of their own light
-    const MaterialPacket<float>* material;
+    vint<float> number;    ///< of the surfaces; set where they differ
+    std::int32_t common;   ///< the surface that all are on; -1 for several
     std::uint32_t lanes;
-    std::uint32_t leaving;  ///< lanes that come from the inside
-    std::int32_t common;    ///< the surface that all are on; -1 for several
-    bool is_far;            ///< some are beyond the plan's origins
 };
 
-/// A packet of paths while it is traced.
-struct PacketWork {
-    PathState path;
-    HitState hit;
-    MaterialPacket<float> mixed;  ///< of hits that do not share one
+/// What the rays of a packet start on, for those that find_common_hit() can't tell of.
+struct PathStart {
+    HitState at;
+    bool meets_own;           ///< some may meet the same body again, as `second` says
+    SecondHit<float> second;  ///< set where meets_own
 };
 
-/// Packets are traced side by side, stage by stage: while one waits for a root or a division, the
-/// processor goes on with the next.
-inline constexpr int packets_at_once = 4;
-
-/// Materials of packets that share one, by number.
-class MaterialCache {
-public:
-    void clear()
-    {
-        for (lane_int<float>& number : number_)
-            number = -1;
-    }
-
-    const MaterialPacket<float>& fetch(const abi::SceneView<float>& scene, std::int32_t number)
-    {
-        const int slot = number % slots;
-        if (number_[slot] != number) {
-            number_[slot] = number;
-            material_[slot] = fetch_materials(scene, vint<float>(number), all_lanes<float>);
-        }
-        return material_[slot];
-    }
-
-private:
-    // More than a chunk of packets has.
-    static constexpr int slots = 8;
-    static_assert(slots > packets_at_once);
-    MaterialPacket<float> material_[slots];
-    lane_int<float> number_[slots];
-};
+inline vint<float> numbers_of(const HitState& hit)
+{
+    return hit.common >= 0 ? vint<float>(lane_int<float>{hit.common}) : hit.number;
+}
 
 /// The memory of a thread for a tile.
 template <abi::Features F>
 struct FusedMemory {
     TilePixelColors<float>* color = nullptr;
-    PacketWork* packets = nullptr;
-    MaterialCache* materials = nullptr;
     FilteredObjects<true> visible;            ///< from the eye through the tile
     std::uint8_t* visible_spheres = nullptr;  ///< the same, by their numbers in the plan
     std::uint8_t* visible_grounds = nullptr;
@@ -95,8 +57,6 @@ struct FusedMemory {
     {
         Arena arena(scratch);
         color = arena.take<TilePixelColors<float>>(1);
-        packets = arena.take<PacketWork>(packets_at_once);
-        materials = arena.take<MaterialCache>(1);
         take_objects<F>(arena, visible, scene);
         visible_spheres = arena.take<std::uint8_t>(static_cast<std::size_t>(scene.spheres.count));
         visible_grounds =
@@ -142,12 +102,12 @@ inline RayPacket<float> rays_of(const FusedTile<F>& tile, const PathState& path)
         return {path.org, path.dir, path.dir2, t_min};
 }
 
-/// What paths start on, which stands in the hits of the generation before.
-inline StartPacket<float> start_of(const PacketWork& work)
+inline StartPacket<float> start_of(const PathStart& start)
 {
-    if (work.path.meets_own)
-        return {work.hit.point, work.hit.number, work.path.second};
-    return {work.hit.point, work.hit.number, no_second_hit<float>()};
+    const vint<float> number = numbers_of(start.at);
+    if (start.meets_own)
+        return {start.at.point, number, start.second};
+    return {start.at.point, number, no_second_hit<float>()};
 }
 
 /// The surface of each ray's start, which its search passes over, for rays that count alone.
@@ -171,11 +131,8 @@ struct ActiveOwn {
 template <abi::Features F>
 inline std::uint32_t far_lanes(const FramePlan<F>& plan, const Vec3v<float>& place)
 {
-    // The cube in the ball of origins.
-    const vreal<float> edge(plan.origins.radius * 0.57f);
     const Vec3v<float> from = place - broadcast(plan.origins.center);
-    return ~bits((abs(from.x) <= edge) & (abs(from.y) <= edge) & (abs(from.z) <= edge)) &
-           all_lanes<float>;
+    return ~bits(dot(from, from) <= vreal<float>(plan.near2)) & all_lanes<float>;
 }
 
 /// The ball around the places of some lanes.

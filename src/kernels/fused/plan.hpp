@@ -68,7 +68,7 @@ struct PlanSphere {
     float center[3];
     float outer2, inner2;
     float clear2;  ///< squared radius that points within the plan's origins are outside by
-    float slack;   ///< of the slope w·d, per |d|, but for what the distance adds
+    float slack2;  ///< square of what the slope w·d may be off by, per |d|
     float radius2;
     float inverse_radius;
     double exact_center[3];
@@ -76,12 +76,23 @@ struct PlanSphere {
     std::int32_t surface;
 };
 
-/// A sphere by a point of it or a plane, likewise. The filter's anchor is the plan's own.
+/// An anchored sphere, likewise: the form that is refined, rounded, and the errors of its terms.
 struct PlanGround {
-    AnchoredFilter filter;
     float base[3], normal[3], curvature, offset;
+    float value_error;         ///< of F(0)
+    float slope_error2;        ///< square of that of b, per |d|
+    float discriminant_error;  ///< per d·d
+    float top[3], top_offset;  ///< a plane that the sphere is behind; points behind it are not told of
+    bool eye_above;            ///< the eye is in front of that
     double exact_base[3], exact_normal[3], exact_curvature, exact_offset;
     std::int32_t surface;
+};
+
+/// A material in all lanes.
+struct PlanMaterial {
+    MaterialPacket<float> packet;
+    vreal<float> floor2;  ///< squared cosine below which nothing shines, less what rounding may do
+    bool mirrors;
 };
 
 /// `F` is a feature set of exact mode without glass.
@@ -94,6 +105,8 @@ struct FramePlan {
     ClearTests* clear = nullptr;                  ///< by light
     PlanSphere* spheres = nullptr;                ///< in the scene's order
     PlanGround* grounds = nullptr;                ///< likewise
+    PlanMaterial* materials = nullptr;            ///< by number
+    float near2 = 0;                              ///< square of the origins' radius, and less
     std::uint8_t* numbers = nullptr;              ///< 0, 1, …: all spheres, or all grounds
     bool has_common_hits = false;  ///< bounds hold, and common_hit.hpp knows all objects
     std::size_t bytes = 0;
@@ -109,6 +122,7 @@ struct FramePlan {
         take_objects<F>(arena, from_near, scene);
         spheres = arena.take<PlanSphere>(static_cast<std::size_t>(scene.spheres.count));
         grounds = arena.take<PlanGround>(static_cast<std::size_t>(scene.anchored_spheres.count));
+        materials = arena.take<PlanMaterial>(material_count(scene));
         numbers = arena.take<std::uint8_t>(256);
         occluders = arena.take<LightObjects<F, float>>(static_cast<std::size_t>(lights));
         clear = arena.take<ClearTests>(static_cast<std::size_t>(lights));
@@ -147,19 +161,37 @@ private:
         }
     }
 
+    /// Calls `visit(surface)` for each.
+    template <class Visit>
+    static void for_each_surface(const abi::SceneView<float>& scene, const Visit& visit)
+    {
+        for_each_kind<F>([&](auto kind) {
+            const auto& list = kind.list(scene);
+            for (int i = 0; i < list.count; ++i)
+                visit(body_of(object_at(list, i)).first);
+            return true;
+        });
+    }
+
     /// One more than the largest number.
     static std::size_t surface_count(const abi::SceneView<float>& scene)
     {
         std::int32_t most = -1;
-        for_each_kind<F>([&](auto kind) {
-            const auto& list = kind.list(scene);
-            for (int i = 0; i < list.count; ++i) {
-                const Body body = body_of(object_at(list, i));
-                most = most < body.first ? body.first : most;
-            }
-            return true;
-        });
+        for_each_surface(scene, [&](std::int32_t surface) { most = most < surface ? surface : most; });
         return static_cast<std::size_t>(most) + 1;
+    }
+
+public:
+    /// One more than the largest number of a material of these surfaces.
+    static std::size_t material_count(const abi::SceneView<float>& scene)
+    {
+        std::int32_t count = 0;
+        for_each_surface(scene, [&](std::int32_t surface) {
+            const abi::MaterialIndex& index = scene.materials.of_surface[surface];
+            const std::int32_t last = index.checker < 0 ? index.first : index.first + 1;
+            count = count <= last ? last + 1 : count;
+        });
+        return static_cast<std::size_t>(count);
     }
 };
 
