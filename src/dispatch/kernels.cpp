@@ -10,7 +10,7 @@ namespace packtrace {
 #define KERNELS(isa)                                 \
     namespace isa {                                  \
     const abi::KernelTable& kernel_table();          \
-    const abi::FusedKernels<float>& fused_kernels(); \
+    const abi::FusedTable& fused_kernels(); \
     }
 #define PROBES(isa)                           \
     namespace isa {                           \
@@ -36,7 +36,8 @@ std::vector<abi::KernelTable> whole_tables()
     std::vector<abi::KernelTable> tables;
 #define KERNELS(isa)                          \
     tables.push_back(isa::kernel_table());    \
-    tables.back().single_precision.fused = isa::fused_kernels();
+    for (int i = 0; i < abi::fused_set_count; ++i) \
+        tables.back().single_precision.fused[i] = isa::fused_kernels().set[i];
 #define PROBES(isa) add_probes(isa::probe_kernels(), tables.back());
 #include "dispatch/kernel_list.inc"
 #undef KERNELS

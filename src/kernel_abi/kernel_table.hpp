@@ -113,13 +113,19 @@ struct FusedKernels {
     RayCounts (*render_tile)(const TileJob<Real>& job) = nullptr;
 };
 
+/// Those with mirrors that are not tinted, and those with any.
+inline constexpr int fused_set_count = 2;
+struct FusedTable {
+    FusedKernels<float> set[fused_set_count] = {};
+};
+
 /// The kernels of one precision.
 template <class Real>
 struct PrecisionTable {
     int lanes = 0;
     /// Those of Features::exact first, for floats alone; then for each set the others.
     FeatureKernels<Real> kernels[2 * feature_set_count];
-    FusedKernels<Real> fused;
+    FusedKernels<Real> fused[fused_set_count];
     // Rays of the caller's own, against surfaces of every kind.
     // `scratch` is working memory of `stream_scratch_bytes`, 64-byte aligned, for one call at a
     // time; for `lit` of `lit_scratch_bytes`.

@@ -5,21 +5,22 @@
 namespace packtrace::PACKTRACE_ISA {
 namespace {
 
-constexpr abi::FusedKernels<float> kernels_in_registers()
+template <abi::Features F>
+constexpr abi::FusedKernels<float> fused_kernels_for()
 {
-#if PACKTRACE_FEATURE_SETS
-    constexpr abi::Features F{.highlights = true, .bounces = true, .exact = true};
     return {F, plan_bytes<F>, make_plan<F>, fused_scratch_bytes<F>, trace_fused_tile<F>};
-#else
-    return {};
-#endif
 }
 
-constexpr abi::FusedKernels<float> fused = kernels_in_registers();
+constexpr abi::FusedTable fused = {
+#if PACKTRACE_FEATURE_SETS
+    {fused_kernels_for<{.highlights = true, .bounces = true, .exact = true}>(),
+     fused_kernels_for<{.highlights = true, .bounces = true, .colored = true, .exact = true}>()}
+#endif
+};
 
 }  // namespace
 
-const abi::FusedKernels<float>& fused_kernels()
+const abi::FusedTable& fused_kernels()
 {
     return fused;
 }

@@ -15,6 +15,6 @@ namespace packtrace::PACKTRACE_ISA {
 
 /// The kernels that trace paths in registers, empty where there are none for sets of features. In a
 /// source of their own for the same reasons.
-[[nodiscard]] const abi::FusedKernels<float>& fused_kernels();
+[[nodiscard]] const abi::FusedTable& fused_kernels();
 
 }  // namespace packtrace::PACKTRACE_ISA

@@ -28,17 +28,26 @@ const LoweredScene& fitted(LoweredScene& lowered, const RenderOptions& options)
     return lowered;
 }
 
-/// What tiles that are traced in registers share; empty where streams render the scene.
+/// The kernels that trace a scene in registers; null where streams render it.
 template <class Real>
-AlignedArray<std::byte> make_plan(const abi::PrecisionTable<Real>& table, abi::Features needed,
+const abi::FusedKernels<Real>* fused_for(const abi::PrecisionTable<Real>& table,
+                                         abi::Features needed, const abi::SceneView<Real>& scene)
+{
+    for (const abi::FusedKernels<Real>& fused : table.fused)
+        if (fused.render_tile != nullptr && abi::covers(fused.features, needed))
+            return fused.plan_bytes(scene) > 0 ? &fused : nullptr;
+    return nullptr;
+}
+
+template <class Real>
+AlignedArray<std::byte> make_plan(const abi::FusedKernels<Real>* fused,
                                   const abi::SceneView<Real>& scene,
                                   const abi::CameraView<Real>& camera)
 {
-    const abi::FusedKernels<Real>& fused = table.fused;
-    const bool fits = fused.render_tile != nullptr && abi::covers(fused.features, needed);
-    AlignedArray<std::byte> plan(fits ? fused.plan_bytes(scene) : 0);
-    if (plan.size() > 0)
-        fused.make_plan(scene, camera, plan.data());
+    if (fused == nullptr)
+        return {};
+    AlignedArray<std::byte> plan(fused->plan_bytes(scene));
+    fused->make_plan(scene, camera, plan.data());
     return plan;
 }
 
@@ -54,11 +63,11 @@ TileRenderer<Real>::TileRenderer(const Scene& scene, LoweredScene lowered,
       pattern_(sample_pattern(options.samples)),
       once_(camera_view<Real>(scene, lowered, only_sample(scene, options))),
       corner_(camera_view<Real>(scene, lowered, Vec2(0.0))),
-      plan_(make_plan(precision<Real>(table), kernels_.set.features, packed_.view(), once_)),
-      render_tile_(plan_.size() > 0 ? precision<Real>(table).fused.render_tile
-                                    : kernels_.render_tile),
-      scratch_bytes_(plan_.size() > 0 ? precision<Real>(table).fused.scratch_bytes(packed_.view())
-                                      : kernels_.scratch_bytes(packed_.view())),
+      fused_(fused_for(precision<Real>(table), lowered.features, packed_.view())),
+      plan_(make_plan(fused_, packed_.view(), once_)),
+      render_tile_(fused_ != nullptr ? fused_->render_tile : kernels_.render_tile),
+      scratch_bytes_(fused_ != nullptr ? fused_->scratch_bytes(packed_.view())
+                                       : kernels_.scratch_bytes(packed_.view())),
       scratch_([this] { return AlignedArray<std::byte>(scratch_bytes_); })
 {
     packed_.add_light_buffers(lowered,

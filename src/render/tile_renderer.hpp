@@ -92,7 +92,8 @@ private:
     abi::CameraView<Real> once_;    // one sample a pixel
     abi::CameraView<Real> corner_;  // through the upper left corner of each pixel
     abi::Observation* observation_ = nullptr;
-    AlignedArray<std::byte> plan_;  // of kernels that trace in registers; else empty
+    const abi::FusedKernels<Real>* fused_;  // null where streams render the scene
+    AlignedArray<std::byte> plan_;          // of those
     abi::RayCounts (*render_tile_)(const abi::TileJob<Real>& job);
     std::size_t scratch_bytes_;
     mutable tbb::enumerable_thread_specific<AlignedArray<std::byte>> scratch_;

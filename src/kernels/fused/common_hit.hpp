@@ -94,11 +94,12 @@ inline RoughCommon rough_common(const PlanGround& ground, const RayPacket<float>
     const Vec3v<float> g = madd<float>(curvature, w, n);
     const vreal<float> value = dot(g + n, w) + vreal<float>(ground.offset);
     const vreal<float> b = dot(g, rays.dir);
-    const vreal<float> slope2 = b * abs(b);
+    const vreal<float> side(ground.side);
+    const vreal<float> slope2 = side * b * abs(b);
     const vreal<float> slope_error2 = vreal<float>(ground.slope_error2) * rays.dir2;
     RoughCommon rough;
     rough.bend = curvature * rays.dir2;
-    const std::uint32_t outside = bits(value > vreal<float>(ground.value_error));
+    const std::uint32_t outside = bits(side * value > vreal<float>(ground.value_error));
     rough.open = active & ~(outside & bits(slope2 > slope_error2));
     if (rough.open == 0)
         return rough;
@@ -160,7 +161,7 @@ inline std::uint32_t refine_common(HitState& hit, const PlanGround& ground,
     hit.outward = madd<float>(vreal<float>(ground.curvature), scale<float>(dt, rays.dir),
                               narrow(g_low, g_high));
     hit.point = place_at<G>(rays, eye, dir, t_wide, dt);
-    return is_surely_enough(t, rough.bend, slope, dt, rays.t_min);
+    return is_surely_enough(t, rough.bend, vreal<float>(ground.side) * slope, dt, rays.t_min);
 }
 
 /// The lanes of a packet whose rays may have a sphere before them; `b` is set where there are any.
@@ -204,6 +205,8 @@ inline bool is_behind(const FramePlan<F>& plan, const PlanGround& ground,
         above &= bits(dot(top, rays.org) > offset);
     if ((hits & ~above) == 0)
         return true;
+    if (ground.curvature == 0.0f)
+        return false;
     AnchoredFilter filter{};
     for (int axis = 0; axis < 3; ++axis) {
         filter.anchor[axis] = ground.base[axis];

@@ -45,29 +45,30 @@ inline void make_plan(const abi::SceneView<float>& scene, const abi::CameraView<
     fill_plan(*plan, scene, camera);
 }
 
-/// Fills `numbers` with the places in the plan's list of those objects that a list holds, which has
-/// them in the same order.
-template <class List, class Object>
-inline int number_objects(std::uint8_t* numbers, const List& list, const Object* objects)
-{
-    int number = 0;
-    for (int i = 0; i < list.count; ++i) {
-        while (objects[number].surface != body_of(object_at(list, i)).first)
-            ++number;
-        numbers[i] = static_cast<std::uint8_t>(number);
-    }
-    return list.count;
-}
-
+/// The objects that camera rays through a tile may meet.
 template <abi::Features F>
-inline Candidates number_visible(const FramePlan<F>& plan, const FusedMemory<F>& memory)
+inline Candidates find_visible(const FusedTile<F>& tile, const Cone<float>& cone)
 {
-    Candidates candidates{memory.visible_spheres, memory.visible_grounds};
-    candidates.sphere_count = number_objects(memory.visible_spheres,
-                                             list_of<Sphere>(memory.visible), plan.spheres);
-    candidates.ground_count = number_objects(memory.visible_grounds,
-                                             list_of<AnchoredSphere>(memory.visible), plan.grounds);
-    return candidates;
+    const FramePlan<F>& plan = tile.plan;
+    FusedMemory<F>& memory = tile.memory;
+    Candidates visible{memory.visible_spheres, memory.visible_grounds};
+    for_each_met(cone, tile.scene.spheres,
+                 [&](int first, std::uint32_t kept, const Vec3v<float>&) {
+                     for (; kept != 0; kept &= kept - 1)
+                         memory.visible_spheres[visible.sphere_count++] =
+                             static_cast<std::uint8_t>(first + __builtin_ctz(kept));
+                 });
+    int number = 0;
+    const auto add = [&](const auto& list) {
+        for (int i = 0; i < list.count; ++i, ++number)
+            if (!leaves_behind(cone, list.data[i]))
+                memory.visible_grounds[visible.ground_count++] =
+                    static_cast<std::uint8_t>(number);
+    };
+    // In the order of the plan's grounds.
+    add(list_of<AnchoredSphere>(plan.from_camera));
+    add(list_of<Plane>(plan.from_camera));
+    return visible;
 }
 
 /// Traces the paths of a packet of camera rays, from number `first` on; returns their colours.
@@ -76,11 +77,11 @@ inline Vec3v<float> trace_paths(const FusedTile<F>& tile, const Candidates& visi
                                 const Candidates& all, const RayPacket<float>& rays,
                                 std::uint32_t active)
 {
-    PathState path;
+    PathState<F> path;
     PathStart start;
     path.dir = rays.dir;
     path.dir2 = rays.dir2;
-    path.weight = vreal<float>(1.0f);
+    set_whole(path.weight);
     path.active = active;
     path.is_far = false;
     // Mirrors keep lengths but for a little.
@@ -100,19 +101,17 @@ inline abi::RayCounts trace_fused_tile(const abi::TileJob<float>& job)
     counts.camera =
         static_cast<unsigned>(job.samples != nullptr ? job.samples->count : job.width * job.height);
     fetch_picture(job);
-    find_objects<F>(memory.visible, camera_cone(job), scene);
-    if (memory.visible.empty() && !(scene.lighting.seen_within > 0)) {
-        fill_pixels(*memory.color, scene.rules.background);
-        write_tile(job, *memory.color);
-        return counts;
-    }
     const auto& plan = *static_cast<const FramePlan<F>*>(job.plan);
     const float(&eye)[3] = job.camera->origin;
     const FusedTile<F> tile{
         scene, plan, memory, counts, {eye[0], eye[1], eye[2]}, job.camera->t_min};
-    const Candidates visible = number_visible(plan, memory);
-    const Candidates all{plan.numbers, plan.numbers, scene.spheres.count,
-                         scene.anchored_spheres.count};
+    const Candidates visible = find_visible(tile, camera_cone(job));
+    if (visible.sphere_count + visible.ground_count == 0 && !(scene.lighting.seen_within > 0)) {
+        fill_pixels(*memory.color, scene.rules.background);
+        write_tile(job, *memory.color);
+        return counts;
+    }
+    const Candidates all{plan.numbers, plan.numbers, scene.spheres.count, plan.ground_count};
     const TileCamera<float> camera(job);
     for (int first = 0; first < abi::tile_pixels; first += lanes<float>) {
         const std::uint32_t active = lanes_inside(job, first);

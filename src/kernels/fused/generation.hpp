@@ -50,7 +50,7 @@ template <Generation G, abi::Features F>
         G == Generation::camera ? no_start<float>() : start_of(path_start);
     HitPacket<float> found = start_of_search(start, no_end_yet);
     if constexpr (G == Generation::camera) {
-        closest_hit<F>(found, tile.memory.visible, rays, NoOwn{});
+        closest_hit<F>(found, tile.plan.from_camera, rays, NoOwn{});
     } else {
         const FilteredObjects<false>* const objects =
             is_far ? find_from_far(tile, rays.org, active).objects : &tile.plan.from_near;
@@ -157,7 +157,7 @@ inline std::uint32_t lit_lanes(const FusedTile<F>& tile, int number, const LitHi
 /// Adds the light of one source at a packet of hits, in the lanes that see it.
 template <abi::Features F>
 inline void add_light(const FusedTile<F>& tile, int number, const LitHits& hits,
-                      const PathState& path, const PlanMaterial& material, Vec3v<float>& color)
+                      const PathState<F>& path, const PlanMaterial& material, Vec3v<float>& color)
 {
     const vreal<float> zero(0.0f);
     const abi::SceneView<float>& scene = tile.scene;
@@ -206,19 +206,19 @@ inline void add_light(const FusedTile<F>& tile, int number, const LitHits& hits,
 }
 
 /// Adds the light at a packet of hits to the pixels.
-template <Generation G>
-inline void add_hits(PathState& path, const Vec3v<float>& light, std::uint32_t hits)
+template <Generation G, abi::Features F>
+inline void add_hits(PathState<F>& path, const Vec3v<float>& light, std::uint32_t hits)
 {
     Vec3v<float> color = light;
     if constexpr (G == Generation::mirrored)
-        color = path.color + scale<float>(path.weight, color);
+        color = path.color + path.weight.of(color);
     path.color = hits == all_lanes<float> ? color
                                           : select(from_bits<float>(hits), color, path.color);
 }
 
 /// What the lanes bring that hit nothing.
 template <Generation G, abi::Features F>
-inline void add_escaped(const FusedTile<F>& tile, PathState& path, std::uint32_t missed)
+inline void add_escaped(const FusedTile<F>& tile, PathState<F>& path, std::uint32_t missed)
 {
     if (missed == 0)
         return;
@@ -226,7 +226,7 @@ inline void add_escaped(const FusedTile<F>& tile, PathState& path, std::uint32_t
     if constexpr (G == Generation::camera)
         path.color = beyond;
     else
-        path.color = select(from_bits<float>(missed), path.color + scale<float>(path.weight, beyond),
+        path.color = select(from_bits<float>(missed), path.color + path.weight.of(beyond),
                             path.color);
 }
 
@@ -242,7 +242,7 @@ template <abi::Features F>
 
 /// Replaces the rays of a packet by those that its hits mirror.
 template <abi::Features F>
-inline void mirror_rays(const FusedTile<F>& tile, PathState& path, PathStart& start,
+inline void mirror_rays(const FusedTile<F>& tile, PathState<F>& path, PathStart& start,
                         const LitHits& hits, const PlanMaterial& material)
 {
     const HitState& at = hits.at;
@@ -255,7 +255,7 @@ inline void mirror_rays(const FusedTile<F>& tile, PathState& path, PathStart& st
         origin_offset<float>(tile.scene.rules.start_error, at.point, at.outward);
     path.dir = madd<float>(hits.normal_dir * vreal<float>(-2.0f), hits.normal, path.dir);
     path.dir2 = dot(path.dir, path.dir);
-    path.weight = path.weight * material.packet.reflect.x;
+    path.weight.reflect(material.packet.reflect);
     path.is_far = hits.is_far;
     path.org = at.point + lift;
     start.at = at;
@@ -275,7 +275,7 @@ inline void mirror_rays(const FusedTile<F>& tile, PathState& path, PathStart& st
 /// Traces a generation of a packet, adds what it brings, and puts mirrored rays in its place.
 template <Generation G, abi::Features F>
 inline void trace_generation(const FusedTile<F>& tile, const Candidates& candidates,
-                             PathState& path, PathStart& start, int depth)
+                             PathState<F>& path, PathStart& start, int depth)
 {
     const abi::SceneView<float>& scene = tile.scene;
     const std::uint32_t active = path.active;

@@ -320,53 +320,89 @@ inline void set_ground_errors(PlanGround& ground, double distance)
         above(double{errors.discriminant_error} + 8.0 * size * ground.exact_curvature * moved);
 }
 
-/// The plane that touches a ground where it is nearest to all that is near.
-inline void set_top(PlanGround& ground, const abi::AnchoredSphere<double>& shape,
+/// Sets the plane through `point` with the unit `normal` that a ground is behind.
+inline void set_top(PlanGround& ground, const double (&point)[3], const double (&normal)[3],
                     const Origins& origins, const float (&eye)[3])
 {
-    const double to[3] = {origins.center[0], origins.center[1], origins.center[2]};
-    const double distance = distance_of(to, shape.center);
     double size = extent_of(origins);
     double level = 0;
     double eye_level = 0;
     for (int axis = 0; axis < 3; ++axis) {
-        const double normal = distance > 0 ? (to[axis] - shape.center[axis]) / distance : 0.0;
-        const double point = shape.center[axis] + shape.radius * normal;
-        ground.top[axis] = static_cast<float>(normal);
-        level += normal * point;
-        eye_level += normal * double{eye[axis]};
-        size += __builtin_fabs(point);
+        ground.top[axis] = static_cast<float>(normal[axis]);
+        level += normal[axis] * point[axis];
+        eye_level += normal[axis] * double{eye[axis]};
+        size += __builtin_fabs(point[axis]);
     }
-    ground.top_offset = distance > 0 ? above(level + clear_slack * size + 0x1p-22 * __builtin_fabs(level))
-                                     : __builtin_inff();
-    ground.eye_above = eye_level > level + clear_slack * size;
+    const double slack = clear_slack * size;
+    ground.top_offset = above(level + slack + 0x1p-22 * __builtin_fabs(level));
+    ground.eye_above = eye_level > level + slack;
+}
+
+/// Rounds a form, and finds its errors for a plan's origins.
+inline void set_form(PlanGround& ground, const double (&base)[3], const double (&normal)[3],
+                     double curvature, double offset, const Origins& origins)
+{
+    double distance = double{origins.radius};
+    for (int axis = 0; axis < 3; ++axis) {
+        ground.exact_base[axis] = base[axis];
+        ground.exact_normal[axis] = normal[axis];
+        ground.base[axis] = static_cast<float>(base[axis]);
+        ground.normal[axis] = static_cast<float>(normal[axis]);
+        distance += __builtin_fabs(double{origins.center[axis]} - base[axis]);
+    }
+    ground.exact_curvature = curvature;
+    ground.exact_offset = offset;
+    ground.curvature = static_cast<float>(curvature);
+    ground.offset = static_cast<float>(offset);
+    set_ground_errors(ground, distance * 1.00001);
+}
+
+/// An anchored sphere; its top touches it where it is nearest to all that is near.
+inline void fill_ground(PlanGround& ground, const abi::AnchoredSphere<double>& shape,
+                        const Origins& origins, const float (&eye)[3])
+{
+    set_form(ground, shape.anchor, shape.normal, shape.curvature, shape.offset, origins);
+    ground.side = 1.0f;
+    const double to[3] = {origins.center[0], origins.center[1], origins.center[2]};
+    const double distance = distance_of(to, shape.center);
+    double point[3];
+    double normal[3];
+    for (int axis = 0; axis < 3; ++axis) {
+        normal[axis] = distance > 0 ? (to[axis] - shape.center[axis]) / distance : shape.normal[axis];
+        point[axis] = shape.center[axis] + shape.radius * normal[axis];
+    }
+    set_top(ground, point, normal, origins, eye);
+}
+
+/// A plane, as seen from the side that the eye is on.
+inline void fill_ground(PlanGround& ground, const abi::PlaneRecord<double>& shape,
+                        const Origins& origins, const float (&eye)[3])
+{
+    set_form(ground, shape.point, shape.normal, 0.0, 0.0, origins);
+    double height = 0;
+    for (int axis = 0; axis < 3; ++axis)
+        height += shape.normal[axis] * (double{eye[axis]} - shape.point[axis]);
+    ground.side = height < 0 ? -1.0f : 1.0f;
+    const double side = double{ground.side};
+    const double normal[3] = {side * shape.normal[0], side * shape.normal[1],
+                              side * shape.normal[2]};
+    set_top(ground, shape.point, normal, origins, eye);
 }
 
 template <abi::Features F>
 inline void fill_grounds(FramePlan<F>& plan, const abi::SceneView<float>& scene,
                          const float (&eye)[3])
 {
-    const auto& list = scene.anchored_spheres;
-    for (int i = 0; i < list.count; ++i) {
-        PlanGround& ground = plan.grounds[i];
-        ground.surface = list.data[i].surface;
-        const abi::AnchoredSphere<double>& shape =
-            scene.shapes.anchored_spheres[scene.shapes.index[ground.surface].record];
-        double distance = double{plan.origins.radius};
-        for (int axis = 0; axis < 3; ++axis) {
-            ground.exact_base[axis] = shape.anchor[axis];
-            ground.exact_normal[axis] = shape.normal[axis];
-            ground.base[axis] = static_cast<float>(shape.anchor[axis]);
-            ground.normal[axis] = static_cast<float>(shape.normal[axis]);
-            distance += __builtin_fabs(double{plan.origins.center[axis]} - shape.anchor[axis]);
+    const auto fill = [&](const auto& list, const auto* shapes) {
+        for (int i = 0; i < list.count; ++i) {
+            PlanGround& ground = plan.grounds[plan.ground_count++];
+            ground.surface = list.data[i].surface;
+            fill_ground(ground, shapes[scene.shapes.index[ground.surface].record], plan.origins,
+                        eye);
         }
-        ground.exact_curvature = shape.curvature;
-        ground.exact_offset = shape.offset;
-        ground.curvature = static_cast<float>(shape.curvature);
-        ground.offset = static_cast<float>(shape.offset);
-        set_ground_errors(ground, distance * 1.00001);
-        set_top(ground, shape, plan.origins, eye);
-    }
+    };
+    fill(scene.anchored_spheres, scene.shapes.anchored_spheres);
+    fill(scene.planes, scene.shapes.planes);
 }
 
 template <abi::Features F>
@@ -512,7 +548,7 @@ inline void fill_plan(FramePlan<F>& plan, const abi::SceneView<float>& scene,
     plan.near2 = plan.origins.radius * plan.origins.radius * 0.999f;
     for (int i = 0; i < 256; ++i)
         plan.numbers[i] = static_cast<std::uint8_t>(i);
-    plan.has_common_hits = plan.from_near.certifiable && scene.planes.count == 0 &&
+    plan.has_common_hits = plan.from_near.certifiable &&
                            is_moderate(extent_of(plan.origins));
     for (int i = 0; i < scene.spheres.count; ++i)
         plan.has_common_hits &= scene.spheres.radius[i] > 1e-15f;

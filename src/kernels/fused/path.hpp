@@ -8,12 +8,51 @@
 namespace packtrace::PACKTRACE_ISA {
 namespace {
 
+/// The share of a path's light: one number, or one a channel where any mirror is tinted.
+template <bool Colored>
+struct PathWeight {
+    vreal<float> one;
+
+    [[nodiscard]] Vec3v<float> of(const Vec3v<float>& light) const
+    {
+        return scale<float>(one, light);
+    }
+    void reflect(const Vec3v<float>& share)
+    {
+        one = one * share.x;
+    }
+};
+template <>
+struct PathWeight<true> {
+    Vec3v<float> each;
+
+    [[nodiscard]] Vec3v<float> of(const Vec3v<float>& light) const
+    {
+        return each * light;
+    }
+    void reflect(const Vec3v<float>& share)
+    {
+        each = each * share;
+    }
+};
+
+inline void set_whole(PathWeight<false>& weight)
+{
+    weight.one = vreal<float>(1.0f);
+}
+inline void set_whole(PathWeight<true>& weight)
+{
+    const vreal<float> one(1.0f);
+    weight.each = {one, one, one};
+}
+
 /// Rays of a packet of paths, and what they bring to their pixels so far.
+template <abi::Features F>
 struct PathState {
     Vec3v<float> org;
     Vec3v<float> dir;
     vreal<float> dir2;
-    vreal<float> weight;
+    PathWeight<F.colored> weight;
     Vec3v<float> color;
     std::uint32_t active;  ///< lanes whose path goes on
     bool is_far;           ///< some start beyond the plan's origins
@@ -45,9 +84,8 @@ inline vint<float> numbers_of(const HitState& hit)
 template <abi::Features F>
 struct FusedMemory {
     TilePixelColors<float>* color = nullptr;
-    FilteredObjects<true> visible;            ///< from the eye through the tile
-    std::uint8_t* visible_spheres = nullptr;  ///< the same, by their numbers in the plan
-    std::uint8_t* visible_grounds = nullptr;
+    std::uint8_t* visible_spheres = nullptr;  ///< from the eye through the tile, by their numbers
+    std::uint8_t* visible_grounds = nullptr;  ///< in the plan
     FilteredObjects<false> from_far;              ///< for a packet of origins beyond the plan's
     LightObjects<F, float>* occluders = nullptr;  ///< likewise, by light
     std::size_t bytes = 0;
@@ -57,10 +95,9 @@ struct FusedMemory {
     {
         Arena arena(scratch);
         color = arena.take<TilePixelColors<float>>(1);
-        take_objects<F>(arena, visible, scene);
         visible_spheres = arena.take<std::uint8_t>(static_cast<std::size_t>(scene.spheres.count));
-        visible_grounds =
-            arena.take<std::uint8_t>(static_cast<std::size_t>(scene.anchored_spheres.count));
+        visible_grounds = arena.take<std::uint8_t>(
+            static_cast<std::size_t>(scene.anchored_spheres.count + scene.planes.count));
         take_objects<F>(arena, from_far, scene);
         occluders = arena.take<LightObjects<F, float>>(
             static_cast<std::size_t>(scene.lighting.lights.count));
@@ -93,7 +130,7 @@ inline float least_t(const FusedTile<F>& tile)
 }
 
 template <Generation G, abi::Features F>
-inline RayPacket<float> rays_of(const FusedTile<F>& tile, const PathState& path)
+inline RayPacket<float> rays_of(const FusedTile<F>& tile, const PathState<F>& path)
 {
     const vreal<float> t_min(least_t<G>(tile));
     if constexpr (G == Generation::camera)

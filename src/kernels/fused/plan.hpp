@@ -76,13 +76,15 @@ struct PlanSphere {
     std::int32_t surface;
 };
 
-/// An anchored sphere, likewise: the form that is refined, rounded, and the errors of its terms.
+/// An anchored sphere, or a plane with no curvature, likewise: the form that is refined, rounded, and
+/// the errors of its terms.
 struct PlanGround {
     float base[3], normal[3], curvature, offset;
     float value_error;         ///< of F(0)
     float slope_error2;        ///< square of that of b, per |d|
     float discriminant_error;  ///< per d·d
-    float top[3], top_offset;  ///< a plane that the sphere is behind; points behind it are not told of
+    float side;                ///< -1 for a plane whose normal points away from the eye, else 1
+    float top[3], top_offset;  ///< a plane that it is behind; points behind that are not told of
     bool eye_above;            ///< the eye is in front of that
     double exact_base[3], exact_normal[3], exact_curvature, exact_offset;
     std::int32_t surface;
@@ -104,7 +106,8 @@ struct FramePlan {
     LightObjects<F, float>* occluders = nullptr;  ///< by light; of directional ones from `origins`
     ClearTests* clear = nullptr;                  ///< by light
     PlanSphere* spheres = nullptr;                ///< in the scene's order
-    PlanGround* grounds = nullptr;                ///< likewise
+    PlanGround* grounds = nullptr;                ///< likewise: anchored spheres, then planes
+    int ground_count = 0;
     PlanMaterial* materials = nullptr;            ///< by number
     float near2 = 0;                              ///< square of the origins' radius, and less
     std::uint8_t* numbers = nullptr;              ///< 0, 1, …: all spheres, or all grounds
@@ -121,7 +124,8 @@ struct FramePlan {
         take_objects<F>(arena, from_camera, scene);
         take_objects<F>(arena, from_near, scene);
         spheres = arena.take<PlanSphere>(static_cast<std::size_t>(scene.spheres.count));
-        grounds = arena.take<PlanGround>(static_cast<std::size_t>(scene.anchored_spheres.count));
+        grounds = arena.take<PlanGround>(
+            static_cast<std::size_t>(scene.anchored_spheres.count + scene.planes.count));
         materials = arena.take<PlanMaterial>(material_count(scene));
         numbers = arena.take<std::uint8_t>(256);
         occluders = arena.take<LightObjects<F, float>>(static_cast<std::size_t>(lights));
