@@ -7,9 +7,9 @@ namespace packtrace {
 
 // kernel_list.inc is written by the build: a line KERNELS(isa) for each set compiled in, followed
 // by PROBES(isa) where its probes are, too.
-#define KERNELS(isa)                                 \
-    namespace isa {                                  \
-    const abi::KernelTable& kernel_table();          \
+#define KERNELS(isa)                        \
+    namespace isa {                         \
+    const abi::KernelTable& kernel_table(); \
     const abi::FusedTable& fused_kernels(); \
     }
 #define PROBES(isa)                           \
@@ -34,8 +34,8 @@ namespace {
 std::vector<abi::KernelTable> whole_tables()
 {
     std::vector<abi::KernelTable> tables;
-#define KERNELS(isa)                          \
-    tables.push_back(isa::kernel_table());    \
+#define KERNELS(isa)                               \
+    tables.push_back(isa::kernel_table());         \
     for (int i = 0; i < abi::fused_set_count; ++i) \
         tables.back().single_precision.fused[i] = isa::fused_kernels().set[i];
 #define PROBES(isa) add_probes(isa::probe_kernels(), tables.back());

@@ -34,4 +34,16 @@ template <class Real>
     throw std::logic_error("no kernels know all that the scene uses");
 }
 
+/// The kernels that trace frames of a scene in registers; null where streams trace them.
+template <class Real>
+[[nodiscard]] const abi::FusedKernels<Real>* fused_for(const abi::PrecisionTable<Real>& table,
+                                                       abi::Features needed,
+                                                       const abi::SceneView<Real>& scene)
+{
+    for (const abi::FusedKernels<Real>& fused : table.fused)
+        if (fused.render_tile != nullptr && abi::covers(fused.features, needed))
+            return fused.plan_bytes(scene) > 0 ? &fused : nullptr;
+    return nullptr;
+}
+
 }  // namespace packtrace

@@ -12,11 +12,8 @@ constexpr abi::FusedKernels<float> fused_kernels_for()
 }
 
 constexpr abi::FusedTable fused = {
-#if PACKTRACE_FEATURE_SETS
     {fused_kernels_for<{.highlights = true, .bounces = true, .exact = true}>(),
-     fused_kernels_for<{.highlights = true, .bounces = true, .colored = true, .exact = true}>()}
-#endif
-};
+     fused_kernels_for<{.highlights = true, .bounces = true, .colored = true, .exact = true}>()}};
 
 }  // namespace
 

@@ -28,17 +28,7 @@ const LoweredScene& fitted(LoweredScene& lowered, const RenderOptions& options)
     return lowered;
 }
 
-/// The kernels that trace a scene in registers; null where streams render it.
-template <class Real>
-const abi::FusedKernels<Real>* fused_for(const abi::PrecisionTable<Real>& table,
-                                         abi::Features needed, const abi::SceneView<Real>& scene)
-{
-    for (const abi::FusedKernels<Real>& fused : table.fused)
-        if (fused.render_tile != nullptr && abi::covers(fused.features, needed))
-            return fused.plan_bytes(scene) > 0 ? &fused : nullptr;
-    return nullptr;
-}
-
+/// What the tiles of a frame share that are traced in registers.
 template <class Real>
 AlignedArray<std::byte> make_plan(const abi::FusedKernels<Real>* fused,
                                   const abi::SceneView<Real>& scene,

@@ -129,11 +129,18 @@ void print_unsure(const UnsureSample& sample)
               << " x " << sample.height << " picture" << causes << '\n';
 }
 
+std::string traced(const SceneFeatures& features)
+{
+    return features.in_registers ? "in registers, from the eye to the last mirror"
+                                 : "in streams, generation by generation";
+}
+
 void print_features(const SceneFeatures& features, const IsaInfo& isa,
                     const std::optional<UnsureSample>& unsure)
 {
     std::cout << "kernel   " << features.kernel << ", " << isa.name << ", " << isa.lanes_single
-              << " lanes\nuses     " << joined(features.uses) << '\n';
+              << " lanes\npaths    " << traced(features) << "\nuses     " << joined(features.uses)
+              << '\n';
     if (unsure)
         print_unsure(*unsure);
     std::cout << '\n';
@@ -154,7 +161,9 @@ nlohmann::ordered_json unsure_json(const UnsureSample& sample)
 
 nlohmann::ordered_json features_json(const SceneFeatures& features)
 {
-    nlohmann::ordered_json json{{"kernel", features.kernel}, {"uses", features.uses}};
+    nlohmann::ordered_json json{{"kernel", features.kernel},
+                                {"in_registers", features.in_registers},
+                                {"uses", features.uses}};
     json["left_out"] = nlohmann::ordered_json::array();
     for (const LeftOut& left : features.left_out)
         json["left_out"].push_back({{"what", left.what}, {"why", left.why}});

@@ -49,6 +49,8 @@ SceneFeatures scene_features(const Scene& scene, const IsaInfo& isa)
         kernels_for(precision<float>(kernels_of(isa.name)), lowered.features).set.name;
     PackedScene<float> packed(lowered, traversal);
     packed.add_light_buffers(lowered, static_cast<double>(scene.width) * scene.height);
+    features.in_registers = fused_for(precision<float>(kernels_of(isa.name)), lowered.features,
+                                      packed.view()) != nullptr;
     if (packed.has_light_buffers())
         features.uses.emplace_back("light buffers");
     features.bytes = packed.bytes();

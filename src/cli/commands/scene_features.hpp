@@ -13,6 +13,7 @@ namespace packtrace::cli {
 /// What becomes of a scene when packets of floats render it.
 struct SceneFeatures {
     std::string kernel;             ///< name of the feature set
+    bool in_registers = false;      ///< paths are traced in registers, without streams
     std::vector<std::string> uses;  ///< in the order of a frame's stages
     std::vector<LeftOut> left_out;
     std::size_t bytes = 0;  ///< held for the scene by packets

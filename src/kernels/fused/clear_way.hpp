@@ -11,8 +11,7 @@ namespace {
 /// The lanes of `among` that are on other objects than `surface`.
 inline std::uint32_t on_others(const HitState& at, std::uint32_t among, std::int32_t surface)
 {
-    return at.common >= 0 || among == 0 ? among
-                                        : among & ~lanes_on_body<float>(at.number, surface);
+    return at.common >= 0 || among == 0 ? among : among & ~lanes_on_body<float>(at.number, surface);
 }
 
 /// The lanes of `wanted` for which the planes in front of a light's large objects tell nothing.
@@ -28,7 +27,8 @@ inline std::uint32_t behind_planes(const ClearTests& tests, const NeededTests& n
     return open;
 }
 
-/// What is told without intervals: the lanes for sure in shadow, and those of which nothing is told.
+/// What is told without intervals: the lanes for sure in shadow, and those of which nothing is
+/// told.
 struct QuickShadow {
     std::uint32_t blocked = 0;
     std::uint32_t open = 0;
@@ -85,9 +85,9 @@ inline QuickShadow shadow_towards(const ClearTests& tests, const HitState& at,
         const std::uint32_t outside = bits(dot(from, from) > vreal<float>(sphere.outer2));
         const std::uint32_t beyond = outside & bits(away > vreal<float>(0.0f));
         shadow.open |= near & ~beyond;
-        shadow.blocked |= near & outside &
-                          bits((away < vreal<float>(0.0f)) &
-                               (cosine > vreal<float>(sphere.inner_edge) * length));
+        shadow.blocked |=
+            near & outside &
+            bits((away < vreal<float>(0.0f)) & (cosine > vreal<float>(sphere.inner_edge) * length));
     }
     shadow.open = (shadow.open & ~shadow.blocked) | too_near;
     shadow.blocked &= ~too_near;
@@ -108,11 +108,11 @@ template <abi::Features F>
     const std::uint32_t open = wanted & ~own_shadow(tile.scene, record, packet, surface, wanted);
     if (open == 0)
         return 0;
-    return open & ~with_shadow_ray(tile.scene, record, packet, surface,
-                                   [&](const vreal<float>& t_end, const RayPacket<float>& rays) {
-                                       return blocked_lanes(context, light, surface, rays, t_end,
-                                                            open);
-                                   });
+    return open &
+           ~with_shadow_ray(tile.scene, record, packet, surface,
+                            [&](const vreal<float>& t_end, const RayPacket<float>& rays) {
+                                return blocked_lanes(context, light, surface, rays, t_end, open);
+                            });
 }
 
 }  // namespace

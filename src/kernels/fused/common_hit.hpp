@@ -46,8 +46,7 @@ inline std::uint32_t is_surely_enough(const vreal<float>& t, const vreal<float>&
     const vreal<float> bent = bend * size;
     return bits((bent <= vreal<float>(-0x1p-12f) * slope) &
                 (bent * size <= vreal<float>(-0x1p-31f) * t * slope) &
-                (size <= vreal<float>(0x1p-10f) * t) &
-                (t > vreal<float>(1.01f) * t_min));
+                (size <= vreal<float>(0x1p-10f) * t) & (t > vreal<float>(1.01f) * t_min));
 }
 
 /// The places `dt` behind t.
@@ -139,7 +138,7 @@ inline std::uint32_t refine_common(HitState& hit, vreal<float>& t_hit, const Pla
 
 /// The same on an anchored sphere.
 template <Generation G>
-inline std::uint32_t refine_common(HitState& hit, const PlanGround& ground,
+inline std::uint32_t refine_common(HitState& hit, vreal<float>& t_hit, const PlanGround& ground,
                                    const RoughCommon& rough, const RayPacket<float>& rays,
                                    const float (&eye)[3])
 {
@@ -158,6 +157,7 @@ inline std::uint32_t refine_common(HitState& hit, const PlanGround& ground,
         narrow(dot(g_low + normal, low) + offset, dot(g_high + normal, high) + offset);
     const vreal<float> slope = narrow(dot(g_low, dir.low), dot(g_high, dir.high));
     const vreal<float> dt = vreal<float>(-0.5f) * value / slope;
+    t_hit = t + dt;
     hit.outward = madd<float>(vreal<float>(ground.curvature), scale<float>(dt, rays.dir),
                               narrow(g_low, g_high));
     hit.point = place_at<G>(rays, eye, dir, t_wide, dt);
@@ -180,21 +180,20 @@ inline std::uint32_t lanes_near(const PlanSphere& sphere, const RayPacket<float>
 
 /// Whether another sphere is behind the hits for sure: they are outside, and the rays nearing it.
 template <abi::Features F>
-inline bool is_behind(const FramePlan<F>& plan, const PlanSphere& sphere,
-                      const Vec3v<float>& point, const RayPacket<float>& rays, std::uint32_t hits)
+inline bool is_behind(const FramePlan<F>& plan, const PlanSphere& sphere, const Vec3v<float>& point,
+                      const RayPacket<float>& rays, std::uint32_t hits)
 {
     const Vec3v<float> from = point - broadcast(sphere.center);
-    return (hits & (far_lanes(plan, point) |
-                    ~bits((dot(from, from) > vreal<float>(sphere.clear2)) &
-                          (dot(from, rays.dir) < vreal<float>(0.0f))))) == 0;
+    return (hits & (far_lanes(plan, point) | ~bits((dot(from, from) > vreal<float>(sphere.clear2)) &
+                                                   (dot(from, rays.dir) < vreal<float>(0.0f))))) ==
+           0;
 }
 
 /// The same of a ground: rays and hits are in front of its top, or the rays go away from it, or
 /// still nearer at the hit.
 template <Generation G, abi::Features F>
-inline bool is_behind(const FramePlan<F>& plan, const PlanGround& ground,
-                      const Vec3v<float>& point, const vreal<float>& t,
-                      const RayPacket<float>& rays, std::uint32_t hits)
+inline bool is_behind(const FramePlan<F>& plan, const PlanGround& ground, const Vec3v<float>& point,
+                      const vreal<float>& t, const RayPacket<float>& rays, std::uint32_t hits)
 {
     const Vec3v<float> top = broadcast(ground.top);
     const vreal<float> offset(ground.top_offset);
@@ -229,6 +228,47 @@ struct Candidates {
     int ground_count = 0;
 };
 
+/// The same among grounds alone, where no sphere is near.
+template <Generation G, abi::Features F>
+inline bool find_common_ground(HitState& hit, const FusedTile<F>& tile,
+                               const Candidates& candidates, const RayPacket<float>& rays,
+                               std::int32_t own, std::uint32_t active)
+{
+    const FramePlan<F>& plan = tile.plan;
+    const PlanGround* first = nullptr;
+    bool is_only = true;
+    RoughCommon nearest;
+    for (int i = 0; i < candidates.ground_count; ++i) {
+        const PlanGround& ground = plan.grounds[candidates.grounds[i]];
+        if (ground.surface == own)
+            continue;
+        const RoughCommon rough = rough_common(ground, rays, active);
+        if (rough.open == 0)
+            continue;
+        is_only = first == nullptr;
+        if (is_only || (bits(rough.t < nearest.t) & active) == active) {
+            first = &ground;
+            nearest = rough;
+        }
+    }
+    if (first == nullptr)
+        return true;
+    if (nearest.sure != nearest.open || !(is_only || nearest.sure == active))
+        return false;
+    hit.lanes = nearest.open;
+    hit.common = first->surface;
+    vreal<float> t;
+    if ((hit.lanes & ~refine_common<G>(hit, t, *first, nearest, rays, tile.eye)) != 0)
+        return false;
+    for (int i = 0; !is_only && i < candidates.ground_count; ++i) {
+        const PlanGround& ground = plan.grounds[candidates.grounds[i]];
+        if (ground.surface != own && &ground != first &&
+            !is_behind<G>(plan, ground, hit.point, t, rays, active))
+            return false;
+    }
+    return true;
+}
+
 /// Finds the hits of a packet where they are on one surface. False where that can't be told; `hit`
 /// is then of no use. `own` is the surface that all rays start on, or -1 for none.
 template <Generation G, abi::Features F>
@@ -260,23 +300,8 @@ inline bool find_common_hit(HitState& hit, const FusedTile<F>& tile, const Candi
         }
     }
     hit.lanes = 0;
-    if (first == nullptr) {
-        for (int i = 0; i < candidates.ground_count; ++i) {
-            const PlanGround& ground = plan.grounds[candidates.grounds[i]];
-            if (ground.surface == own)
-                continue;
-            const RoughCommon rough = rough_common(ground, rays, active);
-            if (rough.open == 0)
-                continue;
-            if (rough.sure != rough.open || hit.lanes != 0)
-                return false;
-            hit.lanes = rough.open;
-            hit.common = ground.surface;
-            if ((hit.lanes & ~refine_common<G>(hit, ground, rough, rays, tile.eye)) != 0)
-                return false;
-        }
-        return true;
-    }
+    if (first == nullptr)
+        return find_common_ground<G>(hit, tile, candidates, rays, own, active);
     const RoughCommon rough = rough_common(*first, rays, open);
     if (rough.sure != rough.open)
         return false;

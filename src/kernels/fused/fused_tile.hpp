@@ -52,18 +52,16 @@ inline Candidates find_visible(const FusedTile<F>& tile, const Cone<float>& cone
     const FramePlan<F>& plan = tile.plan;
     FusedMemory<F>& memory = tile.memory;
     Candidates visible{memory.visible_spheres, memory.visible_grounds};
-    for_each_met(cone, tile.scene.spheres,
-                 [&](int first, std::uint32_t kept, const Vec3v<float>&) {
-                     for (; kept != 0; kept &= kept - 1)
-                         memory.visible_spheres[visible.sphere_count++] =
-                             static_cast<std::uint8_t>(first + __builtin_ctz(kept));
-                 });
+    for_each_met(cone, tile.scene.spheres, [&](int first, std::uint32_t kept, const Vec3v<float>&) {
+        for (; kept != 0; kept &= kept - 1)
+            memory.visible_spheres[visible.sphere_count++] =
+                static_cast<std::uint8_t>(first + __builtin_ctz(kept));
+    });
     int number = 0;
     const auto add = [&](const auto& list) {
         for (int i = 0; i < list.count; ++i, ++number)
             if (!leaves_behind(cone, list.data[i]))
-                memory.visible_grounds[visible.ground_count++] =
-                    static_cast<std::uint8_t>(number);
+                memory.visible_grounds[visible.ground_count++] = static_cast<std::uint8_t>(number);
     };
     // In the order of the plan's grounds.
     add(list_of<AnchoredSphere>(plan.from_camera));

@@ -57,8 +57,7 @@ template <Generation G, abi::Features F>
         closest_hit<F>(found, *objects, rays,
                        ActiveOwn{start.surface, path_start.at.common, active});
     }
-    count_unsure(tile.counts,
-                 settle_packet<F>(tile.scene, rays, found, start, no_end_yet, active));
+    count_unsure(tile.counts, settle_packet<F>(tile.scene, rays, found, start, no_end_yet, active));
     hit.lanes = hit_lanes(found) & active;
     if (hit.lanes == 0)
         return;
@@ -81,7 +80,7 @@ struct LitHits {
 };
 
 inline SurfacePacket<float> lit_surface(const LitHits& hits, const Vec3v<float>& dir,
-                                       float start_error)
+                                        float start_error)
 {
     SurfacePacket<float> surface;
     surface.point = hits.at.point;
@@ -175,23 +174,20 @@ inline void add_light(const FusedTile<F>& tile, int number, const LitHits& hits,
     const vreal<float> normal_light = dot(hits.normal, packet.to_light);
     const std::uint32_t lit_side = bits(normal_light > zero) & active;
     // What is below the floor by more than rounding shows no highlight, and needs no root.
-    const vreal<float> mirror = nmadd(normal_light + normal_light, hits.normal_dir,
-                                      dot(packet.to_light, path.dir));
-    const std::uint32_t shining =
-        bits(mirror * abs(mirror) >= hits.floor_dir2 * length2) & active;
+    const vreal<float> mirror =
+        nmadd(normal_light + normal_light, hits.normal_dir, dot(packet.to_light, path.dir));
+    const std::uint32_t shining = bits(mirror * abs(mirror) >= hits.floor_dir2 * length2) & active;
     if ((lit_side | shining) == 0)
         return;
-    packet.inverse_length = is_point ? vreal<float>(1.0f) / sqrt(length2)
-                                     : vreal<float>(tests.inverse_length);
+    packet.inverse_length =
+        is_point ? vreal<float>(1.0f) / sqrt(length2) : vreal<float>(tests.inverse_length);
     packet.diffuse = max(normal_light, zero) * packet.inverse_length;
     packet.has_highlight = 0;
     packet.highlight = zero;
     if (shining != 0) {
-        packet.highlight =
-            mirror * packet.inverse_length * (vreal<float>(1.0f) / sqrt(path.dir2));
+        packet.highlight = mirror * packet.inverse_length * (vreal<float>(1.0f) / sqrt(path.dir2));
         packet.has_highlight =
-            bits((packet.highlight > zero) &
-                 (packet.highlight >= material.packet.highlight_floor) &
+            bits((packet.highlight > zero) & (packet.highlight >= material.packet.highlight_floor) &
                  (normal_light > vreal<float>(scene.lighting.highlight_above))) &
             shining;
     }
@@ -212,8 +208,8 @@ inline void add_hits(PathState<F>& path, const Vec3v<float>& light, std::uint32_
     Vec3v<float> color = light;
     if constexpr (G == Generation::mirrored)
         color = path.color + path.weight.of(color);
-    path.color = hits == all_lanes<float> ? color
-                                          : select(from_bits<float>(hits), color, path.color);
+    path.color =
+        hits == all_lanes<float> ? color : select(from_bits<float>(hits), color, path.color);
 }
 
 /// What the lanes bring that hit nothing.
@@ -226,8 +222,8 @@ inline void add_escaped(const FusedTile<F>& tile, PathState<F>& path, std::uint3
     if constexpr (G == Generation::camera)
         path.color = beyond;
     else
-        path.color = select(from_bits<float>(missed), path.color + path.weight.of(beyond),
-                            path.color);
+        path.color =
+            select(from_bits<float>(missed), path.color + path.weight.of(beyond), path.color);
 }
 
 /// Where rays that leave from inside meet the same body again.
@@ -236,8 +232,7 @@ template <abi::Features F>
                                                const Vec3v<float>& dir, std::uint32_t active)
 {
     return second_hit<float>(tile.scene.shapes, numbers_of(hits.at), hits.at.point, dir,
-                             vreal<float>(tile.scene.rules.secondary_t_min), ~hits.leaving,
-                             active);
+                             vreal<float>(tile.scene.rules.secondary_t_min), ~hits.leaving, active);
 }
 
 /// Replaces the rays of a packet by those that its hits mirror.
@@ -266,8 +261,8 @@ inline void mirror_rays(const FusedTile<F>& tile, PathState<F>& path, PathStart&
     if (!start.meets_own)
         return;
     path.is_plain = false;
-    path.org = select(from_bits<float>(~hits.leaving & all_lanes<float>), path.org,
-                      at.point - lift);
+    path.org =
+        select(from_bits<float>(~hits.leaving & all_lanes<float>), path.org, at.point - lift);
     const Vec3v<float> dir = path.dir;
     start.second = find_second(tile, hits, dir, path.active);
 }
@@ -281,8 +276,8 @@ inline void trace_generation(const FusedTile<F>& tile, const Candidates& candida
     const std::uint32_t active = path.active;
     HitState hit;
     const std::int32_t own = G == Generation::camera ? -1 : start.at.common;
-    if (!path.is_plain || !find_common_hit<G>(hit, tile, candidates, rays_of<G>(tile, path), own,
-                                              active)) {
+    if (!path.is_plain ||
+        !find_common_hit<G>(hit, tile, candidates, rays_of<G>(tile, path), own, active)) {
         const RayPacket<float> rays = rays_of<G>(tile, path);
         HitState found;
         find_any_hits<G>(found, tile, rays, path.is_far, start, active);
@@ -304,7 +299,11 @@ inline void trace_generation(const FusedTile<F>& tile, const Candidates& candida
         material = &mixed;
     }
     // Of what faces the ray nothing is inside, nor turned.
-    LitHits hits{hit, hit.outward, dot(hit.outward, path.dir), material->floor2 * path.dir2, 0,
+    LitHits hits{hit,
+                 hit.outward,
+                 dot(hit.outward, path.dir),
+                 material->floor2 * path.dir2,
+                 0,
                  (far_lanes(tile.plan, hit.point) & hit.lanes) != 0};
     if ((bits(hits.normal_dir > vreal<float>(0.0f)) & hit.lanes) != 0) {
         const HitState copy = hit;

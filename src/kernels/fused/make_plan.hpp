@@ -89,9 +89,9 @@ inline void add_front_plane(ClearTests& tests, FrontPlane* planes, const double 
 }
 
 /// Planes that touch anchored spheres where these are nearest to a light, or to all that is near.
-inline void add_anchored(ClearTests& tests, FrontPlane* planes, const abi::SceneView<float>& casters,
-                         const abi::LightRecord<float>& light, const Origins& origins,
-                         double extent)
+inline void add_anchored(ClearTests& tests, FrontPlane* planes,
+                         const abi::SceneView<float>& casters, const abi::LightRecord<float>& light,
+                         const Origins& origins, double extent)
 {
     const auto& list = casters.wide->anchored_spheres;
     for (int i = 0; i < list.count; ++i) {
@@ -123,10 +123,9 @@ inline void add_planes(ClearTests& tests, FrontPlane* planes, const abi::SceneVi
         const abi::PlaneRecord<double>& plane = list.data[i];
         double height = 0;
         for (int axis = 0; axis < 3; ++axis)
-            height += plane.normal[axis] *
-                      (light.kind == abi::LightKind::point
-                           ? double{light.vector[axis]} - plane.point[axis]
-                           : double{light.vector[axis]});
+            height += plane.normal[axis] * (light.kind == abi::LightKind::point
+                                                ? double{light.vector[axis]} - plane.point[axis]
+                                                : double{light.vector[axis]});
         const double side = height < 0 ? -1.0 : 1.0;
         const double normal[3] = {side * plane.normal[0], side * plane.normal[1],
                                   side * plane.normal[2]};
@@ -262,8 +261,8 @@ inline void make_clear_tests(ClearTests& tests, const abi::SceneView<float>& sce
     add_anchored(tests, planes, casters, light, origins, extent);
     add_planes(tests, planes, casters, light, extent);
     if (light.kind == abi::LightKind::point)
-        return add_cones(tests, const_cast<ConeSphere*>(tests.cones), casters.spheres,
-                         light.vector, extent);
+        return add_cones(tests, const_cast<ConeSphere*>(tests.cones), casters.spheres, light.vector,
+                         extent);
     const double direction[3] = {light.vector[0], light.vector[1], light.vector[2]};
     set_axes(tests.axis, direction);
     add_across(tests, const_cast<AcrossSphere*>(tests.across), casters.spheres, direction, extent);
@@ -284,8 +283,8 @@ inline void fill_spheres(FramePlan<F>& plan, const abi::SceneView<float>& scene)
         // Of an origin in the ball, its distance from the centre counts whole.
         double distance = double{plan.origins.radius};
         for (int axis = 0; axis < 3; ++axis)
-            distance += __builtin_fabs(double{sphere.center[axis]} -
-                                       double{plan.origins.center[axis]});
+            distance +=
+                __builtin_fabs(double{sphere.center[axis]} - double{plan.origins.center[axis]});
         const double slack = double{list.bounds.along[i]} + roundoffs(28.0f) * distance;
         sphere.slack2 = above(slack * slack * (1.0 + clear_slack));
         const double clear = clear_radius(scene.spheres, i, extent_of(plan.origins));
@@ -301,8 +300,8 @@ inline void fill_spheres(FramePlan<F>& plan, const abi::SceneView<float>& scene)
     }
 }
 
-/// The errors of a ground's form for origins up to `distance` from its base. Rounding moves the base
-/// itself, too.
+/// The errors of a ground's form for origins up to `distance` from its base. Rounding moves the
+/// base itself, too.
 inline void set_ground_errors(PlanGround& ground, double distance)
 {
     double moved = 0;
@@ -368,7 +367,8 @@ inline void fill_ground(PlanGround& ground, const abi::AnchoredSphere<double>& s
     double point[3];
     double normal[3];
     for (int axis = 0; axis < 3; ++axis) {
-        normal[axis] = distance > 0 ? (to[axis] - shape.center[axis]) / distance : shape.normal[axis];
+        normal[axis] =
+            distance > 0 ? (to[axis] - shape.center[axis]) / distance : shape.normal[axis];
         point[axis] = shape.center[axis] + shape.radius * normal[axis];
     }
     set_top(ground, point, normal, origins, eye);
@@ -548,8 +548,7 @@ inline void fill_plan(FramePlan<F>& plan, const abi::SceneView<float>& scene,
     plan.near2 = plan.origins.radius * plan.origins.radius * 0.999f;
     for (int i = 0; i < 256; ++i)
         plan.numbers[i] = static_cast<std::uint8_t>(i);
-    plan.has_common_hits = plan.from_near.certifiable &&
-                           is_moderate(extent_of(plan.origins));
+    plan.has_common_hits = plan.from_near.certifiable && is_moderate(extent_of(plan.origins));
     for (int i = 0; i < scene.spheres.count; ++i)
         plan.has_common_hits &= scene.spheres.radius[i] > 1e-15f;
     const abi::SceneView<float>& casters = casters_of(scene);

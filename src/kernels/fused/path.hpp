@@ -86,7 +86,7 @@ struct FusedMemory {
     TilePixelColors<float>* color = nullptr;
     std::uint8_t* visible_spheres = nullptr;  ///< from the eye through the tile, by their numbers
     std::uint8_t* visible_grounds = nullptr;  ///< in the plan
-    FilteredObjects<false> from_far;              ///< for a packet of origins beyond the plan's
+    FilteredObjects<false> from_far;          ///< for a packet of origins beyond the plan's
     LightObjects<F, float>* occluders = nullptr;  ///< likewise, by light
     std::size_t bytes = 0;
 

@@ -31,8 +31,8 @@ struct AcrossSphere {
 /// A sphere that the way from a point light misses whose cosine with the way to the sphere, `to`,
 /// is less than `edge` over its length.
 struct ConeSphere {
-    float to[3];  ///< from the light to the centre
-    float edge;   ///< -infinite for a light that is not outside
+    float to[3];       ///< from the light to the centre
+    float edge;        ///< -infinite for a light that is not outside
     float inner_edge;  ///< what is more crosses the sphere
     float center[3];
     float outer2;
@@ -55,8 +55,8 @@ struct ClearTests {
     const ConeSphere* cones = nullptr;     ///< of a point light
     int plane_count = 0;
     int sphere_count = 0;
-    float axis[2][3] = {};      ///< of the plane across a directional light
-    float length2 = 0;          ///< of its vector, and the inverse root
+    float axis[2][3] = {};  ///< of the plane across a directional light
+    float length2 = 0;      ///< of its vector, and the inverse root
     float inverse_length = 0;
     float least_distance2 = 0;  ///< points nearer to a point light than its root are not told of
     NeededTests* needed = nullptr;  ///< by surface; [-1] for points on any
@@ -76,8 +76,8 @@ struct PlanSphere {
     std::int32_t surface;
 };
 
-/// An anchored sphere, or a plane with no curvature, likewise: the form that is refined, rounded, and
-/// the errors of its terms.
+/// An anchored sphere, or a plane with no curvature, likewise: the form that is refined, rounded,
+/// and the errors of its terms.
 struct PlanGround {
     float base[3], normal[3], curvature, offset;
     float value_error;         ///< of F(0)
@@ -108,10 +108,10 @@ struct FramePlan {
     PlanSphere* spheres = nullptr;                ///< in the scene's order
     PlanGround* grounds = nullptr;                ///< likewise: anchored spheres, then planes
     int ground_count = 0;
-    PlanMaterial* materials = nullptr;            ///< by number
-    float near2 = 0;                              ///< square of the origins' radius, and less
-    std::uint8_t* numbers = nullptr;              ///< 0, 1, …: all spheres, or all grounds
-    bool has_common_hits = false;  ///< bounds hold, and common_hit.hpp knows all objects
+    PlanMaterial* materials = nullptr;  ///< by number
+    float near2 = 0;                    ///< square of the origins' radius, and less
+    std::uint8_t* numbers = nullptr;    ///< 0, 1, …: all spheres, or all grounds
+    bool has_common_hits = false;       ///< bounds hold, and common_hit.hpp knows all objects
     std::size_t bytes = 0;
 
     /// With no `memory`, only `bytes` is of use.
@@ -181,7 +181,8 @@ private:
     static std::size_t surface_count(const abi::SceneView<float>& scene)
     {
         std::int32_t most = -1;
-        for_each_surface(scene, [&](std::int32_t surface) { most = most < surface ? surface : most; });
+        for_each_surface(scene,
+                         [&](std::int32_t surface) { most = most < surface ? surface : most; });
         return static_cast<std::size_t>(most) + 1;
     }
 
