@@ -12,15 +12,12 @@
 namespace packtrace::PACKTRACE_ISA {
 namespace {
 
-/// More objects than these are better culled for chunks of rays, as streams do it.
-inline constexpr int most_fused_objects = 32;
-
 template <abi::Features F>
 inline bool can_fuse(const abi::SceneView<float>& scene)
 {
     const int objects = scene.spheres.count + scene.anchored_spheres.count + scene.planes.count;
     return scene.wide != nullptr && scene.tree.empty() && scene.quadrics.count == 0 &&
-           scene.polygons.count == 0 && objects <= most_fused_objects && !scene.lighting.flat &&
+           scene.polygons.count == 0 && objects <= most_common_objects && !scene.lighting.flat &&
            scene.rules.start_error > 0 && !(scene.rules.min_weight > 0);
 }
 
@@ -83,7 +80,7 @@ inline Vec3v<float> trace_paths(const FusedTile<F>& tile, const Candidates& visi
     path.active = active;
     path.is_far = false;
     // Mirrors keep lengths but for a little.
-    path.is_plain = tile.plan.has_common_hits && (active & ~bits(certifiable(rays))) == 0;
+    path.is_plain = tile.plan.common.are_all && (active & ~bits(certifiable(rays))) == 0;
     trace_generation<Generation::camera>(tile, visible, path, start, 0);
     for (int depth = 1; path.active != 0; ++depth)
         trace_generation<Generation::mirrored>(tile, all, path, start, depth);
@@ -109,7 +106,7 @@ inline abi::RayCounts trace_fused_tile(const abi::TileJob<float>& job)
         write_tile(job, *memory.color);
         return counts;
     }
-    const Candidates all{plan.numbers, plan.numbers, scene.spheres.count, plan.ground_count};
+    const Candidates all = all_of(plan.common);
     const TileCamera<float> camera(job);
     for (int first = 0; first < abi::tile_pixels; first += lanes<float>) {
         const std::uint32_t active = lanes_inside(job, first);

@@ -1,7 +1,6 @@
 #pragma once
 
 #include "kernels/fused/clear_way.hpp"
-#include "kernels/fused/common_hit.hpp"
 #include "kernels/precision/refine.hpp"
 #include "kernels/stream/spawn.hpp"
 #include "kernels/stream/trace_stream.hpp"
@@ -256,7 +255,7 @@ inline void mirror_rays(const FusedTile<F>& tile, PathState<F>& path, PathStart&
     start.at = at;
     if (at.common < 0)
         start.at.common = static_cast<std::int32_t>(common_number<float>(at.number, path.active));
-    path.is_plain = tile.plan.has_common_hits && !hits.is_far && start.at.common >= 0;
+    path.is_plain = tile.plan.common.are_all && !hits.is_far && start.at.common >= 0;
     start.meets_own = (hits.leaving & path.active) != 0;
     if (!start.meets_own)
         return;
@@ -275,9 +274,16 @@ inline void trace_generation(const FusedTile<F>& tile, const Candidates& candida
     const abi::SceneView<float>& scene = tile.scene;
     const std::uint32_t active = path.active;
     HitState hit;
+    CommonHit common;
+    constexpr Origin origin = G == Generation::camera ? Origin::shared : Origin::any;
     const std::int32_t own = G == Generation::camera ? -1 : start.at.common;
-    if (!path.is_plain ||
-        !find_common_hit<G>(hit, tile, candidates, rays_of<G>(tile, path), own, active)) {
+    if (path.is_plain && find_common_hit<origin>(common, tile.plan.common, candidates,
+                                                 rays_of<G>(tile, path), tile.eye, own, active)) {
+        hit.point = common.point;
+        hit.outward = common.outward;
+        hit.common = common.surface;
+        hit.lanes = common.lanes;
+    } else {
         const RayPacket<float> rays = rays_of<G>(tile, path);
         HitState found;
         find_any_hits<G>(found, tile, rays, path.is_far, start, active);
@@ -304,7 +310,7 @@ inline void trace_generation(const FusedTile<F>& tile, const Candidates& candida
                  dot(hit.outward, path.dir),
                  material->floor2 * path.dir2,
                  0,
-                 (far_lanes(tile.plan, hit.point) & hit.lanes) != 0};
+                 (far_lanes(tile.plan.common, hit.point) & hit.lanes) != 0};
     if ((bits(hits.normal_dir > vreal<float>(0.0f)) & hit.lanes) != 0) {
         const HitState copy = hit;
         LitHits turned{copy, hits.normal, hits.normal_dir, hits.floor_dir2, 0, hits.is_far};

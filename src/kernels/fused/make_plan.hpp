@@ -1,63 +1,15 @@
 #pragma once
 
 #include "kernels/fused/plan.hpp"
-#include "kernels/precision/lone_sphere.hpp"
 
 // Makes the plan of a frame (plan.hpp). All bounds are computed in double, once.
 namespace packtrace::PACKTRACE_ISA {
 namespace {
 
-/// Origins this many times as far from the middle of what is bounded as its edge, or as the eye,
-/// are still near: error bounds are for all of them, so that more would make more rays unsure. On
-/// note 001's ground 64 leave 1.5 % of the hits beyond, and 8 left an eighth, each packet of which
-/// has bounds of its own.
-inline constexpr double near_scale = 64.0;
-
-/// A relative margin for whatever rounds in the tests of clear_way.hpp, and for the places that
-/// shadow rays end at, which are lifted off the hits: 64 and more of what operations lose.
-inline constexpr double clear_slack = 64.0 * 0x1p-24;
 /// How much the direction of a shadow ray may differ from that to the hit.
 inline constexpr double clear_turn = 0x1p-9;
 /// The share of the size of its scene that a point has to be away from a point light for that.
 inline constexpr double clear_distance = 1.0 / 1024.0;
-
-inline double distance_of(const double (&a)[3], const double (&b)[3])
-{
-    double sum = 0;
-    for (int axis = 0; axis < 3; ++axis)
-        sum += (a[axis] - b[axis]) * (a[axis] - b[axis]);
-    return __builtin_sqrt(sum);
-}
-
-/// The ball of origins that a plan's bounds are for: around the bounded objects and the eye.
-inline Origins near_origins(const abi::SceneView<float>& scene, const float (&eye)[3])
-{
-    float low[3];
-    float high[3];
-    for (int axis = 0; axis < 3; ++axis)
-        low[axis] = high[axis] = eye[axis];
-    const abi::SphereListView<float>& spheres = scene.spheres;
-    for (int i = 0; i < spheres.count; ++i) {
-        const float center[3] = {spheres.center_x[i], spheres.center_y[i], spheres.center_z[i]};
-        for (int axis = 0; axis < 3; ++axis) {
-            low[axis] = min(low[axis], center[axis] - spheres.radius[i]);
-            high[axis] = max(high[axis], center[axis] + spheres.radius[i]);
-        }
-    }
-    Origins origins = origins_in(low, high);
-    // Around the eye alone: what it stands on counts.
-    origins.radius = max(origins.radius, 1.0f) * static_cast<float>(near_scale);
-    return origins;
-}
-
-/// A length that no point of the origins, nor a light, is further from the world's origin.
-inline double extent_of(const Origins& origins)
-{
-    double center2 = 0;
-    for (const float x : origins.center)
-        center2 += double{x} * x;
-    return __builtin_sqrt(center2) + double{origins.radius};
-}
 
 /// What is in front of a plane through `point` with the unit normal `normal`, as seen from a light.
 inline void add_front_plane(ClearTests& tests, FrontPlane* planes, const double (&point)[3],
@@ -131,21 +83,6 @@ inline void add_planes(ClearTests& tests, FrontPlane* planes, const abi::SceneVi
                                   side * plane.normal[2]};
         add_front_plane(tests, planes, plane.point, normal, light, extent, plane.surface);
     }
-}
-
-/// The largest |x| of a vector's sum of components.
-inline double size_of(const float (&v)[3])
-{
-    return __builtin_fabs(double{v[0]}) + __builtin_fabs(double{v[1]}) +
-           __builtin_fabs(double{v[2]});
-}
-
-/// The radius that a shadow ray must pass a sphere's rounded centre by to be clear of it.
-inline double clear_radius(const abi::SphereListView<float>& list, int i, double extent)
-{
-    const float center[3] = {list.center_x[i], list.center_y[i], list.center_z[i]};
-    return double{list.radius[i]} + double{list.center_error[i]} +
-           clear_slack * (extent + double{list.radius[i]} + size_of(center));
 }
 
 inline void add_across(ClearTests& tests, AcrossSphere* spheres,
@@ -233,12 +170,6 @@ inline void set_axes(float (&axis)[2][3], const double (&v)[3])
     }
 }
 
-/// Whether magnitudes are such that squares of single precision hold.
-inline bool is_moderate(double extent)
-{
-    return extent < 1e8 && extent > 1e-8;
-}
-
 inline void make_clear_tests(ClearTests& tests, const abi::SceneView<float>& scene,
                              const abi::LightRecord<float>& light, const Origins& origins)
 {
@@ -266,143 +197,6 @@ inline void make_clear_tests(ClearTests& tests, const abi::SceneView<float>& sce
     const double direction[3] = {light.vector[0], light.vector[1], light.vector[2]};
     set_axes(tests.axis, direction);
     add_across(tests, const_cast<AcrossSphere*>(tests.across), casters.spheres, direction, extent);
-}
-
-/// Its list from_near has the bounds.
-template <abi::Features F>
-inline void fill_spheres(FramePlan<F>& plan, const abi::SceneView<float>& scene)
-{
-    const SphereFilters& list = list_of<Sphere>(plan.from_near);
-    for (int i = 0; i < list.count; ++i) {
-        PlanSphere& sphere = plan.spheres[i];
-        sphere.center[0] = list.x[i];
-        sphere.center[1] = list.y[i];
-        sphere.center[2] = list.z[i];
-        sphere.outer2 = list.bounds.outer2[i];
-        sphere.inner2 = list.bounds.inner2[i];
-        // Of an origin in the ball, its distance from the centre counts whole.
-        double distance = double{plan.origins.radius};
-        for (int axis = 0; axis < 3; ++axis)
-            distance +=
-                __builtin_fabs(double{sphere.center[axis]} - double{plan.origins.center[axis]});
-        const double slack = double{list.bounds.along[i]} + roundoffs(28.0f) * distance;
-        sphere.slack2 = above(slack * slack * (1.0 + clear_slack));
-        const double clear = clear_radius(scene.spheres, i, extent_of(plan.origins));
-        sphere.clear2 = above(clear * clear * (1.0 + clear_slack));
-        sphere.surface = list.surface[i];
-        const abi::SphereShape& shape = sphere_of(scene.shapes, sphere.surface);
-        for (int axis = 0; axis < 3; ++axis)
-            sphere.exact_center[axis] = shape.center[axis];
-        sphere.exact_radius2 = shape.radius * shape.radius;
-        const float radius = static_cast<float>(shape.radius);
-        sphere.radius2 = radius * radius;
-        sphere.inverse_radius = 1.0f / radius;
-    }
-}
-
-/// The errors of a ground's form for origins up to `distance` from its base. Rounding moves the
-/// base itself, too.
-inline void set_ground_errors(PlanGround& ground, double distance)
-{
-    double moved = 0;
-    for (int axis = 0; axis < 3; ++axis)
-        moved += __builtin_fabs(double{ground.base[axis]} - ground.exact_base[axis]);
-    AnchoredFilter errors{};
-    errors.curvature = ground.curvature;
-    errors.offset = ground.offset;
-    set_anchored_errors(errors, distance, false);
-    const double size = 1.0 + ground.exact_curvature * distance;
-    const double slope = double{errors.slope_error} + 2.0 * ground.exact_curvature * moved;
-    ground.value_error = above(double{errors.value_error} + 3.0 * size * moved);
-    ground.slope_error2 = above(slope * slope * (1.0 + clear_slack));
-    ground.discriminant_error =
-        above(double{errors.discriminant_error} + 8.0 * size * ground.exact_curvature * moved);
-}
-
-/// Sets the plane through `point` with the unit `normal` that a ground is behind.
-inline void set_top(PlanGround& ground, const double (&point)[3], const double (&normal)[3],
-                    const Origins& origins, const float (&eye)[3])
-{
-    double size = extent_of(origins);
-    double level = 0;
-    double eye_level = 0;
-    for (int axis = 0; axis < 3; ++axis) {
-        ground.top[axis] = static_cast<float>(normal[axis]);
-        level += normal[axis] * point[axis];
-        eye_level += normal[axis] * double{eye[axis]};
-        size += __builtin_fabs(point[axis]);
-    }
-    const double slack = clear_slack * size;
-    ground.top_offset = above(level + slack + 0x1p-22 * __builtin_fabs(level));
-    ground.eye_above = eye_level > level + slack;
-}
-
-/// Rounds a form, and finds its errors for a plan's origins.
-inline void set_form(PlanGround& ground, const double (&base)[3], const double (&normal)[3],
-                     double curvature, double offset, const Origins& origins)
-{
-    double distance = double{origins.radius};
-    for (int axis = 0; axis < 3; ++axis) {
-        ground.exact_base[axis] = base[axis];
-        ground.exact_normal[axis] = normal[axis];
-        ground.base[axis] = static_cast<float>(base[axis]);
-        ground.normal[axis] = static_cast<float>(normal[axis]);
-        distance += __builtin_fabs(double{origins.center[axis]} - base[axis]);
-    }
-    ground.exact_curvature = curvature;
-    ground.exact_offset = offset;
-    ground.curvature = static_cast<float>(curvature);
-    ground.offset = static_cast<float>(offset);
-    set_ground_errors(ground, distance * 1.00001);
-}
-
-/// An anchored sphere; its top touches it where it is nearest to all that is near.
-inline void fill_ground(PlanGround& ground, const abi::AnchoredSphere<double>& shape,
-                        const Origins& origins, const float (&eye)[3])
-{
-    set_form(ground, shape.anchor, shape.normal, shape.curvature, shape.offset, origins);
-    ground.side = 1.0f;
-    const double to[3] = {origins.center[0], origins.center[1], origins.center[2]};
-    const double distance = distance_of(to, shape.center);
-    double point[3];
-    double normal[3];
-    for (int axis = 0; axis < 3; ++axis) {
-        normal[axis] =
-            distance > 0 ? (to[axis] - shape.center[axis]) / distance : shape.normal[axis];
-        point[axis] = shape.center[axis] + shape.radius * normal[axis];
-    }
-    set_top(ground, point, normal, origins, eye);
-}
-
-/// A plane, as seen from the side that the eye is on.
-inline void fill_ground(PlanGround& ground, const abi::PlaneRecord<double>& shape,
-                        const Origins& origins, const float (&eye)[3])
-{
-    set_form(ground, shape.point, shape.normal, 0.0, 0.0, origins);
-    double height = 0;
-    for (int axis = 0; axis < 3; ++axis)
-        height += shape.normal[axis] * (double{eye[axis]} - shape.point[axis]);
-    ground.side = height < 0 ? -1.0f : 1.0f;
-    const double side = double{ground.side};
-    const double normal[3] = {side * shape.normal[0], side * shape.normal[1],
-                              side * shape.normal[2]};
-    set_top(ground, shape.point, normal, origins, eye);
-}
-
-template <abi::Features F>
-inline void fill_grounds(FramePlan<F>& plan, const abi::SceneView<float>& scene,
-                         const float (&eye)[3])
-{
-    const auto fill = [&](const auto& list, const auto* shapes) {
-        for (int i = 0; i < list.count; ++i) {
-            PlanGround& ground = plan.grounds[plan.ground_count++];
-            ground.surface = list.data[i].surface;
-            fill_ground(ground, shapes[scene.shapes.index[ground.surface].record], plan.origins,
-                        eye);
-        }
-    };
-    fill(scene.anchored_spheres, scene.shapes.anchored_spheres);
-    fill(scene.planes, scene.shapes.planes);
 }
 
 template <abi::Features F>
@@ -540,17 +334,10 @@ inline void fill_plan(FramePlan<F>& plan, const abi::SceneView<float>& scene,
     for (int axis = 0; axis < 3; ++axis)
         anywhere.base[axis] = camera.origin[axis];
     find_objects<F>(plan.from_camera, anywhere, scene);
-    plan.origins = near_origins(scene, camera.origin);
+    plan.origins = near_origins(scene, camera.origin, camera.origin);
     find_objects<F>(plan.from_near, plan.origins, scene);
-    fill_spheres(plan, scene);
-    fill_grounds(plan, scene, camera.origin);
+    fill_common(plan.common, scene, plan.origins, camera.origin);
     fill_materials(plan, scene);
-    plan.near2 = plan.origins.radius * plan.origins.radius * 0.999f;
-    for (int i = 0; i < 256; ++i)
-        plan.numbers[i] = static_cast<std::uint8_t>(i);
-    plan.has_common_hits = plan.from_near.certifiable && is_moderate(extent_of(plan.origins));
-    for (int i = 0; i < scene.spheres.count; ++i)
-        plan.has_common_hits &= scene.spheres.radius[i] > 1e-15f;
     const abi::SceneView<float>& casters = casters_of(scene);
     for (int i = 0; i < scene.lighting.lights.count; ++i) {
         const abi::LightRecord<float>& light = scene.lighting.lights.data[i];

@@ -46,6 +46,9 @@ inline void set_whole(PathWeight<true>& weight)
     weight.each = {one, one, one};
 }
 
+/// Whether rays of a generation come from the eye.
+enum class Generation { camera, mirrored };
+
 /// Rays of a packet of paths, and what they bring to their pixels so far.
 template <abi::Features F>
 struct PathState {
@@ -120,9 +123,6 @@ struct FusedTile {
     float eye_t_min;
 };
 
-/// Whether rays of a generation come from the eye.
-enum class Generation { camera, mirrored };
-
 template <Generation G, abi::Features F>
 inline float least_t(const FusedTile<F>& tile)
 {
@@ -163,14 +163,6 @@ struct ActiveOwn {
         return common >= 0 ? active : active & ~lanes_on_body<Real>(surface, first, pieces);
     }
 };
-
-/// The lanes whose places error bounds of the plan don't hold for.
-template <abi::Features F>
-inline std::uint32_t far_lanes(const FramePlan<F>& plan, const Vec3v<float>& place)
-{
-    const Vec3v<float> from = place - broadcast(plan.origins.center);
-    return ~bits(dot(from, from) <= vreal<float>(plan.near2)) & all_lanes<float>;
-}
 
 /// The ball around the places of some lanes.
 inline Origins origins_of_lanes(const Vec3v<float>& place, std::uint32_t active)

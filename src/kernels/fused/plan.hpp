@@ -1,6 +1,7 @@
 #pragma once
 
 #include "kernels/stream/workspace.hpp"
+#include "kernels/traverse/common_hit.hpp"
 #include "kernels/traverse/object_sets.hpp"
 
 // What the tiles of a frame share that is traced in registers (fused_tile.hpp): the objects with
@@ -63,33 +64,6 @@ struct ClearTests {
     bool complete = false;          ///< these tests know all objects that may be in the way
 };
 
-/// A sphere for rays from the plan's `origins` (sphere_filter.hpp), and its record for refining.
-struct PlanSphere {
-    float center[3];
-    float outer2, inner2;
-    float clear2;  ///< squared radius that points within the plan's origins are outside by
-    float slack2;  ///< square of what the slope w·d may be off by, per |d|
-    float radius2;
-    float inverse_radius;
-    double exact_center[3];
-    double exact_radius2;
-    std::int32_t surface;
-};
-
-/// An anchored sphere, or a plane with no curvature, likewise: the form that is refined, rounded,
-/// and the errors of its terms.
-struct PlanGround {
-    float base[3], normal[3], curvature, offset;
-    float value_error;         ///< of F(0)
-    float slope_error2;        ///< square of that of b, per |d|
-    float discriminant_error;  ///< per d·d
-    float side;                ///< -1 for a plane whose normal points away from the eye, else 1
-    float top[3], top_offset;  ///< a plane that it is behind; points behind that are not told of
-    bool eye_above;            ///< the eye is in front of that
-    double exact_base[3], exact_normal[3], exact_curvature, exact_offset;
-    std::int32_t surface;
-};
-
 /// A material in all lanes.
 struct PlanMaterial {
     MaterialPacket<float> packet;
@@ -105,13 +79,8 @@ struct FramePlan {
     Origins origins;
     LightObjects<F, float>* occluders = nullptr;  ///< by light; of directional ones from `origins`
     ClearTests* clear = nullptr;                  ///< by light
-    PlanSphere* spheres = nullptr;                ///< in the scene's order
-    PlanGround* grounds = nullptr;                ///< likewise: anchored spheres, then planes
-    int ground_count = 0;
-    PlanMaterial* materials = nullptr;  ///< by number
-    float near2 = 0;                    ///< square of the origins' radius, and less
-    std::uint8_t* numbers = nullptr;    ///< 0, 1, …: all spheres, or all grounds
-    bool has_common_hits = false;       ///< bounds hold, and common_hit.hpp knows all objects
+    CommonObjects common;                         ///< likewise from `origins`
+    PlanMaterial* materials = nullptr;            ///< by number
     std::size_t bytes = 0;
 
     /// With no `memory`, only `bytes` is of use.
@@ -123,11 +92,8 @@ struct FramePlan {
         arena.take<FramePlan>(1);
         take_objects<F>(arena, from_camera, scene);
         take_objects<F>(arena, from_near, scene);
-        spheres = arena.take<PlanSphere>(static_cast<std::size_t>(scene.spheres.count));
-        grounds = arena.take<PlanGround>(
-            static_cast<std::size_t>(scene.anchored_spheres.count + scene.planes.count));
+        common.take(arena, scene);
         materials = arena.take<PlanMaterial>(material_count(scene));
-        numbers = arena.take<std::uint8_t>(256);
         occluders = arena.take<LightObjects<F, float>>(static_cast<std::size_t>(lights));
         clear = arena.take<ClearTests>(static_cast<std::size_t>(lights));
         LightObjects<F, float> measured;

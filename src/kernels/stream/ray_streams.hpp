@@ -7,6 +7,7 @@
 #include "kernels/traverse/bvh_closest.hpp"
 #include "kernels/traverse/bvh_crossings.hpp"
 #include "kernels/traverse/bvh_occluded.hpp"
+#include "kernels/traverse/common_hit.hpp"
 #include "kernels/traverse/object_sets.hpp"
 #include "kernels/traverse/retrace_closest.hpp"
 #include "kernels/traverse/retrace_occluded.hpp"
@@ -80,12 +81,48 @@ inline StartPacket<Real> start_of(const abi::SceneView<Real>& scene,
         second_hit<Real>(scene.shapes, number, point, rays.dir, rays.t_min, ~bits(inner), active)};
 }
 
+/// After packets without a common hit more and more are not asked for one, so that rays without a
+/// common way cost next to nothing.
+struct CommonPause {
+    static constexpr int longest = 256;
+    int length = 1;
+    int left = 0;
+
+    /// Whether the next packet is to be asked.
+    bool is_over()
+    {
+        if (left == 0)
+            return true;
+        --left;
+        return false;
+    }
+    void record(bool found)
+    {
+        left = found ? 0 : length - 1;
+        length = found ? 1 : length < longest ? 2 * length : longest;
+    }
+};
+
+/// Whether a packet's rays run nearly the same way: within 25 degrees of the first.
+template <class Real>
+inline bool run_together(const abi::RaysView<Real>& view, int begin)
+{
+    const Vec3v<Real> dir = load_some3(view.dir, begin, view.count - begin);
+    const Real first[3] = {view.dir[0][begin], view.dir[1][begin], view.dir[2][begin]};
+    const Vec3v<Real> axis = broadcast(first);
+    const vreal<Real> along = dot(dir, axis);
+    return all(along * abs(along) > vreal<Real>(Real(0.82)) * dot(dir, dir) * dot(axis, axis));
+}
+
 /// What is prepared of the lists for one call.
 template <abi::Features F, class Real>
 struct StreamWork {
     FromAnywhere<F, Real> nearby;
     FromPoint<F, Real> from_point;  ///< in place of `nearby` for rays from one point
     bool shares_origin = false;     ///< the chunk's rays are such rays
+    CommonObjects common;           ///< in exact mode, without a hierarchy
+    bool wants_common = false;      ///< closest hits are asked for, without a hierarchy
+    CommonPause pause;              ///< of the packets before
     RayBundle<Real>* bundle = nullptr;
     std::size_t bytes = 0;
 
@@ -94,12 +131,25 @@ struct StreamWork {
     {
         Arena arena(scratch);
         take_objects<F>(arena, nearby, scene);
+        if constexpr (F.exact)
+            if (scene.tree.empty())
+                common.take(arena, scene);
         if (scene.tree.empty())
             take_objects<F>(arena, from_point, scene);
         else
             bundle = arena.template take<RayBundle<Real>>(1);
         bytes = arena.used();
     }
+
+    /// Whether packets of a chunk are asked for common hits: rays that run apart have none, and few
+    /// are not worth what is prepared.
+    bool looks_for_common(const abi::RaysView<Real>& view, int begin, int count)
+    {
+        common.are_all = false;
+        return wants_common && count >= fewest_in_common && view.start_surface == nullptr &&
+               run_together(view, begin);
+    }
+    static constexpr int fewest_in_common = 256;
 };
 
 /// Fewer rays are not worth what is computed once for a shared origin.
@@ -138,16 +188,21 @@ inline void find_nearby_of(StreamWork<F, Real>& work, const abi::SceneView<Real>
 {
     work.shares_origin =
         scene.tree.empty() && view.start_surface == nullptr && start_together(view, begin, count);
-    if (work.shares_origin)
-        return find_from_point<F, Real>(
-            work.from_point, {view.org[0][begin], view.org[1][begin], view.org[2][begin]}, scene);
+    const Real first[3] = {view.org[0][begin], view.org[1][begin], view.org[2][begin]};
+    if (work.shares_origin) {
+        find_from_point<F, Real>(work.from_point, first, scene);
+        if constexpr (F.exact)
+            if (work.looks_for_common(view, begin, count))
+                fill_common(work.common, scene, near_origins(scene, first, first), first);
+        return;
+    }
     if constexpr (F.exact) {
         const vreal<float> never(__builtin_inff());
         const vreal<float> before = negated(never);
         Vec3v<float> lows{never, never, never};
         Vec3v<float> highs{before, before, before};
-        for (int first = 0; first < count; first += lanes<float>) {
-            const Vec3v<float> org = load_some3(view.org, begin + first, count - first);
+        for (int ray = 0; ray < count; ray += lanes<float>) {
+            const Vec3v<float> org = load_some3(view.org, begin + ray, count - ray);
             lows = {min(lows.x, org.x), min(lows.y, org.y), min(lows.z, org.z)};
             highs = {max(highs.x, org.x), max(highs.y, org.y), max(highs.z, org.z)};
         }
@@ -156,7 +211,10 @@ inline void find_nearby_of(StreamWork<F, Real>& work, const abi::SceneView<Real>
         extent_of_lanes(lows.x, highs.x, low[0], high[0]);
         extent_of_lanes(lows.y, highs.y, low[1], high[1]);
         extent_of_lanes(lows.z, highs.z, low[2], high[2]);
-        find_objects<F>(work.nearby, origins_in(low, high), scene);
+        const Origins origins = origins_in(low, high);
+        find_objects<F>(work.nearby, origins, scene);
+        if (work.looks_for_common(view, begin, count))
+            fill_common(work.common, scene, near_origins(scene, low, high), first);
     } else {
         work.nearby.scene = &scene;
     }
@@ -202,6 +260,57 @@ inline void store_packet_hits(const abi::SceneView<Real>& scene, const RayPacket
     store_some3(hits.point, at, places.point, live);
 }
 
+/// The same of hits on one surface.
+inline void store_common_hits(const abi::SceneView<float>& scene, const CommonHit& hit,
+                              const vreal<float>& t_max, const abi::HitsView<float>& hits, int at,
+                              int live)
+{
+    const vmask<float> found = from_bits<float>(hit.lanes);
+    const vint<float> none(lane_int<float>(-1));
+    const bool hits_any = hit.lanes != 0;
+    const std::int32_t object = hits_any ? scene.materials.of_surface[hit.surface].object : -1;
+    store_numbers<float>(hits.object + at, select(found, vint<float>(object), none), live);
+    if (hits.surface != nullptr)
+        store_numbers<float>(hits.surface + at,
+                             select(found, vint<float>(hits_any ? hit.surface : -1), none), live);
+    if (hits.t != nullptr)
+        store_some(hits.t + at, select(found, hit.t, t_max), live);
+    if (hits.normal[0] == nullptr)
+        return;
+    const vreal<float> zero(0.0f);
+    const Vec3v<float> nothing{zero, zero, zero};
+    const Vec3v<float> normal = select(found, hit.outward, nothing);
+    const Vec3v<float> point = select(found, hit.point, nothing);
+    Vec3v<float> offset = nothing;
+    if (scene.rules.start_error > 0 && hits_any)
+        offset = origin_offset<float>(scene.rules.start_error, point, normal);
+    store_some3(hits.normal, at, normal, live);
+    store_some3(hits.outer_start, at, point + offset, live);
+    store_some3(hits.inner_start, at, point - offset, live);
+    store_some3(hits.point, at, point, live);
+}
+
+/// Finds and stores the hits of a packet where they are on one surface (common_hit.hpp); false
+/// where that can't be told. `eye` is the rays' origin where they share it.
+template <Origin O>
+inline bool store_if_common(const abi::SceneView<float>& scene, const CommonObjects& common,
+                            const StreamPacket<float>& packet, const float (&eye)[3],
+                            const abi::HitsView<float>& hits, int at)
+{
+    const RayPacket<float>& rays = packet.rays;
+    const std::uint32_t live = first_lanes<float>(packet.count);
+    const std::uint32_t fit = bits(certifiable(rays)) & bits(rays.t_min >= vreal<float>(0.0f));
+    CommonHit hit;
+    if ((live & ~fit) != 0 || !find_common_hit<O>(hit, common, all_of(common), rays, eye, -1, live))
+        return false;
+    // What ends before t_max for sure counts.
+    if (hit.lanes != 0 &&
+        (hit.lanes & ~bits(hit.t * vreal<float>(1.0f + 0x1p-20f) < packet.t_max)) != 0)
+        return false;
+    store_common_hits(scene, hit, packet.t_max, hits, at, packet.count);
+    return true;
+}
+
 // What passes over a chunk is a function of its own: in one with the code around it, the compiler
 // spills so much that rays took a quarter longer.
 
@@ -229,6 +338,36 @@ template <bool Starts, abi::Features F, class Objects, class Real>
         settle_packet<F>(scene, packet.rays, hit, start, packet.t_max, live);
         store_packet_hits<F>(scene, packet.rays, hit, start, packet.t_max, hits, first,
                              packet.count);
+    }
+}
+
+/// The same where packets may have a common hit; those that have none, and as many after them as
+/// `pause` says, go through the lists.
+template <abi::Features F, class Objects>
+[[gnu::noinline]] void common_chunk_in_lists(const abi::SceneView<float>& scene,
+                                             const Objects& objects, const CommonObjects& common,
+                                             CommonPause& pause, const abi::RaysView<float>& view,
+                                             int begin, int end, const abi::HitsView<float>& hits)
+{
+    constexpr Origin origin = Objects::shared ? Origin::shared : Origin::any;
+    const float eye[3] = {view.org[0][begin], view.org[1][begin], view.org[2][begin]};
+    int first = begin;
+    while (first < end) {
+        const int listed = first;
+        for (; first < end && !pause.is_over(); first += lanes<float>) {
+        }
+        if (first > listed)
+            closest_chunk_in_lists<false, F>(scene, objects, view, listed,
+                                             first < end ? first : end, hits);
+        for (bool found = true; found && first < end; first += lanes<float>) {
+            found = store_if_common<origin>(scene, common, StreamPacket<float>(view, first), eye,
+                                            hits, first);
+            pause.record(found);
+            if (!found)
+                closest_chunk_in_lists<false, F>(
+                    scene, objects, view, first,
+                    first + lanes<float> < end ? first + lanes<float> : end, hits);
+        }
     }
 }
 
@@ -277,20 +416,34 @@ inline void for_each_chunk(StreamWork<F, Real>& work, const abi::SceneView<Real>
     }
 }
 
+/// The closest hits of a chunk of rays that start on no surface, where there is no hierarchy.
+template <abi::Features F, class Objects, class Real>
+inline void closest_chunk(const abi::SceneView<Real>& scene, StreamWork<F, Real>& work,
+                          const Objects& objects, const abi::RaysView<Real>& view, int begin,
+                          int end, const abi::HitsView<Real>& hits)
+{
+    if constexpr (F.exact)
+        if (work.common.are_all)
+            return common_chunk_in_lists<F>(scene, objects, work.common, work.pause, view, begin,
+                                            end, hits);
+    closest_chunk_in_lists<false, F>(scene, objects, view, begin, end, hits);
+}
+
 template <abi::Features F, class Real>
 inline void closest_hits(const abi::SceneView<Real>& scene, const abi::RaysView<Real>& view,
                          const abi::HitsView<Real>& hits, void* scratch)
 {
     StreamWork<F, Real> work(scratch, scene);
+    work.wants_common = scene.tree.empty();
     for_each_chunk(work, scene, view, [&](int begin, int end) {
         if (!scene.tree.empty())
             closest_chunk_in_tree(scene, work, view, begin, end, hits);
         else if (work.shares_origin)
-            closest_chunk_in_lists<false, F>(scene, work.from_point, view, begin, end, hits);
+            closest_chunk(scene, work, work.from_point, view, begin, end, hits);
         else if (view.start_surface != nullptr)
             closest_chunk_in_lists<true, F>(scene, work.nearby, view, begin, end, hits);
         else
-            closest_chunk_in_lists<false, F>(scene, work.nearby, view, begin, end, hits);
+            closest_chunk(scene, work, work.nearby, view, begin, end, hits);
     });
 }
 

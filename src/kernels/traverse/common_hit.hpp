@@ -1,7 +1,7 @@
 #pragma once
 
-#include "kernels/fused/path.hpp"
 #include "kernels/precision/refine.hpp"
+#include "kernels/traverse/common_objects.hpp"
 
 // The closest hit of a packet of which all rays that hit anything hit the same object, by fewer
 // operations than the search in lists takes: a few tests tell that nothing else is near, or that it
@@ -10,12 +10,24 @@
 namespace packtrace::PACKTRACE_ISA {
 namespace {
 
+/// Whether the rays of a packet share their origin.
+enum class Origin { shared, any };
+
+/// The hits of a packet that are on one surface.
+struct CommonHit {
+    vreal<float> t;
+    Vec3v<float> point;
+    Vec3v<float> outward;  ///< unit normal
+    std::int32_t surface;
+    std::uint32_t lanes;  ///< none where nothing is hit
+};
+
 /// Where rays start relative to a point, in double.
-template <Generation G>
+template <Origin O>
 inline BothHalves<Vec3v<double>> starts_from(const RayPacket<float>& rays, const float (&eye)[3],
                                              const double (&base)[3])
 {
-    if constexpr (G == Generation::camera) {
+    if constexpr (O == Origin::shared) {
         const double from[3] = {double{eye[0]} - base[0], double{eye[1]} - base[1],
                                 double{eye[2]} - base[2]};
         return {broadcast(from), broadcast(from)};
@@ -25,10 +37,10 @@ inline BothHalves<Vec3v<double>> starts_from(const RayPacket<float>& rays, const
     }
 }
 
-template <Generation G>
+template <Origin O>
 inline BothHalves<Vec3v<double>> wide_origins(const RayPacket<float>& rays, const float (&eye)[3])
 {
-    if constexpr (G == Generation::camera) {
+    if constexpr (O == Origin::shared) {
         const double from[3] = {double{eye[0]}, double{eye[1]}, double{eye[2]}};
         return {broadcast(from), broadcast(from)};
     } else {
@@ -50,12 +62,12 @@ inline std::uint32_t is_surely_enough(const vreal<float>& t, const vreal<float>&
 }
 
 /// The places `dt` behind t.
-template <Generation G>
+template <Origin O>
 inline Vec3v<float> place_at(const RayPacket<float>& rays, const float (&eye)[3],
                              const BothHalves<Vec3v<double>>& dir,
                              const BothHalves<vreal<double>>& t, const vreal<float>& dt)
 {
-    const BothHalves<Vec3v<double>> org = wide_origins<G>(rays, eye);
+    const BothHalves<Vec3v<double>> org = wide_origins<O>(rays, eye);
     return narrow(madd<double>(t.low + widen_low(dt), dir.low, org.low),
                   madd<double>(t.high + widen_high(dt), dir.high, org.high));
 }
@@ -68,7 +80,7 @@ struct RoughCommon {
     std::uint32_t sure;  ///< of these, those that enter it for sure beyond 0
 };
 
-inline RoughCommon rough_common(const PlanSphere& sphere, const RayPacket<float>& rays,
+inline RoughCommon rough_common(const CommonSphere& sphere, const RayPacket<float>& rays,
                                 std::uint32_t open)
 {
     const Vec3v<float> w = rays.org - broadcast(sphere.center);
@@ -84,7 +96,7 @@ inline RoughCommon rough_common(const PlanSphere& sphere, const RayPacket<float>
     return {negated(b + root) * inverse, rays.dir2, open, open & sure};
 }
 
-inline RoughCommon rough_common(const PlanGround& ground, const RayPacket<float>& rays,
+inline RoughCommon rough_common(const CommonGround& ground, const RayPacket<float>& rays,
                                 std::uint32_t active)
 {
     const vreal<float> curvature(ground.curvature);
@@ -114,38 +126,38 @@ inline RoughCommon rough_common(const PlanGround& ground, const RayPacket<float>
 }
 
 /// Refines hits at a rough root; returns the lanes for which one step of Newton's was enough.
-template <Generation G>
-inline std::uint32_t refine_common(HitState& hit, vreal<float>& t_hit, const PlanSphere& sphere,
+template <Origin O>
+inline std::uint32_t refine_common(CommonHit& hit, const CommonSphere& sphere,
                                    const RoughCommon& rough, const RayPacket<float>& rays,
                                    const float (&eye)[3])
 {
     const vreal<float> t = rough.t;
     const BothHalves<Vec3v<double>> dir = widen(rays.dir);
     const BothHalves<vreal<double>> t_wide{widen_low(t), widen_high(t)};
-    const BothHalves<Vec3v<double>> start = starts_from<G>(rays, eye, sphere.exact_center);
+    const BothHalves<Vec3v<double>> start = starts_from<O>(rays, eye, sphere.exact_center);
     const Vec3v<double> low = madd<double>(t_wide.low, dir.low, start.low);
     const Vec3v<double> high = madd<double>(t_wide.high, dir.high, start.high);
     const vreal<double> radius2(sphere.exact_radius2);
     const vreal<float> value = narrow(dot(low, low) - radius2, dot(high, high) - radius2);
     const vreal<float> slope = narrow(dot(low, dir.low), dot(high, dir.high));
     const vreal<float> dt = vreal<float>(-0.5f) * value / slope;
-    t_hit = t + dt;
+    hit.t = t + dt;
     hit.outward = scale<float>(vreal<float>(sphere.inverse_radius),
                                narrow(low, high) + scale<float>(dt, rays.dir));
-    hit.point = place_at<G>(rays, eye, dir, t_wide, dt);
+    hit.point = place_at<O>(rays, eye, dir, t_wide, dt);
     return is_surely_enough(t, rays.dir2, slope, dt, rays.t_min);
 }
 
 /// The same on an anchored sphere.
-template <Generation G>
-inline std::uint32_t refine_common(HitState& hit, vreal<float>& t_hit, const PlanGround& ground,
+template <Origin O>
+inline std::uint32_t refine_common(CommonHit& hit, const CommonGround& ground,
                                    const RoughCommon& rough, const RayPacket<float>& rays,
                                    const float (&eye)[3])
 {
     const vreal<float> t = rough.t;
     const BothHalves<Vec3v<double>> dir = widen(rays.dir);
     const BothHalves<vreal<double>> t_wide{widen_low(t), widen_high(t)};
-    const BothHalves<Vec3v<double>> start = starts_from<G>(rays, eye, ground.exact_base);
+    const BothHalves<Vec3v<double>> start = starts_from<O>(rays, eye, ground.exact_base);
     const Vec3v<double> low = madd<double>(t_wide.low, dir.low, start.low);
     const Vec3v<double> high = madd<double>(t_wide.high, dir.high, start.high);
     const vreal<double> curvature(ground.exact_curvature);
@@ -157,15 +169,15 @@ inline std::uint32_t refine_common(HitState& hit, vreal<float>& t_hit, const Pla
         narrow(dot(g_low + normal, low) + offset, dot(g_high + normal, high) + offset);
     const vreal<float> slope = narrow(dot(g_low, dir.low), dot(g_high, dir.high));
     const vreal<float> dt = vreal<float>(-0.5f) * value / slope;
-    t_hit = t + dt;
+    hit.t = t + dt;
     hit.outward = madd<float>(vreal<float>(ground.curvature), scale<float>(dt, rays.dir),
                               narrow(g_low, g_high));
-    hit.point = place_at<G>(rays, eye, dir, t_wide, dt);
+    hit.point = place_at<O>(rays, eye, dir, t_wide, dt);
     return is_surely_enough(t, rough.bend, vreal<float>(ground.side) * slope, dt, rays.t_min);
 }
 
 /// The lanes of a packet whose rays may have a sphere before them; `b` is set where there are any.
-inline std::uint32_t lanes_near(const PlanSphere& sphere, const RayPacket<float>& rays,
+inline std::uint32_t lanes_near(const CommonSphere& sphere, const RayPacket<float>& rays,
                                 std::uint32_t active, vreal<float>& b)
 {
     const Vec3v<float> w = rays.org - broadcast(sphere.center);
@@ -179,26 +191,26 @@ inline std::uint32_t lanes_near(const PlanSphere& sphere, const RayPacket<float>
 }
 
 /// Whether another sphere is behind the hits for sure: they are outside, and the rays nearing it.
-template <abi::Features F>
-inline bool is_behind(const FramePlan<F>& plan, const PlanSphere& sphere, const Vec3v<float>& point,
-                      const RayPacket<float>& rays, std::uint32_t hits)
+inline bool is_behind(const CommonObjects& common, const CommonSphere& sphere,
+                      const Vec3v<float>& point, const RayPacket<float>& rays, std::uint32_t hits)
 {
     const Vec3v<float> from = point - broadcast(sphere.center);
-    return (hits & (far_lanes(plan, point) | ~bits((dot(from, from) > vreal<float>(sphere.clear2)) &
-                                                   (dot(from, rays.dir) < vreal<float>(0.0f))))) ==
-           0;
+    return (hits &
+            (far_lanes(common, point) | ~bits((dot(from, from) > vreal<float>(sphere.clear2)) &
+                                              (dot(from, rays.dir) < vreal<float>(0.0f))))) == 0;
 }
 
 /// The same of a ground: rays and hits are in front of its top, or the rays go away from it, or
 /// still nearer at the hit.
-template <Generation G, abi::Features F>
-inline bool is_behind(const FramePlan<F>& plan, const PlanGround& ground, const Vec3v<float>& point,
-                      const vreal<float>& t, const RayPacket<float>& rays, std::uint32_t hits)
+template <Origin O>
+inline bool is_behind(const CommonObjects& common, const CommonGround& ground,
+                      const Vec3v<float>& point, const vreal<float>& t,
+                      const RayPacket<float>& rays, std::uint32_t hits)
 {
     const Vec3v<float> top = broadcast(ground.top);
     const vreal<float> offset(ground.top_offset);
-    std::uint32_t above = bits(dot(top, point) > offset) & ~far_lanes(plan, point);
-    if constexpr (G == Generation::camera)
+    std::uint32_t above = bits(dot(top, point) > offset) & ~far_lanes(common, point);
+    if constexpr (O == Origin::shared)
         above = ground.eye_above ? above : 0;
     else
         above &= bits(dot(top, rays.org) > offset);
@@ -220,7 +232,7 @@ inline bool is_behind(const FramePlan<F>& plan, const PlanGround& ground, const 
     return (hits & ~above & ~bits(stays_above(line, further))) == 0;
 }
 
-/// What rays of a generation may meet, by numbers in the plan.
+/// What rays may meet, by the numbers of CommonObjects.
 struct Candidates {
     const std::uint8_t* spheres;
     const std::uint8_t* grounds;
@@ -228,18 +240,33 @@ struct Candidates {
     int ground_count = 0;
 };
 
-/// The same among grounds alone, where no sphere is near.
-template <Generation G, abi::Features F>
-inline bool find_common_ground(HitState& hit, const FusedTile<F>& tile,
-                               const Candidates& candidates, const RayPacket<float>& rays,
-                               std::int32_t own, std::uint32_t active)
+struct ObjectNumbers {
+    std::uint8_t number[most_common_objects] = {};
+
+    constexpr ObjectNumbers()
+    {
+        for (int i = 0; i < most_common_objects; ++i)
+            number[i] = static_cast<std::uint8_t>(i);
+    }
+};
+inline constexpr ObjectNumbers object_numbers;
+
+inline Candidates all_of(const CommonObjects& common)
 {
-    const FramePlan<F>& plan = tile.plan;
-    const PlanGround* first = nullptr;
+    return {object_numbers.number, object_numbers.number, common.sphere_count, common.ground_count};
+}
+
+/// The same among grounds alone, where no sphere is near.
+template <Origin O>
+inline bool find_common_ground(CommonHit& hit, const CommonObjects& common,
+                               const Candidates& candidates, const RayPacket<float>& rays,
+                               const float (&eye)[3], std::int32_t own, std::uint32_t active)
+{
+    const CommonGround* first = nullptr;
     bool is_only = true;
     RoughCommon nearest;
     for (int i = 0; i < candidates.ground_count; ++i) {
-        const PlanGround& ground = plan.grounds[candidates.grounds[i]];
+        const CommonGround& ground = common.grounds[candidates.grounds[i]];
         if (ground.surface == own)
             continue;
         const RoughCommon rough = rough_common(ground, rays, active);
@@ -256,32 +283,32 @@ inline bool find_common_ground(HitState& hit, const FusedTile<F>& tile,
     if (nearest.sure != nearest.open || !(is_only || nearest.sure == active))
         return false;
     hit.lanes = nearest.open;
-    hit.common = first->surface;
-    vreal<float> t;
-    if ((hit.lanes & ~refine_common<G>(hit, t, *first, nearest, rays, tile.eye)) != 0)
+    hit.surface = first->surface;
+    if ((hit.lanes & ~refine_common<O>(hit, *first, nearest, rays, eye)) != 0)
         return false;
     for (int i = 0; !is_only && i < candidates.ground_count; ++i) {
-        const PlanGround& ground = plan.grounds[candidates.grounds[i]];
+        const CommonGround& ground = common.grounds[candidates.grounds[i]];
         if (ground.surface != own && &ground != first &&
-            !is_behind<G>(plan, ground, hit.point, t, rays, active))
+            !is_behind<O>(common, ground, hit.point, hit.t, rays, active))
             return false;
     }
     return true;
 }
 
 /// Finds the hits of a packet where they are on one surface. False where that can't be told; `hit`
-/// is then of no use. `own` is the surface that all rays start on, or -1 for none.
-template <Generation G, abi::Features F>
-inline bool find_common_hit(HitState& hit, const FusedTile<F>& tile, const Candidates& candidates,
-                            const RayPacket<float>& rays, std::int32_t own, std::uint32_t active)
+/// is then of no use. Rays start among the origins of `common`, their shared one at `eye`, and are
+/// certifiable(). `own` is the surface that all start on, on its outer side, or -1 for none.
+template <Origin O>
+inline bool find_common_hit(CommonHit& hit, const CommonObjects& common,
+                            const Candidates& candidates, const RayPacket<float>& rays,
+                            const float (&eye)[3], std::int32_t own, std::uint32_t active)
 {
-    const FramePlan<F>& plan = tile.plan;
-    const PlanSphere* first = nullptr;
-    const PlanSphere* second = nullptr;
+    const CommonSphere* first = nullptr;
+    const CommonSphere* second = nullptr;
     std::uint32_t open = 0;
     vreal<float> nearness = rays.dir2;
     for (int i = 0; i < candidates.sphere_count; ++i) {
-        const PlanSphere& sphere = plan.spheres[candidates.spheres[i]];
+        const CommonSphere& sphere = common.spheres[candidates.spheres[i]];
         if (sphere.surface == own)
             continue;
         vreal<float> b = nearness;
@@ -301,22 +328,22 @@ inline bool find_common_hit(HitState& hit, const FusedTile<F>& tile, const Candi
     }
     hit.lanes = 0;
     if (first == nullptr)
-        return find_common_ground<G>(hit, tile, candidates, rays, own, active);
+        return find_common_ground<O>(hit, common, candidates, rays, eye, own, active);
     const RoughCommon rough = rough_common(*first, rays, open);
     if (rough.sure != rough.open)
         return false;
-    vreal<float> t;
     hit.lanes = rough.sure;
-    hit.common = first->surface;
-    if ((hit.lanes & ~refine_common<G>(hit, t, *first, rough, rays, tile.eye)) != 0)
+    hit.surface = first->surface;
+    if ((hit.lanes & ~refine_common<O>(hit, *first, rough, rays, eye)) != 0)
         return false;
     // Something else is behind what all rays hit, or there is nothing else.
     const bool is_whole = hit.lanes == active;
-    if (second != nullptr && !(is_whole && is_behind(plan, *second, hit.point, rays, active)))
+    if (second != nullptr && !(is_whole && is_behind(common, *second, hit.point, rays, active)))
         return false;
     for (int i = 0; i < candidates.ground_count; ++i) {
-        const PlanGround& ground = plan.grounds[candidates.grounds[i]];
-        if (ground.surface == own || is_behind<G>(plan, ground, hit.point, t, rays, hit.lanes)) {
+        const CommonGround& ground = common.grounds[candidates.grounds[i]];
+        if (ground.surface == own ||
+            is_behind<O>(common, ground, hit.point, hit.t, rays, hit.lanes)) {
             // The lanes that miss the sphere have to miss the ground, too.
             if (is_whole || ground.surface == own)
                 continue;
