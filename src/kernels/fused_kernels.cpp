@@ -11,9 +11,12 @@ constexpr abi::FusedKernels<float> fused_kernels_for()
     return {F, plan_bytes<F>, make_plan<F>, fused_scratch_bytes<F>, trace_fused_tile<F>};
 }
 
+constexpr abi::Features mirrors{.highlights = true, .bounces = true, .exact = true};
+constexpr abi::Features tinted_mirrors{
+    .highlights = true, .bounces = true, .colored = true, .exact = true};
+
 constexpr abi::FusedTable fused = {
-    {fused_kernels_for<{.highlights = true, .bounces = true, .exact = true}>(),
-     fused_kernels_for<{.highlights = true, .bounces = true, .colored = true, .exact = true}>()}};
+    {fused_kernels_for<mirrors>(), fused_kernels_for<tinted_mirrors>()}};
 
 }  // namespace
 
