@@ -24,7 +24,8 @@ template <abi::Features F>
 {
     const Origins origins = origins_of_lanes(place, active);
     FusedMemory<F>& memory = tile.memory;
-    find_objects<F>(memory.from_far, origins, tile.scene);
+    if (tile.scene.rules.max_depth > 0)
+        find_objects<F>(memory.from_far, origins, tile.scene);
     const auto& lights = tile.scene.lighting.lights;
     for (int i = 0; i < lights.count; ++i) {
         if (!lights.data[i].casts_shadow)
@@ -135,6 +136,7 @@ inline std::uint32_t lit_lanes(const FusedTile<F>& tile, int number, const LitHi
     const ClearTests& tests = tile.plan.clear[number];
     const std::uint32_t wanted = packet.wanted;
     tile.counts.shadow += static_cast<unsigned>(__builtin_popcount(wanted));
+    tile.counts.stages |= abi::stage_blockers | abi::stage_shadow_rays;
     QuickShadow shadow{0, wanted};
     if (tests.complete && !hits.is_far && (wanted & ~lit_side) == 0 && hits.leaving == 0)
         shadow = light.kind == abi::LightKind::point

@@ -89,7 +89,7 @@ struct FusedMemory {
     TilePixelColors<float>* color = nullptr;
     std::uint8_t* visible_spheres = nullptr;  ///< from the eye through the tile, by their numbers
     std::uint8_t* visible_grounds = nullptr;  ///< in the plan
-    FilteredObjects<false> from_far;          ///< for a packet of origins beyond the plan's
+    FilteredObjects<false> from_far;          ///< for mirrored rays beyond the plan's origins
     LightObjects<F, float>* occluders = nullptr;  ///< likewise, by light
     std::size_t bytes = 0;
 
@@ -101,7 +101,8 @@ struct FusedMemory {
         visible_spheres = arena.take<std::uint8_t>(static_cast<std::size_t>(scene.spheres.count));
         visible_grounds = arena.take<std::uint8_t>(
             static_cast<std::size_t>(scene.anchored_spheres.count + scene.planes.count));
-        take_objects<F>(arena, from_far, scene);
+        if (scene.rules.max_depth > 0)
+            take_objects<F>(arena, from_far, scene);
         occluders = arena.take<LightObjects<F, float>>(
             static_cast<std::size_t>(scene.lighting.lights.count));
         LightObjects<F, float> measured;
