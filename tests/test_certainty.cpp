@@ -103,9 +103,11 @@ PixelCertainty sum_of(const std::vector<PixelCertainty>& pixels)
     return sum;
 }
 
-/// What the kernels that render the scene trace again.
-std::uint64_t unsure_in_frame(const Scene& scene, const RenderOptions& options)
+/// What the kernels that render the scene in streams trace again, as those with probes do: paths in
+/// registers have other bounds.
+std::uint64_t unsure_in_frame(const Scene& scene, RenderOptions options)
 {
+    options.force_general = true;
     Image<float> image;
     return Renderer<float>(scene, options).render(image).unsure;
 }
