@@ -5,8 +5,8 @@
 #include "kernels/stream/spawn.hpp"
 #include "kernels/stream/trace_stream.hpp"
 
-// One generation of some packets of paths: where their rays hit, the light there, and the mirrored
-// rays that take their place. The same operations as those of streams, so the same bits.
+// One generation of a packet of paths: where its rays hit, the light there, and the mirrored
+// rays that take their place. The operations are those of streams, and so are the bits.
 namespace packtrace::PACKTRACE_ISA {
 namespace {
 
