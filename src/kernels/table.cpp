@@ -3,9 +3,11 @@
 #include <utility>
 
 #include "kernels/simd/self_test.hpp"
+#include "kernels/stream/closest_rays.hpp"
 #include "kernels/stream/closest_tile.hpp"
+#include "kernels/stream/crossing_rays.hpp"
 #include "kernels/stream/lit_points.hpp"
-#include "kernels/stream/ray_streams.hpp"
+#include "kernels/stream/occluded_rays.hpp"
 #include "kernels/stream/tile.hpp"
 #include "onedim/onedim_kernel.hpp"
 

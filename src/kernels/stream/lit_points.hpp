@@ -1,7 +1,7 @@
 #pragma once
 
 #include "kernels/shade/shadow.hpp"
-#include "kernels/stream/ray_streams.hpp"
+#include "kernels/stream/occluded_rays.hpp"
 
 // Which of a caller's points a light reaches: the shadow rays of frames, for points from outside.
 namespace packtrace::PACKTRACE_ISA {

@@ -1,0 +1,105 @@
+#pragma once
+
+#include "kernels/stream/ray_chunks.hpp"
+#include "kernels/traverse/bvh_occluded.hpp"
+#include "kernels/traverse/retrace_occluded.hpp"
+
+// Whether anything is in the way of rays from outside.
+namespace packtrace::PACKTRACE_ISA {
+namespace {
+
+template <abi::Features F, class Objects, class Real>
+[[gnu::noinline]] void occluded_chunk_in_lists(const abi::SceneView<Real>& scene,
+                                               const Objects& objects,
+                                               const abi::RaysView<Real>& view, int begin, int end,
+                                               std::uint8_t* mask)
+{
+    for (int first = begin; first < end; first += lanes<Real>) {
+        const StreamPacket<Real> packet(view, first);
+        const std::uint32_t wanted = first_lanes<Real>(packet.count);
+        const OwnSurface<vint<Real>> own{no_surface<Real>()};
+        std::uint32_t blocked = 0;
+        if constexpr (F.exact) {
+            const Occlusion occlusion =
+                occluded<F>(packet.t_max, objects, packet.rays, own, wanted);
+            blocked = occlusion.blocked;
+            if (occlusion.unsure != 0)
+                blocked |= retrace_occluded<F>(*scene.wide, packet.rays, own.surface, packet.t_max,
+                                               false, occlusion.unsure);
+        } else {
+            blocked =
+                occluded<F>(RayEnd<Real>{packet.t_max, false}, objects, packet.rays, own, wanted);
+        }
+        store_mask<Real>(mask + first, blocked, packet.count);
+    }
+}
+
+/// Blocks the rays of a bundle by what is in their way in double, where they are unsure. They end
+/// at the bundle's `t`, which is `closed` or not (RayEnd).
+template <abi::Features F>
+[[gnu::noinline]] void settle_occluded(const abi::SceneView<float>& scene, RayBundle<float>& bundle,
+                                       bool closed)
+{
+    WideBundle wide;
+    for (int first = 0; first < bundle_rays; first += lanes<float>) {
+        const std::uint32_t unsure = unsure_of(bundle, first) & active_lanes(bundle, first);
+        if (unsure != 0)
+            add_segments(wide, first, load_rays(bundle, first), load(bundle.own + first),
+                         load(bundle.t + first), unsure);
+    }
+    if (wide.count == 0)
+        return;
+    block_wide<F>(*scene.wide, wide, closed, Occluders::any, [&](int ray, std::int32_t) {
+        const int first = ray / lanes<float> * lanes<float>;
+        finish_lanes(bundle, first, 1u << (ray - first));
+        return true;
+    });
+}
+
+template <abi::Features F, class Real>
+[[gnu::noinline]] void occluded_chunk_in_tree(const abi::SceneView<Real>& scene,
+                                              const StreamWork<F, Real>& work,
+                                              const abi::RaysView<Real>& view, int begin, int end,
+                                              std::uint8_t* mask)
+{
+    RayBundle<Real>& bundle = *work.bundle;
+    const int count = end - begin;
+    for (int first = 0; first < count; first += lanes<Real>) {
+        const StreamPacket<Real> packet(view, begin + first);
+        HitPacket<Real> none = no_hit<Real>(Real(0));
+        none.t = packet.t_max;
+        store_rays(bundle, first, packet.rays);
+        start_rays<F>(bundle, first, none, no_surface<Real>(),
+                      first_lanes<Real>(count - first) & numbers(packet));
+    }
+    end_bundle(bundle, count);
+    std::uint16_t wanted[bundle_cells];
+    for (int cell = 0; cell < bundle_cells; ++cell)
+        wanted[cell] = bundle.active[cell];
+    visit_occluders_of_bundle<F>(scene, work.nearby, bundle, false, EndsRays{});
+    if constexpr (F.exact)
+        settle_occluded<F>(scene, bundle, false);
+    for (int first = 0; first < count; first += lanes<Real>) {
+        const std::uint32_t before = wanted[first / cell_rays] >> first % cell_rays;
+        store_mask<Real>(mask + begin + first, before & ~active_lanes(bundle, first),
+                         count - first);
+    }
+}
+
+template <abi::Features F, class Real>
+inline void occluded_rays(const abi::SceneView<Real>& scene, const abi::RaysView<Real>& view,
+                          std::uint8_t* mask, void* scratch)
+{
+    StreamWork<F, Real> work(scratch, scene);
+    for_each_chunk(work, scene, view, [&](int begin, int end) {
+        if (!scene.tree.empty())
+            occluded_chunk_in_tree(scene, work, view, begin, end, mask);
+        else if (work.shares_origin)
+            occluded_chunk_in_lists<F>(scene, work.from_point, view, begin, end, mask);
+        else
+            occluded_chunk_in_lists<F>(scene, work.nearby, view, begin, end, mask);
+    });
+}
+
+}  // namespace
+}  // namespace packtrace::PACKTRACE_ISA

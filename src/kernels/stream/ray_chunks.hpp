@@ -1,0 +1,218 @@
+#pragma once
+
+#include "kernel_abi/ray_streams.hpp"
+#include "kernels/precision/leave_surface.hpp"
+#include "kernels/stream/stream_values.hpp"
+#include "kernels/stream/workspace.hpp"
+#include "kernels/traverse/common_hit.hpp"
+#include "kernels/traverse/object_sets.hpp"
+
+// Rays from outside in chunks, for each of which the objects are prepared.
+namespace packtrace::PACKTRACE_ISA {
+namespace {
+
+template <class Real>
+struct StreamPacket {
+    RayPacket<Real> rays;
+    vreal<Real> t_max;
+    int count;  ///< rays from here on, perhaps more than a packet
+
+    StreamPacket(const abi::RaysView<Real>& view, int first) : count(view.count - first)
+    {
+        rays.org = load_some3(view.org, first, count);
+        rays.dir = load_some3(view.dir, first, count);
+        rays.dir2 = dot(rays.dir, rays.dir);
+        rays.t_min = load_some(view.t_min + first, count);
+        t_max = load_some(view.t_max + first, count);
+    }
+};
+
+/// Lanes in which nothing is NaN.
+template <class Real>
+inline std::uint32_t numbers(const StreamPacket<Real>& packet)
+{
+    const RayPacket<Real>& rays = packet.rays;
+    const auto is_number = [](const vreal<Real>& x) { return bits(x == x); };
+    return is_number(rays.org.x) & is_number(rays.org.y) & is_number(rays.org.z) &
+           is_number(rays.dir.x) & is_number(rays.dir.y) & is_number(rays.dir.z) &
+           is_number(rays.t_min) & is_number(packet.t_max);
+}
+
+/// Where a packet of a stream starts, if its caller says so.
+template <class Real>
+inline StartPacket<Real> start_of(const abi::SceneView<Real>& scene,
+                                  const abi::RaysView<Real>& view, int first,
+                                  const RayPacket<Real>& rays)
+{
+    if (view.start_surface == nullptr || !(scene.rules.start_error > 0))
+        return no_start<Real>();
+    const int count = view.count - first;
+    const vint<Real> none(lane_int<Real>(-1));
+    const vint<Real> code = load_numbers<Real>(view.start_surface + first, count);
+    const auto inner = int_less(code, vint<Real>(lane_int<Real>(0)));
+    const auto elsewhere = int_equal(code, vint<Real>(lane_int<Real>{abi::no_start}));
+    const vint<Real> number = select(elsewhere, none, select(inner, none - code, code));
+    const std::uint32_t active = first_lanes<Real>(count) & ~bits(elsewhere);
+    const Vec3v<Real> point = load_some3(view.start_point, first, count);
+    return {
+        point, number,
+        second_hit<Real>(scene.shapes, number, point, rays.dir, rays.t_min, ~bits(inner), active)};
+}
+
+/// After packets without a common hit more and more are not asked for one, so that rays without a
+/// common way cost next to nothing.
+struct CommonPause {
+    static constexpr int longest = 256;
+    int length = 1;
+    int left = 0;
+
+    /// Whether the next packet is to be asked.
+    bool is_over()
+    {
+        if (left == 0)
+            return true;
+        --left;
+        return false;
+    }
+    void record(bool found)
+    {
+        left = found ? 0 : length - 1;
+        length = found ? 1 : length < longest ? 2 * length : longest;
+    }
+};
+
+/// Whether a packet's rays run nearly the same way: within 25 degrees of the first.
+template <class Real>
+inline bool run_together(const abi::RaysView<Real>& view, int begin)
+{
+    const Vec3v<Real> dir = load_some3(view.dir, begin, view.count - begin);
+    const Real first[3] = {view.dir[0][begin], view.dir[1][begin], view.dir[2][begin]};
+    const Vec3v<Real> axis = broadcast(first);
+    const vreal<Real> along = dot(dir, axis);
+    return all(along * abs(along) > vreal<Real>(Real(0.82)) * dot(dir, dir) * dot(axis, axis));
+}
+
+/// What is prepared of the lists for one call.
+template <abi::Features F, class Real>
+struct StreamWork {
+    FromAnywhere<F, Real> nearby;
+    FromPoint<F, Real> from_point;  ///< in place of `nearby` for rays from one point
+    bool shares_origin = false;     ///< the chunk's rays are such rays
+    CommonObjects common;           ///< in exact mode, without a hierarchy
+    bool wants_common = false;      ///< closest hits are asked for, without a hierarchy
+    CommonPause pause;              ///< of the packets before
+    RayBundle<Real>* bundle = nullptr;
+    std::size_t bytes = 0;
+
+    /// With no `scratch`, only `bytes` is of use.
+    StreamWork(void* scratch, const abi::SceneView<Real>& scene)
+    {
+        Arena arena(scratch);
+        take_objects<F>(arena, nearby, scene);
+        if constexpr (F.exact)
+            if (scene.tree.empty())
+                common.take(arena, scene);
+        if (scene.tree.empty())
+            take_objects<F>(arena, from_point, scene);
+        else
+            bundle = arena.template take<RayBundle<Real>>(1);
+        bytes = arena.used();
+    }
+
+    /// Whether packets of a chunk are asked for common hits: rays that run apart have none, and few
+    /// are not worth what is prepared.
+    bool looks_for_common(const abi::RaysView<Real>& view, int begin, int count)
+    {
+        common.are_all = false;
+        return wants_common && count >= fewest_in_common && view.start_surface == nullptr &&
+               run_together(view, begin);
+    }
+    static constexpr int fewest_in_common = 256;
+};
+
+/// Fewer rays are not worth what is computed once for a shared origin.
+inline constexpr int fewest_sharing = 64;
+
+/// Whether a chunk's rays all start at the same point, as those from an eye or a light do. Zeros of
+/// both signs are not the same, so that results have the same bits either way.
+template <class Real>
+inline bool start_together(const abi::RaysView<Real>& view, int begin, int count)
+{
+    if (count < fewest_sharing)
+        return false;
+    const Real* const x = view.org[0] + begin;
+    const Real* const y = view.org[1] + begin;
+    const Real* const z = view.org[2] + begin;
+    const Vec3v<Real> one{vreal<Real>(*x), vreal<Real>(*y), vreal<Real>(*z)};
+    const auto differs = [](const vreal<Real>& a, const vreal<Real>& b) {
+        return as_int(a) ^ as_int(b);
+    };
+    // The last packet may overlap the one before.
+    for (int first = 0; first < count;) {
+        const int at = first + lanes<Real> <= count ? first : count - lanes<Real>;
+        const vint<Real> any_differs = differs(load(x + at), one.x) | differs(load(y + at), one.y) |
+                                       differs(load(z + at), one.z);
+        if (bits(int_equal(any_differs, vint<Real>(lane_int<Real>(0)))) != all_lanes<Real>)
+            return false;
+        first = at + lanes<Real>;
+    }
+    return true;
+}
+
+/// Prepares the lists for a chunk of a stream.
+template <abi::Features F, class Real>
+inline void find_nearby_of(StreamWork<F, Real>& work, const abi::SceneView<Real>& scene,
+                           const abi::RaysView<Real>& view, int begin, int count)
+{
+    work.shares_origin =
+        scene.tree.empty() && view.start_surface == nullptr && start_together(view, begin, count);
+    const Real first[3] = {view.org[0][begin], view.org[1][begin], view.org[2][begin]};
+    if (work.shares_origin) {
+        find_from_point<F, Real>(work.from_point, first, scene);
+        if constexpr (F.exact)
+            if (work.looks_for_common(view, begin, count))
+                fill_common(work.common, scene, near_origins(scene, first, first), first);
+        return;
+    }
+    if constexpr (F.exact) {
+        const vreal<float> never(__builtin_inff());
+        const vreal<float> before = negated(never);
+        Vec3v<float> lows{never, never, never};
+        Vec3v<float> highs{before, before, before};
+        for (int ray = 0; ray < count; ray += lanes<float>) {
+            const Vec3v<float> org = load_some3(view.org, begin + ray, count - ray);
+            lows = {min(lows.x, org.x), min(lows.y, org.y), min(lows.z, org.z)};
+            highs = {max(highs.x, org.x), max(highs.y, org.y), max(highs.z, org.z)};
+        }
+        float low[3];
+        float high[3];
+        extent_of_lanes(lows.x, highs.x, low[0], high[0]);
+        extent_of_lanes(lows.y, highs.y, low[1], high[1]);
+        extent_of_lanes(lows.z, highs.z, low[2], high[2]);
+        const Origins origins = origins_in(low, high);
+        find_objects<F>(work.nearby, origins, scene);
+        if (work.looks_for_common(view, begin, count))
+            fill_common(work.common, scene, near_origins(scene, low, high), first);
+    } else {
+        work.nearby.scene = &scene;
+    }
+}
+
+/// Rays that the lists are prepared for together, where there is no hierarchy to go through.
+inline constexpr int list_chunk = 16 * bundle_rays;
+
+/// Calls `visit(begin, end)` for the chunks of a stream, for which the lists are prepared.
+template <abi::Features F, class Real, class Visit>
+inline void for_each_chunk(StreamWork<F, Real>& work, const abi::SceneView<Real>& scene,
+                           const abi::RaysView<Real>& view, const Visit& visit)
+{
+    const int chunk = scene.tree.empty() ? list_chunk : bundle_rays;
+    for (int begin = 0; begin < view.count; begin += chunk) {
+        const int end = view.count - begin < chunk ? view.count : begin + chunk;
+        find_nearby_of(work, scene, view, begin, end - begin);
+        visit(begin, end);
+    }
+}
+
+}  // namespace
+}  // namespace packtrace::PACKTRACE_ISA
