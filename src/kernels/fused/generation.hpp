@@ -103,9 +103,7 @@ template <abi::Features F>
     surface.number = numbers_of(hit);
     set_material(surface, tile.scene, hit.lanes);
     material.packet = fetch_materials(tile.scene, surface.material, hit.lanes);
-    const vreal<float> floor = material.packet.highlight_floor;
-    material.floor2 = max(floor * floor * vreal<float>(1.0f - 0x1p-18f),
-                          vreal<float>(std::numeric_limits<float>::min()));
+    material.floor2 = shine_floor2(material.packet);
     material.mirrors = (any_channel(material.packet.reflect) & hit.lanes) != 0;
 }
 

@@ -206,10 +206,7 @@ inline void fill_materials(FramePlan<F>& plan, const abi::SceneView<float>& scen
     for (std::int32_t i = 0; i < count; ++i) {
         PlanMaterial& material = plan.materials[i];
         material.packet = fetch_materials(scene, vint<float>(i), all_lanes<float>);
-        const vreal<float> floor = material.packet.highlight_floor;
-        // Rounding can't make a shine of a cosine that is below this.
-        material.floor2 = max(floor * floor * vreal<float>(1.0f - 0x1p-18f),
-                              vreal<float>(std::numeric_limits<float>::min()));
+        material.floor2 = shine_floor2(material.packet);
         material.mirrors = any_channel(material.packet.reflect) != 0;
     }
 }

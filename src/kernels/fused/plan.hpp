@@ -1,5 +1,7 @@
 #pragma once
 
+#include <limits>
+
 #include "kernels/stream/workspace.hpp"
 #include "kernels/traverse/common_hit.hpp"
 #include "kernels/traverse/object_sets.hpp"
@@ -70,6 +72,14 @@ struct PlanMaterial {
     vreal<float> floor2;  ///< squared cosine below which nothing shines, less what rounding may do
     bool mirrors;
 };
+
+/// PlanMaterial::floor2: rounding can't make a shine of a cosine that is below its root.
+inline vreal<float> shine_floor2(const MaterialPacket<float>& material)
+{
+    const vreal<float> floor = material.highlight_floor;
+    return max(floor * floor * vreal<float>(1.0f - 0x1p-18f),
+               vreal<float>(std::numeric_limits<float>::min()));
+}
 
 /// `F` is a feature set of exact mode without glass.
 template <abi::Features F>
