@@ -83,11 +83,6 @@ void append_rows(std::string& out, const Matrix& matrix)
     append(out, rows);
 }
 
-Vec3 to_vector(const std::vector<double>& numbers)
-{
-    return {numbers[0], numbers[1], numbers[2]};
-}
-
 Mat4 read_scale(const Field& field)
 {
     const Vec3 factors =

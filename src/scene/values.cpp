@@ -87,11 +87,6 @@ std::vector<double> part_numbers(const Field& field, const Item& item, std::size
     return numbers;
 }
 
-Vec3 to_vector(const std::vector<double>& numbers)
-{
-    return {numbers[0], numbers[1], numbers[2]};
-}
-
 std::span<const double> numbers_of(const Vec3& v)
 {
     return {&v.x, 3};

@@ -111,6 +111,12 @@ struct CheckerValue {
 [[nodiscard]] std::vector<double> read_numbers(const Field& field, std::size_t count,
                                                std::string_view form,
                                                const Range& range = any_number);
+
+/// Of the first three numbers.
+[[nodiscard]] inline Vec3 to_vector(const std::vector<double>& numbers)
+{
+    return {numbers[0], numbers[1], numbers[2]};
+}
 /// A value of one number.
 [[nodiscard]] double read_number(const Field& field, const Range& range = any_number);
 /// Whether the value is one word, not a tuple.
