@@ -50,8 +50,8 @@ enum class PixelWrite { set, add };
 
 /// Puts a packet of colours into its pixels in lane order. `number` may name a pixel twice
 /// when adding.
-template <PixelWrite Write, class Real>
-inline void write_colors(TilePixelColors<Real>& pixels, const vint<Real>& number,
+template <class Real>
+inline void write_colors(PixelWrite write, TilePixelColors<Real>& pixels, const vint<Real>& number,
                          const Vec3v<Real>& color, std::uint32_t active)
 {
     if (active == 0)
@@ -62,11 +62,11 @@ inline void write_colors(TilePixelColors<Real>& pixels, const vint<Real>& number
         active == all_lanes<Real> &&
         bits(int_equal(number, lane_numbers<Real>(static_cast<int>(at[0])))) == all_lanes<Real>;
     Real* const block = pixels + pixel_elements * at[0];
-    if (Write == PixelWrite::set && are_neighbours)
+    if (write == PixelWrite::set && are_neighbours)
         return store_pixels(block, color.x, color.y, color.z);
     alignas(64) Real colors[pixel_elements * lanes<Real>];
     store_pixels(colors, color.x, color.y, color.z);
-    if (Write == PixelWrite::add && are_neighbours) {
+    if (write == PixelWrite::add && are_neighbours) {
         for (int i = 0; i < pixel_elements * lanes<Real>; i += lanes<Real>)
             store(block + i, load(block + i) + load(colors + i));
         return;
@@ -76,7 +76,7 @@ inline void write_colors(TilePixelColors<Real>& pixels, const vint<Real>& number
         Real* const pixel = pixels + pixel_elements * at[lane];
         Reals<Real, pixel_elements> light;
         __builtin_memcpy(&light, colors + pixel_elements * lane, sizeof light);
-        if constexpr (Write == PixelWrite::add) {
+        if (write == PixelWrite::add) {
             Reals<Real, pixel_elements> before;
             __builtin_memcpy(&before, pixel, sizeof before);
             light += before;

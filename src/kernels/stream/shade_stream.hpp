@@ -83,10 +83,10 @@ inline void spawn_children(const ShadeContext<F, Real>& context, const Children<
                    heavy_enough(context, path, reflect, active & any_channel(reflect)));
 }
 
-template <PixelWrite Write, abi::Features F, class Real>
-inline void shade_packet(const ShadeContext<F, Real>& context, const HitStream<F, Real>& hits,
-                         int first, LastMaterials<Real>& materials, TilePixelColors<Real>& pixels,
-                         const Children<F, Real>& children)
+template <abi::Features F, class Real>
+inline void shade_packet(PixelWrite write, const ShadeContext<F, Real>& context,
+                         const HitStream<F, Real>& hits, int first, LastMaterials<Real>& materials,
+                         TilePixelColors<Real>& pixels, const Children<F, Real>& children)
 {
     const std::uint32_t active = first_lanes<Real>(hits.count - first);
     count_packet<Real>(abi::PacketWork::shade, active);
@@ -114,7 +114,7 @@ inline void shade_packet(const ShadeContext<F, Real>& context, const HitStream<F
         color = path.weight * color;
     }
     const PartScope part(abi::Part::film);
-    write_colors<Write>(pixels, path.pixel, color, active);
+    write_colors(write, pixels, path.pixel, color, active);
 }
 
 /// The hits of a scene in which no light reaches anything: their colour is their material's alone.
@@ -130,18 +130,19 @@ inline void shade_flat(const abi::SceneView<Real>& scene, const HitStream<F, Rea
         surface.number = load(hits.surface + first);
         set_material(surface, scene, active);
         const MaterialPacket<Real>& material = materials.fetch(scene, surface, active);
-        write_colors<PixelWrite::set>(pixels, load(hits.pixel + first), material.ambient, active);
+        write_colors(PixelWrite::set, pixels, load(hits.pixel + first), material.ambient, active);
     }
 }
 
 /// Shades every hit of a stream.
-template <PixelWrite Write, abi::Features F, class Real>
-inline void shade_stream(const ShadeContext<F, Real>& context, const HitStream<F, Real>& hits,
-                         TilePixelColors<Real>& pixels, const Children<F, Real>& children)
+template <abi::Features F, class Real>
+inline void shade_stream(PixelWrite write, const ShadeContext<F, Real>& context,
+                         const HitStream<F, Real>& hits, TilePixelColors<Real>& pixels,
+                         const Children<F, Real>& children)
 {
     LastMaterials<Real> materials;
     for (int first = 0; first < hits.count; first += lanes<Real>)
-        shade_packet<Write>(context, hits, first, materials, pixels, children);
+        shade_packet(write, context, hits, first, materials, pixels, children);
 }
 
 }  // namespace

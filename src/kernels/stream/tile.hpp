@@ -88,8 +88,8 @@ inline void join_children(const TileRun<F, Real>& run, RayStream<F, Real>& next,
 
 /// Shades the chunk's hits, of rays after `depth` bounces, into the pixels, and gathers their
 /// children in the stream of the next generation, which is returned; null when there are none.
-template <PixelWrite Write, abi::Features F, class Real>
-inline RayStream<F, Real>* shade_chunk(const TileRun<F, Real>& run, int depth)
+template <abi::Features F, class Real>
+inline RayStream<F, Real>* shade_chunk(const TileRun<F, Real>& run, PixelWrite write, int depth)
 {
     const ShadeContext<F, Real> context{
         &run.scene, run.work.occluders, run.work.surfaces, run.work.shadows,
@@ -115,8 +115,8 @@ inline RayStream<F, Real>* shade_chunk(const TileRun<F, Real>& run, int depth)
         next->count = 0;
     if constexpr (F.glass)
         run.work.refracted->count = 0;
-    shade_stream<Write>(context, hits, run.work.memory->color,
-                        Children<F, Real>{next, run.work.refracted});
+    shade_stream(write, context, hits, run.work.memory->color,
+                 Children<F, Real>{next, run.work.refracted});
     if (next != nullptr)
         join_children(run, *next, depth);
     return next;
@@ -150,7 +150,7 @@ void trace_generation(const TileRun<F, Real>& run, const RayStream<F, Real>& ray
         else
             trace_secondary_bundle(run.scene, rays, begin, end, run.work.nearby, *run.work.bundle,
                                    *run.work.memory, run.counts);
-        if (const auto* next = shade_chunk<PixelWrite::add>(run, depth))
+        if (const auto* next = shade_chunk(run, PixelWrite::add, depth))
             trace_generation(run, *next, depth + 1);
     }
 }
@@ -163,7 +163,7 @@ inline void shade_camera(const TileRun<F, Real>& run)
     run.counts.stages |= hits.count > 0 ? abi::stage_hits : 0u;
     if (!F.probe && run.scene.lighting.flat)
         return shade_flat(run.scene, hits, run.work.memory->color);
-    const RayStream<F, Real>* next = shade_chunk<PixelWrite::set>(run, 0);
+    const RayStream<F, Real>* next = shade_chunk(run, PixelWrite::set, 0);
     if constexpr (F.bounces)
         if (next != nullptr)
             trace_generation(run, *next, 1);

@@ -128,8 +128,8 @@ inline void take_camera_hits(const abi::SceneView<Real>& scene, TileMemory<F, Re
     report_rays(memory.hits, scene, from, hit, pixels);
     const PartScope part(abi::Part::film);
     if (scene.lighting.seen_within > 0)
-        write_colors<PixelWrite::set>(memory.color, from.path.pixel, escaped(scene, from.rays),
-                                      pixels & ~hits);
+        write_colors(PixelWrite::set, memory.color, from.path.pixel, escaped(scene, from.rays),
+                     pixels & ~hits);
 }
 
 template <class Real>
@@ -226,8 +226,8 @@ inline void take_secondary_hits(const abi::SceneView<Real>& scene, TileMemory<F,
     append_hits(scene, memory.hits, from, hit, hits);
     report_rays(memory.hits, scene, from, hit, active);
     const PartScope part(abi::Part::film);
-    write_colors<PixelWrite::add>(memory.color, from.path.pixel,
-                                  from.path.weight * escaped(scene, from.rays), active & ~hits);
+    write_colors(PixelWrite::add, memory.color, from.path.pixel,
+                 from.path.weight * escaped(scene, from.rays), active & ~hits);
 }
 
 /// A chunk of a stream of secondary rays.
