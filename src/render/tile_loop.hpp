@@ -2,10 +2,13 @@
 
 #include <packtrace/renderer.hpp>
 
-#include <tbb/blocked_range.h>
+#include <algorithm>
+#include <atomic>
+
 #include <tbb/enumerable_thread_specific.h>
 #include <tbb/parallel_for.h>
 #include <tbb/partitioner.h>
+#include <tbb/task_arena.h>
 
 #include "kernel_abi/kernel_table.hpp"
 #include "render/progress.hpp"
@@ -31,21 +34,57 @@ struct TileGrid {
     }
 };
 
+/// Hands out runs of tiles to threads, shorter ones towards the end, so that all end together
+/// (Polychronopoulos and Kuck, "Guided Self-Scheduling", 1987). A task a tile costs 3 % of the
+/// frames that take the least.
+class TileQueue {
+public:
+    TileQueue(int count, int threads) : count_(count), shares_(8 * threads)
+    {
+    }
+
+    struct Run {
+        int begin;
+        int end;
+    };
+    /// Empty when there are no more.
+    Run take()
+    {
+        int begin = next_.load(std::memory_order_relaxed);
+        int end = begin;
+        do {
+            end = begin +
+                  std::clamp((count_ - begin) / shares_, std::min(1, count_ - begin), longest);
+        } while (!next_.compare_exchange_weak(begin, end, std::memory_order_relaxed));
+        return {begin, end};
+    }
+
+private:
+    static constexpr int longest = 16;
+    int count_;
+    int shares_;
+    std::atomic<int> next_{0};
+};
+
 /// Calls `work(x, y)`, which returns abi::RayCounts, for each tile's first pixel, from the
 /// threads of the arena the call runs in. The sum is that of all tiles. Throws StopError as `done`
 /// does.
 template <class Work>
 [[nodiscard]] FrameCounts for_each_tile(const TileGrid& grid, Progress& done, const Work& work)
 {
+    const int threads = tbb::this_task_arena::max_concurrency();
+    TileQueue queue(grid.count, threads);
     tbb::enumerable_thread_specific<abi::RayCounts> counts;
     tbb::parallel_for(
-        tbb::blocked_range<int>(0, grid.count, 1),
-        [&](const tbb::blocked_range<int>& tiles) {
+        0, threads,
+        [&](int) {
             abi::RayCounts& sum = counts.local();
-            for (int tile = tiles.begin(); tile != tiles.end() && !done.is_stopped(); ++tile) {
-                sum += work(grid.first_column + tile % grid.columns * abi::tile_size,
-                            grid.first_row + tile / grid.columns * abi::tile_size);
-                done.finish_piece();
+            for (auto run = queue.take(); run.begin != run.end; run = queue.take()) {
+                for (int tile = run.begin; tile != run.end && !done.is_stopped(); ++tile) {
+                    sum += work(grid.first_column + tile % grid.columns * abi::tile_size,
+                                grid.first_row + tile / grid.columns * abi::tile_size);
+                    done.finish_piece();
+                }
             }
         },
         tbb::simple_partitioner());
