@@ -1,6 +1,8 @@
 #pragma once
 
 #include <cmath>
+#include <utility>
+#include <vector>
 
 #include <packtrace/build.hpp>
 
@@ -8,8 +10,9 @@
 
 namespace packtrace::test {
 
-/// Scenes of a few spheres, grounds and planes, with whatever may upset a bound: bodies that
-/// overlap or touch, eyes and lights within them, sizes and distances of many magnitudes.
+/// Scenes of a few spheres, grounds and planes, some with quadrics and polygons, and with whatever
+/// may upset a bound: bodies that overlap or touch, eyes and lights within them, sizes and
+/// distances of many magnitudes.
 class FewObjects {
 public:
     explicit FewObjects(unsigned seed) : random_(seed)
@@ -73,7 +76,10 @@ private:
 
     void add(Surface surface)
     {
-        Object object = make_object(std::move(surface), material());
+        add(make_object(std::move(surface), material()));
+    }
+    void add(Object object)
+    {
         if (std::holds_alternative<Plane>(object.surface) && chance(0.4) &&
             scene.illumination != Illumination::general)
             object.material.checker =
@@ -105,6 +111,52 @@ private:
         }
         if (scene.objects.empty() || chance(0.1))
             add(sphere(middle, 1.0));
+        if (chance(0.4))
+            add_others(spread);
+    }
+
+    /// Whole, clipped, or clipped and capped; sometimes unbounded.
+    Quadric any_quadric()
+    {
+        const QuadricKind kinds[] = {QuadricKind::ellipsoid,   QuadricKind::cylinder,
+                                     QuadricKind::cone,        QuadricKind::paraboloid,
+                                     QuadricKind::hyperboloid, QuadricKind::hyperboloid2,
+                                     QuadricKind::saddle};
+        const Quadric whole = quadric(kinds[below(7)]);
+        const double low = random_.between(-2, 0.5);
+        const double high = low + random_.between(0.1, 3);
+        if (whole.kind == QuadricKind::ellipsoid && chance(0.7))
+            return whole;
+        if (chance(0.05) && whole.kind != QuadricKind::ellipsoid)
+            return whole;
+        return chance(0.5) && whole.kind != QuadricKind::saddle ? clip_and_cap(whole, low, high)
+                                                                : clip(whole, low, high);
+    }
+
+    /// A star of five or seven corners, or a few around a point.
+    Polygon any_polygon()
+    {
+        std::vector<Vec3> corners;
+        const int count = 3 + below(6);
+        const int step = count >= 5 && count % 2 == 1 && chance(0.5) ? 2 : 1;
+        for (int i = 0; i < count; ++i) {
+            const double turn = 6.283185307179586 * step * i / count;
+            const double radius = chance(0.5) ? 1.0 : random_.between(0.3, 2);
+            corners.push_back({radius * std::cos(turn), radius * std::sin(turn), 0});
+        }
+        return polygon(corners);
+    }
+
+    void add_others(double spread)
+    {
+        for (int i = 1 + below(5); i > 0; --i) {
+            Object object = chance(0.3) ? make_object(any_polygon(), material())
+                                        : make_object(any_quadric(), material());
+            const double size = spread * (chance(0.2) ? magnitude(2) : random_.between(0.3, 2));
+            object = scale(std::move(object), random_.inside(Vec3(0.3 * size), Vec3(size)));
+            object = rotate(std::move(object), vector(1.0) + Vec3(0.01), random_.between(0, 360));
+            add(translate(std::move(object), middle_ + vector(3.0 * spread)));
+        }
     }
 
     void add_lights()

@@ -115,8 +115,10 @@ TEST_CASE("what registers have no room for goes through streams", "[fused]")
     const std::string isa = choose_isa().name;
     Scene scene = note_scene();
     CHECK(in_registers(scene, isa));
-    SECTION("a quadric")
+    SECTION("a quadric without an end")
     {
+        scene.objects.push_back(make_object(clip(cylinder(), -1, 1)));
+        CHECK(in_registers(scene, isa));
         scene.objects.push_back(make_object(cylinder()));
         CHECK_FALSE(in_registers(scene, isa));
     }

@@ -113,7 +113,7 @@ struct FusedKernels {
     RayCounts (*render_tile)(const TileJob<Real>& job) = nullptr;
 };
 
-/// Those with mirrors that are not tinted, and those with any.
+/// Those of spheres and planes with mirrors that are not tinted, and those of all but glass.
 inline constexpr int fused_set_count = 2;
 struct FusedTable {
     FusedKernels<float> set[fused_set_count] = {};

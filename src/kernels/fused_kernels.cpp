@@ -12,11 +12,11 @@ constexpr abi::FusedKernels<float> fused_kernels_for()
 }
 
 constexpr abi::Features mirrors{.highlights = true, .bounces = true, .exact = true};
-constexpr abi::Features tinted_mirrors{
-    .highlights = true, .bounces = true, .colored = true, .exact = true};
+constexpr abi::Features all_without_glass{
+    .quadrics = true, .highlights = true, .bounces = true, .colored = true, .exact = true};
 
 constexpr abi::FusedTable fused = {
-    {fused_kernels_for<mirrors>(), fused_kernels_for<tinted_mirrors>()}};
+    {fused_kernels_for<mirrors>(), fused_kernels_for<all_without_glass>()}};
 
 }  // namespace
 

@@ -8,10 +8,12 @@
 namespace packtrace::PACKTRACE_ISA {
 namespace {
 
-/// The lanes of `among` that are on other objects than `surface`.
-inline std::uint32_t on_others(const HitState& at, std::uint32_t among, std::int32_t surface)
+/// The lanes of `among` that are on other objects than `body`.
+inline std::uint32_t on_others(const HitState& at, std::uint32_t among, const Body& body)
 {
-    return at.common >= 0 || among == 0 ? among : among & ~lanes_on_body<float>(at.number, surface);
+    return at.common >= 0 || among == 0
+               ? among
+               : among & ~lanes_on_body<float>(at.number, body.first, body.pieces);
 }
 
 /// The lanes of `wanted` for which the planes in front of a light's large objects tell nothing.
@@ -22,7 +24,8 @@ inline std::uint32_t behind_planes(const ClearTests& tests, const NeededTests& n
     for (int i = 0; i < needed.plane_count; ++i) {
         const FrontPlane& plane = tests.planes[needed.planes[i]];
         const vreal<float> level = dot(broadcast(plane.normal), at.point);
-        open |= on_others(at, wanted & ~bits(level > vreal<float>(plane.offset)), plane.behind);
+        open |=
+            on_others(at, wanted & ~bits(level > vreal<float>(plane.offset)), Body{plane.behind});
     }
     return open;
 }
@@ -53,7 +56,7 @@ inline QuickShadow shadow_along(const ClearTests& tests, const HitState& at,
         std::uint32_t near = wanted & ~bits(distance2 > vreal<float>(sphere.outer2));
         if (near == 0)
             continue;
-        near = on_others(at, near, sphere.surface);
+        near = on_others(at, near, sphere.body);
         const vreal<float> along = dot(light, at.point);
         shadow.open |= near & ~bits(along > vreal<float>(sphere.along));
         shadow.blocked |= near & bits((distance2 < vreal<float>(sphere.inner2)) &
@@ -78,7 +81,7 @@ inline QuickShadow shadow_towards(const ClearTests& tests, const HitState& at,
         std::uint32_t near = wanted & ~bits(cosine < vreal<float>(sphere.edge) * length);
         if (near == 0)
             continue;
-        near = on_others(at, near, sphere.surface);
+        near = on_others(at, near, sphere.body);
         // Still outside where the way ends, and nearing the centre, or leaving it.
         const Vec3v<float> from = at.point - broadcast(sphere.center);
         const vreal<float> away = dot(from, to_light);

@@ -12,13 +12,20 @@
 namespace packtrace::PACKTRACE_ISA {
 namespace {
 
+/// Whether a ball tells of each object that has its own test alone.
+inline bool are_bounded(const abi::GeometryView<float>& scene)
+{
+    bool bounded = true;
+    for_each_other(scene,
+                   [&](const auto& record) { bounded &= record.bound_radius < __builtin_inff(); });
+    return bounded;
+}
+
 template <abi::Features F>
 inline bool can_fuse(const abi::SceneView<float>& scene)
 {
-    const int objects = scene.spheres.count + scene.anchored_spheres.count + scene.planes.count;
-    return scene.wide != nullptr && scene.tree.empty() && scene.quadrics.count == 0 &&
-           scene.polygons.count == 0 && objects <= most_common_objects && !scene.lighting.flat &&
-           scene.rules.start_error > 0 && !(scene.rules.min_weight > 0);
+    return scene.wide != nullptr && has_few_objects(scene) && are_bounded(scene) &&
+           !scene.lighting.flat && scene.rules.start_error > 0 && !(scene.rules.min_weight > 0);
 }
 
 template <abi::Features F>
@@ -48,21 +55,30 @@ inline Candidates find_visible(const FusedTile<F>& tile, const Cone<float>& cone
 {
     const FramePlan<F>& plan = tile.plan;
     FusedMemory<F>& memory = tile.memory;
-    Candidates visible{memory.visible_spheres, memory.visible_grounds};
+    Candidates visible{memory.visible_spheres, memory.visible_grounds, memory.visible_balls};
     for_each_met(cone, tile.scene.spheres, [&](int first, std::uint32_t kept, const Vec3v<float>&) {
         for (; kept != 0; kept &= kept - 1)
             memory.visible_spheres[visible.sphere_count++] =
                 static_cast<std::uint8_t>(first + __builtin_ctz(kept));
     });
     int number = 0;
+    // In the order of the plan's grounds.
     const auto add = [&](const auto& list) {
         for (int i = 0; i < list.count; ++i, ++number)
             if (!leaves_behind(cone, list.data[i]))
                 memory.visible_grounds[visible.ground_count++] = static_cast<std::uint8_t>(number);
     };
-    // In the order of the plan's grounds.
     add(list_of<AnchoredSphere>(plan.from_camera));
     add(list_of<Plane>(plan.from_camera));
+    if constexpr (F.quadrics) {
+        int ball = 0;
+        for_each_other(tile.scene, [&](const auto& record) {
+            if (!out_of_reach(cone, record))
+                memory.visible_balls[visible.ball_count++] = static_cast<std::uint8_t>(ball);
+            ++ball;
+        });
+        find_objects<F>(memory.visible, cone, tile.scene);
+    }
     return visible;
 }
 
@@ -101,7 +117,8 @@ inline abi::RayCounts trace_fused_tile(const abi::TileJob<float>& job)
     const FusedTile<F> tile{
         scene, plan, memory, counts, {eye[0], eye[1], eye[2]}, job.camera->t_min};
     const Candidates visible = find_visible(tile, camera_cone(job));
-    if (visible.sphere_count + visible.ground_count == 0 && !(scene.lighting.seen_within > 0)) {
+    if (visible.sphere_count + visible.ground_count + visible.ball_count == 0 &&
+        !(scene.lighting.seen_within > 0)) {
         fill_pixels(*memory.color, scene.rules.background);
         write_tile(job, *memory.color);
         return counts;

@@ -38,6 +38,13 @@ template <abi::Features F>
     return {&memory.from_far, memory.occluders};
 }
 
+/// What camera rays of a tile are tested against: where tests are dear, only what its cone meets.
+template <abi::Features F>
+inline const FilteredObjects<true>& from_eye(const FusedTile<F>& tile)
+{
+    return F.quadrics ? tile.memory.visible : tile.plan.from_camera;
+}
+
 /// The closest hits of a packet by the search in lists, where find_common_hit() can't tell. Takes
 /// copies, so that the caller's stay in registers.
 template <Generation G, abi::Features F>
@@ -50,7 +57,7 @@ template <Generation G, abi::Features F>
         G == Generation::camera ? no_start<float>() : start_of(path_start);
     HitPacket<float> found = start_of_search(start, no_end_yet);
     if constexpr (G == Generation::camera) {
-        closest_hit<F>(found, tile.plan.from_camera, rays, NoOwn{});
+        closest_hit<F>(found, from_eye(tile), rays, NoOwn{});
     } else {
         const FilteredObjects<false>* const objects =
             is_far ? find_from_far(tile, rays.org, active).objects : &tile.plan.from_near;
@@ -76,6 +83,7 @@ struct LitHits {
     vreal<float> normal_dir;  ///< N·D
     vreal<float> floor_dir2;  ///< squared cosine below which nothing shines, times D·D
     std::uint32_t leaving;    ///< lanes that come from the inside
+    std::uint32_t again;      ///< lanes that may see their own body again
     bool is_far;              ///< some are beyond the plan's origins
 };
 
@@ -136,7 +144,7 @@ inline std::uint32_t lit_lanes(const FusedTile<F>& tile, int number, const LitHi
     tile.counts.shadow += static_cast<unsigned>(__builtin_popcount(wanted));
     tile.counts.stages |= abi::stage_blockers | abi::stage_shadow_rays;
     QuickShadow shadow{0, wanted};
-    if (tests.complete && !hits.is_far && (wanted & ~lit_side) == 0 && hits.leaving == 0)
+    if (tests.complete && !hits.is_far && (wanted & ~lit_side) == 0 && hits.again == 0)
         shadow = light.kind == abi::LightKind::point
                      ? shadow_towards(tests, hits.at, packet.to_light, length2,
                                       length2 * packet.inverse_length, wanted)
@@ -256,7 +264,7 @@ inline void mirror_rays(const FusedTile<F>& tile, PathState<F>& path, PathStart&
     if (at.common < 0)
         start.at.common = static_cast<std::int32_t>(common_number<float>(at.number, path.active));
     path.is_plain = tile.plan.common.are_all && !hits.is_far && start.at.common >= 0;
-    start.meets_own = (hits.leaving & path.active) != 0;
+    start.meets_own = (hits.again & path.active) != 0;
     if (!start.meets_own)
         return;
     path.is_plain = false;
@@ -310,15 +318,17 @@ inline void trace_generation(const FusedTile<F>& tile, const Candidates& candida
                  dot(hit.outward, path.dir),
                  material->floor2 * path.dir2,
                  0,
+                 F.quadrics && tile.plan.met_again[hit.common] ? hit.lanes : 0,
                  (far_lanes(tile.plan.common, hit.point) & hit.lanes) != 0};
     if ((bits(hits.normal_dir > vreal<float>(0.0f)) & hit.lanes) != 0) {
         const HitState copy = hit;
-        LitHits turned{copy, hits.normal, hits.normal_dir, hits.floor_dir2, 0, hits.is_far};
+        LitHits turned{copy, hits.normal, hits.normal_dir, hits.floor_dir2, 0, 0, hits.is_far};
         const Vec3v<float> dir = path.dir;
         turn_normals(turned, tile, dir);
         hits.normal = turned.normal;
         hits.normal_dir = turned.normal_dir;
         hits.leaving = turned.leaving;
+        hits.again |= turned.leaving;
     }
     Vec3v<float> color = material->packet.ambient;
     for (int light = 0; light < scene.lighting.lights.count; ++light)

@@ -85,64 +85,73 @@ inline void add_planes(ClearTests& tests, FrontPlane* planes, const abi::SceneVi
     }
 }
 
-inline void add_across(ClearTests& tests, AcrossSphere* spheres,
-                       const abi::SphereListView<float>& list, const double (&light)[3],
-                       double extent)
+inline void add_across(ClearTests& tests, AcrossSphere* spheres, const RoundedBall& ball,
+                       const double (&light)[3], double extent, bool fills)
 {
-    for (int i = 0; i < list.count; ++i) {
-        const double outer = clear_radius(list, i, extent);
-        const double center[3] = {list.center_x[i], list.center_y[i], list.center_z[i]};
-        AcrossSphere& sphere = spheres[tests.sphere_count++];
-        double along = 0;
-        double length2 = 0;
-        double across[2] = {};
-        for (int axis = 0; axis < 3; ++axis) {
-            along += center[axis] * light[axis];
-            length2 += light[axis] * light[axis];
-            for (int of = 0; of < 2; ++of)
-                across[of] += center[axis] * double{tests.axis[of][axis]};
-        }
-        sphere.center[0] = static_cast<float>(across[0]);
-        sphere.center[1] = static_cast<float>(across[1]);
-        sphere.outer2 = static_cast<float>(outer * outer * (1.0 + clear_slack));
-        const double past = along + outer * __builtin_sqrt(length2) * (1.0 + clear_slack);
-        sphere.along = static_cast<float>(past + clear_slack * __builtin_fabs(past));
-        const double before = along - outer * __builtin_sqrt(length2) * (1.0 + clear_slack);
-        sphere.before = static_cast<float>(before - clear_slack * __builtin_fabs(before));
-        const double inner = 2.0 * double{list.radius[i]} * (1.0 - clear_slack) - outer;
-        sphere.inner2 = inner > 0 ? static_cast<float>(inner * inner * (1.0 - clear_slack)) : -1.0f;
-        sphere.surface = list.surface[i];
+    const double outer = clear_radius(ball, extent);
+    AcrossSphere& sphere = spheres[tests.sphere_count++];
+    double along = 0;
+    double length2 = 0;
+    double across[2] = {};
+    for (int axis = 0; axis < 3; ++axis) {
+        along += ball.center[axis] * light[axis];
+        length2 += light[axis] * light[axis];
+        for (int of = 0; of < 2; ++of)
+            across[of] += ball.center[axis] * double{tests.axis[of][axis]};
     }
+    sphere.center[0] = static_cast<float>(across[0]);
+    sphere.center[1] = static_cast<float>(across[1]);
+    sphere.outer2 = static_cast<float>(outer * outer * (1.0 + clear_slack));
+    const double past = along + outer * __builtin_sqrt(length2) * (1.0 + clear_slack);
+    sphere.along = static_cast<float>(past + clear_slack * __builtin_fabs(past));
+    const double before = along - outer * __builtin_sqrt(length2) * (1.0 + clear_slack);
+    sphere.before = static_cast<float>(before - clear_slack * __builtin_fabs(before));
+    const double inner = 2.0 * double{ball.radius} * (1.0 - clear_slack) - outer;
+    sphere.inner2 =
+        fills && inner > 0 ? static_cast<float>(inner * inner * (1.0 - clear_slack)) : -1.0f;
+    sphere.body = ball.body;
 }
 
-inline void add_cones(ClearTests& tests, ConeSphere* spheres,
-                      const abi::SphereListView<float>& list, const float (&light)[3],
-                      double extent)
+inline void add_cone(ClearTests& tests, ConeSphere* spheres, const RoundedBall& ball,
+                     const float (&light)[3], double extent, bool fills)
 {
-    for (int i = 0; i < list.count; ++i) {
-        const float center[3] = {list.center_x[i], list.center_y[i], list.center_z[i]};
-        ConeSphere& sphere = spheres[tests.sphere_count++];
-        double distance2 = 0;
-        for (int axis = 0; axis < 3; ++axis) {
-            const double to = double{center[axis]} - double{light[axis]};
-            sphere.to[axis] = static_cast<float>(to);
-            sphere.center[axis] = center[axis];
-            distance2 += to * to;
-        }
-        const double radius = clear_radius(list, i, extent);
-        const double outer = radius + clear_turn * (radius + __builtin_sqrt(distance2));
-        // The cosine's square is 1 - outer²/distance²; the product with the distance is compared.
-        const double edge2 = distance2 * (1.0 - clear_slack) - outer * outer;
-        sphere.edge = edge2 > 0 ? static_cast<float>(__builtin_sqrt(edge2) * (1.0 - clear_slack))
-                                : -__builtin_inff();
-        sphere.outer2 = static_cast<float>(outer * outer * (1.0 + clear_slack));
-        const double inner = 2.0 * double{list.radius[i]} * (1.0 - clear_slack) - outer;
-        const double inner_edge2 = distance2 * (1.0 + clear_slack) - inner * inner;
-        sphere.inner_edge = inner > 0 && edge2 > 0
-                                ? above(__builtin_sqrt(inner_edge2) * (1.0 + clear_slack))
-                                : __builtin_inff();
-        sphere.surface = list.surface[i];
+    ConeSphere& sphere = spheres[tests.sphere_count++];
+    double distance2 = 0;
+    for (int axis = 0; axis < 3; ++axis) {
+        const double to = double{ball.center[axis]} - double{light[axis]};
+        sphere.to[axis] = static_cast<float>(to);
+        sphere.center[axis] = ball.center[axis];
+        distance2 += to * to;
     }
+    const double radius = clear_radius(ball, extent);
+    const double outer = radius + clear_turn * (radius + __builtin_sqrt(distance2));
+    // The cosine's square is 1 - outer²/distance²; the product with the distance is compared.
+    const double edge2 = distance2 * (1.0 - clear_slack) - outer * outer;
+    sphere.edge = edge2 > 0 ? static_cast<float>(__builtin_sqrt(edge2) * (1.0 - clear_slack))
+                            : -__builtin_inff();
+    sphere.outer2 = static_cast<float>(outer * outer * (1.0 + clear_slack));
+    const double inner = 2.0 * double{ball.radius} * (1.0 - clear_slack) - outer;
+    const double inner_edge2 = distance2 * (1.0 + clear_slack) - inner * inner;
+    sphere.inner_edge = fills && inner > 0 && edge2 > 0
+                            ? above(__builtin_sqrt(inner_edge2) * (1.0 + clear_slack))
+                            : __builtin_inff();
+    sphere.body = ball.body;
+}
+
+/// Calls `add(ball, fills)` for the balls of what may be in a light's way; `fills` is true of
+/// spheres. What has no ball leaves the tests incomplete.
+template <class Add>
+inline void add_balls(ClearTests& tests, const abi::SceneView<float>& casters, const Add& add)
+{
+    for (int i = 0; i < casters.spheres.count; ++i)
+        add(ball_of(casters.spheres, i), true);
+    for_each_other(casters, [&](const auto& record) {
+        const RoundedBall ball = ball_of(record);
+        if (ball.radius < __builtin_inff())
+            add(ball, false);
+        else
+            tests.complete = false;
+    });
 }
 
 /// Two unit vectors across `v`.
@@ -192,11 +201,15 @@ inline void make_clear_tests(ClearTests& tests, const abi::SceneView<float>& sce
     add_anchored(tests, planes, casters, light, origins, extent);
     add_planes(tests, planes, casters, light, extent);
     if (light.kind == abi::LightKind::point)
-        return add_cones(tests, const_cast<ConeSphere*>(tests.cones), casters.spheres, light.vector,
-                         extent);
+        return add_balls(tests, casters, [&](const RoundedBall& ball, bool fills) {
+            add_cone(tests, const_cast<ConeSphere*>(tests.cones), ball, light.vector, extent,
+                     fills);
+        });
     const double direction[3] = {light.vector[0], light.vector[1], light.vector[2]};
     set_axes(tests.axis, direction);
-    add_across(tests, const_cast<AcrossSphere*>(tests.across), casters.spheres, direction, extent);
+    add_balls(tests, casters, [&](const RoundedBall& ball, bool fills) {
+        add_across(tests, const_cast<AcrossSphere*>(tests.across), ball, direction, extent, fills);
+    });
 }
 
 template <abi::Features F>
@@ -217,17 +230,32 @@ struct SurfaceBall {
     double radius = __builtin_inf();
 };
 
-inline SurfaceBall ball_of(const abi::SceneView<float>& scene, std::int32_t surface)
+inline SurfaceBall surface_ball(const double (&center)[3], double radius)
 {
-    SurfaceBall ball;
+    return {{center[0], center[1], center[2]}, radius * 1.00001};
+}
+
+inline SurfaceBall surface_ball(const abi::SceneView<float>& scene, std::int32_t surface)
+{
     const abi::SurfaceIndex& index = scene.shapes.index[surface];
-    if (index.kind == abi::SurfaceKind::sphere) {
-        const abi::SphereShape& shape = scene.shapes.spheres[index.record];
-        for (int axis = 0; axis < 3; ++axis)
-            ball.center[axis] = shape.center[axis];
-        ball.radius = shape.radius * 1.00001;
+    switch (index.kind) {
+        case abi::SurfaceKind::sphere: {
+            const abi::SphereShape& shape = scene.shapes.spheres[index.record];
+            return surface_ball(shape.center, shape.radius);
+        }
+        case abi::SurfaceKind::quadric_side:
+        case abi::SurfaceKind::low_cap:
+        case abi::SurfaceKind::high_cap: {
+            const abi::QuadricRecord<double>& shape = scene.shapes.quadrics[index.record];
+            return surface_ball(shape.bound, shape.bound_radius);
+        }
+        case abi::SurfaceKind::polygon: {
+            const abi::PolygonRecord<double>& shape = scene.shapes.polygons[index.record];
+            return surface_ball(shape.bound, shape.bound_radius);
+        }
+        default:
+            return {};
     }
-    return ball;
 }
 
 /// Whether all points of a ball are in front of a plane.
@@ -295,16 +323,16 @@ inline void find_needed(ClearTests& tests, const abi::SceneView<float>& scene,
                         const abi::LightRecord<float>& light, std::int32_t surface)
 {
     NeededTests& needed = tests.needed[surface];
-    const SurfaceBall ball = surface < 0 ? SurfaceBall{} : ball_of(scene, surface);
+    const SurfaceBall ball = surface < 0 ? SurfaceBall{} : surface_ball(scene, surface);
     for (int i = 0; i < tests.plane_count; ++i)
         if (tests.planes[i].behind != surface && !is_in_front(tests.planes[i], ball))
             needed.planes[needed.plane_count++] = static_cast<std::uint8_t>(i);
     for (int i = 0; i < tests.sphere_count; ++i) {
         const bool is_point = light.kind == abi::LightKind::point;
-        const std::int32_t other = is_point ? tests.cones[i].surface : tests.across[i].surface;
+        const Body& other = is_point ? tests.cones[i].body : tests.across[i].body;
         const bool past = is_point ? is_past(tests.cones[i], ball, light.vector)
                                    : is_past(tests, tests.across[i], ball, light.vector);
-        if (other != surface && !past)
+        if (!is_on(other, surface) && !past)
             needed.spheres[needed.sphere_count++] = static_cast<std::uint8_t>(i);
     }
 }
@@ -314,11 +342,18 @@ inline void find_all_needed(ClearTests& tests, const abi::SceneView<float>& scen
                             const abi::LightRecord<float>& light)
 {
     find_needed(tests, scene, light, -1);
-    for_each_kind<F>([&](auto kind) {
-        const auto& list = kind.list(scene);
-        for (int i = 0; i < list.count; ++i)
-            find_needed(tests, scene, light, body_of(object_at(list, i)).first);
-        return true;
+    FramePlan<F>::for_each_surface(
+        scene, [&](std::int32_t surface) { find_needed(tests, scene, light, surface); });
+}
+
+template <abi::Features F>
+inline void find_met_again(FramePlan<F>& plan, const abi::SceneView<float>& scene)
+{
+    plan.met_again[-1] = false;
+    FramePlan<F>::for_each_surface(scene, [&](std::int32_t surface) {
+        plan.met_again[surface] =
+            hit_again(scene.shapes, scene.shapes.index[surface]) == HitAgain::from_anywhere;
+        plan.met_again[-1] |= plan.met_again[surface];
     });
 }
 
@@ -327,14 +362,12 @@ template <abi::Features F>
 inline void fill_plan(FramePlan<F>& plan, const abi::SceneView<float>& scene,
                       const abi::CameraView<float>& camera)
 {
-    Cone<float> anywhere;
-    for (int axis = 0; axis < 3; ++axis)
-        anywhere.base[axis] = camera.origin[axis];
-    find_objects<F>(plan.from_camera, anywhere, scene);
+    find_from_point<F, float>(plan.from_camera, camera.origin, scene);
     plan.origins = near_origins(scene, camera.origin, camera.origin);
     find_objects<F>(plan.from_near, plan.origins, scene);
     fill_common(plan.common, scene, plan.origins, camera.origin);
     fill_materials(plan, scene);
+    find_met_again(plan, scene);
     const abi::SceneView<float>& casters = casters_of(scene);
     for (int i = 0; i < scene.lighting.lights.count; ++i) {
         const abi::LightRecord<float>& light = scene.lighting.lights.data[i];

@@ -89,6 +89,8 @@ struct FusedMemory {
     TilePixelColors<float>* color = nullptr;
     std::uint8_t* visible_spheres = nullptr;  ///< from the eye through the tile, by their numbers
     std::uint8_t* visible_grounds = nullptr;  ///< in the plan
+    std::uint8_t* visible_balls = nullptr;    ///< likewise
+    FilteredObjects<true> visible;            ///< likewise, where tests are dear
     FilteredObjects<false> from_far;          ///< for mirrored rays beyond the plan's origins
     LightObjects<F, float>* occluders = nullptr;  ///< likewise, by light
     std::size_t bytes = 0;
@@ -101,6 +103,10 @@ struct FusedMemory {
         visible_spheres = arena.take<std::uint8_t>(static_cast<std::size_t>(scene.spheres.count));
         visible_grounds = arena.take<std::uint8_t>(
             static_cast<std::size_t>(scene.anchored_spheres.count + scene.planes.count));
+        visible_balls = arena.take<std::uint8_t>(
+            static_cast<std::size_t>(scene.quadrics.count + scene.polygons.count));
+        if constexpr (F.quadrics)
+            take_objects<F>(arena, visible, scene);
         if (scene.rules.max_depth > 0)
             take_objects<F>(arena, from_far, scene);
         occluders = arena.take<LightObjects<F, float>>(
@@ -156,7 +162,7 @@ struct ActiveOwn {
 
     bool all_on(const Body& body) const
     {
-        return common >= body.first && common < body.first + body.pieces;
+        return is_on(body, common);
     }
     template <class Real>
     std::uint32_t lanes_on_others(std::int32_t first, int pieces = 1) const

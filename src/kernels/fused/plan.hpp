@@ -20,26 +20,27 @@ struct FrontPlane {
     std::int32_t behind;  ///< the object's surface
 };
 
-/// A sphere that a directional light misses where its line through a point passes further off than
-/// the root of `outer2`, in the plane across the light.
+/// A sphere, or a ball around an object, that a directional light misses where its line through a
+/// point passes further off than the root of `outer2`, in the plane across the light.
 struct AcrossSphere {
     float center[2];  ///< in that plane
     float outer2;
-    float inner2;  ///< lines that pass nearer cross it
+    float inner2;  ///< lines that pass nearer cross it; negative for a ball around another object
     float along;   ///< points further on than this are past the sphere
     float before;  ///< points less far on have it all before them
-    std::int32_t surface;
+    Body body;
 };
 
-/// A sphere that the way from a point light misses whose cosine with the way to the sphere, `to`,
+/// The same that the way from a point light misses whose cosine with the way to the sphere, `to`,
 /// is less than `edge` over its length.
 struct ConeSphere {
-    float to[3];       ///< from the light to the centre
-    float edge;        ///< -infinite for a light that is not outside
-    float inner_edge;  ///< what is more crosses the sphere
+    float to[3];  ///< from the light to the centre
+    float edge;   ///< -infinite for a light that is not outside
+    float
+        inner_edge;  ///< what is more crosses the sphere; infinite for a ball around another object
     float center[3];
     float outer2;
-    std::int32_t surface;
+    Body body;
 };
 
 /// Which of a light's tests points on one surface need: the others can't fail for any point of it.
@@ -91,6 +92,8 @@ struct FramePlan {
     ClearTests* clear = nullptr;                  ///< by light
     CommonObjects common;                         ///< likewise from `origins`
     PlanMaterial* materials = nullptr;            ///< by number
+    /// By surface, whether rays that leave it outside may meet its body again; [-1]: of any.
+    bool* met_again = nullptr;
     std::size_t bytes = 0;
 
     /// With no `memory`, only `bytes` is of use.
@@ -104,6 +107,9 @@ struct FramePlan {
         take_objects<F>(arena, from_near, scene);
         common.take(arena, scene);
         materials = arena.take<PlanMaterial>(material_count(scene));
+        met_again = arena.take<bool>(1 + surface_count(scene));
+        if (memory != nullptr)
+            ++met_again;
         occluders = arena.take<LightObjects<F, float>>(static_cast<std::size_t>(lights));
         clear = arena.take<ClearTests>(static_cast<std::size_t>(lights));
         LightObjects<F, float> measured;
@@ -119,7 +125,8 @@ private:
     static void take_clear(Arena& arena, ClearTests* tests, const abi::SceneView<float>& casters,
                            const abi::SceneView<float>& scene)
     {
-        const auto spheres = static_cast<std::size_t>(casters.spheres.count);
+        const auto spheres = static_cast<std::size_t>(
+            casters.spheres.count + casters.quadrics.count + casters.polygons.count);
         const auto flats =
             static_cast<std::size_t>(casters.planes.count + casters.anchored_spheres.count);
         const std::size_t surfaces = 1 + surface_count(scene);
@@ -141,18 +148,23 @@ private:
         }
     }
 
+public:
     /// Calls `visit(surface)` for each.
     template <class Visit>
     static void for_each_surface(const abi::SceneView<float>& scene, const Visit& visit)
     {
         for_each_kind<F>([&](auto kind) {
             const auto& list = kind.list(scene);
-            for (int i = 0; i < list.count; ++i)
-                visit(body_of(object_at(list, i)).first);
+            for (int i = 0; i < list.count; ++i) {
+                const Body body = body_of(object_at(list, i));
+                for (int piece = 0; piece < body.pieces; ++piece)
+                    visit(body.first + piece);
+            }
             return true;
         });
     }
 
+private:
     /// One more than the largest number.
     static std::size_t surface_count(const abi::SceneView<float>& scene)
     {

@@ -14,6 +14,11 @@ struct Body {
     int pieces = 1;
 };
 
+inline bool is_on(const Body& body, std::int32_t surface)
+{
+    return surface >= body.first && surface < body.first + body.pieces;
+}
+
 /// Of objects that have one surface.
 template <class Object>
 inline Body body_of(const Object& object)

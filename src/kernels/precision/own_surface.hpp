@@ -29,7 +29,7 @@ struct OwnSurface {
     /// Whether none of the rays is looked for on a body.
     bool all_on(const Body& body) const
     {
-        return common >= body.first && common < body.first + body.pieces;
+        return is_on(body, common);
     }
 
     /// Lanes whose rays start elsewhere than on the body of `pieces` surfaces from `first` on.

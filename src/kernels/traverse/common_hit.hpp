@@ -61,17 +61,6 @@ inline std::uint32_t is_surely_enough(const vreal<float>& t, const vreal<float>&
                 (size <= vreal<float>(0x1p-10f) * t) & (t > vreal<float>(1.01f) * t_min));
 }
 
-/// The places `dt` behind t.
-template <Origin O>
-inline Vec3v<float> place_at(const RayPacket<float>& rays, const float (&eye)[3],
-                             const BothHalves<Vec3v<double>>& dir,
-                             const BothHalves<vreal<double>>& t, const vreal<float>& dt)
-{
-    const BothHalves<Vec3v<double>> org = wide_origins<O>(rays, eye);
-    return narrow(madd<double>(t.low + widen_low(dt), dir.low, org.low),
-                  madd<double>(t.high + widen_high(dt), dir.high, org.high));
-}
-
 /// A root in single precision, and what is known of the packet's rays there.
 struct RoughCommon {
     vreal<float> t;
@@ -125,27 +114,50 @@ inline RoughCommon rough_common(const CommonGround& ground, const RayPacket<floa
     return rough;
 }
 
+/// Rays in double, and where they are at a rough root relative to a point.
+template <Origin O>
+struct WidePlace {
+    BothHalves<Vec3v<double>> dir;
+    BothHalves<vreal<double>> t;
+    BothHalves<Vec3v<double>> place;
+
+    WidePlace(const RayPacket<float>& rays, const vreal<float>& rough, const float (&eye)[3],
+              const double (&base)[3])
+        : dir(widen(rays.dir)), t{widen_low(rough), widen_high(rough)}
+    {
+        const BothHalves<Vec3v<double>> start = starts_from<O>(rays, eye, base);
+        place = {madd<double>(t.low, dir.low, start.low),
+                 madd<double>(t.high, dir.high, start.high)};
+    }
+};
+
+/// The places `dt` further on.
+template <Origin O>
+inline Vec3v<float> place_at(const RayPacket<float>& rays, const float (&eye)[3],
+                             const WidePlace<O>& wide, const vreal<float>& dt)
+{
+    const BothHalves<Vec3v<double>> org = wide_origins<O>(rays, eye);
+    return narrow(madd<double>(wide.t.low + widen_low(dt), wide.dir.low, org.low),
+                  madd<double>(wide.t.high + widen_high(dt), wide.dir.high, org.high));
+}
+
 /// Refines hits at a rough root; returns the lanes for which one step of Newton's was enough.
 template <Origin O>
 inline std::uint32_t refine_common(CommonHit& hit, const CommonSphere& sphere,
                                    const RoughCommon& rough, const RayPacket<float>& rays,
                                    const float (&eye)[3])
 {
-    const vreal<float> t = rough.t;
-    const BothHalves<Vec3v<double>> dir = widen(rays.dir);
-    const BothHalves<vreal<double>> t_wide{widen_low(t), widen_high(t)};
-    const BothHalves<Vec3v<double>> start = starts_from<O>(rays, eye, sphere.exact_center);
-    const Vec3v<double> low = madd<double>(t_wide.low, dir.low, start.low);
-    const Vec3v<double> high = madd<double>(t_wide.high, dir.high, start.high);
+    const WidePlace<O> wide(rays, rough.t, eye, sphere.exact_center);
+    const auto& [low, high] = wide.place;
     const vreal<double> radius2(sphere.exact_radius2);
     const vreal<float> value = narrow(dot(low, low) - radius2, dot(high, high) - radius2);
-    const vreal<float> slope = narrow(dot(low, dir.low), dot(high, dir.high));
+    const vreal<float> slope = narrow(dot(low, wide.dir.low), dot(high, wide.dir.high));
     const vreal<float> dt = vreal<float>(-0.5f) * value / slope;
-    hit.t = t + dt;
+    hit.t = rough.t + dt;
     hit.outward = scale<float>(vreal<float>(sphere.inverse_radius),
                                narrow(low, high) + scale<float>(dt, rays.dir));
-    hit.point = place_at<O>(rays, eye, dir, t_wide, dt);
-    return is_surely_enough(t, rays.dir2, slope, dt, rays.t_min);
+    hit.point = place_at(rays, eye, wide, dt);
+    return is_surely_enough(rough.t, rays.dir2, slope, dt, rays.t_min);
 }
 
 /// The same on an anchored sphere.
@@ -154,12 +166,8 @@ inline std::uint32_t refine_common(CommonHit& hit, const CommonGround& ground,
                                    const RoughCommon& rough, const RayPacket<float>& rays,
                                    const float (&eye)[3])
 {
-    const vreal<float> t = rough.t;
-    const BothHalves<Vec3v<double>> dir = widen(rays.dir);
-    const BothHalves<vreal<double>> t_wide{widen_low(t), widen_high(t)};
-    const BothHalves<Vec3v<double>> start = starts_from<O>(rays, eye, ground.exact_base);
-    const Vec3v<double> low = madd<double>(t_wide.low, dir.low, start.low);
-    const Vec3v<double> high = madd<double>(t_wide.high, dir.high, start.high);
+    const WidePlace<O> wide(rays, rough.t, eye, ground.exact_base);
+    const auto& [low, high] = wide.place;
     const vreal<double> curvature(ground.exact_curvature);
     const vreal<double> offset(ground.exact_offset);
     const Vec3v<double> normal = broadcast(ground.exact_normal);
@@ -167,17 +175,17 @@ inline std::uint32_t refine_common(CommonHit& hit, const CommonGround& ground,
     const Vec3v<double> g_high = madd<double>(curvature, high, normal);
     const vreal<float> value =
         narrow(dot(g_low + normal, low) + offset, dot(g_high + normal, high) + offset);
-    const vreal<float> slope = narrow(dot(g_low, dir.low), dot(g_high, dir.high));
+    const vreal<float> slope = narrow(dot(g_low, wide.dir.low), dot(g_high, wide.dir.high));
     const vreal<float> dt = vreal<float>(-0.5f) * value / slope;
-    hit.t = t + dt;
+    hit.t = rough.t + dt;
     hit.outward = madd<float>(vreal<float>(ground.curvature), scale<float>(dt, rays.dir),
                               narrow(g_low, g_high));
-    hit.point = place_at<O>(rays, eye, dir, t_wide, dt);
-    return is_surely_enough(t, rough.bend, vreal<float>(ground.side) * slope, dt, rays.t_min);
+    hit.point = place_at(rays, eye, wide, dt);
+    return is_surely_enough(rough.t, rough.bend, vreal<float>(ground.side) * slope, dt, rays.t_min);
 }
 
-/// The lanes of a packet whose rays may have a sphere before them; `b` is set where there are any.
-inline std::uint32_t lanes_near(const CommonSphere& sphere, const RayPacket<float>& rays,
+/// The lanes of a packet whose rays may have a ball before them; `b` is set where there are any.
+inline std::uint32_t lanes_near(const CommonBall& sphere, const RayPacket<float>& rays,
                                 std::uint32_t active, vreal<float>& b)
 {
     const Vec3v<float> w = rays.org - broadcast(sphere.center);
@@ -188,6 +196,13 @@ inline std::uint32_t lanes_near(const CommonSphere& sphere, const RayPacket<floa
     b = dot(w, rays.dir);
     return near & ~bits((dot(w, w) > outer2 * vreal<float>(1.0f + roundoffs(16.0f))) &
                         (b * abs(b) > vreal<float>(sphere.slack2) * rays.dir2));
+}
+
+inline std::uint32_t lanes_near(const CommonBall& ball, const RayPacket<float>& rays,
+                                std::uint32_t active)
+{
+    vreal<float> b = rays.dir2;
+    return lanes_near(ball, rays, active, b);
 }
 
 /// Whether another sphere is behind the hits for sure: they are outside, and the rays nearing it.
@@ -236,8 +251,10 @@ inline bool is_behind(const CommonObjects& common, const CommonGround& ground,
 struct Candidates {
     const std::uint8_t* spheres;
     const std::uint8_t* grounds;
+    const std::uint8_t* balls;
     int sphere_count = 0;
     int ground_count = 0;
+    int ball_count = 0;
 };
 
 struct ObjectNumbers {
@@ -253,7 +270,8 @@ inline constexpr ObjectNumbers object_numbers;
 
 inline Candidates all_of(const CommonObjects& common)
 {
-    return {object_numbers.number, object_numbers.number, common.sphere_count, common.ground_count};
+    return {object_numbers.number, object_numbers.number, object_numbers.number,
+            common.sphere_count,   common.ground_count,   common.ball_count};
 }
 
 /// The same among grounds alone, where no sphere is near.
@@ -295,13 +313,11 @@ inline bool find_common_ground(CommonHit& hit, const CommonObjects& common,
     return true;
 }
 
-/// Finds the hits of a packet where they are on one surface. False where that can't be told; `hit`
-/// is then of no use. Rays start among the origins of `common`, their shared one at `eye`, and are
-/// certifiable(). `own` is the surface that all start on, on its outer side, or -1 for none.
+/// The same among spheres and grounds.
 template <Origin O>
-inline bool find_common_hit(CommonHit& hit, const CommonObjects& common,
-                            const Candidates& candidates, const RayPacket<float>& rays,
-                            const float (&eye)[3], std::int32_t own, std::uint32_t active)
+inline bool find_common_sphere(CommonHit& hit, const CommonObjects& common,
+                               const Candidates& candidates, const RayPacket<float>& rays,
+                               const float (&eye)[3], std::int32_t own, std::uint32_t active)
 {
     const CommonSphere* first = nullptr;
     const CommonSphere* second = nullptr;
@@ -309,7 +325,7 @@ inline bool find_common_hit(CommonHit& hit, const CommonObjects& common,
     vreal<float> nearness = rays.dir2;
     for (int i = 0; i < candidates.sphere_count; ++i) {
         const CommonSphere& sphere = common.spheres[candidates.spheres[i]];
-        if (sphere.surface == own)
+        if (sphere.body.first == own)
             continue;
         vreal<float> b = nearness;
         const std::uint32_t near = lanes_near(sphere, rays, active, b);
@@ -326,14 +342,13 @@ inline bool find_common_hit(CommonHit& hit, const CommonObjects& common,
             second = &sphere;
         }
     }
-    hit.lanes = 0;
     if (first == nullptr)
         return find_common_ground<O>(hit, common, candidates, rays, eye, own, active);
     const RoughCommon rough = rough_common(*first, rays, open);
     if (rough.sure != rough.open)
         return false;
     hit.lanes = rough.sure;
-    hit.surface = first->surface;
+    hit.surface = first->body.first;
     if ((hit.lanes & ~refine_common<O>(hit, *first, rough, rays, eye)) != 0)
         return false;
     // Something else is behind what all rays hit, or there is nothing else.
@@ -353,6 +368,32 @@ inline bool find_common_hit(CommonHit& hit, const CommonObjects& common,
         return false;
     }
     return true;
+}
+
+/// Whether a packet passes all balls but that of the body its rays start on.
+inline bool passes_balls(const CommonObjects& common, const Candidates& candidates,
+                         const RayPacket<float>& rays, std::int32_t own, std::uint32_t active)
+{
+    for (int i = 0; i < candidates.ball_count; ++i) {
+        const CommonBall& ball = common.balls[candidates.balls[i]];
+        if (!is_on(ball.body, own) && lanes_near(ball, rays, active) != 0)
+            return false;
+    }
+    return true;
+}
+
+/// Finds the hits of a packet where they are on one surface. False where that can't be told; `hit`
+/// is then of no use. Rays start among the origins of `common`, their shared one at `eye`, and are
+/// certifiable(). `own` is the surface that all start on, whose body they don't meet again, or -1
+/// for none.
+template <Origin O>
+inline bool find_common_hit(CommonHit& hit, const CommonObjects& common,
+                            const Candidates& candidates, const RayPacket<float>& rays,
+                            const float (&eye)[3], std::int32_t own, std::uint32_t active)
+{
+    hit.lanes = 0;
+    return passes_balls(common, candidates, rays, own, active) &&
+           find_common_sphere<O>(hit, common, candidates, rays, eye, own, active);
 }
 
 }  // namespace

@@ -4,21 +4,27 @@
 #include "kernels/precision/lone_sphere.hpp"
 
 // Spheres, anchored spheres and planes with bounds for the origins of a group of rays and with what
-// refining needs of them, for packets that mostly hit one object (common_hit.hpp).
+// refining needs of them, for packets that mostly hit one object (common_hit.hpp), and balls around
+// what is looked at by its own test alone.
 namespace packtrace::PACKTRACE_ISA {
 namespace {
 
-/// A sphere with its bounds for some origins (sphere_filter.hpp), and its record for refining.
-struct CommonSphere {
+/// A ball that holds an object, with its bounds for some origins (sphere_filter.hpp).
+struct CommonBall {
     float center[3];
-    float outer2, inner2;
-    float clear2;  ///< squared radius that points among the origins are outside by
+    float outer2;
     float slack2;  ///< square of what the slope w·d may be off by, per |d|
+    Body body;
+};
+
+/// A sphere, and its record for refining.
+struct CommonSphere : CommonBall {
+    float inner2;
+    float clear2;  ///< squared radius that points among the origins are outside by
     float radius2;
     float inverse_radius;
     double exact_center[3];
     double exact_radius2;
-    std::int32_t surface;
 };
 
 /// An anchored sphere, or a plane with no curvature, likewise: the form that is refined, rounded,
@@ -39,8 +45,10 @@ struct CommonGround {
 struct CommonObjects {
     CommonSphere* spheres = nullptr;
     CommonGround* grounds = nullptr;  ///< anchored spheres, then planes
+    CommonBall* balls = nullptr;      ///< around quadrics, then polygons
     int sphere_count = 0;
     int ground_count = 0;
+    int ball_count = 0;
     float center[3] = {};  ///< of the origins
     float near2 = 0;       ///< square of their radius, and a little less
     bool are_all = false;  ///< bounds hold, and these are all objects of the scene
@@ -52,6 +60,8 @@ struct CommonObjects {
         spheres = arena.template take<CommonSphere>(static_cast<std::size_t>(scene.spheres.count));
         grounds = arena.template take<CommonGround>(
             static_cast<std::size_t>(scene.anchored_spheres.count + scene.planes.count));
+        balls = arena.template take<CommonBall>(
+            static_cast<std::size_t>(scene.quadrics.count + scene.polygons.count));
     }
 };
 
@@ -88,12 +98,53 @@ inline double size_of(const float (&v)[3])
            __builtin_fabs(double{v[2]});
 }
 
-/// The radius that a shadow ray must pass a sphere's rounded centre by to be clear of it.
-inline double clear_radius(const abi::SphereListView<float>& list, int i, double extent)
+/// A ball in single precision that holds an object, whose centre is off by `error` at most.
+struct RoundedBall {
+    float center[3];
+    float radius;
+    float error;
+    Body body;
+};
+
+inline RoundedBall ball_of(const abi::SphereListView<float>& list, int i)
 {
-    const float center[3] = {list.center_x[i], list.center_y[i], list.center_z[i]};
-    return double{list.radius[i]} + double{list.center_error[i]} +
-           clear_slack * (extent + double{list.radius[i]} + size_of(center));
+    return {{list.center_x[i], list.center_y[i], list.center_z[i]},
+            list.radius[i],
+            list.center_error[i],
+            {list.surface[i]}};
+}
+
+/// Around a quadric, of infinite radius if that is unbounded, or around a polygon.
+template <class Record>
+inline RoundedBall ball_of(const Record& record)
+{
+    RoundedBall ball{{}, record.bound_radius * inflation, 0, body_of(record)};
+    double size = 0;
+    for (int axis = 0; axis < 3; ++axis) {
+        ball.center[axis] = static_cast<float>(record.bound[axis]);
+        size += __builtin_fabs(double{ball.center[axis]});
+    }
+    // The centre that the ball is around was rounded once.
+    ball.error = above(size * 0x1p-23);
+    return ball;
+}
+
+/// Calls `visit(record)` for the objects of a scene that have their own test alone, from first to
+/// last.
+template <class Real, class Visit>
+inline void for_each_other(const abi::GeometryView<Real>& scene, const Visit& visit)
+{
+    for (int i = 0; i < scene.quadrics.count; ++i)
+        visit(scene.quadrics.data[i]);
+    for (int i = 0; i < scene.polygons.count; ++i)
+        visit(scene.polygons.data[i]);
+}
+
+/// The radius that a shadow ray must pass a ball's centre by to be clear of it.
+inline double clear_radius(const RoundedBall& ball, double extent)
+{
+    return double{ball.radius} + double{ball.error} +
+           clear_slack * (extent + double{ball.radius} + size_of(ball.center));
 }
 
 /// The errors of a ground's form for origins up to `distance` from its base. Rounding moves the
@@ -185,29 +236,35 @@ inline void fill_ground(CommonGround& ground, const abi::PlaneRecord<double>& sh
     set_top(ground, shape.point, normal, origins, eye);
 }
 
+/// Sets what is to be known of any ball; returns the bounds.
+inline SphereBounds<float> fill_ball(CommonBall& common, const RoundedBall& ball,
+                                     const Origins& origins)
+{
+    // Of an origin among them, its distance from the centre counts whole.
+    double distance = double{origins.radius};
+    for (int axis = 0; axis < 3; ++axis) {
+        common.center[axis] = ball.center[axis];
+        distance += __builtin_fabs(double{ball.center[axis]} - double{origins.center[axis]});
+    }
+    const float length = above(distance * double{inflation} + double{ball.error});
+    const SphereBounds<float> bounds =
+        sphere_bounds(ball.radius, ball.error, madd(roundoffs(2.4f), length, ball.error));
+    common.outer2 = bounds.outer2;
+    const double slack = double{bounds.along} + roundoffs(28.0f) * distance;
+    common.slack2 = above(slack * slack * (1.0 + clear_slack));
+    common.body = ball.body;
+    return bounds;
+}
+
 inline void fill_sphere(CommonSphere& sphere, const abi::SceneView<float>& scene, int i,
                         const Origins& origins)
 {
-    const abi::SphereListView<float>& list = scene.spheres;
-    const float center[3] = {list.center_x[i], list.center_y[i], list.center_z[i]};
-    // Of an origin in the ball, its distance from the centre counts whole.
-    double distance = double{origins.radius};
-    for (int axis = 0; axis < 3; ++axis) {
-        sphere.center[axis] = center[axis];
-        distance += __builtin_fabs(double{center[axis]} - double{origins.center[axis]});
-    }
-    const float error = list.center_error[i];
-    const float length = above(distance * double{inflation} + double{error});
-    const SphereBounds<float> bounds =
-        sphere_bounds(list.radius[i], error, madd(roundoffs(2.4f), length, error));
-    sphere.outer2 = bounds.outer2;
+    const RoundedBall ball = ball_of(scene.spheres, i);
+    const SphereBounds<float> bounds = fill_ball(sphere, ball, origins);
     sphere.inner2 = bounds.inner2;
-    const double slack = double{bounds.along} + roundoffs(28.0f) * distance;
-    sphere.slack2 = above(slack * slack * (1.0 + clear_slack));
-    const double clear = clear_radius(list, i, extent_of(origins));
+    const double clear = clear_radius(ball, extent_of(origins));
     sphere.clear2 = above(clear * clear * (1.0 + clear_slack));
-    sphere.surface = list.surface[i];
-    const abi::SphereShape& shape = sphere_of(scene.shapes, sphere.surface);
+    const abi::SphereShape& shape = sphere_of(scene.shapes, ball.body.first);
     for (int axis = 0; axis < 3; ++axis)
         sphere.exact_center[axis] = shape.center[axis];
     sphere.exact_radius2 = shape.radius * shape.radius;
@@ -232,14 +289,15 @@ inline Origins near_origins(const abi::SceneView<float>& scene, const float (&lo
         low[axis] = low_origin[axis];
         high[axis] = high_origin[axis];
     }
-    const abi::SphereListView<float>& spheres = scene.spheres;
-    for (int i = 0; i < spheres.count; ++i) {
-        const float center[3] = {spheres.center_x[i], spheres.center_y[i], spheres.center_z[i]};
-        for (int axis = 0; axis < 3; ++axis) {
-            low[axis] = min(low[axis], center[axis] - spheres.radius[i]);
-            high[axis] = max(high[axis], center[axis] + spheres.radius[i]);
+    const auto enclose = [&](const RoundedBall& ball) {
+        for (int axis = 0; axis < 3 && ball.radius < __builtin_inff(); ++axis) {
+            low[axis] = min(low[axis], ball.center[axis] - ball.radius);
+            high[axis] = max(high[axis], ball.center[axis] + ball.radius);
         }
-    }
+    };
+    for (int i = 0; i < scene.spheres.count; ++i)
+        enclose(ball_of(scene.spheres, i));
+    for_each_other(scene, [&](const auto& record) { enclose(ball_of(record)); });
     Origins origins = origins_in(low, high);
     // Around one origin alone: what it stands on counts.
     origins.radius = max(origins.radius, 1.0f) * static_cast<float>(near_scale);
@@ -251,26 +309,39 @@ inline constexpr int most_common_objects = 32;
 /// Smaller spheres lose digits to underflow.
 inline constexpr float least_common_radius = 1e-15f;
 
+/// Whether the objects of a scene are so few, and stand in lists.
+inline bool has_few_objects(const abi::GeometryView<float>& scene)
+{
+    return scene.tree.empty() && scene.spheres.count + scene.anchored_spheres.count +
+                                         scene.planes.count + scene.quadrics.count +
+                                         scene.polygons.count <=
+                                     most_common_objects;
+}
+
 /// Prepares the objects of a scene for rays from `origins`. `eye` is one of them: planes are told
 /// of for rays from its side.
 inline void fill_common(CommonObjects& common, const abi::SceneView<float>& scene,
                         const Origins& origins, const float (&eye)[3])
 {
-    const int objects = scene.spheres.count + scene.anchored_spheres.count + scene.planes.count;
-    common.are_all = scene.wide != nullptr && objects <= most_common_objects &&
-                     scene.tree.empty() && scene.quadrics.count == 0 && scene.polygons.count == 0 &&
-                     scene.certifiable && certifiable(origins) && is_moderate(extent_of(origins));
+    for (int axis = 0; axis < 3; ++axis)
+        common.center[axis] = origins.center[axis];
+    common.near2 = origins.radius * origins.radius * 0.999f;
+    common.are_all = scene.wide != nullptr && has_few_objects(scene) && scene.certifiable &&
+                     certifiable(origins) && is_moderate(extent_of(origins));
     if (!common.are_all)
         return;
     common.sphere_count = scene.spheres.count;
     common.ground_count = 0;
-    for (int axis = 0; axis < 3; ++axis)
-        common.center[axis] = origins.center[axis];
-    common.near2 = origins.radius * origins.radius * 0.999f;
+    common.ball_count = 0;
     for (int i = 0; i < common.sphere_count; ++i) {
         fill_sphere(common.spheres[i], scene, i, origins);
         common.are_all &= scene.spheres.radius[i] > least_common_radius;
     }
+    for_each_other(scene, [&](const auto& record) {
+        const RoundedBall ball = ball_of(record);
+        fill_ball(common.balls[common.ball_count++], ball, origins);
+        common.are_all &= ball.radius < __builtin_inff();
+    });
     const auto fill = [&](const auto& list, const auto* shapes) {
         for (int i = 0; i < list.count; ++i) {
             CommonGround& ground = common.grounds[common.ground_count++];
