@@ -1,7 +1,7 @@
 // Note 001 against numbers worked out by hand from its text.
 #include <packtrace/scene.hpp>
 #include "catch.hpp"
-#include "reference/note_001.hpp"
+#include "reference/models/note_001.hpp"
 #include "reference/render_reference.hpp"
 #include "reference_scenes.hpp"
 

@@ -1,6 +1,6 @@
 // Note 004 against numbers worked out by hand from its algorithms.
 #include "catch.hpp"
-#include "reference/note_004.hpp"
+#include "reference/models/note_004.hpp"
 #include "reference_scenes.hpp"
 
 #include <cmath>

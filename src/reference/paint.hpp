@@ -1,7 +1,7 @@
 #pragma once
 
 #include <packtrace/scene.hpp>
-#include "reference/surface_normal.hpp"
+#include "reference/surfaces/surface_normal.hpp"
 #include "reference/vec3.hpp"
 
 #include <cmath>

@@ -3,11 +3,11 @@
 #include <packtrace/image.hpp>
 #include <packtrace/scene.hpp>
 #include "reference/cut_rays.hpp"
-#include "reference/general.hpp"
-#include "reference/note_000.hpp"
-#include "reference/note_001.hpp"
-#include "reference/note_002.hpp"
-#include "reference/note_004.hpp"
+#include "reference/models/general.hpp"
+#include "reference/models/note_000.hpp"
+#include "reference/models/note_001.hpp"
+#include "reference/models/note_002.hpp"
+#include "reference/models/note_004.hpp"
 #include "reference/world.hpp"
 
 #include <variant>

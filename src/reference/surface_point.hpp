@@ -1,6 +1,6 @@
 #pragma once
 
-#include "reference/glass_stack.hpp"
+#include "reference/light/glass_stack.hpp"
 #include "reference/start.hpp"
 
 #include <optional>

@@ -1,8 +1,8 @@
 #pragma once
 
 #include <packtrace/explain.hpp>
-#include "reference/closest_intersection.hpp"
-#include "reference/surface_normal.hpp"
+#include "reference/surfaces/closest_intersection.hpp"
+#include "reference/surfaces/surface_normal.hpp"
 
 #include <vector>
 

@@ -2,9 +2,9 @@
 
 #include <packtrace/render.hpp>
 #include <packtrace/scene.hpp>
-#include "reference/bodies.hpp"
 #include "reference/canvas.hpp"
 #include "reference/paint.hpp"
+#include "reference/surfaces/bodies.hpp"
 
 #include <limits>
 #include <vector>

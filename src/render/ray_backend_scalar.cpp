@@ -4,10 +4,10 @@
 #include <optional>
 #include <vector>
 
-#include "reference/all_hits.hpp"
-#include "reference/bodies.hpp"
-#include "reference/closest_intersection.hpp"
-#include "reference/surface_normal.hpp"
+#include "reference/surfaces/all_hits.hpp"
+#include "reference/surfaces/bodies.hpp"
+#include "reference/surfaces/closest_intersection.hpp"
+#include "reference/surfaces/surface_normal.hpp"
 #include "render/ray_backend.hpp"
 
 namespace packtrace {

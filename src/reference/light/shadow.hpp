@@ -1,7 +1,7 @@
 #pragma once
 
-#include "reference/glass.hpp"
-#include "reference/way_to_light.hpp"
+#include "reference/light/glass.hpp"
+#include "reference/light/way_to_light.hpp"
 #include "reference/world.hpp"
 
 namespace packtrace::reference {

@@ -2,11 +2,11 @@
 
 #include <packtrace/render.hpp>
 #include <packtrace/scene.hpp>
-#include "reference/affine.hpp"
-#include "reference/plane.hpp"
-#include "reference/polygon.hpp"
-#include "reference/quadric.hpp"
-#include "reference/sphere.hpp"
+#include "reference/surfaces/affine.hpp"
+#include "reference/surfaces/plane.hpp"
+#include "reference/surfaces/polygon.hpp"
+#include "reference/surfaces/quadric.hpp"
+#include "reference/surfaces/sphere.hpp"
 
 #include <variant>
 #include <vector>

@@ -1,7 +1,7 @@
-#include "reference/note_000.hpp"
+#include "reference/models/note_000.hpp"
 
-#include "reference/model_of.hpp"
-#include "reference/shadow.hpp"
+#include "reference/light/shadow.hpp"
+#include "reference/models/model_of.hpp"
 #include "reference/tree_recorder.hpp"
 
 #include <algorithm>

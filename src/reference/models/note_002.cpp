@@ -1,7 +1,7 @@
-#include "reference/note_002.hpp"
+#include "reference/models/note_002.hpp"
 
-#include "reference/model_of.hpp"
-#include "reference/shadow.hpp"
+#include "reference/light/shadow.hpp"
+#include "reference/models/model_of.hpp"
 #include "reference/tree_recorder.hpp"
 
 #include <cmath>

@@ -1,4 +1,4 @@
-#include "reference/bodies.hpp"
+#include "reference/surfaces/bodies.hpp"
 
 namespace packtrace::reference {
 namespace {

@@ -1,6 +1,6 @@
-#include "reference/note_004.hpp"
+#include "reference/models/note_004.hpp"
 
-#include "reference/model_of.hpp"
+#include "reference/models/model_of.hpp"
 #include "reference/tree_recorder.hpp"
 
 #include <algorithm>

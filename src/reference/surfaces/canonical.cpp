@@ -1,4 +1,4 @@
-#include "reference/canonical.hpp"
+#include "reference/surfaces/canonical.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "reference/closest_intersection.hpp"
+#include "reference/surfaces/closest_intersection.hpp"
 
 namespace packtrace::reference {
 

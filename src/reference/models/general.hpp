@@ -1,6 +1,6 @@
 #pragma once
 
-#include "reference/glass.hpp"
+#include "reference/light/glass.hpp"
 #include "reference/no_recorder.hpp"
 #include "reference/ray_weight.hpp"
 #include "reference/world.hpp"

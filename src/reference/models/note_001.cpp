@@ -1,6 +1,6 @@
-#include "reference/note_001.hpp"
+#include "reference/models/note_001.hpp"
 
-#include "reference/model_of.hpp"
+#include "reference/models/model_of.hpp"
 #include "reference/tree_recorder.hpp"
 
 #include <cmath>

@@ -1,7 +1,7 @@
 #pragma once
 
-#include "reference/canonical.hpp"
-#include "reference/interior.hpp"
+#include "reference/surfaces/canonical.hpp"
+#include "reference/surfaces/interior.hpp"
 #include "reference/vec3.hpp"
 
 #include <algorithm>

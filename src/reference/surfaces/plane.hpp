@@ -1,6 +1,6 @@
 #pragma once
 
-#include "reference/roots.hpp"
+#include "reference/surfaces/roots.hpp"
 #include "reference/vec3.hpp"
 
 namespace packtrace::reference {

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "reference/interior.hpp"
+#include "reference/surfaces/interior.hpp"
 #include "reference/vec3.hpp"
 
 #include <cmath>

@@ -1,4 +1,4 @@
-#include "reference/affine.hpp"
+#include "reference/surfaces/affine.hpp"
 
 namespace packtrace::reference {
 

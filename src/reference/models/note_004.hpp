@@ -1,9 +1,9 @@
 #pragma once
 
-#include "reference/bodies.hpp"
 #include "reference/no_recorder.hpp"
 #include "reference/ray_weight.hpp"
 #include "reference/start.hpp"
+#include "reference/surfaces/bodies.hpp"
 
 #include <vector>
 

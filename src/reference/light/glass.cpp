@@ -1,7 +1,7 @@
-#include "reference/glass.hpp"
+#include "reference/light/glass.hpp"
 
-#include "reference/inside.hpp"
-#include "reference/refract.hpp"
+#include "reference/light/refract.hpp"
+#include "reference/surfaces/inside.hpp"
 
 #include <algorithm>
 #include <utility>

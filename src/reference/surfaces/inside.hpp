@@ -1,6 +1,6 @@
 #pragma once
 
-#include "reference/bodies.hpp"
+#include "reference/surfaces/bodies.hpp"
 
 #include <algorithm>
 #include <limits>

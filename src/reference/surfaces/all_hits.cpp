@@ -1,6 +1,6 @@
-#include "reference/all_hits.hpp"
+#include "reference/surfaces/all_hits.hpp"
 
-#include "reference/surface_normal.hpp"
+#include "reference/surfaces/surface_normal.hpp"
 
 #include <algorithm>
 #include <utility>

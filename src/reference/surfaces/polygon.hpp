@@ -1,8 +1,8 @@
 #pragma once
 
 #include <packtrace/surface.hpp>
-#include "reference/affine.hpp"
-#include "reference/roots.hpp"
+#include "reference/surfaces/affine.hpp"
+#include "reference/surfaces/roots.hpp"
 #include "reference/vec3.hpp"
 
 #include <algorithm>
