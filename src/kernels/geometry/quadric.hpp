@@ -163,7 +163,12 @@ inline void visit_crossings(const abi::QuadricRecord<Real>& quadric,
     const auto at_start = minus_q == zero;
     const std::uint32_t crosses = bits(quadratic.discriminant >= zero) &
                                   ~bits(at_start & (quadratic.a == zero)) & all_lanes<Real>;
-    if (crosses == 0 && !quadric.capped)
+    // Inside the unclipped surface all along.
+    const std::uint32_t never_crosses =
+        quadric.capped
+            ? ~crosses & bits((quadratic.a < zero) | ((quadratic.a == zero) & (quadratic.c < zero)))
+            : 0;
+    if ((crosses | never_crosses) == 0)
         return;
     const vreal<Real> first = start + select(at_start, zero, negated(quadratic.c) / minus_q);
     const vreal<Real> second = start + negated(minus_q) / quadratic.a;
@@ -185,8 +190,6 @@ inline void visit_crossings(const abi::QuadricRecord<Real>& quadric,
     const LineInterval<Real> side = ordered<Real>(first, second);
     const std::uint32_t opens = bits(quadratic.a < zero);
     const std::uint32_t climbs = bits(clip.low_t <= clip.high_t);
-    const std::uint32_t never_crosses =
-        ~crosses & bits((quadratic.a < zero) | ((quadratic.a == zero) & (quadratic.c < zero)));
     // Rays come in by one cap and leave by the other. One that only touches the rim has two hits
     // there: it comes in by one piece and leaves by the other, in this order.
     const std::uint32_t comes_in[2] = {climbs, ~climbs};

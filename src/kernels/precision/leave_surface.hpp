@@ -152,14 +152,35 @@ template <class Real>
     return hit;
 }
 
-/// The same, without looking where nothing is met again.
+/// The lanes of `active` whose rays may meet their own body again; exactly those only where all
+/// start on one surface.
+template <class Real>
+inline std::uint32_t may_hit_again(const abi::ShapesView& shapes, const vint<Real>& surface,
+                                   std::uint32_t outside, std::uint32_t active)
+{
+    if (!shapes.hit_again_outside || active == 0)
+        return active & ~outside;
+    const DistinctNumbers<Real> distinct(surface, active);
+    if (!distinct.is_only())
+        return active;
+    switch (hit_again(shapes, shapes.index[distinct.value()])) {
+        case HitAgain::never:
+            return 0;
+        case HitAgain::from_inside:
+            return active & ~outside;
+        default:
+            return active;
+    }
+}
+
+/// The same, without a call where nothing is met again: around one all registers are saved.
 template <class Real>
 inline SecondHit<Real> second_hit(const abi::ShapesView& shapes, const vint<Real>& surface,
                                   const Vec3v<Real>& point, const Vec3v<Real>& dir,
                                   const vreal<Real>& t_min, std::uint32_t outside,
                                   std::uint32_t active)
 {
-    const std::uint32_t may_meet = shapes.hit_again_outside ? active : active & ~outside;
+    const std::uint32_t may_meet = may_hit_again<Real>(shapes, surface, outside, active);
     if (may_meet == 0)
         return no_second_hit<Real>();
     return look_for_second_hit<Real>(shapes, surface, point, dir, t_min, outside, may_meet);

@@ -30,25 +30,30 @@ inline RefinedHalf refine_half(const abi::ShapesView& shapes, const abi::Surface
     });
 }
 
-/// The lanes in which t + dt is within 2^-30 of the first root beyond t_min. Newton's step leaves
-/// bend dt² / slope / 2 of the error dt it began with.
+/// Those lanes of `same` in which t + dt is within 2^-30 of the first root beyond t_min. Newton's
+/// step leaves bend dt² / slope / 2 of the error dt it began with.
 inline std::uint32_t is_enough(const RoughRoot& root, const vreal<float>& slope,
-                               const vreal<float>& dt, const vreal<float>& t_min)
+                               const vreal<float>& dt, const vreal<float>& t_min,
+                               std::uint32_t same)
 {
     const vreal<float> size = abs(dt);
     const vreal<float> steep = abs(slope);
     const vreal<float> bent = root.bend * size;
-    const std::uint32_t close = bits(bent <= vreal<float>(0x1p-11f) * steep) &
-                                bits(bent * size <= vreal<float>(0x1p-30f) * (steep * root.t)) &
-                                bits(size <= vreal<float>(0x1p-9f) * root.t) &
-                                bits(root.t + dt > t_min);
+    const auto straight = bent <= vreal<float>(0x1p-11f) * steep;
+    const auto ahead = root.t + dt > t_min;
+    const auto enters = slope < vreal<float>(0.0f);
+    // Mostly all do more than what is asked for below.
+    const auto plainly = straight & ahead & enters & (size <= vreal<float>(0x1p-20f) * root.t);
+    if ((same & ~bits(plainly)) == 0)
+        return same;
+    const auto close = straight & ahead & (size <= vreal<float>(0x1p-9f) * root.t) &
+                       (bent * size <= vreal<float>(0x1p-30f) * (steep * root.t));
     // Leaving, the ray must have entered before t_min: the roots' middle is slope / bend before t,
     // so the other root dt + 2 slope / bend before.
     const vreal<float> since =
         madd(root.bend, (root.t - dt) - t_min, vreal<float>(0x1p-22f) * (root.bend * root.t));
-    const std::uint32_t first =
-        bits(slope < vreal<float>(0.0f)) | bits(vreal<float>(2.0f - 0x1p-18f) * slope > since);
-    return close & first;
+    const auto first = enters | (vreal<float>(2.0f - 0x1p-18f) * slope > since);
+    return same & bits(close & first);
 }
 
 /// Refines the lanes of `same`, whose surfaces are `form`; returns those for which it was enough.
@@ -60,7 +65,7 @@ inline std::uint32_t refine_by_newton(RefinedHits<float>& hits, const Form& form
     const RoughRoot root = rough_root(form, rays);
     const Residual at = residual(form, wide, root.t);
     const vreal<float> dt = vreal<float>(-0.5f) * at.value / at.slope;
-    const std::uint32_t done = same & is_enough(root, at.slope, dt, rays.t_min);
+    const std::uint32_t done = is_enough(root, at.slope, dt, rays.t_min, same);
     const vmask<float> active = from_bits<float>(done);
     hits.t = select(active, root.t + dt, hits.t);
     if constexpr (R == Refine::place) {

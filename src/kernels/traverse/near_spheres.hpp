@@ -163,6 +163,9 @@ inline std::uint32_t blocked_by_double(RayBundle<float>& bundle, int ray,
     near = others_of(near, leaf, bundle.own[ray]);
     if (near == 0)
         return 0;
+    // Rays that end at a sphere are hardly ever sure of it.
+    for (std::uint32_t left = near; left != 0; left &= left - 1)
+        fetch_sphere(shapes, leaf.surface_of(__builtin_ctz(left)));
     const LoneRay lone(bundle, ray);
     std::uint32_t blocking = 0;
     for (int first = 0; first < abi::node_width; first += lanes<float>) {
