@@ -126,6 +126,14 @@ inline std::int32_t first_piece(const abi::SurfaceIndex& index, std::int32_t sur
     return index.kind == abi::SurfaceKind::high_cap ? surface - 2 : surface;
 }
 
+/// Those of some lanes that may meet the body again which they start on.
+inline std::uint32_t may_hit_again(HitAgain again, std::uint32_t lanes_of, std::uint32_t outside)
+{
+    if (again == HitAgain::never)
+        return 0;
+    return again == HitAgain::from_inside ? lanes_of & ~outside : lanes_of;
+}
+
 /// For the lanes of `active`, each from a point of its own surface; `outside` are those that leave
 /// it on the outer side.
 template <class Real>
@@ -136,11 +144,8 @@ template <class Real>
     SecondHit<Real> hit = no_second_hit<Real>();
     for_each_distinct<Real>(surface, active, [&](lane_int<Real> number, vmask<Real> same) {
         const abi::SurfaceIndex& index = shapes.index[number];
-        const HitAgain again = hit_again(shapes, index);
-        if (again == HitAgain::never)
-            return;
         const std::uint32_t leavers =
-            (again == HitAgain::from_inside ? bits(same) & ~outside : bits(same)) & active;
+            may_hit_again(hit_again(shapes, index), bits(same) & active, outside);
         if (leavers == 0)
             return;
         const SecondHit<Real> met =
@@ -152,35 +157,29 @@ template <class Real>
     return hit;
 }
 
-/// The lanes of `active` whose rays may meet their own body again; exactly those only where all
-/// start on one surface.
+/// Of the lanes of `active` all that are worth a search, and maybe more where they start on several
+/// surfaces.
 template <class Real>
-inline std::uint32_t may_hit_again(const abi::ShapesView& shapes, const vint<Real>& surface,
-                                   std::uint32_t outside, std::uint32_t active)
+inline std::uint32_t worth_a_search(const abi::ShapesView& shapes, const vint<Real>& surface,
+                                    std::uint32_t outside, std::uint32_t active)
 {
     if (!shapes.hit_again_outside || active == 0)
-        return active & ~outside;
+        return may_hit_again(HitAgain::from_inside, active, outside);
     const DistinctNumbers<Real> distinct(surface, active);
     if (!distinct.is_only())
         return active;
-    switch (hit_again(shapes, shapes.index[distinct.value()])) {
-        case HitAgain::never:
-            return 0;
-        case HitAgain::from_inside:
-            return active & ~outside;
-        default:
-            return active;
-    }
+    return may_hit_again(hit_again(shapes, shapes.index[distinct.value()]), active, outside);
 }
 
-/// The same, without a call where nothing is met again: around one all registers are saved.
+/// What look_for_second_hit() finds. Where that is nothing it mostly is not called: all registers
+/// are saved around a call.
 template <class Real>
 inline SecondHit<Real> second_hit(const abi::ShapesView& shapes, const vint<Real>& surface,
                                   const Vec3v<Real>& point, const Vec3v<Real>& dir,
                                   const vreal<Real>& t_min, std::uint32_t outside,
                                   std::uint32_t active)
 {
-    const std::uint32_t may_meet = may_hit_again<Real>(shapes, surface, outside, active);
+    const std::uint32_t may_meet = worth_a_search<Real>(shapes, surface, outside, active);
     if (may_meet == 0)
         return no_second_hit<Real>();
     return look_for_second_hit<Real>(shapes, surface, point, dir, t_min, outside, may_meet);

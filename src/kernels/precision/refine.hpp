@@ -30,29 +30,39 @@ inline RefinedHalf refine_half(const abi::ShapesView& shapes, const abi::Surface
     });
 }
 
+/// Lanes whose rays enter, `slope` being negative and `bend` not, and for which Newton's step from
+/// `t` is enough: is_enough() says so, too, but not only there.
+inline std::uint32_t is_surely_enough(const vreal<float>& t, const vreal<float>& bend,
+                                      const vreal<float>& slope, const vreal<float>& dt,
+                                      const vreal<float>& t_min)
+{
+    const vreal<float> size = abs(dt);
+    const vreal<float> bent = bend * size;
+    return bits((bent < vreal<float>(-0x1p-12f) * slope) &
+                (bent * size <= vreal<float>(-0x1p-31f) * t * slope) &
+                (size <= vreal<float>(0x1p-10f) * t) & (t > vreal<float>(1.01f) * t_min));
+}
+
 /// Those lanes of `same` in which t + dt is within 2^-30 of the first root beyond t_min. Newton's
 /// step leaves bend dt² / slope / 2 of the error dt it began with.
 inline std::uint32_t is_enough(const RoughRoot& root, const vreal<float>& slope,
                                const vreal<float>& dt, const vreal<float>& t_min,
                                std::uint32_t same)
 {
+    if ((same & ~is_surely_enough(root.t, root.bend, slope, dt, t_min)) == 0)
+        return same;
     const vreal<float> size = abs(dt);
     const vreal<float> steep = abs(slope);
     const vreal<float> bent = root.bend * size;
-    const auto straight = bent <= vreal<float>(0x1p-11f) * steep;
-    const auto ahead = root.t + dt > t_min;
-    const auto enters = slope < vreal<float>(0.0f);
-    // Mostly all do more than what is asked for below.
-    const auto plainly = straight & ahead & enters & (size <= vreal<float>(0x1p-20f) * root.t);
-    if ((same & ~bits(plainly)) == 0)
-        return same;
-    const auto close = straight & ahead & (size <= vreal<float>(0x1p-9f) * root.t) &
-                       (bent * size <= vreal<float>(0x1p-30f) * (steep * root.t));
+    const auto close = (bent <= vreal<float>(0x1p-11f) * steep) &
+                       (bent * size <= vreal<float>(0x1p-30f) * (steep * root.t)) &
+                       (size <= vreal<float>(0x1p-9f) * root.t) & (root.t + dt > t_min);
     // Leaving, the ray must have entered before t_min: the roots' middle is slope / bend before t,
     // so the other root dt + 2 slope / bend before.
     const vreal<float> since =
         madd(root.bend, (root.t - dt) - t_min, vreal<float>(0x1p-22f) * (root.bend * root.t));
-    const auto first = enters | (vreal<float>(2.0f - 0x1p-18f) * slope > since);
+    const auto first =
+        (slope < vreal<float>(0.0f)) | (vreal<float>(2.0f - 0x1p-18f) * slope > since);
     return same & bits(close & first);
 }
 

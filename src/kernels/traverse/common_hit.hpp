@@ -48,19 +48,6 @@ inline BothHalves<Vec3v<double>> wide_origins(const RayPacket<float>& rays, cons
     }
 }
 
-/// The lanes in which Newton's step from `t` is enough, for rays that enter: is_enough() says so,
-/// too, but not only there.
-inline std::uint32_t is_surely_enough(const vreal<float>& t, const vreal<float>& bend,
-                                      const vreal<float>& slope, const vreal<float>& dt,
-                                      const vreal<float>& t_min)
-{
-    const vreal<float> size = abs(dt);
-    const vreal<float> bent = bend * size;
-    return bits((bent <= vreal<float>(-0x1p-12f) * slope) &
-                (bent * size <= vreal<float>(-0x1p-31f) * t * slope) &
-                (size <= vreal<float>(0x1p-10f) * t) & (t > vreal<float>(1.01f) * t_min));
-}
-
 /// A root in single precision, and what is known of the packet's rays there.
 struct RoughCommon {
     vreal<float> t;
