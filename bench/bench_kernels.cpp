@@ -24,7 +24,7 @@ public:
           packed_(lowered_),
           camera_(camera_view<Real>(scene, lowered_)),
           kernels_(kernels_for(precision<Real>(kernels_of(isa)), lowered_.features)),
-          scratch_(kernels_.scratch_bytes(packed_.view()))
+          scratch_(kernels_.scratch_bytes(packed_.view(), 1))
     {
         job_.scene = &packed_.view();
         job_.camera = &camera_;

@@ -87,7 +87,7 @@ template <class Real>
     const abi::FeatureKernels<Real>& kernels =
         kernels_for(precision<Real>(table), setup.lowered.features);
     const bool fused = std::string(table.isa) != "sse42";
-    const AlignedArray<std::byte> scratch(kernels.scratch_bytes(setup.packed.view()));
+    const AlignedArray<std::byte> scratch(kernels.scratch_bytes(setup.packed.view(), 1));
     std::vector<TracedRay<Real>> rays;
     for (int y = 0; y < scene.height; y += abi::tile_size)
         for (int x = 0; x < scene.width; x += abi::tile_size) {

@@ -9,6 +9,7 @@
 #include "feature_scenes.hpp"
 #include "lower/leave_out.hpp"
 #include "lower/packed_scene.hpp"
+#include "render/tile_loop.hpp"
 #include "render/tile_renderer.hpp"
 #include "render_scene.hpp"
 
@@ -46,9 +47,9 @@ Work work_of(const Scene& scene, bool force_general = false, Accuracy accuracy =
     Image<float> image(scene.width, scene.height);
     Work work;
     work.bytes = tiles.scratch_bytes();
-    for (int y = 0; y < scene.height; y += abi::tile_size)
-        for (int x = 0; x < scene.width; x += abi::tile_size)
-            work.counts += tiles.render_once(image, x, y);
+    const TileGrid grid({0, 0, scene.width, scene.height});
+    for (int tile = 0; tile < grid.count(); ++tile)
+        work.counts += tiles.render_once(image, grid[tile]);
     return work;
 }
 

@@ -10,6 +10,7 @@
 #include "few_objects.hpp"
 #include "lower/leave_out.hpp"
 #include "lower/packed_scene.hpp"
+#include "render/tile_loop.hpp"
 #include "render/tile_renderer.hpp"
 #include "render_scene.hpp"
 
@@ -39,10 +40,9 @@ Frame render_tiles(const Scene& scene, const std::string& isa, bool streams, int
     options.samples = samples;
     const TileRenderer<float> tiles(scene, lower(scene), kernels_of(isa), options);
     Frame frame{Image<float>(scene.width, scene.height), {}};
-    for (int y = 0; y < scene.height; y += abi::tile_size)
-        for (int x = 0; x < scene.width; x += abi::tile_size)
-            frame.counts += samples > 1 ? tiles.render_mean(frame.image, x, y)
-                                        : tiles.render_once(frame.image, x, y);
+    const TileGrid grid({0, 0, scene.width, scene.height});
+    for (int tile = 0; tile < grid.count(); ++tile)
+        frame.counts += tiles.render(frame.image, grid[tile]);
     return frame;
 }
 

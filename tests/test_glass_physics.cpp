@@ -106,7 +106,7 @@ std::size_t scratch_bytes(const Scene& scene, const std::string& isa)
     const LoweredScene lowered = lower(scene, accuracy_in<Real>({}));
     const PackedScene<Real> packed(lowered);
     return kernels_for(precision<Real>(kernels_of(isa)), lowered.features)
-        .scratch_bytes(packed.view());
+        .scratch_bytes(packed.view(), 1);
 }
 
 }  // namespace

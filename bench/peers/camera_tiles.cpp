@@ -12,7 +12,7 @@ CameraTiles::CameraTiles(const Scene& scene, const std::string& isa, Accuracy ac
       packed_(lowered_),
       camera_(camera_view<float>(scene, lowered_)),
       kernels_(kernels_for(precision<float>(kernels_of(isa)), lowered_.features)),
-      scratch_(kernels_.scratch_bytes(packed_.view())),
+      scratch_(kernels_.scratch_bytes(packed_.view(), 1)),
       width_(scene.width),
       height_(scene.height)
 {

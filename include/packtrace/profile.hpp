@@ -31,8 +31,8 @@ struct ProfileStage {
     double seconds = 0.0;
 };
 
-/// What a process pays before its frames are as fast as they get. Each step happens once, so that no
-/// spread is known.
+/// What a process pays before its frames are as fast as they get. Each step happens once, so that
+/// no spread is known.
 struct FirstFrameStep {
     std::string name;  ///< "first frame"
     double seconds = 0.0;
@@ -149,17 +149,17 @@ template <class Real>
 [[nodiscard]] PACKTRACE_API Profile profile(const std::string& text, const Scene& scene,
                                             const ProfileOptions& options = {});
 
-/// A tile's time on its thread.
+/// The time of a tile, or of a block of tiles that are rendered together, on its thread.
 struct TileSpan {
     int x = 0;  ///< first pixel
     int y = 0;
-    int thread = 0;      ///< counted from 0 in the order of their first tiles
+    int thread = 0;      ///< counted from 0 in the order of their first ones
     double start = 0.0;  ///< seconds after the frame's
     double seconds = 0.0;
     std::uint64_t rays = 0;
 };
 
-/// The tiles of one frame, by their start.
+/// The tiles or blocks of one frame, by their start.
 template <class Real>
 [[nodiscard]] PACKTRACE_API std::vector<TileSpan> trace_tiles(const Scene& scene,
                                                               const ProfileOptions& options);

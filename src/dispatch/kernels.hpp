@@ -29,7 +29,7 @@ template <class Real>
                                                            abi::Features needed)
 {
     for (const auto& kernels : table.kernels)
-        if (kernels.render_tile != nullptr && abi::covers(kernels.set.features, needed))
+        if (kernels.render_tiles != nullptr && abi::covers(kernels.set.features, needed))
             return kernels;
     throw std::logic_error("no kernels know all that the scene uses");
 }
@@ -41,9 +41,17 @@ template <class Real>
                                                        const abi::SceneView<Real>& scene)
 {
     for (const abi::FusedKernels<Real>& fused : table.fused)
-        if (fused.render_tile != nullptr && abi::covers(fused.features, needed))
+        if (fused.render_tiles != nullptr && abi::covers(fused.features, needed))
             return fused.plan_bytes(scene) > 0 ? &fused : nullptr;
     return nullptr;
+}
+
+/// Whether several tiles of a frame are rendered together, with their mirrored rays sorted: where
+/// these go down a hierarchy. Glass sends two rays on, whose light has an order of its own.
+template <class Real>
+[[nodiscard]] bool sorts_mirrored(abi::Features needed, const abi::SceneView<Real>& scene)
+{
+    return needed.bounces && !needed.glass && !scene.tree.empty();
 }
 
 }  // namespace packtrace

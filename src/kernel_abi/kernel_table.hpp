@@ -17,6 +17,9 @@ namespace packtrace::abi {
 /// Edge of a tile, pixels.
 inline constexpr int tile_size = 16;
 inline constexpr int tile_pixels = tile_size * tile_size;
+/// Tiles that are rendered together: at most a square of `block_edge` tiles.
+inline constexpr int block_edge = 8;
+inline constexpr int block_tiles = block_edge * block_edge;
 
 /// Places in a tile that camera rays go through, in place of one a pixel. Counted from its first
 /// pixel to the right and down, each in [0, tile_size]; the camera's own sample is not looked at
@@ -92,8 +95,13 @@ struct RayCounts {
 template <class Real>
 struct FeatureKernels {
     FeatureSet set;
-    std::size_t (*scratch_bytes)(const SceneView<Real>& scene) = nullptr;
-    RayCounts (*render_tile)(const TileJob<Real>& job) = nullptr;
+    /// For render_tiles() of as many tiles, or fewer.
+    std::size_t (*scratch_bytes)(const SceneView<Real>& scene, int tiles) = nullptr;
+    /// Renders 1 … block_tiles tiles of a frame, which share their scratch memory. More than one
+    /// only of scenes without glass: their mirrored rays are sorted and traced together. Pixels
+    /// are those of each tile alone, bit for bit. Of the tiles, the first one's observation counts,
+    /// and pixels can be told apart in it only where it is the only one.
+    RayCounts (*render_tiles)(const TileJob<Real>* tiles, int count) = nullptr;
     /// The tile's camera rays only; `rgb` is not used. Null for kernels of Features::probe.
     void (*closest_tile)(const TileJob<Real>& job, TileHits<Real>& hits) = nullptr;
 };
@@ -109,8 +117,8 @@ struct FusedKernels {
     void (*make_plan)(const SceneView<Real>& scene, const CameraView<Real>& camera,
                       void* memory) = nullptr;
     std::size_t (*scratch_bytes)(const SceneView<Real>& scene) = nullptr;
-    /// As FeatureKernels::render_tile, bit for bit. TileJob::plan is set.
-    RayCounts (*render_tile)(const TileJob<Real>& job) = nullptr;
+    /// As FeatureKernels::render_tiles, bit for bit. TileJob::plan is set.
+    RayCounts (*render_tiles)(const TileJob<Real>* tiles, int count) = nullptr;
 };
 
 /// Those of spheres and planes with mirrors that are not tinted, and those of all but glass.

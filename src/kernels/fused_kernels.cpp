@@ -8,7 +8,7 @@ namespace {
 template <abi::Features F>
 constexpr abi::FusedKernels<float> fused_kernels_for()
 {
-    return {F, plan_bytes<F>, make_plan<F>, fused_scratch_bytes<F>, trace_fused_tile<F>};
+    return {F, plan_bytes<F>, make_plan<F>, fused_scratch_bytes<F>, trace_fused_tiles<F>};
 }
 
 constexpr abi::Features mirrors{.highlights = true, .bounces = true, .exact = true};

@@ -15,7 +15,7 @@ template <bool Exact, class Real>
 constexpr abi::FeatureKernels<Real> kernels()
 {
     constexpr abi::Features F = abi::with_exact(probe.features, Exact);
-    return {{probe.name, F}, scratch_bytes<F, Real>, render_tile<F, Real>, nullptr};
+    return {{probe.name, F}, scratch_bytes<F, Real>, render_tiles<F, Real>, nullptr};
 }
 
 constexpr abi::ProbeKernels probes = {kernels<true, float>(), kernels<false, float>(),

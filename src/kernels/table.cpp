@@ -49,7 +49,7 @@ constexpr abi::FeatureKernels<Real> feature_kernels()
     if constexpr (!is_compiled<Real>(Set, Exact))
         return {};
     else
-        return {set, scratch_bytes<F, Real>, render_tile<F, Real>,
+        return {set, scratch_bytes<F, Real>, render_tiles<F, Real>,
                 closest_tile<abi::tree_features(F), Real>};
 }
 

@@ -44,17 +44,21 @@ Region FrameRenderer<Real>::whole_tiles(const Region& region) const
             std::min(height_, up(region.y + region.height)) - y};
 }
 
+template <class Real>
+TileGrid FrameRenderer<Real>::blocks_of(const Region& region) const
+{
+    return TileGrid(region, tiles_.block_edge(region, tbb::this_task_arena::max_concurrency()));
+}
+
 /// `image` holds the tiles.
 template <class Real>
 FrameCounts FrameRenderer<Real>::render_tiles(const Region& tiles, Image<Real>& image) const
 {
-    const TileGrid grid(tiles);
+    const TileGrid grid = blocks_of(tiles);
     const Canvas<Real> canvas(image, tiles.x, tiles.y);
-    Progress done(grid.count, options_.progress, options_.stop);
-    return for_each_tile(grid, done, [&](int x, int y) {
-        return options_.samples > 1 ? tiles_.render_mean(canvas, x, y)
-                                    : tiles_.render_once(canvas, x, y);
-    });
+    Progress done(grid.count(), options_.progress, options_.stop);
+    return for_each_piece(grid, done,
+                          [&](const Region& piece) { return tiles_.render(canvas, piece); });
 }
 
 /// The tiles `around` once, which `image` holds, then the pixels of `tiles` with contrast in full.
@@ -63,17 +67,18 @@ FrameCounts FrameRenderer<Real>::render_adaptive(const Region& tiles, const Regi
                                                  Image<Real>& image) const
 {
     const Canvas<Real> canvas(image, around.x, around.y);
-    const TileGrid all(around);
+    // The rays of those around count for another region.
+    const TileGrid all = tiles == around ? blocks_of(around) : TileGrid(around);
     const TileGrid grid(tiles);
-    Progress done(all.count + grid.count, options_.progress, options_.stop);
-    const FrameCounts once = for_each_tile(all, done, [&](int x, int y) {
-        const abi::RayCounts counts = tiles_.render_once(canvas, x, y);
-        return tiles.contains(x, y) ? counts : abi::RayCounts();
+    Progress done(all.count() + grid.count(), options_.progress, options_.stop);
+    const FrameCounts once = for_each_piece(all, done, [&](const Region& piece) {
+        const abi::RayCounts counts = tiles_.render_once(canvas, piece);
+        return tiles.contains(piece.x, piece.y) ? counts : abi::RayCounts();
     });
     ContrastMap<Real> contrast(image, *options_.adaptive);
     tbb::parallel_for(0, image.height, [&](int row) { contrast.mark_row(row); });
-    return once + for_each_tile(grid, done, [&](int x, int y) {
-               return tiles_.refine(canvas, contrast, x, y);
+    return once + for_each_piece(grid, done, [&](const Region& tile) {
+               return tiles_.refine(canvas, contrast, tile);
            });
 }
 

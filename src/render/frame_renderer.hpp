@@ -36,6 +36,7 @@ private:
     [[nodiscard]] FrameCounts render_adaptive(const Region& tiles, const Region& around,
                                               Image<Real>& image) const;
     [[nodiscard]] Region whole_tiles(const Region& region) const;
+    [[nodiscard]] TileGrid blocks_of(const Region& region) const;
 
     int width_;
     int height_;

@@ -15,26 +15,41 @@
 
 namespace packtrace {
 
-/// How a picture is cut, or a region of it that begins where a tile does.
-struct TileGrid {
-    int columns;
-    int count;
-    int first_column = 0;
-    int first_row = 0;
+/// How a picture is cut, or a region of it that begins where a tile does: into squares, row by row,
+/// whose edge is that of a tile or of several.
+class TileGrid {
+public:
+    explicit TileGrid(const Region& region, int edge = abi::tile_size)
+        : region_(region), edge_(edge), columns_(pieces_along(region.width))
+    {
+    }
 
-    TileGrid(int width, int height)
-        : columns((width + abi::tile_size - 1) / abi::tile_size),
-          count(columns * ((height + abi::tile_size - 1) / abi::tile_size))
+    [[nodiscard]] int count() const
     {
+        return columns_ * pieces_along(region_.height);
     }
-    explicit TileGrid(const Region& tiles) : TileGrid(tiles.width, tiles.height)
+
+    /// Pieces at the region's right and lower end may be smaller.
+    [[nodiscard]] Region operator[](int piece) const
     {
-        first_column = tiles.x;
-        first_row = tiles.y;
+        const int x = piece % columns_ * edge_;
+        const int y = piece / columns_ * edge_;
+        return {region_.x + x, region_.y + y, std::min(edge_, region_.width - x),
+                std::min(edge_, region_.height - y)};
     }
+
+private:
+    [[nodiscard]] int pieces_along(int pixels) const
+    {
+        return (pixels + edge_ - 1) / edge_;
+    }
+
+    Region region_;
+    int edge_;
+    int columns_;
 };
 
-/// Hands out runs of tiles to threads, shorter ones towards the end, so that all end together
+/// Hands out runs of pieces to threads, shorter ones towards the end, so that all end together
 /// (Polychronopoulos and Kuck, "Guided Self-Scheduling", 1987). A task a tile costs 3 % of the
 /// frames that take the least, and short runs from the start 3 % of those of two threads, which
 /// then write to the same pages.
@@ -65,23 +80,21 @@ private:
     std::atomic<int> next_{0};
 };
 
-/// Calls `work(x, y)`, which returns abi::RayCounts, for each tile's first pixel, from the
-/// threads of the arena the call runs in. The sum is that of all tiles. Throws StopError as `done`
-/// does.
+/// Calls `work(piece)`, which returns abi::RayCounts, for each piece of the grid, from the threads
+/// of the arena the call runs in. The sum is that of all pieces. Throws StopError as `done` does.
 template <class Work>
-[[nodiscard]] FrameCounts for_each_tile(const TileGrid& grid, Progress& done, const Work& work)
+[[nodiscard]] FrameCounts for_each_piece(const TileGrid& grid, Progress& done, const Work& work)
 {
     const int threads = tbb::this_task_arena::max_concurrency();
-    TileQueue queue(grid.count, threads);
+    TileQueue queue(grid.count(), threads);
     tbb::enumerable_thread_specific<abi::RayCounts> counts;
     tbb::parallel_for(
         0, threads,
         [&](int) {
             abi::RayCounts& sum = counts.local();
             for (auto run = queue.take(); run.begin != run.end; run = queue.take()) {
-                for (int tile = run.begin; tile != run.end && !done.is_stopped(); ++tile) {
-                    sum += work(grid.first_column + tile % grid.columns * abi::tile_size,
-                                grid.first_row + tile / grid.columns * abi::tile_size);
+                for (int piece = run.begin; piece != run.end && !done.is_stopped(); ++piece) {
+                    sum += work(grid[piece]);
                     done.finish_piece();
                 }
             }

@@ -1,12 +1,14 @@
 #include "render/tile_renderer.hpp"
 
 #include <algorithm>
+#include <array>
 #include <stdexcept>
 
 #include "dispatch/kernels.hpp"
 #include "lower/leave_out.hpp"
 #include "render/camera_view.hpp"
 #include "render/sample_batch.hpp"
+#include "render/tile_loop.hpp"
 #include "scene/sample_pattern.hpp"
 
 namespace packtrace {
@@ -41,23 +43,34 @@ AlignedArray<std::byte> make_plan(const abi::FusedKernels<Real>* fused,
     return plan;
 }
 
+/// So many blocks a thread, that none works on alone for long at the end.
+constexpr int blocks_of_a_thread = 16;
+
+/// How many tiles of a picture may be rendered together.
+int tiles_together(const Scene& scene, bool sorts_mirrored)
+{
+    const TileGrid picture({0, 0, scene.width, scene.height});
+    return sorts_mirrored ? std::min(abi::block_tiles, picture.count()) : 1;
+}
+
 }  // namespace
 
 template <class Real>
 TileRenderer<Real>::TileRenderer(const Scene& scene, LoweredScene lowered,
                                  const abi::KernelTable& table, const RenderOptions& options)
-    : width_(scene.width),
-      height_(scene.height),
-      kernels_(kernels_for(precision<Real>(table), fitted(lowered, options).features)),
+    : kernels_(kernels_for(precision<Real>(table), fitted(lowered, options).features)),
       packed_(lowered, frame_traversal(lowered, options.traversal, precision<Real>(table).lanes)),
       pattern_(sample_pattern(options.samples)),
       once_(camera_view<Real>(scene, lowered, only_sample(scene, options))),
       corner_(camera_view<Real>(scene, lowered, Vec2(0.0))),
       fused_(fused_for(precision<Real>(table), lowered.features, packed_.view())),
       plan_(make_plan(fused_, packed_.view(), once_)),
-      render_tile_(fused_ != nullptr ? fused_->render_tile : kernels_.render_tile),
-      scratch_bytes_(fused_ != nullptr ? fused_->scratch_bytes(packed_.view())
-                                       : kernels_.scratch_bytes(packed_.view())),
+      render_tiles_(fused_ != nullptr ? fused_->render_tiles : kernels_.render_tiles),
+      sorts_mirrored_(sorts_mirrored(lowered.features, packed_.view())),
+      scratch_bytes_(
+          fused_ != nullptr
+              ? fused_->scratch_bytes(packed_.view())
+              : kernels_.scratch_bytes(packed_.view(), tiles_together(scene, sorts_mirrored_))),
       scratch_([this] { return AlignedArray<std::byte>(scratch_bytes_); })
 {
     packed_.add_light_buffers(lowered,
@@ -65,16 +78,32 @@ TileRenderer<Real>::TileRenderer(const Scene& scene, LoweredScene lowered,
 }
 
 template <class Real>
-abi::TileJob<Real> TileRenderer<Real>::job_at(const abi::CameraView<Real>& camera, int x, int y,
+int TileRenderer<Real>::block_edge(const Region& region, int threads) const
+{
+    constexpr int large = abi::block_edge * abi::tile_size;
+    constexpr int small = large / 2;
+    if (!sorts_mirrored_)
+        return abi::tile_size;
+    if (threads == 1)
+        return large;
+    for (const int edge : {large, small})
+        if (TileGrid(region, edge).count() >= blocks_of_a_thread * threads)
+            return edge;
+    return abi::tile_size;
+}
+
+template <class Real>
+abi::TileJob<Real> TileRenderer<Real>::job_of(const abi::CameraView<Real>& camera,
+                                              const Region& tile,
                                               abi::Observation* observation) const
 {
     abi::TileJob<Real> job;
     job.scene = &packed_.view();
     job.camera = &camera;
-    job.x = x;
-    job.y = y;
-    job.width = std::min(abi::tile_size, width_ - x);
-    job.height = std::min(abi::tile_size, height_ - y);
+    job.x = tile.x;
+    job.y = tile.y;
+    job.width = tile.width;
+    job.height = tile.height;
     job.scratch = scratch_.local().data();
     job.plan = plan_.data();
     job.observation = observation;
@@ -82,78 +111,99 @@ abi::TileJob<Real> TileRenderer<Real>::job_at(const abi::CameraView<Real>& camer
 }
 
 template <class Real>
-abi::RayCounts TileRenderer<Real>::render_once(const Canvas<Real>& canvas, int x, int y) const
+abi::RayCounts TileRenderer<Real>::render_piece(const abi::CameraView<Real>& camera,
+                                                const Region& piece, const Pixels& pixels,
+                                                abi::Observation* observation) const
 {
-    return render_once(canvas, x, y, observation_);
+    const TileGrid tiles(piece);
+    std::array<abi::TileJob<Real>, abi::block_tiles> jobs;
+    for (int i = 0; i < tiles.count(); ++i) {
+        const Region tile = tiles[i];
+        abi::TileJob<Real>& job = jobs[static_cast<std::size_t>(i)];
+        job = job_of(camera, tile, observation);
+        job.rgb = pixels.first + (tile.y - piece.y) * pixels.row_stride + 3 * (tile.x - piece.x);
+        job.row_stride = pixels.row_stride;
+    }
+    return render_tiles_(jobs.data(), tiles.count());
 }
 
 template <class Real>
-abi::RayCounts TileRenderer<Real>::render_mean(const Canvas<Real>& canvas, int x, int y) const
+abi::RayCounts TileRenderer<Real>::render_once(const Canvas<Real>& canvas,
+                                               const Region& piece) const
 {
-    return render_mean(canvas, x, y, observation_);
+    return render_piece(once_, piece,
+                        {canvas.pixel(piece.x, piece.y), std::ptrdiff_t{3} * canvas.image.width},
+                        observation_);
 }
 
 template <class Real>
-abi::RayCounts TileRenderer<Real>::render_observed(const Canvas<Real>& canvas, int x, int y,
+abi::RayCounts TileRenderer<Real>::render(const Canvas<Real>& canvas, const Region& piece) const
+{
+    return render(canvas, piece, observation_);
+}
+
+template <class Real>
+abi::RayCounts TileRenderer<Real>::render_observed(const Canvas<Real>& canvas, const Region& piece,
                                                    abi::Observation& observation) const
 {
-    return pattern_.size() > 1 ? render_mean(canvas, x, y, &observation)
-                               : render_once(canvas, x, y, &observation);
+    return render(canvas, piece, &observation);
 }
 
 template <class Real>
-abi::RayCounts TileRenderer<Real>::render_once(const Canvas<Real>& canvas, int x, int y,
-                                               abi::Observation* observation) const
+abi::RayCounts TileRenderer<Real>::render(const Canvas<Real>& canvas, const Region& piece,
+                                          abi::Observation* observation) const
 {
-    abi::TileJob<Real> job = job_at(once_, x, y, observation);
-    job.rgb = canvas.pixel(x, y);
-    job.row_stride = std::ptrdiff_t{3} * canvas.image.width;
-    return render_tile_(job);
+    if (pattern_.size() > 1)
+        return render_mean(canvas, piece, observation);
+    return render_piece(once_, piece,
+                        {canvas.pixel(piece.x, piece.y), std::ptrdiff_t{3} * canvas.image.width},
+                        observation);
 }
 
 // One sample of all pixels after the other, so that packets are as compact as with one sample.
 template <class Real>
-abi::RayCounts TileRenderer<Real>::render_mean(const Canvas<Real>& canvas, int x, int y,
+abi::RayCounts TileRenderer<Real>::render_mean(const Canvas<Real>& canvas, const Region& piece,
                                                abi::Observation* observation) const
 {
-    constexpr int row_length = 3 * abi::tile_size;
-    Real sums[row_length * abi::tile_size] = {};
-    Real sample[row_length * abi::tile_size] = {};
+    const std::size_t row_length = 3 * static_cast<std::size_t>(piece.width);
+    std::vector<Real> sums(row_length * static_cast<std::size_t>(piece.height));
+    std::vector<Real> sample(sums.size());
     abi::CameraView<Real> camera = corner_;
-    abi::TileJob<Real> job = job_at(camera, x, y, observation);
-    job.rgb = sample;
-    job.row_stride = row_length;
+    const Pixels pixels{sample.data(), static_cast<std::ptrdiff_t>(row_length)};
     abi::RayCounts counts;
     for (const Vec2& place : pattern_) {
         camera.first_x = corner_.first_x + static_cast<Real>(place.x);
         camera.first_y = corner_.first_y - static_cast<Real>(place.y);
-        counts += render_tile_(job);
-        for (int i = 0; i < row_length * abi::tile_size; ++i)
+        counts += render_piece(camera, piece, pixels, observation);
+        for (std::size_t i = 0; i < sums.size(); ++i)
             sums[i] += sample[i];
     }
     const Real share = Real(1) / static_cast<Real>(pattern_.size());
-    for (int row = 0; row < job.height; ++row)
-        for (int i = 0; i < 3 * job.width; ++i)
-            canvas.pixel(x, y + row)[i] = share * sums[row * row_length + i];
+    const Real* sum = sums.data();
+    for (int row = 0; row < piece.height; ++row)
+        for (int i = 0; i < 3 * piece.width; ++i)
+            canvas.pixel(piece.x, piece.y + row)[i] = share * *sum++;
     return counts;
 }
 
 template <class Real>
 abi::RayCounts TileRenderer<Real>::refine(const Canvas<Real>& canvas,
-                                          const ContrastMap<Real>& contrast, int x, int y) const
+                                          const ContrastMap<Real>& contrast,
+                                          const Region& tile) const
 {
-    abi::TileJob<Real> job = job_at(corner_, x, y, observation_);
+    abi::TileJob<Real> job = job_of(corner_, tile, observation_);
     abi::RayCounts counts;
     SampleBatch<Real> batch(pattern_, [&](const abi::TileSamples<Real>& samples, Real* rgb) {
         job.samples = &samples;
         job.rgb = rgb;
-        counts += render_tile_(job);
+        counts += render_tiles_(&job, 1);
     });
     for (int number = 0; number < abi::tile_pixels; ++number) {
         const auto [column, row] = z_order_place(number);
-        if (column < job.width && row < job.height &&
-            contrast(x + column - canvas.first_column, y + row - canvas.first_row))
-            batch.add_pixel(column, row, canvas.pixel(x + column, y + row));
+        const int x = tile.x + column;
+        const int y = tile.y + row;
+        if (tile.contains(x, y) && contrast(x - canvas.first_column, y - canvas.first_row))
+            batch.add_pixel(column, row, canvas.pixel(x, y));
     }
     batch.finish();
     return counts;

@@ -30,7 +30,9 @@ struct Canvas {
     }
 };
 
-/// A scene and the kernels for it, tile by tile. Thread-safe; a thread's first tile allocates.
+/// A scene and the kernels for it, a piece of a picture after the other. A piece begins where a
+/// tile does, and is at most block_edge() long and wide. Thread-safe; a thread's first piece
+/// allocates.
 template <class Real>
 class TileRenderer {
 public:
@@ -41,29 +43,31 @@ public:
     TileRenderer(const TileRenderer&) = delete;
     TileRenderer& operator=(const TileRenderer&) = delete;
 
-    /// What kernels of Features::probe record of the tiles that follow; null for nothing. For one
+    /// The edge of pieces, in pixels, that threads render a region of the picture by: a tile's, or
+    /// one of several tiles whose mirrored rays are better traced together.
+    [[nodiscard]] int block_edge(const Region& region, int threads) const;
+
+    /// What kernels of Features::probe record of the pieces that follow; null for nothing. For one
     /// thread alone.
     void observe(abi::Observation* observation)
     {
         observation_ = observation;
     }
 
-    /// Fills the tile whose first pixel is (x, y) with one sample a pixel: the scene's own, or of
-    /// several the centre.
-    abi::RayCounts render_once(const Canvas<Real>& canvas, int x, int y) const;
+    /// Fills a piece with one sample a pixel: the scene's own, or of several the centre.
+    abi::RayCounts render_once(const Canvas<Real>& canvas, const Region& piece) const;
 
-    /// Fills it with as many samples as the options say, none of them adaptive, and records into
-    /// `observation`, from any thread.
-    abi::RayCounts render_observed(const Canvas<Real>& canvas, int x, int y,
+    /// Fills it with as many samples as the options say, none of them adaptive.
+    abi::RayCounts render(const Canvas<Real>& canvas, const Region& piece) const;
+
+    /// The same, and records into `observation`, from any thread.
+    abi::RayCounts render_observed(const Canvas<Real>& canvas, const Region& piece,
                                    abi::Observation& observation) const;
 
-    /// The same with the mean of all samples.
-    abi::RayCounts render_mean(const Canvas<Real>& canvas, int x, int y) const;
-
-    /// `contrast` is that of the canvas. Gives the pixels where `contrast` says so what
-    /// render_mean() gives them, bit for bit.
-    abi::RayCounts refine(const Canvas<Real>& canvas, const ContrastMap<Real>& contrast, int x,
-                          int y) const;
+    /// `contrast` is that of the canvas. Gives the pixels of a tile where `contrast` says so what
+    /// render() gives them, bit for bit.
+    abi::RayCounts refine(const Canvas<Real>& canvas, const ContrastMap<Real>& contrast,
+                          const Region& tile) const;
 
     /// Working memory of a thread.
     [[nodiscard]] std::size_t scratch_bytes() const
@@ -77,15 +81,20 @@ public:
     }
 
 private:
-    [[nodiscard]] abi::TileJob<Real> job_at(const abi::CameraView<Real>& camera, int x, int y,
+    struct Pixels {
+        Real* first;
+        std::ptrdiff_t row_stride;
+    };
+
+    [[nodiscard]] abi::TileJob<Real> job_of(const abi::CameraView<Real>& camera, const Region& tile,
                                             abi::Observation* observation) const;
-    abi::RayCounts render_once(const Canvas<Real>& canvas, int x, int y,
-                               abi::Observation* observation) const;
-    abi::RayCounts render_mean(const Canvas<Real>& canvas, int x, int y,
+    abi::RayCounts render_piece(const abi::CameraView<Real>& camera, const Region& piece,
+                                const Pixels& pixels, abi::Observation* observation) const;
+    abi::RayCounts render(const Canvas<Real>& canvas, const Region& piece,
+                          abi::Observation* observation) const;
+    abi::RayCounts render_mean(const Canvas<Real>& canvas, const Region& piece,
                                abi::Observation* observation) const;
 
-    int width_;
-    int height_;
     const abi::FeatureKernels<Real>& kernels_;
     PackedScene<Real> packed_;
     std::vector<Vec2> pattern_;
@@ -94,7 +103,8 @@ private:
     abi::Observation* observation_ = nullptr;
     const abi::FusedKernels<Real>* fused_;  // null where streams render the scene
     AlignedArray<std::byte> plan_;          // of those
-    abi::RayCounts (*render_tile_)(const abi::TileJob<Real>& job);
+    abi::RayCounts (*render_tiles_)(const abi::TileJob<Real>* tiles, int count);
+    bool sorts_mirrored_;
     std::size_t scratch_bytes_;
     mutable tbb::enumerable_thread_specific<AlignedArray<std::byte>> scratch_;
 };

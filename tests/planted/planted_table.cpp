@@ -1,5 +1,5 @@
-#include "kernels/table.hpp"
 #include "kernels/stream/tile.hpp"
+#include "kernels/table.hpp"
 
 // Of the kernels with a defect those that its test runs: packets of floats in the default mode, one
 // kernel for every scene and one that tells of its rays.
@@ -12,7 +12,7 @@ constexpr abi::FeatureKernels<float> kernels_of_set(const abi::FeatureSet& known
     constexpr abi::Features F = abi::with_exact(abi::feature_sets[Set].features, true);
     return {{known_as.name, abi::with_exact(known_as.features, true)},
             scratch_bytes<F, float>,
-            render_tile<F, float>,
+            render_tiles<F, float>,
             nullptr};
 }
 

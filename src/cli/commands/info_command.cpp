@@ -131,8 +131,10 @@ void print_unsure(const UnsureSample& sample)
 
 std::string traced(const SceneFeatures& features)
 {
-    return features.in_registers ? "in registers, from the eye to the last mirror"
-                                 : "in streams, generation by generation";
+    if (features.in_registers)
+        return "in registers, from the eye to the last mirror";
+    return features.sorts_mirrored ? "in streams, generation by generation, mirrored rays sorted"
+                                   : "in streams, generation by generation";
 }
 
 void print_features(const SceneFeatures& features, const IsaInfo& isa,
@@ -163,6 +165,7 @@ nlohmann::ordered_json features_json(const SceneFeatures& features)
 {
     nlohmann::ordered_json json{{"kernel", features.kernel},
                                 {"in_registers", features.in_registers},
+                                {"sorts_mirrored", features.sorts_mirrored},
                                 {"uses", features.uses}};
     json["left_out"] = nlohmann::ordered_json::array();
     for (const LeftOut& left : features.left_out)

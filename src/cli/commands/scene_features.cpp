@@ -51,6 +51,7 @@ SceneFeatures scene_features(const Scene& scene, const IsaInfo& isa)
     packed.add_light_buffers(lowered, static_cast<double>(scene.width) * scene.height);
     features.in_registers = fused_for(precision<float>(kernels_of(isa.name)), lowered.features,
                                       packed.view()) != nullptr;
+    features.sorts_mirrored = sorts_mirrored(lowered.features, packed.view());
     if (packed.has_light_buffers())
         features.uses.emplace_back("light buffers");
     features.bytes = packed.bytes();

@@ -119,8 +119,8 @@ inline abi::RayCounts trace_fused_tile(const abi::TileJob<float>& job)
     const Candidates visible = find_visible(tile, camera_cone(job));
     if (visible.sphere_count + visible.ground_count + visible.ball_count == 0 &&
         !(scene.lighting.seen_within > 0)) {
-        fill_pixels(*memory.color, scene.rules.background);
-        write_tile(job, *memory.color);
+        fill_pixels(memory.color, scene.rules.background);
+        write_tile(job, memory.color);
         return counts;
     }
     const Candidates all = all_of(plan.common);
@@ -131,9 +131,18 @@ inline abi::RayCounts trace_fused_tile(const abi::TileJob<float>& job)
             continue;
         const RayPacket<float> rays = camera_rays(camera, first, scene.rules.units);
         const Vec3v<float> color = trace_paths(tile, visible, all, rays, active);
-        store_pixels(*memory.color + pixel_elements * first, color.x, color.y, color.z);
+        store_pixels(memory.color + pixel_elements * first, color.x, color.y, color.z);
     }
-    write_tile(job, *memory.color);
+    write_tile(job, memory.color);
+    return counts;
+}
+
+template <abi::Features F>
+inline abi::RayCounts trace_fused_tiles(const abi::TileJob<float>* tiles, int count)
+{
+    abi::RayCounts counts;
+    for (int tile = 0; tile < count; ++tile)
+        counts += trace_fused_tile<F>(tiles[tile]);
     return counts;
 }
 

@@ -86,7 +86,7 @@ inline vint<float> numbers_of(const HitState& hit)
 /// The memory of a thread for a tile.
 template <abi::Features F>
 struct FusedMemory {
-    TilePixelColors<float>* color = nullptr;
+    float* color = nullptr;
     std::uint8_t* visible_spheres = nullptr;  ///< from the eye through the tile, by their numbers
     std::uint8_t* visible_grounds = nullptr;  ///< in the plan
     std::uint8_t* visible_balls = nullptr;    ///< likewise
@@ -99,7 +99,7 @@ struct FusedMemory {
     FusedMemory(void* scratch, const abi::SceneView<float>& scene)
     {
         Arena arena(scratch);
-        color = arena.take<TilePixelColors<float>>(1);
+        color = arena.take<float>(tile_elements);
         visible_spheres = arena.take<std::uint8_t>(static_cast<std::size_t>(scene.spheres.count));
         visible_grounds = arena.take<std::uint8_t>(
             static_cast<std::size_t>(scene.anchored_spheres.count + scene.planes.count));

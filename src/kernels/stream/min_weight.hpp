@@ -49,11 +49,11 @@ inline std::uint32_t heavy_enough(const ShadeContext<F, Real>& context,
     return traced;
 }
 
-/// The largest of what a tile's pixels may lack.
-inline double most_lacking(const double* lacks)
+/// The largest of what some pixels may lack.
+inline double most_lacking(const double* lacks, int pixels)
 {
     double most = 0.0;
-    for (int pixel = 0; pixel < abi::tile_pixels; ++pixel)
+    for (int pixel = 0; pixel < pixels; ++pixel)
         most = lacks[pixel] > most ? lacks[pixel] : most;
     return most * abi::lack_unit;
 }

@@ -14,8 +14,8 @@ namespace {
 
 constexpr int pixel_elements = 4;
 
-template <class Real>
-using TilePixelColors = Real[pixel_elements * abi::tile_pixels];
+/// Of a tile.
+constexpr int tile_elements = pixel_elements * abi::tile_pixels;
 
 /// `Count` reals moved at once; a vector extension of both compilers. They are copied from and to
 /// arrays as bytes, which has no alignment.
@@ -51,7 +51,7 @@ enum class PixelWrite { set, add };
 /// Puts a packet of colours into its pixels in lane order. `number` may name a pixel twice
 /// when adding.
 template <class Real>
-inline void write_colors(PixelWrite write, TilePixelColors<Real>& pixels, const vint<Real>& number,
+inline void write_colors(PixelWrite write, Real* pixels, const vint<Real>& number,
                          const Vec3v<Real>& color, std::uint32_t active)
 {
     if (active == 0)
@@ -85,15 +85,16 @@ inline void write_colors(PixelWrite write, TilePixelColors<Real>& pixels, const 
     }
 }
 
+/// Fills a tile.
 template <class Real>
-inline void fill_pixels(TilePixelColors<Real>& pixels, const Real (&color)[3])
+inline void fill_pixels(Real* pixels, const Real (&color)[3])
 {
     constexpr int repeats = pixel_elements < lanes<Real> ? lanes<Real> : pixel_elements;
     alignas(64) Real pattern[static_cast<std::size_t>(repeats)];
     const Reals<Real, pixel_elements> pixel{color[0], color[1], color[2], Real(0)};
     for (int i = 0; i < repeats; i += pixel_elements)
         __builtin_memcpy(pattern + i, &pixel, sizeof pixel);
-    for (int i = 0; i < pixel_elements * abi::tile_pixels; i += lanes<Real>)
+    for (int i = 0; i < tile_elements; i += lanes<Real>)
         store(pixels + i, load(pattern + i % repeats));
 }
 
@@ -134,7 +135,7 @@ inline void write_pairs(Real* to, const Real* row, std::integer_sequence<int, Pa
 
 /// One row of a tile into `to`, interleaved.
 template <class Real>
-inline void write_row(Real* to, const TilePixelColors<Real>& pixels, int row, int width)
+inline void write_row(Real* to, const Real* pixels, int row, int width)
 {
     const Real* const first = pixels + pixel_elements * (spread_bits(row) << 1);
     if (width == abi::tile_size)

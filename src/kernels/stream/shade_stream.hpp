@@ -86,7 +86,7 @@ inline void spawn_children(const ShadeContext<F, Real>& context, const Children<
 template <abi::Features F, class Real>
 inline void shade_packet(PixelWrite write, const ShadeContext<F, Real>& context,
                          const HitStream<F, Real>& hits, int first, LastMaterials<Real>& materials,
-                         TilePixelColors<Real>& pixels, const Children<F, Real>& children)
+                         Real* pixels, const Children<F, Real>& children)
 {
     const std::uint32_t active = first_lanes<Real>(hits.count - first);
     count_packet<Real>(abi::PacketWork::shade, active);
@@ -120,7 +120,7 @@ inline void shade_packet(PixelWrite write, const ShadeContext<F, Real>& context,
 /// The hits of a scene in which no light reaches anything: their colour is their material's alone.
 template <abi::Features F, class Real>
 inline void shade_flat(const abi::SceneView<Real>& scene, const HitStream<F, Real>& hits,
-                       TilePixelColors<Real>& pixels)
+                       Real* pixels)
 {
     LastMaterials<Real> materials;
     for (int first = 0; first < hits.count; first += lanes<Real>) {
@@ -137,7 +137,7 @@ inline void shade_flat(const abi::SceneView<Real>& scene, const HitStream<F, Rea
 /// Shades every hit of a stream.
 template <abi::Features F, class Real>
 inline void shade_stream(PixelWrite write, const ShadeContext<F, Real>& context,
-                         const HitStream<F, Real>& hits, TilePixelColors<Real>& pixels,
+                         const HitStream<F, Real>& hits, Real* pixels,
                          const Children<F, Real>& children)
 {
     LastMaterials<Real> materials;

@@ -84,7 +84,7 @@ struct alignas(64) HitStream : GlassArrays<F.glass, F, Real>,
 
 template <abi::Features F, class Real>
 struct alignas(64) TileMemory {
-    TilePixelColors<Real> color;
+    Real* color;  ///< of all pixels of the tiles that are rendered together
     HitStream<F, Real> hits;
 };
 
@@ -220,32 +220,39 @@ inline void copy_packets(Element* to, const Element* from, int count)
         store(to + i, load(from + i));
 }
 
+/// Calls `visit(array)` for each array of streams of rays: `array(stream)` is that of a stream.
+template <abi::Features F, class Visit>
+inline void for_each_array(bool have_starts, const Visit& visit)
+{
+    for (int axis = 0; axis < 3; ++axis) {
+        visit([axis](auto& rays) { return rays.org[axis]; });
+        visit([axis](auto& rays) { return rays.dir[axis]; });
+        if (have_starts)
+            visit([axis](auto& rays) { return rays.starts->point[axis]; });
+    }
+    if constexpr (abi::weight_channels(F) > 0)
+        for (int channel = 0; channel < abi::weight_channels(F); ++channel)
+            visit([channel](auto& rays) { return rays.weight[channel]; });
+    visit([](auto& rays) { return rays.pixel; });
+    if constexpr (F.glass)
+        for (int i = 0; i < abi::glass_depth; ++i)
+            visit([i](auto& rays) { return rays.inside[i]; });
+    if constexpr (F.probe)
+        visit([](auto& rays) { return rays.path; });
+    if (have_starts) {
+        visit([](auto& rays) { return rays.starts->surface; });
+        visit([](auto& rays) { return rays.starts->second; });
+        visit([](auto& rays) { return rays.starts->met_again; });
+    }
+}
+
 /// Appends the rays of `from` to `to`.
 template <abi::Features F, class Real>
 inline void append_stream(RayStream<F, Real>& to, const RayStream<F, Real>& from)
 {
-    const auto append = [&](auto& behind, const auto& rays) {
-        copy_packets<Real>(behind + to.count, rays, from.count);
-    };
-    const auto append_each = [&](auto& behind, const auto& rays) {
-        for (std::size_t i = 0; i < sizeof(rays) / sizeof(rays[0]); ++i)
-            append(behind[i], rays[i]);
-    };
-    append_each(to.org, from.org);
-    append_each(to.dir, from.dir);
-    if constexpr (abi::weight_channels(F) > 0)
-        append_each(to.weight, from.weight);
-    append(to.pixel, from.pixel);
-    if constexpr (F.glass)
-        append_each(to.inside, from.inside);
-    if constexpr (F.probe)
-        append(to.path, from.path);
-    if (to.starts != nullptr) {
-        append_each(to.starts->point, from.starts->point);
-        append(to.starts->surface, from.starts->surface);
-        append(to.starts->second, from.starts->second);
-        append(to.starts->met_again, from.starts->met_again);
-    }
+    for_each_array<F>(to.starts != nullptr, [&](const auto& array) {
+        copy_packets<Real>(array(to) + to.count, array(from), from.count);
+    });
     to.count += from.count;
 }
 

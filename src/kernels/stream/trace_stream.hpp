@@ -132,6 +132,7 @@ inline void take_camera_hits(const abi::SceneView<Real>& scene, TileMemory<F, Re
                      pixels & ~hits);
 }
 
+/// Of the pixels from number `first` on.
 template <class Real>
 inline PathPacket<Real> camera_path(int first)
 {
@@ -140,10 +141,11 @@ inline PathPacket<Real> camera_path(int first)
         {one, one, one}, lane_numbers<Real>(first), vint<Real>(lane_int<Real>{abi::camera_path})};
 }
 
-/// The camera rays of a tile.
+/// The camera rays of a tile, whose pixels are numbered from `first_pixel` on.
 template <abi::Features F, class Real>
-inline void trace_camera(const abi::TileJob<Real>& job, const FromPoint<F, Real>& visible,
-                         TileMemory<F, Real>& memory, abi::RayCounts& counts)
+inline void trace_camera(const abi::TileJob<Real>& job, int first_pixel,
+                         const FromPoint<F, Real>& visible, TileMemory<F, Real>& memory,
+                         abi::RayCounts& counts)
 {
     const vreal<Real> no_end_yet(static_cast<Real>(__builtin_inf()));
     const TileCamera<Real> camera(job);
@@ -160,7 +162,8 @@ inline void trace_camera(const abi::TileJob<Real>& job, const FromPoint<F, Real>
         count_unsure(counts,
                      settle_packet<F>(*job.scene, rays, hit, no_start<Real>(), no_end_yet, pixels));
         take_camera_hits(*job.scene, memory,
-                         {rays, camera_path<Real>(first), inside, no_start<Real>()}, hit, pixels);
+                         {rays, camera_path<Real>(first_pixel + first), inside, no_start<Real>()},
+                         hit, pixels);
     }
 }
 
@@ -186,9 +189,9 @@ inline int settle_camera_bundle(const abi::SceneView<Real>& scene, RayBundle<Rea
 
 /// The same where the scene has a hierarchy.
 template <abi::Features F, class Real>
-inline void trace_camera_bundle(const abi::TileJob<Real>& job, const FromPoint<F, Real>& visible,
-                                RayBundle<Real>& bundle, TileMemory<F, Real>& memory,
-                                abi::RayCounts& counts)
+inline void trace_camera_bundle(const abi::TileJob<Real>& job, int first_pixel,
+                                const FromPoint<F, Real>& visible, RayBundle<Real>& bundle,
+                                TileMemory<F, Real>& memory, abi::RayCounts& counts)
 {
     gather_camera<F>(job, bundle);
     closest_of_bundle<F>(*job.scene, visible, bundle);
@@ -197,10 +200,10 @@ inline void trace_camera_bundle(const abi::TileJob<Real>& job, const FromPoint<F
     for (int first = 0; first < bundle_rays; first += lanes<Real>) {
         const std::uint32_t pixels = active_lanes(bundle, first);
         if (pixels != 0)
-            take_camera_hits(
-                *job.scene, memory,
-                {load_rays(bundle, first), camera_path<Real>(first), inside, no_start<Real>()},
-                load_hits(bundle, first), pixels);
+            take_camera_hits(*job.scene, memory,
+                             {load_rays(bundle, first), camera_path<Real>(first_pixel + first),
+                              inside, no_start<Real>()},
+                             load_hits(bundle, first), pixels);
     }
 }
 

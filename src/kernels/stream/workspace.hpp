@@ -1,10 +1,12 @@
 #pragma once
 
 #include "kernels/shade/shade_context.hpp"
+#include "kernels/stream/sort_rays.hpp"
 #include "kernels/stream/tile_memory.hpp"
 #include "kernels/traverse/object_sets.hpp"
 
-// How a thread's scratch memory is divided. Sizes depend on the scene alone.
+// How a thread's scratch memory is divided. Sizes depend on the scene and on how many tiles are
+// rendered together.
 namespace packtrace::PACKTRACE_ISA {
 namespace {
 
@@ -72,7 +74,9 @@ inline void take_occluders(Arena& arena, LightObjects<F, Real>& objects,
 template <abi::Features F, class Real>
 struct Workspace {
     TileMemory<F, Real>* memory = nullptr;
-    RayStream<F, Real>* streams = nullptr;  ///< of generations 1 … max_depth
+    /// Of generations 1 … max_depth; of several tiles one, for a chunk of sorted rays.
+    RayStream<F, Real>* streams = nullptr;
+    SortedWork<F, Real>* sorted = nullptr;  ///< of several tiles
     RayStream<F, Real>* refracted = nullptr;
     RayBundle<Real>* bundle = nullptr;           ///< where the scene has a hierarchy
     SurfacePacket<Real>* surfaces = nullptr;     ///< at a chunk's hits, likewise
@@ -80,22 +84,25 @@ struct Workspace {
     FromPoint<F, Real> visible;                  ///< from the camera
     FromAnywhere<F, Real> nearby;                ///< from a chunk's rays
     LightObjects<F, Real>* occluders = nullptr;  ///< from each light
-    double* lacks = nullptr;                     ///< ShadeContext::lacks
+    double* lacks = nullptr;                     ///< ShadeContext::lacks, of all tiles
     std::size_t bytes = 0;
 
     /// With no `scratch`, only `bytes` is of use.
-    Workspace(void* scratch, const abi::SceneView<Real>& scene)
+    Workspace(void* scratch, const abi::SceneView<Real>& scene, int tiles)
     {
         const std::size_t lights = static_cast<std::size_t>(scene.lighting.lights.count);
+        const std::size_t tile_count = static_cast<std::size_t>(tiles);
         Arena arena(scratch);
         memory = arena.take<TileMemory<F, Real>>(1);
+        Real* const color = arena.take<Real>(tile_elements * tile_count);
+        if (memory != nullptr)
+            memory->color = color;
         if constexpr (F.bounces)
-            streams =
-                take_streams<F>(arena, scene, static_cast<std::size_t>(scene.rules.max_depth));
+            take_generations(arena, scene, tile_count);
         if constexpr (F.glass)
             refracted = take_streams<F>(arena, scene, 1);
         if (F.bounces && scene.rules.min_weight > 0)
-            lacks = arena.take<double>(abi::tile_pixels);
+            lacks = arena.take<double>(abi::tile_pixels * tile_count);
         const std::size_t shadowed = count_shadowed(scene);
         if (!scene.tree.empty())
             bundle = arena.take<RayBundle<Real>>(1);
@@ -114,6 +121,22 @@ struct Workspace {
     }
 
 private:
+    void take_generations(Arena& arena, const abi::SceneView<Real>& scene, std::size_t tiles)
+    {
+        if (tiles == 1) {
+            streams =
+                take_streams<F>(arena, scene, static_cast<std::size_t>(scene.rules.max_depth));
+            return;
+        }
+        streams = take_streams<F>(arena, scene, 1);
+        sorted = arena.take<SortedWork<F, Real>>(1);
+        for (int generation = 0; generation < 2; ++generation) {
+            auto* const of_chunks = take_streams<F>(arena, scene, tiles);
+            if (sorted != nullptr)
+                sorted->streams[generation] = of_chunks;
+        }
+    }
+
     void take_all_occluders(Arena& arena, const abi::SceneView<Real>& scene, bool has_room)
     {
         LightObjects<F, Real> measured;
@@ -124,9 +147,9 @@ private:
 };
 
 template <abi::Features F, class Real>
-inline std::size_t scratch_bytes(const abi::SceneView<Real>& scene)
+inline std::size_t scratch_bytes(const abi::SceneView<Real>& scene, int tiles)
 {
-    return Workspace<F, Real>(nullptr, scene).bytes;
+    return Workspace<F, Real>(nullptr, scene, tiles).bytes;
 }
 
 }  // namespace

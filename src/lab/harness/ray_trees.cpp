@@ -33,7 +33,7 @@ public:
           kernels_(kernels_for(
               precision<Real>(table),
               {.quadrics = true, .glass = true, .probe = true, .exact = lowered.features.exact})),
-          scratch_(kernels_.scratch_bytes(packed_.view()))
+          scratch_(kernels_.scratch_bytes(packed_.view(), 1))
     {
     }
 
@@ -57,7 +57,7 @@ public:
         job.row_stride = 3 * abi::tile_size;
         job.scratch = scratch_.data();
         job.probe = &probe;
-        (void)kernels_.render_tile(job);
+        (void)kernels_.render_tiles(&job, 1);
         return tree.root();
     }
 

@@ -48,17 +48,17 @@ struct TileRecord {
 };
 
 /// Tiles write to pixels of their own.
-void take_pixels(const TileRecord& record, int x, int y, Certainty& certainty)
+void take_pixels(const TileRecord& record, const Region& tile, Certainty& certainty)
 {
     for (int number = 0; number < abi::tile_pixels; ++number) {
         const auto [column, row] = z_order_place(number);
-        if (x + column >= certainty.width || y + row >= certainty.height)
+        const int x = tile.x + column;
+        const int y = tile.y + row;
+        if (!tile.contains(x, y))
             continue;
         const abi::PixelRays& rays = record.pixels[static_cast<std::size_t>(number)];
-        certainty
-            .pixels[static_cast<std::size_t>(y + row) * static_cast<std::size_t>(certainty.width) +
-                    static_cast<std::size_t>(x + column)] = {rays.traced, rays.unsure,
-                                                             rays.undecided};
+        certainty.pixels[static_cast<std::size_t>(y) * static_cast<std::size_t>(certainty.width) +
+                         static_cast<std::size_t>(x)] = {rays.traced, rays.unsure, rays.undecided};
     }
 }
 
@@ -72,14 +72,14 @@ Certainty observe_tiles(const Scene& scene, const RenderOptions& options)
     certainty.height = scene.height;
     Image<float> image(scene.width, scene.height);
     certainty.pixels.resize(image.rgb.size() / 3);
-    const TileGrid grid(scene.width, scene.height);
-    Progress done(grid.count, options.progress);
+    const TileGrid grid({0, 0, scene.width, scene.height});
+    Progress done(grid.count(), options.progress);
     tbb::enumerable_thread_specific<UnsureCounts> unsure(
         UnsureCounts(std::size_t{abi::cause_count}));
-    certainty.rays = for_each_tile(grid, done, [&](int x, int y) {
+    certainty.rays = for_each_piece(grid, done, [&](const Region& tile) {
         TileRecord record;
-        const abi::RayCounts counts = tiles.render_observed(image, x, y, record.observation);
-        take_pixels(record, x, y, certainty);
+        const abi::RayCounts counts = tiles.render_observed(image, tile, record.observation);
+        take_pixels(record, tile, certainty);
         add_causes(record.counts, unsure.local());
         return counts;
     });

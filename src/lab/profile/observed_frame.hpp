@@ -14,25 +14,25 @@ namespace packtrace {
 /// The same scene for kernels that observe their stages.
 [[nodiscard]] LoweredScene observable(LoweredScene lowered);
 
-/// Frames on one thread, tile by tile, any of whose tiles may be observed.
+/// Frames on one thread, piece by piece, any of which may be observed.
 template <class Real>
 class ObservedFrame {
 public:
     /// Kernels are those that `lowered` asks for; only those of an observable() scene observe.
     ObservedFrame(const Scene& scene, const LoweredScene& lowered, const abi::KernelTable& table,
                   const RenderOptions& options)
-        : width_(scene.width),
-          height_(scene.height),
-          options_(options),
+        : options_(options),
           tiles_(scene, lowered, table, options),
-          image_(scene.width, scene.height)
+          image_(scene.width, scene.height),
+          picture_{0, 0, scene.width, scene.height},
+          blocks_(picture_, tiles_.block_edge(picture_, 1))
     {
     }
 
-    /// A tile, or with adaptive sampling each of its two turns, is a piece.
+    /// Blocks of tiles, and with adaptive sampling the tiles that are refined then.
     [[nodiscard]] int pieces() const
     {
-        return TileGrid(width_, height_).count * (options_.adaptive ? 2 : 1);
+        return blocks_.count() + (options_.adaptive ? TileGrid(picture_).count() : 0);
     }
 
     /// `before(piece)` returns what to record into, or null; `after(piece, seconds)` is told what
@@ -42,28 +42,24 @@ public:
     {
         abi::RayCounts sum;
         int piece = 0;
-        const auto turn = [&](const auto& render_tile) {
-            const TileGrid grid(width_, height_);
-            for (int tile = 0; tile < grid.count; ++tile, ++piece) {
+        const auto turn = [&](const TileGrid& grid, const auto& render_piece) {
+            for (int i = 0; i < grid.count(); ++i, ++piece) {
                 tiles_.observe(before(piece));
                 const auto start = std::chrono::steady_clock::now();
-                sum += render_tile(tile % grid.columns * abi::tile_size,
-                                   tile / grid.columns * abi::tile_size);
+                sum += render_piece(grid[i]);
                 const std::chrono::duration<double> time = std::chrono::steady_clock::now() - start;
                 after(piece, time.count());
             }
         };
         if (options_.adaptive) {
-            turn([&](int x, int y) { return tiles_.render_once(image_, x, y); });
+            turn(blocks_, [&](const Region& block) { return tiles_.render_once(image_, block); });
             ContrastMap<Real> contrast(image_, *options_.adaptive);
-            for (int y = 0; y < height_; ++y)
+            for (int y = 0; y < image_.height; ++y)
                 contrast.mark_row(y);
-            turn([&](int x, int y) { return tiles_.refine(image_, contrast, x, y); });
+            turn(TileGrid(picture_),
+                 [&](const Region& tile) { return tiles_.refine(image_, contrast, tile); });
         } else {
-            turn([&](int x, int y) {
-                return options_.samples > 1 ? tiles_.render_mean(image_, x, y)
-                                            : tiles_.render_once(image_, x, y);
-            });
+            turn(blocks_, [&](const Region& block) { return tiles_.render(image_, block); });
         }
         return {sum.camera, sum.shadow, sum.reflected, sum.refracted, sum.unsure};
     }
@@ -74,11 +70,11 @@ public:
     }
 
 private:
-    int width_;
-    int height_;
     RenderOptions options_;
     TileRenderer<Real> tiles_;
     Image<Real> image_;
+    Region picture_;
+    TileGrid blocks_;
 };
 
 }  // namespace packtrace

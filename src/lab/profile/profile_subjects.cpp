@@ -34,7 +34,7 @@ public:
                   frame_traversal(lowered, Traversal::automatic, precision<Real>(table).lanes)),
           camera_(camera_view<Real>(scene, lowered)),
           kernels_(kernels_for(precision<Real>(table), lowered.features)),
-          scratch_(kernels_.scratch_bytes(packed_.view()))
+          scratch_(kernels_.scratch_bytes(packed_.view(), 1))
     {
     }
 

@@ -52,29 +52,27 @@ std::vector<TileSpan> trace_tiles(const Scene& scene, const ProfileOptions& opti
     const LoweredScene lowered = lower(scene, accuracy_in<Real>(sampling), sampling.self_hits);
     const TileRenderer<Real> tiles(scene, lowered, kernels_of(choose_isa(options.isa).name),
                                    sampling);
-    const TileGrid grid(scene.width, scene.height);
+    const Region picture{0, 0, scene.width, scene.height};
+    const TileGrid grid(picture, tiles.block_edge(picture, options.threads));
     Image<Real> image(scene.width, scene.height);
-    const auto render_tile = [&](int x, int y) {
-        return options.samples > 1 ? tiles.render_mean(image, x, y)
-                                   : tiles.render_once(image, x, y);
-    };
+    const auto render = [&](const Region& piece) { return tiles.render(image, piece); };
     std::vector<TileSpan> spans;
     tbb::task_arena arena(options.threads);
     arena.execute([&] {
         const std::function<void(double)> silent;
         // The first frame pays for memory.
-        Progress first(grid.count, silent);
-        (void)for_each_tile(grid, first, render_tile);
-        Progress done(grid.count, silent);
+        Progress first(grid.count(), silent);
+        (void)for_each_piece(grid, first, render);
+        Progress done(grid.count(), silent);
         ThreadNumbers threads;
         std::mutex mutex;
         const auto start = Clock::now();
-        (void)for_each_tile(grid, done, [&](int x, int y) {
+        (void)for_each_piece(grid, done, [&](const Region& piece) {
             const auto from = Clock::now();
-            const abi::RayCounts rays = render_tile(x, y);
+            const abi::RayCounts rays = render(piece);
             const auto to = Clock::now();
             const std::lock_guard lock(mutex);
-            spans.push_back({x, y, threads.mine(), seconds_between(start, from),
+            spans.push_back({piece.x, piece.y, threads.mine(), seconds_between(start, from),
                              seconds_between(from, to),
                              rays.camera + rays.shadow + rays.reflected + rays.refracted});
             return rays;
@@ -95,7 +93,7 @@ std::vector<double> pixel_costs(const Scene& scene, const ProfileOptions& option
                                    frame_traversal(lowered, Traversal::automatic, table.lanes));
     const auto camera = camera_view<Real>(scene, lowered, Vec2(0.0));
     const auto& kernels = kernels_for(table, lowered.features);
-    AlignedArray<std::byte> scratch(kernels.scratch_bytes(packed.view()));
+    AlignedArray<std::byte> scratch(kernels.scratch_bytes(packed.view(), 1));
     abi::TileSamples<Real> samples;
     samples.count = copies;
     Real rgb[3 * abi::tile_pixels];
@@ -117,7 +115,7 @@ std::vector<double> pixel_costs(const Scene& scene, const ProfileOptions& option
             // The quicker of two: the other may have been interrupted.
             for (int turn = 0; turn < 2; ++turn) {
                 const auto from = Clock::now();
-                (void)kernels.render_tile(job);
+                (void)kernels.render_tiles(&job, 1);
                 const double seconds = seconds_between(from, Clock::now()) / copies;
                 least = turn == 0 ? seconds : std::min(least, seconds);
             }

@@ -1,0 +1,156 @@
+#pragma once
+
+#include "kernels/geometry/cone.hpp"
+#include "kernels/stream/bundle_shadow.hpp"
+#include "kernels/stream/shade_stream.hpp"
+#include "kernels/stream/trace_stream.hpp"
+#include "kernels/stream/workspace.hpp"
+
+// A chunk of rays of one generation, from where they start to the light at their hits and the rays
+// that go on from there.
+namespace packtrace::PACKTRACE_ISA {
+namespace {
+
+/// What stays the same while a tile, or some together, is rendered.
+template <abi::Features F, class Real>
+struct TileRun {
+    const abi::SceneView<Real>& scene;
+    Workspace<F, Real>& work;
+    abi::RayCounts& counts;
+};
+
+/// Per light, what may stand between it and the hit points.
+template <abi::Features F, class Real>
+inline void find_occluders(const TileRun<F, Real>& run)
+{
+    // Where no light has shadows there is no room for their occluders either.
+    if (run.work.occluders == nullptr)
+        return;
+    const abi::SceneView<Real>& scene = run.scene;
+    const HitStream<F, Real>& hits = run.work.memory->hits;
+    const Box<Real> box = box_of(hits.point, hits.count);
+    for (int i = 0; i < scene.lighting.lights.count; ++i) {
+        const abi::LightRecord<Real>& light = scene.lighting.lights.data[i];
+        if (!light.casts_shadow)
+            continue;
+        run.counts.stages |= abi::stage_blockers;
+        LightObjects<F, Real>& occluders = run.work.occluders[i];
+        const abi::SceneView<Real>& casters = casters_of(scene);
+        if (light.kind == abi::LightKind::point)
+            find_objects<F>(occluders.from_point, segment_cone(light.vector, box), casters);
+        else if constexpr (F.exact)
+            filter_objects<F, false>(occluders.along, origins_in(box.low, box.high),
+                                     parallel_cone(light.vector, box), casters);
+        else
+            find_parallel_candidates(list_of<Sphere>(occluders.from_point),
+                                     parallel_cone(light.vector, box), casters.spheres);
+    }
+}
+
+/// For a scene with a hierarchy, the surfaces at the hits, which every light's rays start from.
+template <abi::Features F, class Real>
+inline void find_surfaces(const TileRun<F, Real>& run)
+{
+    const HitStream<F, Real>& hits = run.work.memory->hits;
+    for (int first = 0; first < hits.count; first += lanes<Real>)
+        run.work.surfaces[first / lanes<Real>] =
+            surface_of<F>(run.scene, hits, first, first_lanes<Real>(hits.count - first));
+}
+
+/// What the hits see of each light there.
+template <abi::Features F, class Real>
+inline void find_shadows(const TileRun<F, Real>& run, const ShadeContext<F, Real>& context)
+{
+    for (int light = 0; light < run.scene.lighting.lights.count; ++light)
+        if (run.scene.lighting.lights.data[light].casts_shadow)
+            find_shadows(context, run.work.memory->hits, light, *run.work.bundle,
+                         run.work.shadows[light]);
+}
+
+/// Counts a chunk's children and puts them into one stream, mirrored rays first.
+template <abi::Features F, class Real>
+inline void join_children(const TileRun<F, Real>& run, RayStream<F, Real>& next, int depth)
+{
+    run.counts.reflected += static_cast<unsigned>(next.count);
+    if (next.count > 0)
+        run.counts.stages |= abi::stage_mirrored;
+    if constexpr (F.glass) {
+        begin_span(abi::Span::children, depth, abi::Part::children);
+        if constexpr (F.probe)
+            next.mirrored = next.count;
+        const RayStream<F, Real>& refracted = *run.work.refracted;
+        run.counts.refracted += static_cast<unsigned>(refracted.count);
+        if (refracted.count > 0)
+            run.counts.stages |= abi::stage_refracted;
+        append_stream(next, refracted);
+    }
+}
+
+/// Shades the chunk's hits, of rays after `depth` bounces, into the pixels, and gathers in `next`
+/// the rays that go on from there. Leaves `next` alone, and returns null, where none may.
+template <abi::Features F, class Real>
+inline RayStream<F, Real>* shade_chunk(const TileRun<F, Real>& run, PixelWrite write, int depth,
+                                       RayStream<F, Real>* next)
+{
+    const ShadeContext<F, Real> context{
+        &run.scene, run.work.occluders, run.work.surfaces, run.work.shadows,
+        depth,      &run.counts,        run.work.lacks};
+    const HitStream<F, Real>& hits = run.work.memory->hits;
+    if (hits.count == 0)
+        return nullptr;
+    tell_pixels(hits.pixel);
+    run.counts.stages |= abi::stage_normals;
+    if constexpr (F.exact)
+        run.counts.stages |= abi::stage_refined;
+    if (run.work.surfaces != nullptr) {
+        begin_span(abi::Span::shade, depth, abi::Part::surface);
+        find_surfaces(run);
+    }
+    begin_span(abi::Span::shadows, depth, abi::Part::beams);
+    find_occluders(run);
+    if (run.work.shadows != nullptr)
+        find_shadows(run, context);
+    begin_span(abi::Span::shade, depth, abi::Part::surface);
+    if (!F.bounces || !context.spawns())
+        next = nullptr;
+    if (next != nullptr)
+        next->count = 0;
+    if constexpr (F.glass)
+        run.work.refracted->count = 0;
+    shade_stream(write, context, hits, run.work.memory->color,
+                 Children<F, Real>{next, run.work.refracted});
+    if (next != nullptr)
+        join_children(run, *next, depth);
+    return next;
+}
+
+/// How many rays of a chunk are refracted; they stand behind the mirrored ones.
+template <abi::Features F, class Real>
+inline int refracted_rays(const RayStream<F, Real>& rays, int begin, int end)
+{
+    return rays.mirrored < begin ? end - begin : rays.mirrored < end ? end - rays.mirrored : 0;
+}
+
+/// Traces the rays `begin` to `end` of a stream, a chunk, and shades their hits; as shade_chunk().
+template <abi::Features F, class Real>
+[[gnu::noinline]] RayStream<F, Real>* trace_chunk(const TileRun<F, Real>& run,
+                                                  const RayStream<F, Real>& rays, int begin,
+                                                  int end, int depth, RayStream<F, Real>* next)
+{
+    begin_span(abi::Span::trace, depth, abi::Part::ray_generation);
+    tell_pixels(rays.pixel + begin);
+    if constexpr (F.probe)
+        tell_chunk(refracted_rays(rays, begin, end), end - begin);
+    find_nearby<F, Real>(
+        run.work.nearby, {rays.org[0] + begin, rays.org[1] + begin, rays.org[2] + begin},
+        {rays.dir[0] + begin, rays.dir[1] + begin, rays.dir[2] + begin}, end - begin, run.scene);
+    if (run.scene.tree.empty())
+        trace_secondary(run.scene, rays, begin, end, run.work.nearby, *run.work.memory, run.counts);
+    else
+        trace_secondary_bundle(run.scene, rays, begin, end, run.work.nearby, *run.work.bundle,
+                               *run.work.memory, run.counts);
+    return shade_chunk(run, PixelWrite::add, depth, next);
+}
+
+}  // namespace
+}  // namespace packtrace::PACKTRACE_ISA

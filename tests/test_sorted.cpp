@@ -1,0 +1,204 @@
+// Mirrored rays that are sorted over many tiles bring what those of each tile alone bring, bit for
+// bit.
+#include <cstring>
+
+#include <packtrace/build.hpp>
+#include <packtrace/generate.hpp>
+
+#include "catch.hpp"
+#include "dispatch/kernels.hpp"
+#include "few_objects.hpp"
+#include "render/tile_loop.hpp"
+#include "render/tile_renderer.hpp"
+#include "render_scene.hpp"
+
+namespace packtrace::test {
+namespace {
+
+template <class Real>
+struct Picture {
+    Image<Real> image;
+    abi::RayCounts counts;
+};
+
+constexpr int block = abi::block_edge * abi::tile_size;
+
+/// In pieces of an edge: those of a tile are not sorted.
+template <class Real>
+Picture<Real> render_pieces(const TileRenderer<Real>& tiles, const Scene& scene, int edge)
+{
+    Picture<Real> picture{Image<Real>(scene.width, scene.height), {}};
+    const TileGrid grid({0, 0, scene.width, scene.height}, edge);
+    for (int piece = 0; piece < grid.count(); ++piece)
+        picture.counts += tiles.render(picture.image, grid[piece]);
+    return picture;
+}
+
+template <class Real>
+void check_same(const Picture<Real>& a, const Picture<Real>& b)
+{
+    CHECK(std::memcmp(a.image.rgb.data(), b.image.rgb.data(), a.image.rgb.size() * sizeof(Real)) ==
+          0);
+    CHECK(a.counts.camera == b.counts.camera);
+    CHECK(a.counts.shadow == b.counts.shadow);
+    CHECK(a.counts.reflected == b.counts.reflected);
+    CHECK(a.counts.refracted == b.counts.refracted);
+    CHECK(a.counts.cut == b.counts.cut);
+    CHECK(a.counts.lacks == b.counts.lacks);
+}
+
+/// Checks the blocks of a picture against its tiles; returns whether blocks are what frames are
+/// made of.
+template <class Real>
+bool check_blocks(const Scene& scene, RenderOptions options)
+{
+    const TileRenderer<Real> tiles(scene,
+                                   lower(scene, accuracy_in<Real>(options), options.self_hits),
+                                   kernels_of(options.isa), options);
+    if (tiles.block_edge({0, 0, scene.width, scene.height}, 1) == abi::tile_size)
+        return false;
+    const Picture<Real> alone = render_pieces(tiles, scene, abi::tile_size);
+    check_same(render_pieces(tiles, scene, block), alone);
+    check_same(render_pieces(tiles, scene, block / 2), alone);
+    options.force_general = true;
+    const TileRenderer<Real> general(scene,
+                                     lower(scene, accuracy_in<Real>(options), options.self_hits),
+                                     kernels_of(options.isa), options);
+    CHECK(general.block_edge({0, 0, scene.width, scene.height}, 1) == abi::tile_size);
+    const Picture<Real> by_all = render_pieces(general, scene, abi::tile_size);
+    CHECK(std::memcmp(by_all.image.rgb.data(), alone.image.rgb.data(),
+                      alone.image.rgb.size() * sizeof(Real)) == 0);
+    return true;
+}
+
+Scene flake()
+{
+    SphereflakeOptions options;
+    options.depth = 3;
+    options.reflective = 0.5;
+    options.ground = true;
+    Scene scene = generate_sphereflake(options);
+    set_size(scene, 275, 150);
+    return scene;
+}
+
+Scene mirrors()
+{
+    RandomSpheresOptions options;
+    options.count = 2000;
+    options.radius = 0.03;
+    options.reflective = 0.8;
+    Scene scene = generate_random_spheres(options);
+    scene.max_depth = 6;
+    set_size(scene, 130, 260);
+    return scene;
+}
+
+/// Every other sphere's mirror has another colour.
+Scene tinted()
+{
+    Scene scene = make_scene(Illumination::general);
+    for (int i = 0; i < 400; ++i) {
+        Material material = make_material(scene.illumination);
+        auto& general = std::get<GeneralMaterial>(material.model);
+        general.diffuse = Rgb(0.4);
+        general.reflect = i % 2 == 0 ? Rgb(0.9, 0.5, 0.2) : Rgb(0.2, 0.6, 0.9);
+        scene.objects.push_back(
+            make_object(sphere(Vec3(i % 20 - 10, i / 20 - 10, 14 + i % 7), 0.55), material));
+    }
+    scene.lights.push_back(point_light(Vec3(3, 9, -4), Rgb(0.7)));
+    scene.max_depth = 5;
+    set_size(scene, 200, 140);
+    return scene;
+}
+
+}  // namespace
+
+TEST_CASE("sorted mirrored rays give the bits of tiles alone", "[sorted]")
+{
+    for (const Scene& scene : {flake(), mirrors(), tinted()})
+        for (const std::string& isa : supported_isas()) {
+            CAPTURE(isa);
+            RenderOptions options;
+            options.isa = isa;
+            CHECK(check_blocks<float>(scene, options));
+            options.accuracy = Accuracy::fast;
+            CHECK(check_blocks<float>(scene, options));
+        }
+}
+
+TEST_CASE("sorted mirrored rays may be of doubles, by the notes' rule, cut, or many a pixel",
+          "[sorted]")
+{
+    Scene scene = flake();
+    RenderOptions options;
+    options.isa = choose_isa().name;
+    CHECK(check_blocks<double>(scene, options));
+    options.samples = 4;
+    CHECK(check_blocks<float>(scene, options));
+    options.samples = 1;
+    options.self_hits = SelfHits::note;
+    CHECK(check_blocks<float>(scene, options));
+    options.self_hits = SelfHits::exact;
+    scene.min_weight = 0.3;
+    CHECK(check_blocks<float>(scene, options));
+}
+
+TEST_CASE("rays of any few objects in a hierarchy can be sorted", "[sorted]")
+{
+    int sorted = 0;
+    for (unsigned seed = 1; seed <= 150; ++seed) {
+        Scene scene = FewObjects(seed).scene;
+        set_size(scene, 150, 40);
+        CAPTURE(seed);
+        RenderOptions options;
+        options.traversal = Traversal::tree;
+        options.isa = choose_isa().name;
+        // In the default mode few objects go through registers.
+        options.accuracy = Accuracy::fast;
+        sorted += check_blocks<float>(scene, options);
+        options.accuracy = Accuracy::exact;
+        scene.min_weight = 1e-6;
+        sorted += check_blocks<float>(scene, options);
+    }
+    CHECK(sorted > 100);
+}
+
+TEST_CASE("frames are the same for any number of threads, region and rows", "[sorted]")
+{
+    const Scene scene = flake();
+    RenderOptions options;
+    options.threads = 1;
+    const Image<float> whole = render<float>(scene, options);
+    options.threads = 3;
+    const Image<float> by_three = render<float>(scene, options);
+    CHECK(std::memcmp(whole.rgb.data(), by_three.rgb.data(), whole.rgb.size() * sizeof(float)) ==
+          0);
+    options.region = Region{101, 33, 150, 90};
+    const Image<float> part = render<float>(scene, options);
+    bool same = true;
+    for (int row = 0; row < part.height; ++row)
+        same &= std::memcmp(part.pixel(0, row), whole.pixel(101, 33 + row),
+                            3 * sizeof(float) * static_cast<std::size_t>(part.width)) == 0;
+    CHECK(same);
+}
+
+TEST_CASE("what is not mirrored down a hierarchy is not sorted", "[sorted]")
+{
+    const auto edge = [](const Scene& scene) {
+        RenderOptions options;
+        options.isa = choose_isa().name;
+        return TileRenderer<float>(scene, lower(scene), kernels_of(options.isa), options)
+            .block_edge({0, 0, 1024, 1024}, 2);
+    };
+    CHECK(edge(flake()) == block);
+    SphereflakeOptions matt;
+    matt.depth = 3;
+    CHECK(edge(generate_sphereflake(matt)) == abi::tile_size);
+    Scene glass = tinted();
+    std::get<GeneralMaterial>(glass.objects[7].material.model).transmit = Rgb(0.5);
+    CHECK(edge(glass) == abi::tile_size);
+    CHECK(edge(FewObjects(1).scene) == abi::tile_size);
+}
+
+}  // namespace packtrace::test
