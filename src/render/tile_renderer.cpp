@@ -1,7 +1,6 @@
 #include "render/tile_renderer.hpp"
 
 #include <algorithm>
-#include <array>
 #include <stdexcept>
 
 #include "dispatch/kernels.hpp"
@@ -115,14 +114,21 @@ abi::RayCounts TileRenderer<Real>::render_piece(const abi::CameraView<Real>& cam
                                                 const Region& piece, const Pixels& pixels,
                                                 abi::Observation* observation) const
 {
+    abi::TileJob<Real> job = job_of(camera, piece, observation);
+    job.rgb = pixels.first;
+    job.row_stride = pixels.row_stride;
+    if (piece.width <= abi::tile_size && piece.height <= abi::tile_size)
+        return render_tiles_(&job, 1);
     const TileGrid tiles(piece);
-    std::array<abi::TileJob<Real>, abi::block_tiles> jobs;
+    std::vector<abi::TileJob<Real>> jobs(static_cast<std::size_t>(tiles.count()), job);
     for (int i = 0; i < tiles.count(); ++i) {
         const Region tile = tiles[i];
-        abi::TileJob<Real>& job = jobs[static_cast<std::size_t>(i)];
-        job = job_of(camera, tile, observation);
-        job.rgb = pixels.first + (tile.y - piece.y) * pixels.row_stride + 3 * (tile.x - piece.x);
-        job.row_stride = pixels.row_stride;
+        abi::TileJob<Real>& part = jobs[static_cast<std::size_t>(i)];
+        part.x = tile.x;
+        part.y = tile.y;
+        part.width = tile.width;
+        part.height = tile.height;
+        part.rgb += (tile.y - piece.y) * pixels.row_stride + 3 * (tile.x - piece.x);
     }
     return render_tiles_(jobs.data(), tiles.count());
 }
