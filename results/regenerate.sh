@@ -35,8 +35,7 @@ for scene in "${scenes[@]}"; do
 done
 
 echo "+ packtrace_features"
-"$features" bench/features/scenes/*.scene "${scenes[@]}" scenes/nested_glass.scene \
-    --json results/features.json
+"$features" bench/features/scenes/*.scene scenes/*.scene --json results/features.json
 
 echo "+ packtrace bench"
 "$program" bench "${scenes[@]}" -o results/baseline.json
