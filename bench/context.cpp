@@ -39,4 +39,12 @@ std::pair<std::string, std::string> load_after()
     return {"load_after", load_text(load_now())};
 }
 
+std::string command_line(const std::string& program, int argc, const char* const* argv)
+{
+    std::string line = program;
+    for (int i = 1; i < argc; ++i)
+        line += std::string(" ") + argv[i];
+    return line;
+}
+
 }  // namespace packtrace::bench

@@ -164,21 +164,13 @@ nlohmann::ordered_json race_scene(const std::string& name, const Arguments& argu
     return json;
 }
 
-std::string command_line(int argc, char** argv)
-{
-    std::string line = "packtrace_peers";
-    for (int i = 1; i < argc; ++i)
-        line += std::string(" ") + argv[i];
-    return line;
-}
-
 nlohmann::ordered_json header(int argc, char** argv)
 {
     nlohmann::ordered_json report;
     for (const auto& [name, value] : bench::context())
         report["context"][name] = value;
     report["context"]["embree"] = RTC_VERSION_STRING;
-    report["context"]["command"] = command_line(argc, argv);
+    report["context"]["command"] = bench::command_line("packtrace_peers", argc, argv);
     return report;
 }
 

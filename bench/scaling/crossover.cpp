@@ -326,14 +326,6 @@ void add_options(CLI::App& app, Arguments& arguments)
         ->check(CLI::Range(1, 1000));
 }
 
-std::string command_of(int argc, char** argv)
-{
-    std::string command = "packtrace_crossover";
-    for (int i = 1; i < argc; ++i)
-        command += std::string(" ") + argv[i];
-    return command;
-}
-
 }  // namespace
 }  // namespace packtrace
 
@@ -349,7 +341,8 @@ int main(int argc, char** argv)
                 if (isa.supported)
                     arguments.isas.push_back(isa.name);
         std::sort(arguments.objects.begin(), arguments.objects.end());
-        packtrace::print_report(arguments, packtrace::command_of(argc, argv));
+        packtrace::print_report(arguments,
+                                packtrace::bench::command_line("packtrace_crossover", argc, argv));
     } catch (const CLI::ParseError& end) {
         return app.exit(end) == 0 ? 0 : 2;
     } catch (const std::exception& error) {

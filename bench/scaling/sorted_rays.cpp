@@ -2,7 +2,6 @@
 // mirrored rays are sorted, against tile by tile, as JSON.
 #include <exception>
 #include <iostream>
-#include <memory>
 #include <string>
 #include <vector>
 
@@ -12,7 +11,7 @@
 #include <packtrace/isa.hpp>
 #include <packtrace/renderer.hpp>
 
-#include "../context.hpp"
+#include "context.hpp"
 #include "dispatch/kernels.hpp"
 #include "lab/harness/statistics.hpp"
 #include "lab/harness/stopwatch.hpp"
@@ -125,11 +124,9 @@ int main(int argc, char** argv)
     app.add_option("--repetitions", arguments.repetitions, "Turns (default 9)")
         ->check(CLI::Range(1, 1000));
     CLI11_PARSE(app, argc, argv);
-    std::string command = "packtrace_sorted";
-    for (int i = 1; i < argc; ++i)
-        command += std::string(" ") + argv[i];
     try {
-        packtrace::print_report(arguments, command);
+        packtrace::print_report(arguments,
+                                packtrace::bench::command_line("packtrace_sorted", argc, argv));
     } catch (const std::exception& error) {
         std::cerr << "packtrace_sorted: " << error.what() << '\n';
         return 1;

@@ -137,9 +137,7 @@ template <class Real>
 abi::RayCounts TileRenderer<Real>::render_once(const Canvas<Real>& canvas,
                                                const Region& piece) const
 {
-    return render_piece(once_, piece,
-                        {canvas.pixel(piece.x, piece.y), std::ptrdiff_t{3} * canvas.image.width},
-                        observation_);
+    return render_once(canvas, piece, observation_);
 }
 
 template <class Real>
@@ -161,6 +159,13 @@ abi::RayCounts TileRenderer<Real>::render(const Canvas<Real>& canvas, const Regi
 {
     if (pattern_.size() > 1)
         return render_mean(canvas, piece, observation);
+    return render_once(canvas, piece, observation);
+}
+
+template <class Real>
+abi::RayCounts TileRenderer<Real>::render_once(const Canvas<Real>& canvas, const Region& piece,
+                                               abi::Observation* observation) const
+{
     return render_piece(once_, piece,
                         {canvas.pixel(piece.x, piece.y), std::ptrdiff_t{3} * canvas.image.width},
                         observation);

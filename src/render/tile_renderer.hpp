@@ -92,6 +92,8 @@ private:
                                 const Pixels& pixels, abi::Observation* observation) const;
     abi::RayCounts render(const Canvas<Real>& canvas, const Region& piece,
                           abi::Observation* observation) const;
+    abi::RayCounts render_once(const Canvas<Real>& canvas, const Region& piece,
+                               abi::Observation* observation) const;
     abi::RayCounts render_mean(const Canvas<Real>& canvas, const Region& piece,
                                abi::Observation* observation) const;
 
