@@ -100,14 +100,16 @@ inline auto with_shadow_ray(const abi::SceneView<Real>& scene, const abi::LightR
                             const LightPacket<Real>& packet, const SurfacePacket<Real>& surface,
                             const Trace& trace)
 {
-    if (light.kind == abi::LightKind::directional)
-        return trace(vreal<Real>(static_cast<Real>(__builtin_inf())),
-                     make_rays<Real>(lit_point(scene, surface, packet.to_light, false),
-                                     packet.to_light, way_begin(scene)));
-    const Vec3v<Real> away =
-        lit_point(scene, surface, packet.to_light, true) - broadcast(light.vector);
-    return trace(segment_end(scene, packet),
-                 make_rays<Real>(broadcast(light.vector), away, Real(0)));
+    const bool along = light.kind == abi::LightKind::directional;
+    vreal<Real> t_end(static_cast<Real>(__builtin_inf()));
+    Vec3v<Real> org = lit_point(scene, surface, packet.to_light, !along);
+    Vec3v<Real> dir = packet.to_light;
+    if (!along) {
+        t_end = segment_end(scene, packet);
+        dir = org - broadcast(light.vector);
+        org = broadcast(light.vector);
+    }
+    return trace(t_end, make_rays<Real>(org, dir, along ? way_begin(scene) : Real(0)));
 }
 
 /// Whether the reach of shadow rays is closed (occluded.hpp).

@@ -47,7 +47,7 @@ inline const abi::LightBuffer* light_buffer(const abi::SceneView<Real>& casters,
     return buffers != nullptr && buffers[light].cells != nullptr ? buffers + light : nullptr;
 }
 
-template <abi::Features F, class Real, class Occluder>
+template <abi::Features F, class Real>
 inline void visit_shadow_occluders(const ShadeContext<F, Real>& context, int light,
                                    RayBundle<Real>& bundle, const Occluder& occluder)
 {
@@ -62,7 +62,7 @@ inline void visit_shadow_occluders(const ShadeContext<F, Real>& context, int lig
 
 /// Looks again, in double, at the active rays of a bundle that something may be in the way of.
 /// `start_again(first, lanes)` takes back what is known of those of a packet.
-template <abi::Features F, class Real, class Occluder, class StartAgain>
+template <abi::Features F, class Real, class StartAgain>
 inline void settle_shadow_bundle(const ShadeContext<F, Real>& context, int light,
                                  RayBundle<Real>& bundle, const Occluder& occluder,
                                  const StartAgain& start_again)
@@ -129,8 +129,8 @@ inline void find_shares(const ShadeContext<F, Real>& context, const HitStream<F,
     const auto pass_on = [&](std::int32_t surface, int first, std::uint32_t blocked) {
         return shadows.dim(scene, surface, first, blocked);
     };
-    visit_shadow_occluders<F>(context, light, bundle, pass_on);
-    settle_shadow_bundle<F>(context, light, bundle, pass_on,
+    visit_shadow_occluders<F>(context, light, bundle, Occluder(pass_on));
+    settle_shadow_bundle<F>(context, light, bundle, Occluder(pass_on),
                             [&](int first, std::uint32_t lanes_of) {
                                 shadows.brighten(first, lanes_of);
                                 dim_by_own(first, by_own[first / lanes<Real>] & lanes_of);
@@ -148,8 +148,8 @@ inline void find_shadows(const ShadeContext<F, Real>& context, const HitStream<F
         if (context.scene->lighting.transparent_shadows)
             return find_shares(context, hits, light, bundle, shadows);
     gather_shadow_rays(context, hits, light, bundle, [](int, std::uint32_t own) { return own; });
-    visit_shadow_occluders<F>(context, light, bundle, EndsRays{});
-    settle_shadow_bundle<F>(context, light, bundle, EndsRays{}, [](int, std::uint32_t) {});
+    visit_shadow_occluders<F>(context, light, bundle, Occluder());
+    settle_shadow_bundle<F>(context, light, bundle, Occluder(), [](int, std::uint32_t) {});
     copy_active(bundle, shadows.lit);
 }
 

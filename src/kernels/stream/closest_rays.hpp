@@ -26,27 +26,16 @@ inline vint<Real> objects_of(const abi::SceneView<Real>& scene, const vint<Real>
     return load(number);
 }
 
-/// Hands out what a packet of rays, of which `live` are left, hit: to `at` and after.
+/// Hands out t and places of what a packet of rays, of which `live` are left, hit. In a function of
+/// its own, as few callers ask for places.
 template <abi::Features F, class Real>
-inline void store_packet_hits(const abi::SceneView<Real>& scene, const RayPacket<Real>& rays,
-                              const HitPacket<Real>& hit, const StartPacket<Real>& start,
-                              const vreal<Real>& t_max, const abi::HitsView<Real>& hits, int at,
-                              int live)
+[[gnu::noinline]] void store_places(const abi::SceneView<Real>& scene, const RayPacket<Real>& rays,
+                                    const HitPacket<Real>& hit, const StartPacket<Real>& start,
+                                    const vreal<Real>& t_max, const abi::HitsView<Real>& hits,
+                                    int at, int live)
 {
     const auto missed = int_equal(hit.surface, no_surface<Real>());
     const std::uint32_t found = ~bits(missed) & first_lanes<Real>(live);
-    store_numbers<Real>(hits.object + at, objects_of(scene, hit.surface, found), live);
-    if (hits.surface != nullptr)
-        store_numbers<Real>(hits.surface + at, hit.surface, live);
-    if (hits.normal[0] == nullptr) {
-        if (hits.t == nullptr)
-            return;
-        vreal<Real> t = hit.t;
-        if (F.exact && found != 0)
-            t = refined<F, Refine::t>(scene.shapes, rays, hit, start, found).t;
-        store_some(hits.t + at, select(missed, t_max, t), live);
-        return;
-    }
     const vreal<Real> zero(Real(0));
     const Vec3v<Real> nothing{zero, zero, zero};
     RefinedHits<Real> places{t_max, nothing, nothing};
@@ -64,6 +53,28 @@ inline void store_packet_hits(const abi::SceneView<Real>& scene, const RayPacket
     store_some3(hits.outer_start, at, places.point + offset, live);
     store_some3(hits.inner_start, at, places.point - offset, live);
     store_some3(hits.point, at, places.point, live);
+}
+
+/// Hands out what a packet of rays, of which `live` are left, hit: to `at` and after.
+template <abi::Features F, class Real>
+inline void store_packet_hits(const abi::SceneView<Real>& scene, const RayPacket<Real>& rays,
+                              const HitPacket<Real>& hit, const StartPacket<Real>& start,
+                              const vreal<Real>& t_max, const abi::HitsView<Real>& hits, int at,
+                              int live)
+{
+    const auto missed = int_equal(hit.surface, no_surface<Real>());
+    const std::uint32_t found = ~bits(missed) & first_lanes<Real>(live);
+    store_numbers<Real>(hits.object + at, objects_of(scene, hit.surface, found), live);
+    if (hits.surface != nullptr)
+        store_numbers<Real>(hits.surface + at, hit.surface, live);
+    if (hits.normal[0] != nullptr)
+        return store_places<F>(scene, rays, hit, start, t_max, hits, at, live);
+    if (hits.t == nullptr)
+        return;
+    vreal<Real> t = hit.t;
+    if (F.exact && found != 0)
+        t = refined<F, Refine::t>(scene.shapes, rays, hit, start, found).t;
+    store_some(hits.t + at, select(missed, t_max, t), live);
 }
 
 /// The same of hits on one surface.

@@ -51,9 +51,10 @@ inline void gather_all(const abi::RaysView<Real>& view, int begin, RayBundle<Sea
 
 /// Hands the crossings of one surface to the sink.
 template <class Search, class Real>
-inline void report_hits(const abi::SceneView<Real>& scene, const RayBundle<Search>& bundle,
-                        int begin, int first, const abi::HitSink<Real>& sink, std::uint32_t valid,
-                        const vreal<Search>& t, std::int32_t surface)
+[[gnu::noinline]] void report_hits(const abi::SceneView<Real>& scene,
+                                   const RayBundle<Search>& bundle, int begin, int first,
+                                   const abi::HitSink<Real>& sink, std::uint32_t valid,
+                                   const vreal<Search>& t, std::int32_t surface)
 {
     const RayPacket<Search> rays = load_rays(bundle, first);
     std::uint32_t active =

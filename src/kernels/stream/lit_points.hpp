@@ -127,7 +127,7 @@ template <abi::Features F, class Objects, class Real>
                                   RayBundle<Real>& bundle, bool closed,
                                   const abi::LightBuffer* buffer)
 {
-    visit_occluders_of_bundle<F>(casters, objects, bundle, closed, EndsRays{}, buffer);
+    visit_occluders_of_bundle<F>(casters, objects, bundle, closed, Occluder(), buffer);
     if constexpr (F.exact)
         settle_occluded<F>(casters, bundle, closed);
 }

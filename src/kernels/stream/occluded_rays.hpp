@@ -76,7 +76,7 @@ template <abi::Features F, class Real>
     std::uint16_t wanted[bundle_cells];
     for (int cell = 0; cell < bundle_cells; ++cell)
         wanted[cell] = bundle.active[cell];
-    visit_occluders_of_bundle<F>(scene, work.nearby, bundle, false, EndsRays{});
+    visit_occluders_of_bundle<F>(scene, work.nearby, bundle, false, Occluder());
     if constexpr (F.exact)
         settle_occluded<F>(scene, bundle, false);
     for (int first = 0; first < count; first += lanes<Real>) {

@@ -21,9 +21,9 @@ struct TracedRays {
 
 /// Where the rays hit, as far as the scene's shading asks.
 template <abi::Features F, class Real>
-inline void append_places(const abi::SceneView<Real>& scene, HitStream<F, Real>& hits,
-                          const TracedRays<Real>& from, const HitPacket<Real>& hit,
-                          std::uint32_t active)
+[[gnu::noinline]] void append_places(const abi::SceneView<Real>& scene, HitStream<F, Real>& hits,
+                                     const TracedRays<Real>& from, const HitPacket<Real>& hit,
+                                     std::uint32_t active)
 {
     if (!F.probe && scene.lighting.flat && scene.materials.checkers == nullptr)
         return;

@@ -98,7 +98,7 @@ private:
         return true;
     }
 
-    void run(std::uint32_t child, std::uint32_t cells) const
+    [[gnu::noinline]] void run(std::uint32_t child, std::uint32_t cells) const
     {
         const abi::Primitive kind = primitive_of_run(tree_, abi::first_of_run(child));
         const PartScope part(part_of(kind));
@@ -180,10 +180,9 @@ template <abi::Features F, class Real>
         closest_of_others<F>(tree, bundle, others);
 }
 
-/// The same among all objects of a scene, lists first: what stands in them is large.
+/// The closest hits of a bundle among the objects of lists.
 template <abi::Features F, class Objects, class Real>
-inline void closest_of_bundle(const abi::GeometryView<Real>& scene, const Objects& lists,
-                              RayBundle<Real>& bundle)
+[[gnu::noinline]] void closest_in_lists(const Objects& lists, RayBundle<Real>& bundle)
 {
     for (int first = 0; first < bundle_rays; first += lanes<Real>) {
         const std::uint32_t active = active_lanes(bundle, first);
@@ -194,6 +193,14 @@ inline void closest_of_bundle(const abi::GeometryView<Real>& scene, const Object
         closest_hit<F>(hit, lists, load_rays(bundle, first), common_own_of(bundle, first, active));
         store_hits<F>(bundle, first, hit);
     }
+}
+
+/// The same among all objects of a scene, lists first: what stands in them is large.
+template <abi::Features F, class Objects, class Real>
+inline void closest_of_bundle(const abi::GeometryView<Real>& scene, const Objects& lists,
+                              RayBundle<Real>& bundle)
+{
+    closest_in_lists<abi::tree_features(F)>(lists, bundle);
     if (!scene.tree.empty())
         closest_in_tree<abi::tree_features(F)>(scene.tree, bundle);
 }

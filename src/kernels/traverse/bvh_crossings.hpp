@@ -101,8 +101,8 @@ private:
                     });
     }
 
-    void run(std::uint32_t child, int first, const RayPacket<Real>& rays,
-             std::uint32_t wanted) const
+    [[gnu::noinline]] void run(std::uint32_t child, int first, const RayPacket<Real>& rays,
+                               std::uint32_t wanted) const
     {
         const auto report = [&](const auto& record, const auto&) {
             visit_crossings(record, rays, [&](vmask<Real> valid, const vreal<Real>& t, int piece) {

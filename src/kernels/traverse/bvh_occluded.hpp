@@ -7,16 +7,15 @@
 
 // What stands in the way of a bundle of rays among the objects of the hierarchy.
 //
-// An `Occluder` is called as occluder(surface, first, lanes) for an object and the lanes it blocks
-// of the packet at `first`, and returns those lanes that nothing further matters to; they are taken
-// out of the bundle's active rays. The rays end at the bundle's `t`, and is `closed` or not
-// (RayEnd). A ray's own surface does not block it. With Features::exact only what blocks for
-// sure is called for, and rays that something else may block are marked as unsure in the bundle.
+// Rays that nothing further matters to (Occluder) are taken out of the bundle's active ones. The
+// rays end at the bundle's `t`, and their reach is `closed` or not (RayEnd). A ray's own surface
+// does not block it. With Features::exact only what blocks for sure counts, and rays that something
+// else may block are marked as unsure in the bundle.
 namespace packtrace::PACKTRACE_ISA {
 namespace {
 
 /// The cells of a bundle.
-template <abi::Features F, class Real, class Occluder>
+template <abi::Features F, class Real>
 class OccludersInTree {
 public:
     OccludersInTree(const abi::BvhView<Real>& tree, RayBundle<Real>& bundle, CellBounds& bounds,
@@ -111,7 +110,7 @@ private:
         return result;
     }
 
-    void run(std::uint32_t child, std::uint32_t cells) const
+    [[gnu::noinline]] void run(std::uint32_t child, std::uint32_t cells) const
     {
         const abi::Primitive kind = primitive_of_run(tree_, abi::first_of_run(child));
         const PartScope part(part_of(kind));
@@ -158,18 +157,18 @@ private:
 };
 
 /// Takes the coherent cells of a bundle as frustums.
-template <abi::Features F, class Real, class Occluder>
+template <abi::Features F, class Real>
 inline void occluders_of_cells(const abi::BvhView<Real>& tree, RayBundle<Real>& bundle,
                                CellBounds& bounds, bool closed, const Occluder& occluder)
 {
     SlabRays slabs;
     start_coherent(bounds, bundle);
     walk_cells(tree, bounds, bounds.coherent,
-               OccludersInTree<F, Real, Occluder>(tree, bundle, bounds, slabs, closed, occluder));
+               OccludersInTree<F, Real>(tree, bundle, bounds, slabs, closed, occluder));
 }
 
 /// Takes listed rays each for itself.
-template <abi::Features F, class Real, class Occluder>
+template <abi::Features F, class Real>
 struct OccludersOfListed {
     const abi::BvhView<Real>& tree;
     const SlabRays& slabs;
@@ -202,13 +201,13 @@ private:
 };
 
 /// The active rays of cells that share no way.
-template <abi::Features F, class Real, class Occluder>
+template <abi::Features F, class Real>
 inline void occluders_of_others(const abi::BvhView<Real>& tree, RayBundle<Real>& bundle,
                                 std::uint32_t cells, bool closed, const Occluder& occluder)
 {
     SlabRays slabs;
     walk_in_lists(tree, slabs, bundle, cells,
-                  OccludersOfListed<F, Real, Occluder>{tree, slabs, bundle, closed, occluder});
+                  OccludersOfListed<F, Real>{tree, slabs, bundle, closed, occluder});
 }
 
 /// Lists are let go of rays that are blocked, frustums are not: cells go in lists earlier than
@@ -220,7 +219,7 @@ inline constexpr float buffered_spread = 0.2f;
 
 /// Meets the active rays of a bundle with what blocks them in the hierarchy. Those that share no
 /// way go by the `buffer` of the light that all rays start at or run towards, if there is one.
-template <abi::Features F, class Real, class Occluder>
+template <abi::Features F, class Real>
 [[gnu::noinline]] void visit_occluders_in_tree(const abi::BvhView<Real>& tree,
                                                const abi::LightBuffer* buffer,
                                                RayBundle<Real>& bundle, bool closed,
@@ -244,9 +243,9 @@ template <abi::Features F, class Real, class Occluder>
 }
 
 /// The same among the objects of lists; whether any ray is left.
-template <abi::Features F, class Objects, class Real, class Occluder>
-inline bool visit_listed_occluders(const Objects& lists, RayBundle<Real>& bundle, bool closed,
-                                   const Occluder& occluder)
+template <abi::Features F, class Objects, class Real>
+[[gnu::noinline]] bool visit_listed_occluders(const Objects& lists, RayBundle<Real>& bundle,
+                                              bool closed, const Occluder& occluder)
 {
     std::uint32_t left = 0;
     for (int first = 0; first < bundle_rays; first += lanes<Real>) {
@@ -276,13 +275,14 @@ inline bool visit_listed_occluders(const Objects& lists, RayBundle<Real>& bundle
 }
 
 /// The same among all objects of a scene, lists first.
-template <abi::Features F, class Objects, class Real, class Occluder>
+template <abi::Features F, class Objects, class Real>
 inline void visit_occluders_of_bundle(const abi::GeometryView<Real>& scene, const Objects& lists,
                                       RayBundle<Real>& bundle, bool closed,
                                       const Occluder& occluder,
                                       const abi::LightBuffer* buffer = nullptr)
 {
-    if (!visit_listed_occluders<F>(lists, bundle, closed, occluder) || scene.tree.empty())
+    if (!visit_listed_occluders<abi::tree_features(F)>(lists, bundle, closed, occluder) ||
+        scene.tree.empty())
         return;
     if constexpr (F.exact)
         bound_origins(bundle, scene.tree);

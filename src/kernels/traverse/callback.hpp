@@ -11,6 +11,8 @@ class Callback;
 template <class Result, class... Arguments>
 class Callback<Result(Arguments...)> {
 public:
+    /// None, which can't be called.
+    Callback() = default;
     template <class Callable>
     explicit Callback(const Callable& callable)
         : callable_(&callable), call_([](const void* called, Arguments... arguments) -> Result {
@@ -18,14 +20,18 @@ public:
           })
     {
     }
+    explicit operator bool() const
+    {
+        return call_ != nullptr;
+    }
     Result operator()(Arguments... arguments) const
     {
         return call_(callable_, arguments...);
     }
 
 private:
-    const void* callable_;
-    Result (*call_)(const void* called, Arguments... arguments);
+    const void* callable_ = nullptr;
+    Result (*call_)(const void* called, Arguments... arguments) = nullptr;
 };
 
 }  // namespace

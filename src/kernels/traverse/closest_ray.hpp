@@ -50,8 +50,8 @@ inline void keep_of_run(HitPacket<Real>& hit, const abi::BvhView<Real>& tree, in
 }
 
 template <abi::Features F, class Real>
-inline void closest_of_run(const abi::BvhView<Real>& tree, RayBundle<Real>& bundle, int ray,
-                           int begin, int count)
+[[gnu::noinline]] void closest_of_run(const abi::BvhView<Real>& tree, RayBundle<Real>& bundle,
+                                      int ray, int begin, int count)
 {
     const abi::Primitive kind = primitive_of_run(tree, begin);
     const PartScope part(part_of(kind));

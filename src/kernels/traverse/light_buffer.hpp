@@ -76,7 +76,6 @@ inline Occlusion spheres_occlude(const LoneRay& ray, const RayBundle<float>& bun
 }
 
 /// The ray against the spheres of its cell.
-template <class Occluder>
 inline void occluders_in_cell(const abi::LightBuffer& buffer, const abi::LightCell& cell,
                               const abi::ShapesView& shapes, RayBundle<float>& bundle, int number,
                               const Occluder& occluder)
@@ -102,11 +101,11 @@ inline void occluders_in_cell(const abi::LightBuffer& buffer, const abi::LightCe
 
 /// Meets the active rays of `cells` of a bundle, which all start at the light or run towards it,
 /// with what blocks them among the spheres that the light sees.
-template <class Occluder>
-[[gnu::noinline]] void occluders_in_light_buffer(const abi::LightBuffer& buffer,
-                                                 const abi::ShapesView& shapes,
-                                                 RayBundle<float>& bundle, std::uint32_t cells,
-                                                 const Occluder& occluder)
+[[gnu::noinline]] inline void occluders_in_light_buffer(const abi::LightBuffer& buffer,
+                                                        const abi::ShapesView& shapes,
+                                                        RayBundle<float>& bundle,
+                                                        std::uint32_t cells,
+                                                        const Occluder& occluder)
 {
     for (int first = 0; first < bundle_rays; first += lanes<float>) {
         const std::uint32_t active = active_lanes(bundle, first);

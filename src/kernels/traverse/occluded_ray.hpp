@@ -1,5 +1,6 @@
 #pragma once
 
+#include "kernels/traverse/callback.hpp"
 #include "kernels/traverse/cell_rays.hpp"
 #include "kernels/traverse/near_spheres.hpp"
 #include "kernels/traverse/occluded.hpp"
@@ -7,12 +8,23 @@
 namespace packtrace::PACKTRACE_ISA {
 namespace {
 
-/// The occluder of opaque shadows and of occlusion: each ends the rays it blocks.
-struct EndsRays {
-    std::uint32_t operator()(std::int32_t, int, std::uint32_t blocked) const
+/// What objects do to the rays that they block: end them, as opaque shadows and occlusion have it,
+/// or what a callable of the caller's says. It is called with an object's surface and the lanes it
+/// blocks of the packet at `first`, and returns those that nothing further matters to.
+class Occluder {
+public:
+    Occluder() = default;
+    template <class Callable>
+    explicit Occluder(const Callable& callable) : call_(callable)
     {
-        return blocked;
     }
+    std::uint32_t operator()(std::int32_t surface, int first, std::uint32_t blocked) const
+    {
+        return call_ ? call_(surface, first, blocked) : blocked;
+    }
+
+private:
+    Callback<std::uint32_t(std::int32_t surface, int first, std::uint32_t lanes)> call_;
 };
 
 /// Takes lanes of a packet out of the active ones.
@@ -23,7 +35,7 @@ inline void finish_lanes(RayBundle<Real>& bundle, int first, std::uint32_t done)
 }
 
 /// A single ray of a bundle meets what blocks it; whether it goes on behind that.
-template <class Real, class Occluder>
+template <class Real>
 inline bool goes_behind(RayBundle<Real>& bundle, int ray, std::int32_t surface,
                         const Occluder& occluder)
 {
@@ -52,9 +64,10 @@ inline Occlusion object_occludes(const abi::BvhView<Real>& tree, int number,
     });
 }
 
-template <abi::Features F, class Real, class Occluder>
-inline bool goes_behind_run(const abi::BvhView<Real>& tree, RayBundle<Real>& bundle, int ray,
-                            bool closed, std::uint32_t child, const Occluder& occluder)
+template <abi::Features F, class Real>
+[[gnu::noinline]] bool goes_behind_run(const abi::BvhView<Real>& tree, RayBundle<Real>& bundle,
+                                       int ray, bool closed, std::uint32_t child,
+                                       const Occluder& occluder)
 {
     const abi::Primitive kind = primitive_of_run(tree, abi::first_of_run(child));
     const PartScope part(part_of(kind));
@@ -90,7 +103,7 @@ inline std::uint32_t blocking_spheres_of(RayBundle<Real>& bundle, int ray,
 }
 
 /// The ray, which is `alone`, against one leaf.
-template <abi::Features F, class Real, class Occluder>
+template <abi::Features F, class Real>
 inline bool goes_behind_leaf(const abi::BvhView<Real>& tree, RayBundle<Real>& bundle, int ray,
                              const BlockRay<Real>& alone, bool closed, std::uint32_t child,
                              const Occluder& occluder)
@@ -111,7 +124,7 @@ inline bool goes_behind_leaf(const abi::BvhView<Real>& tree, RayBundle<Real>& bu
 }
 
 /// The ray against all below `child`.
-template <abi::Features F, class Real, class Occluder>
+template <abi::Features F, class Real>
 inline void occluders_of_ray(const abi::BvhView<Real>& tree, const SlabRays& slabs,
                              RayBundle<Real>& bundle, int ray, std::uint32_t child, bool closed,
                              const Occluder& occluder)

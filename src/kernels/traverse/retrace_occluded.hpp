@@ -1,7 +1,6 @@
 #pragma once
 
 #include "kernels/traverse/bvh_occluded.hpp"
-#include "kernels/traverse/callback.hpp"
 #include "kernels/traverse/retrace.hpp"
 
 // Unsure occlusion, decided in double.
@@ -11,15 +10,12 @@ namespace {
 /// Whether it matters what is in the way of a ray, or only that something is.
 enum class Occluders { any, all };
 
-/// What an object does to the rays of a packet (bvh_occluded.hpp).
-using WideOccluder = Callback<std::uint32_t(std::int32_t surface, int first, std::uint32_t lanes)>;
-
 /// What is in the way of rays in double. One function serves all that ask: one for each made a
 /// quarter of all code. `F` is wide_features.
 template <abi::Features F>
 [[gnu::noinline]] void visit_wide_occluders(const abi::GeometryView<double>& wide,
                                             RayBundle<double>& rays, bool closed,
-                                            const WideOccluder& occluder)
+                                            const Occluder& occluder)
 {
     visit_occluders_of_bundle<F>(wide, wide, rays, closed, occluder);
 }
@@ -40,7 +36,7 @@ inline void count_undecided_shadows(const abi::GeometryView<double>& wide, const
                 found[first + __builtin_ctz(left)] += which == Occluders::all ? of_surface : 1;
             return which == Occluders::all ? 0 : lanes_of;
         };
-        visit_wide_occluders<wide_features<F>>(wide, rays, closed, WideOccluder(occluder));
+        visit_wide_occluders<wide_features<F>>(wide, rays, closed, Occluder(occluder));
     });
 }
 
@@ -63,7 +59,7 @@ inline void block_wide(const abi::GeometryView<double>& wide, WideBundle& bundle
         }
         return done;
     };
-    visit_wide_occluders<wide_features<F>>(wide, bundle.rays, closed, WideOccluder(occluder));
+    visit_wide_occluders<wide_features<F>>(wide, bundle.rays, closed, Occluder(occluder));
 }
 
 /// Adds the lanes of `unsure` of a packet of rays that end at t_end.
