@@ -98,6 +98,7 @@ private:
         return true;
     }
 
+    // Not inlined into each way to walk: runs are few, and their tests are long.
     [[gnu::noinline]] void run(std::uint32_t child, std::uint32_t cells) const
     {
         const abi::Primitive kind = primitive_of_run(tree_, abi::first_of_run(child));

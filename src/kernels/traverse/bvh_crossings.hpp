@@ -101,6 +101,7 @@ private:
                     });
     }
 
+    // Not inlined into each way to walk: runs are few, and their tests are long.
     [[gnu::noinline]] void run(std::uint32_t child, int first, const RayPacket<Real>& rays,
                                std::uint32_t wanted) const
     {
