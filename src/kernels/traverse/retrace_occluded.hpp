@@ -10,16 +10,6 @@ namespace {
 /// Whether it matters what is in the way of a ray, or only that something is.
 enum class Occluders { any, all };
 
-/// What is in the way of rays in double. One function serves all that ask: one for each made a
-/// quarter of all code. `F` is wide_features.
-template <abi::Features F>
-[[gnu::noinline]] void visit_wide_occluders(const abi::GeometryView<double>& wide,
-                                            RayBundle<double>& rays, bool closed,
-                                            const Occluder& occluder)
-{
-    visit_occluders_of_bundle<F>(wide, wide, rays, closed, occluder);
-}
-
 /// Counts the rays of which double does not tell what is in their way.
 template <abi::Features F>
 inline void count_undecided_shadows(const abi::GeometryView<double>& wide, const WideBundle& bundle,
@@ -36,7 +26,7 @@ inline void count_undecided_shadows(const abi::GeometryView<double>& wide, const
                 found[first + __builtin_ctz(left)] += which == Occluders::all ? of_surface : 1;
             return which == Occluders::all ? 0 : lanes_of;
         };
-        visit_wide_occluders<wide_features<F>>(wide, rays, closed, Occluder(occluder));
+        visit_occluders_of_bundle<wide_features<F>>(wide, wide, rays, closed, Occluder(occluder));
     });
 }
 
@@ -59,7 +49,8 @@ inline void block_wide(const abi::GeometryView<double>& wide, WideBundle& bundle
         }
         return done;
     };
-    visit_wide_occluders<wide_features<F>>(wide, bundle.rays, closed, Occluder(occluder));
+    visit_occluders_of_bundle<wide_features<F>>(wide, wide, bundle.rays, closed,
+                                                Occluder(occluder));
 }
 
 /// Adds the lanes of `unsure` of a packet of rays that end at t_end.
