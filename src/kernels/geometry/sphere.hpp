@@ -218,35 +218,45 @@ inline SphereForm form_of(const abi::SphereShape& sphere)
 /// A sphere a lane; of radius 1 around the origin in those that none is put in.
 class SphereLanes {
 public:
-    void put(const abi::SphereShape& sphere, std::uint32_t same)
+    SphereLanes()
     {
-        const vmask<double> low = from_bits<double>(same & all_lanes<double>);
-        const vmask<double> high = from_bits<double>(same >> lanes<double>);
-        const Vec3v<double> center = broadcast(sphere.center);
-        const vreal<double> radius(sphere.radius);
-        center_.low = select(low, center, center_.low);
-        center_.high = select(high, center, center_.high);
-        radius_.low = select(low, radius, radius_.low);
-        radius_.high = select(high, radius, radius_.high);
+        const vreal<double> none(0.0);
+        for (int axis = 0; axis < 3; ++axis) {
+            store(center_[axis], none);
+            store(center_[axis] + lanes<double>, none);
+        }
+        store(radius_, vreal<double>(1.0));
+        store(radius_ + lanes<double>, vreal<double>(1.0));
+    }
+
+    void put(int lane, const abi::SphereShape& sphere)
+    {
+        for (int axis = 0; axis < 3; ++axis)
+            center_[axis][lane] = sphere.center[axis];
+        radius_[lane] = sphere.radius;
     }
 
     [[nodiscard]] SphereForm form() const
     {
-        return {center_,
-                {radius_.low * radius_.low, radius_.high * radius_.high},
-                narrow(center_.low, center_.high),
-                narrow(radius_.low, radius_.high)};
+        const BothHalves<vreal<double>> radius = both(radius_);
+        const BothHalves<vreal<double>> x = both(center_[0]);
+        const BothHalves<vreal<double>> y = both(center_[1]);
+        const BothHalves<vreal<double>> z = both(center_[2]);
+        const BothHalves<Vec3v<double>> center{{x.low, y.low, z.low}, {x.high, y.high, z.high}};
+        return {center,
+                {radius.low * radius.low, radius.high * radius.high},
+                narrow(center.low, center.high),
+                narrow(radius.low, radius.high)};
     }
 
 private:
-    static Vec3v<double> zero()
+    static BothHalves<vreal<double>> both(const double (&values)[lanes<float>])
     {
-        const vreal<double> none(0.0);
-        return {none, none, none};
+        return {load(values), load(values + lanes<double>)};
     }
 
-    BothHalves<Vec3v<double>> center_ = {zero(), zero()};
-    BothHalves<vreal<double>> radius_ = {vreal<double>(1.0), vreal<double>(1.0)};
+    alignas(64) double center_[3][lanes<float>];
+    alignas(64) double radius_[lanes<float>];
 };
 
 inline RoughRoot rough_root(const SphereForm& form, const RayPacket<float>& rays)

@@ -143,6 +143,30 @@ inline std::uint32_t refine_by_newton(RefinedHits<float>& hits, const abi::Shape
         });
 }
 
+/// Puts the spheres that lanes of `active` are on into theirs, and returns those lanes. Kinds are
+/// compared all at once: a branch for each lane is hard to foresee.
+inline std::uint32_t put_spheres(SphereLanes& spheres, const abi::ShapesView& shapes,
+                                 const vint<float>& surface, std::uint32_t active)
+{
+    alignas(64) std::int32_t number[lanes<float>];
+    alignas(64) std::int32_t record[lanes<float>];
+    alignas(64) std::int32_t kind[lanes<float>];
+    const vint<float> any(DistinctNumbers<float>(surface, active).value());
+    store(number, select(from_bits<float>(active), surface, any));
+    for (int lane = 0; lane < lanes<float>; ++lane) {
+        const abi::SurfaceIndex index = shapes.index[number[lane]];
+        record[lane] = index.record;
+        kind[lane] = static_cast<std::int32_t>(index.kind);
+    }
+    const vint<float> sphere(static_cast<std::int32_t>(abi::SurfaceKind::sphere));
+    const std::uint32_t on_spheres = bits(int_equal(load(kind), sphere)) & active;
+    for (std::uint32_t left = on_spheres; left != 0; left &= left - 1) {
+        const int lane = __builtin_ctz(left);
+        spheres.put(lane, shapes.spheres[record[lane]]);
+    }
+    return on_spheres;
+}
+
 /// Of the lanes of `active`, which are on more than one surface: all spheres together.
 template <Refine R>
 [[gnu::noinline]] std::uint32_t refine_mixed(RefinedHits<float>& hits,
@@ -152,18 +176,13 @@ template <Refine R>
 {
     const WideRays wide(rays);
     SphereLanes spheres;
-    std::uint32_t on_spheres = 0;
+    const std::uint32_t on_spheres = put_spheres(spheres, shapes, surface, active);
     std::uint32_t done = 0;
-    for_each_distinct<float>(surface, active, [&](std::int32_t number, const vmask<float>& mask) {
-        const abi::SurfaceIndex& index = shapes.index[number];
-        const std::uint32_t same = bits(mask) & active;
-        if (index.kind == abi::SurfaceKind::sphere) {
-            spheres.put(shapes.spheres[index.record], same);
-            on_spheres |= same;
-        } else {
-            done |= refine_by_newton<R>(hits, shapes, index, rays, wide, same);
-        }
-    });
+    for_each_distinct<float>(surface, active & ~on_spheres,
+                             [&](std::int32_t number, const vmask<float>& mask) {
+                                 done |= refine_by_newton<R>(hits, shapes, shapes.index[number],
+                                                             rays, wide, bits(mask) & active);
+                             });
     if (on_spheres != 0)
         done |= refine_by_newton<R>(hits, spheres.form(), rays, wide, on_spheres);
     return done;

@@ -61,18 +61,29 @@ inline vint<double> select(vmask<double> active, vint<double> a, vint<double> b)
     return as_int(operations::select(active, as_real(a), as_real(b)));
 }
 
+// min and max are one instruction where that returns its second operand for a NaN or equal ones, as
+// SSE's and AVX's do.
+
 /// b where b < a, else a: with a NaN in either the result is a.
 template <class Real>
 inline batch<Real> min(batch<Real> a, batch<Real> b)
 {
+#if PACKTRACE_LANES > 1 && defined(__x86_64__)
+    return operations::min(b, a);
+#else
     return operations::select(b < a, b, a);
+#endif
 }
 
 /// b where b > a, else a: with a NaN in either the result is a.
 template <class Real>
 inline batch<Real> max(batch<Real> a, batch<Real> b)
 {
+#if PACKTRACE_LANES > 1 && defined(__x86_64__)
+    return operations::max(b, a);
+#else
     return operations::select(b > a, b, a);
+#endif
 }
 
 template <class Real>
@@ -139,6 +150,15 @@ template <class Real>
 inline std::uint32_t first_lanes(int count)
 {
     return count >= lanes<Real> ? all_lanes<Real> : (1u << count) - 1u;
+}
+
+/// `first` and those after it.
+template <class Real>
+inline vint<Real> lane_numbers(int first)
+{
+    alignas(64) static constexpr lane_int<Real> number[16] = {0, 1, 2,  3,  4,  5,  6,  7,
+                                                              8, 9, 10, 11, 12, 13, 14, 15};
+    return load(number) + vint<Real>(static_cast<lane_int<Real>>(first));
 }
 
 }  // namespace

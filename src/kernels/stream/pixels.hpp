@@ -36,15 +36,6 @@ inline void store_pixels(double* to, vreal<double> r, vreal<double> g, vreal<dou
     }
 }
 
-/// `first` and those after it.
-template <class Real>
-inline vint<Real> lane_numbers(int first)
-{
-    alignas(64) static constexpr lane_int<Real> number[16] = {0, 1, 2,  3,  4,  5,  6,  7,
-                                                              8, 9, 10, 11, 12, 13, 14, 15};
-    return load(number) + vint<Real>(static_cast<lane_int<Real>>(first));
-}
-
 /// A packet's first light in a pixel replaces the background there; later light is added.
 enum class PixelWrite { set, add };
 

@@ -185,6 +185,16 @@ template <abi::Features F, class Real>
 template <abi::Features F, class Objects, class Real>
 [[gnu::noinline]] void closest_in_lists(const Objects& lists, RayBundle<Real>& bundle)
 {
+    if (!has_objects<F>(lists)) {
+        if constexpr (F.exact)
+            for_each_uncertifiable(bundle, lists.certifiable,
+                                   [&](int first, std::uint32_t doubted) {
+                                       HitPacket<float> hit = load_hits(bundle, first);
+                                       doubt_all(hit, from_bits<float>(doubted));
+                                       store_hits<F>(bundle, first, hit);
+                                   });
+        return;
+    }
     for (int first = 0; first < bundle_rays; first += lanes<Real>) {
         const std::uint32_t active = active_lanes(bundle, first);
         if (active == 0)

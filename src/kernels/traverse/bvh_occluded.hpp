@@ -248,6 +248,15 @@ template <abi::Features F, class Objects, class Real>
 [[gnu::noinline]] bool visit_listed_occluders(const Objects& lists, RayBundle<Real>& bundle,
                                               bool closed, const Occluder& occluder)
 {
+    if (!has_objects<F>(lists)) {
+        if constexpr (F.exact)
+            for_each_uncertifiable(bundle, lists.certifiable,
+                                   [&](int first, std::uint32_t doubted) {
+                                       note_in_the_way(doubted, abi::Cause::magnitude);
+                                       doubt_lanes(bundle, first, doubted);
+                                   });
+        return active_cells(bundle) != 0;
+    }
     std::uint32_t left = 0;
     for (int first = 0; first < bundle_rays; first += lanes<Real>) {
         const std::uint32_t wanted = active_lanes(bundle, first);

@@ -10,31 +10,50 @@ namespace {
 /// Sets what a bundle's bounds of the hierarchy's spheres hang on: where its rays start.
 inline void bound_origins(RayBundle<float>& bundle, const abi::BvhView<float>& tree)
 {
+    // Of rays that are not active, too: they are like their neighbours.
+    const vreal<float> never(__builtin_inff());
+    Vec3v<float> low{never, never, never};
+    Vec3v<float> high{negated(never), negated(never), negated(never)};
+    for (int first = 0; first < bundle_rays; first += lanes<float>) {
+        if (active_lanes(bundle, first) == 0)
+            continue;
+        const RayPacket<float> rays = load_rays(bundle, first);
+        low = {min(low.x, rays.org.x), min(low.y, rays.org.y), min(low.z, rays.org.z)};
+        high = {max(high.x, rays.org.x), max(high.y, rays.org.y), max(high.z, rays.org.z)};
+        store(bundle.inverse + first, RayScale(rays).inverse);
+    }
+    float lowest[3];
+    float highest[3];
+    extent_of_lanes(low.x, high.x, lowest[0], highest[0]);
+    extent_of_lanes(low.y, high.y, lowest[1], highest[1]);
+    extent_of_lanes(low.z, high.z, lowest[2], highest[2]);
     float distance2 = 0;
     for (int axis = 0; axis < 3; ++axis) {
-        vreal<float> low(__builtin_inff());
-        vreal<float> high(-__builtin_inff());
-        for (int first = 0; first < bundle_rays; first += lanes<float>) {
-            if (active_lanes(bundle, first) == 0)
-                continue;
-            const vmask<float> active = from_bits<float>(active_lanes(bundle, first));
-            const vreal<float> org = load(bundle.org[axis] + first);
-            low = select(active, min(low, org), low);
-            high = select(active, max(high, org), high);
-        }
-        float lowest;
-        float highest;
-        extent_of_lanes(low, high, lowest, highest);
-        const float most = max(max(0.0f, tree.middle[axis] - lowest), highest - tree.middle[axis]);
+        const float most =
+            max(max(0.0f, tree.middle[axis] - lowest[axis]), highest[axis] - tree.middle[axis]);
         distance2 += most * most;
     }
-    for (int first = 0; first < bundle_rays; first += lanes<float>)
-        if (active_lanes(bundle, first) != 0)
-            store(bundle.inverse + first, RayScale(load_rays(bundle, first)).inverse);
     bundle.length = (__builtin_sqrtf(distance2) + tree.radius) * inflation;
     bundle.center_error = tree.center_error;
     bundle.moment_error = first_lane<float>(
         moment_error(vreal<float>(tree.center_error), vreal<float>(bundle.length)));
+}
+
+/// Calls `visit(first, lanes)` for the active rays whose magnitudes no bounds hold for; those of
+/// no ray's where the origins' don't.
+template <class Visit>
+inline void for_each_uncertifiable(const RayBundle<float>& bundle, bool certifiable_origins,
+                                   const Visit& visit)
+{
+    for (int first = 0; first < bundle_rays; first += lanes<float>) {
+        const std::uint32_t active = active_lanes(bundle, first);
+        if (active == 0)
+            continue;
+        const std::uint32_t certain =
+            certifiable_origins ? bits(certifiable(load_rays(bundle, first))) : 0;
+        if ((active & ~certain) != 0)
+            visit(first, active & ~certain);
+    }
 }
 
 inline RayScale scale_of(const RayBundle<float>& bundle, int first, const RayPacket<float>& rays)

@@ -81,6 +81,18 @@ inline const auto& objects_of(const FilteredObjects<Shared>& objects)
     return list_of<Kind>(objects);
 }
 
+/// Whether any stands in the lists.
+template <abi::Features F, class Objects>
+inline bool has_objects(const Objects& objects)
+{
+    bool any = false;
+    for_each_kind<F>([&](auto kind) {
+        any = objects_of<decltype(kind)>(objects).count > 0;
+        return !any;
+    });
+    return any;
+}
+
 /// Fills `objects` with what rays of `cone`, all from its base, may meet.
 template <abi::Features F, class Real>
 inline void find_objects(SharedOriginObjects<Real>& objects, const Cone<Real>& cone,

@@ -1,0 +1,152 @@
+#pragma once
+
+#include "kernel_abi/ray_streams.hpp"
+#include "kernels/stream/pending_hits.hpp"
+#include "kernels/stream/stream_values.hpp"
+#include "kernels/traverse/common_hit.hpp"
+
+// The closest hits of rays from outside, as their callers want them.
+namespace packtrace::PACKTRACE_ISA {
+namespace {
+
+/// Object numbers of the lanes of `active`; the others keep what they have or, where every surface
+/// is an object of its own, all.
+template <class Real>
+inline vint<Real> objects_of(const abi::SceneView<Real>& scene, const vint<Real>& surface,
+                             std::uint32_t active)
+{
+    if (scene.materials.surfaces_are_objects)
+        return surface;
+    alignas(64) lane_int<Real> number[lanes<Real>];
+    store(number, surface);
+    for (; active != 0; active &= active - 1) {
+        const int lane = __builtin_ctz(active);
+        number[lane] = scene.materials.of_surface[number[lane]].object;
+    }
+    return load(number);
+}
+
+/// Hands out t and places of what a packet of rays, of which `live` are left, hit. In a function of
+/// its own, as few callers ask for places.
+template <abi::Features F, class Real>
+[[gnu::noinline]] void store_places(const abi::SceneView<Real>& scene, const RayPacket<Real>& rays,
+                                    const HitPacket<Real>& hit, const StartPacket<Real>& start,
+                                    const vreal<Real>& t_max, const abi::HitsView<Real>& hits,
+                                    int at, int live)
+{
+    const auto missed = int_equal(hit.surface, no_surface<Real>());
+    const std::uint32_t found = ~bits(missed) & first_lanes<Real>(live);
+    const vreal<Real> zero(Real(0));
+    const Vec3v<Real> nothing{zero, zero, zero};
+    RefinedHits<Real> places{t_max, nothing, nothing};
+    Vec3v<Real> offset = nothing;
+    if (found != 0) {
+        places = refined<F, Refine::place>(scene.shapes, rays, hit, start, found);
+        places.t = select(missed, t_max, places.t);
+        places.normal = select(missed, nothing, places.normal);
+        if (scene.rules.start_error > 0)
+            offset = origin_offset<Real>(scene.rules.start_error, places.point, places.normal);
+    }
+    if (hits.t != nullptr)
+        store_some(hits.t + at, places.t, live);
+    store_some3(hits.normal, at, places.normal, live);
+    store_some3(hits.outer_start, at, places.point + offset, live);
+    store_some3(hits.inner_start, at, places.point - offset, live);
+    store_some3(hits.point, at, places.point, live);
+}
+
+/// Hands out what a packet of rays hit that all meet one surface or none.
+inline void store_common_hits(const abi::SceneView<float>& scene, const CommonHit& hit,
+                              const vreal<float>& t_max, const abi::HitsView<float>& hits, int at,
+                              int live)
+{
+    const vmask<float> found = from_bits<float>(hit.lanes);
+    const vint<float> none(lane_int<float>(-1));
+    const bool hits_any = hit.lanes != 0;
+    const std::int32_t object = hits_any ? scene.materials.of_surface[hit.surface].object : -1;
+    store_numbers<float>(hits.object + at, select(found, vint<float>(object), none), live);
+    if (hits.surface != nullptr)
+        store_numbers<float>(hits.surface + at,
+                             select(found, vint<float>(hits_any ? hit.surface : -1), none), live);
+    if (hits.t != nullptr)
+        store_some(hits.t + at, select(found, hit.t, t_max), live);
+    if (hits.normal[0] == nullptr)
+        return;
+    const vreal<float> zero(0.0f);
+    const Vec3v<float> nothing{zero, zero, zero};
+    const Vec3v<float> normal = select(found, hit.outward, nothing);
+    const Vec3v<float> point = select(found, hit.point, nothing);
+    Vec3v<float> offset = nothing;
+    if (scene.rules.start_error > 0 && hits_any)
+        offset = origin_offset<float>(scene.rules.start_error, point, normal);
+    store_some3(hits.normal, at, normal, live);
+    store_some3(hits.outer_start, at, point + offset, live);
+    store_some3(hits.inner_start, at, point - offset, live);
+    store_some3(hits.point, at, point, live);
+}
+
+/// Where the closest hits of a stream go.
+template <abi::Features F, class Real>
+class HitWriter {
+public:
+    HitWriter(const abi::SceneView<Real>& scene, const abi::HitsView<Real>& hits)
+        : scene_(scene), hits_(hits), pending_(scene.shapes, hits.t)
+    {
+    }
+
+    /// What a packet of rays, of which `live` are left, hit: to `at` and after.
+    void store_hits(const RayPacket<Real>& rays, const HitPacket<Real>& hit,
+                    const StartPacket<Real>& start, const vreal<Real>& t_max, int at, int live)
+    {
+        const auto missed = int_equal(hit.surface, no_surface<Real>());
+        const std::uint32_t found = ~bits(missed) & first_lanes<Real>(live);
+        store_numbers<Real>(hits_.object + at, objects_of(scene_, hit.surface, found), live);
+        if (hits_.surface != nullptr)
+            store_numbers<Real>(hits_.surface + at, hit.surface, live);
+        if (hits_.normal[0] != nullptr)
+            store_places<F>(scene_, rays, hit, start, t_max, hits_, at, live);
+        else if (hits_.t != nullptr)
+            store_t(rays, hit, start, select(missed, t_max, hit.t), found, at, live);
+    }
+
+    /// The same of hits on one surface.
+    void store_hits(const CommonHit& hit, const vreal<float>& t_max, int at, int live)
+    {
+        store_common_hits(scene_, hit, t_max, hits_, at, live);
+    }
+
+    /// What is left to be done at the end.
+    void finish()
+    {
+        if constexpr (F.exact)
+            pending_.finish();
+    }
+
+private:
+    /// `t` is what the search found, and where misses end.
+    void store_t(const RayPacket<Real>& rays, const HitPacket<Real>& hit,
+                 const StartPacket<Real>& start, const vreal<Real>& t, std::uint32_t found, int at,
+                 int live)
+    {
+        Real* const to = hits_.t + at;
+        if constexpr (!F.exact) {
+            store_some(to, t, live);
+        } else if (PendingHits<Real>::is_worth_it(found)) {
+            const auto again = int_equal(hit.surface, start.second.surface);
+            store_some(to, select(from_bits<Real>(bits(again) & found), start.second.t, t), live);
+            pending_.add(rays, hit.surface, found & ~bits(again), at);
+        } else {
+            const vmask<Real> hits = from_bits<Real>(found);
+            const vreal<Real> better =
+                refined<F, Refine::t>(scene_.shapes, rays, hit, start, found).t;
+            store_some(to, select(hits, better, t), live);
+        }
+    }
+
+    const abi::SceneView<Real>& scene_;
+    const abi::HitsView<Real>& hits_;
+    PendingHits<Real> pending_;
+};
+
+}  // namespace
+}  // namespace packtrace::PACKTRACE_ISA
