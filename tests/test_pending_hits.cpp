@@ -1,5 +1,6 @@
 // A caller's rays that run apart, of which many miss, get the t that each of them gets alone, bit
 // for bit: hits are refined in the company of others.
+#include <cmath>
 #include <cstring>
 #include <limits>
 
@@ -158,7 +159,7 @@ TEST_CASE("the same through a hierarchy, with other kinds beside its spheres", "
     for (const unsigned seed : {7u, 9u})
         for (const Object& object : FewObjects(seed).scene.objects) {
             scene.objects.push_back(object);
-            others += std::holds_alternative<Sphere>(object.surface) ? 0 : 1;
+            others += !std::holds_alternative<Sphere>(object.surface);
         }
     REQUIRE(others > 1);
     RayArrays rays = scattered_rays(7, 1500);
