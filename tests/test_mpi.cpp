@@ -3,6 +3,7 @@
 #include <cstdlib>
 #include <filesystem>
 #include <map>
+#include <set>
 #include <sstream>
 #include <string>
 #include <thread>
@@ -363,37 +364,41 @@ TEST_CASE("a picture has the bytes of one process whatever the ranks", "[mpi]")
     }
 }
 
-TEST_CASE("every scene has the bytes of one process in every format and precision", "[mpi][slow]")
+TEST_CASE("every scene has the bytes of one process in either precision", "[mpi][slow]")
 {
-    for (const auto& entry : std::filesystem::directory_iterator(PACKTRACE_SOURCE_DIR "/scenes")) {
-        if (entry.path().extension() != ".scene")
-            continue;
-        for (const std::string ending : {".png", ".pfm", ".hdr"})
-            for (const std::string precision : {"single", "double"}) {
-                if (precision == "double" && ending != ".pfm")
-                    continue;
-                const TempFolder folder;
-                Words words{"render",
-                            entry.path(),
-                            "--size",
-                            "500x1100",
-                            "-q",
-                            "--depth",
-                            "2",
-                            "--precision",
-                            precision,
-                            "-o",
-                            folder / ("w" + ending)};
-                REQUIRE(run_packtrace(words).exit_code == 0);
-                words.back() = folder / ("m" + ending);
-                for (const int ranks : ranks_tested) {
-                    CAPTURE(entry.path().string(), ending, precision, ranks);
-                    CHECK(run_ranks(ranks, words).exit_code == 0);
-                    CHECK(
-                        (read_text(folder / ("m" + ending)) == read_text(folder / ("w" + ending))));
-                }
+    // Bands are written by one function for each format, whatever the scene: each scene has one.
+    const std::string endings[] = {".png", ".pfm", ".hdr"};
+    std::set<std::filesystem::path> scenes;
+    for (const auto& entry : std::filesystem::directory_iterator(PACKTRACE_SOURCE_DIR "/scenes"))
+        if (entry.path().extension() == ".scene")
+            scenes.insert(entry.path());
+    std::size_t number = 0;
+    for (const std::filesystem::path& scene : scenes) {
+        const std::string& of_scene = endings[number++ % std::size(endings)];
+        for (const std::string precision : {"single", "double"}) {
+            const std::string ending = precision == "double" ? ".pfm" : of_scene;
+            const TempFolder folder;
+            Words words{"render",
+                        scene,
+                        "--size",
+                        "500x1100",
+                        "-q",
+                        "--depth",
+                        "2",
+                        "--precision",
+                        precision,
+                        "-o",
+                        folder / ("w" + ending)};
+            REQUIRE(run_packtrace(words).exit_code == 0);
+            words.back() = folder / ("m" + ending);
+            for (const int ranks : ranks_tested) {
+                CAPTURE(scene.string(), ending, precision, ranks);
+                CHECK(run_ranks(ranks, words).exit_code == 0);
+                CHECK((read_text(folder / ("m" + ending)) == read_text(folder / ("w" + ending))));
             }
+        }
     }
+    CHECK(number > std::size(endings));
 }
 
 TEST_CASE("a job tells in JSON what each rank did", "[mpi]")

@@ -35,6 +35,68 @@ inline void store_tile_hits(abi::TileHits<Real>& hits, int first, const abi::Sce
     store(hits.surface + first, hit.surface);
 }
 
+/// The objects of a scene of few for the rays of its eye, where most packets hit but one of them.
+class EyeObjects {
+public:
+    EyeObjects(const abi::SceneView<float>& scene, const float (&eye)[3]) : eye_(eye)
+    {
+        common_.spheres = spheres_;
+        common_.grounds = grounds_;
+        common_.balls = balls_;
+        if (has_few_objects(scene))
+            fill_common(common_, scene, near_origins(scene, eye, eye), eye);
+    }
+
+    /// Finds and stores the hits of the packet at `first` where they are on one surface; false
+    /// where that can't be told.
+    bool store_hits(abi::TileHits<float>& hits, int first, const RayPacket<float>& rays) const
+    {
+        CommonHit hit;
+        if (!common_.are_all || !all(certifiable(rays)) ||
+            !find_common_hit<Origin::shared>(hit, common_, all_of(common_), rays, eye_, -1,
+                                             all_lanes<float>))
+            return false;
+        const vmask<float> found = from_bits<float>(hit.lanes);
+        store(hits.t + first, select(found, hit.t, vreal<float>(__builtin_inff())));
+        store(hits.surface + first,
+              select(found, vint<float>(hit.lanes != 0 ? hit.surface : -1), no_surface<float>()));
+        return true;
+    }
+
+private:
+    const float (&eye_)[3];
+    CommonObjects common_;
+    CommonSphere spheres_[most_common_objects];
+    CommonGround grounds_[most_common_objects];
+    CommonBall balls_[most_common_objects];
+};
+
+/// The closest hits of a tile's rays among the objects in lists.
+template <abi::Features F, class Objects, class Real>
+inline void closest_in_tile(const abi::TileJob<Real>& job, abi::TileHits<Real>& hits,
+                            const Objects& visible)
+{
+    const abi::SceneView<Real>& scene = *job.scene;
+    const TileCamera<Real> camera(job);
+    const vreal<Real> never(static_cast<Real>(__builtin_inf()));
+    const auto find = [&](int first, const RayPacket<Real>& rays) {
+        HitPacket<Real> hit = no_hit<Real>(never);
+        closest_hit<F>(hit, visible, rays, NoOwn{});
+        settle_packet<F>(scene, rays, hit, no_start<Real>(), never, all_lanes<Real>);
+        store_tile_hits<F>(hits, first, scene, rays, hit);
+    };
+    const auto packet = [&](int first) { return camera_rays(camera, first, scene.rules.units); };
+    if constexpr (F.exact) {
+        const EyeObjects common(scene, job.camera->origin);
+        for (int first = 0; first < abi::tile_pixels; first += lanes<Real>)
+            if (!common.store_hits(hits, first, packet(first)))
+                find(first, packet(first));
+    } else {
+        for (int first = 0; first < abi::tile_pixels; first += lanes<Real>)
+            find(first, packet(first));
+    }
+}
+
 template <abi::Features F, class Real>
 inline void closest_tile(const abi::TileJob<Real>& job, abi::TileHits<Real>& hits)
 {
@@ -57,15 +119,7 @@ inline void closest_tile(const abi::TileJob<Real>& job, abi::TileHits<Real>& hit
         store_misses(hits);
         return;
     }
-    const TileCamera<Real> camera(job);
-    for (int first = 0; first < abi::tile_pixels; first += lanes<Real>) {
-        const RayPacket<Real> rays = camera_rays(camera, first, scene.rules.units);
-        HitPacket<Real> hit = no_hit<Real>(static_cast<Real>(__builtin_inf()));
-        closest_hit<F>(hit, visible, rays, NoOwn{});
-        settle_packet<F>(scene, rays, hit, no_start<Real>(),
-                         vreal<Real>(static_cast<Real>(__builtin_inf())), all_lanes<Real>);
-        store_tile_hits<F>(hits, first, scene, rays, hit);
-    }
+    closest_in_tile<F>(job, hits, visible);
 }
 
 }  // namespace
