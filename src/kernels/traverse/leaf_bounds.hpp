@@ -39,8 +39,8 @@ inline void bound_origins(RayBundle<float>& bundle, const abi::BvhView<float>& t
         moment_error(vreal<float>(tree.center_error), vreal<float>(bundle.length)));
 }
 
-/// Calls `visit(first, lanes)` for the active rays whose magnitudes no bounds hold for; those of
-/// no ray's where the origins' don't.
+/// Calls `visit(first, lanes)` for the active rays whose magnitudes no bounds hold for: for all of
+/// them where the origins' are not certifiable.
 template <class Visit>
 inline void for_each_uncertifiable(const RayBundle<float>& bundle, bool certifiable_origins,
                                    const Visit& visit)
