@@ -7,7 +7,7 @@
 #include <packtrace/image_io.hpp>
 #include <packtrace/renderer.hpp>
 
-#include "image/png.hpp"
+#include "image/formats.hpp"
 #include "png_picture.hpp"
 
 namespace packtrace {

@@ -29,7 +29,7 @@ endforeach()
 string(SHA256 sources_digest "${digests}")
 
 file(CONFIGURE OUTPUT ${OUTPUT} @ONLY CONTENT
-"#include \"lab/harness/build_stamp.hpp\"
+"#include \"lab/harness/machine.hpp\"
 
 namespace packtrace {
 

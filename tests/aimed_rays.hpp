@@ -9,7 +9,7 @@
 #include <glm/geometric.hpp>
 #include <glm/gtc/matrix_transform.hpp>
 
-#include "lab/stress/quadric_points.hpp"
+#include "lab/stress/placed_quadric.hpp"
 #include "lab/stress/stress_family.hpp"
 
 // Rays that are aimed at where hits are decided: past silhouettes, along planes, at creases and

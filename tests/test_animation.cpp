@@ -9,8 +9,7 @@
 
 #include "catch.hpp"
 #include "image/y4m.hpp"
-#include "render/frame_pattern.hpp"
-#include "render/frame_range.hpp"
+#include "render/frame_numbers.hpp"
 #include "scene_text.hpp"
 
 namespace packtrace::test {

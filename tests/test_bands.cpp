@@ -8,8 +8,7 @@
 #include <packtrace/read_scene.hpp>
 
 #include "catch.hpp"
-#include "image/png.hpp"
-#include "image/png_rows.hpp"
+#include "image/formats.hpp"
 #include "image/row_file.hpp"
 #include "intersect_program.hpp"
 #include "render/row_renderer.hpp"

@@ -9,7 +9,7 @@
 
 #include <tbb/task_arena.h>
 
-#include "bvh/refit.hpp"
+#include "bvh/split.hpp"
 #include "catch.hpp"
 
 // The hierarchy's invariants, whatever it is built of.

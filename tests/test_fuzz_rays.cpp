@@ -10,7 +10,7 @@
 #include <packtrace/isa.hpp>
 
 #include "catch.hpp"
-#include "lab/stress/quadric_points.hpp"
+#include "lab/stress/placed_quadric.hpp"
 #include "lab/stress/stress_random.hpp"
 #include "reference_scenes.hpp"
 

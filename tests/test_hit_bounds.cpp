@@ -12,9 +12,8 @@
 
 #include "catch.hpp"
 #include "intersect_program.hpp"
-#include "lab/stress/bound_checks.hpp"
 #include "lab/stress/stress_family.hpp"
-#include "lab/stress/stress_group.hpp"
+#include "lab/stress/stress_subject.hpp"
 
 namespace packtrace::test {
 namespace {

@@ -10,10 +10,9 @@
 
 #include "catch.hpp"
 #include "dispatch/kernels.hpp"
-#include "lab/profile/kernel_profile.hpp"
 #include "lab/profile/observed_frame.hpp"
-#include "lab/profile/piece_times.hpp"
-#include "lab/profile/stage_seconds.hpp"
+#include "lab/profile/profile_steps.hpp"
+#include "lab/profile/stage_times.hpp"
 #include "lab/profile/work_rows.hpp"
 #include "render_scene.hpp"
 #include "run_program.hpp"

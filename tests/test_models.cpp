@@ -9,7 +9,7 @@
 #include <glm/gtc/matrix_transform.hpp>
 
 #include "catch.hpp"
-#include "lab/stress/quadric_points.hpp"
+#include "lab/stress/placed_quadric.hpp"
 #include "reference_scenes.hpp"
 
 // Every illumination model and every surface: packets of doubles against the scalar reference.

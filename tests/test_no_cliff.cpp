@@ -7,7 +7,6 @@
 
 #include "catch.hpp"
 #include "lab/stress/placed_quadric.hpp"
-#include "lab/stress/quadric_points.hpp"
 #include "lab/stress/stress_subject.hpp"
 #include "render_scene.hpp"
 

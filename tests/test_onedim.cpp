@@ -5,7 +5,7 @@
 
 #include "catch.hpp"
 #include "onedim/intensity.hpp"
-#include "onedim/iteration.hpp"
+#include "onedim/solvers.hpp"
 #include "onedim_systems.hpp"
 
 namespace packtrace::onedim {

@@ -6,7 +6,7 @@
 #include <random>
 
 #include "catch.hpp"
-#include "onedim/iteration.hpp"
+#include "onedim/solvers.hpp"
 #include "onedim_brute_force.hpp"
 #include "onedim_systems.hpp"
 

@@ -12,8 +12,7 @@
 #include "catch.hpp"
 #include "core/aligned_array.hpp"
 #include "dispatch/kernels.hpp"
-#include "onedim/order.hpp"
-#include "onedim/surface_code.hpp"
+#include "onedim/solvers.hpp"
 #include "onedim/transfer.hpp"
 #include "onedim_systems.hpp"
 

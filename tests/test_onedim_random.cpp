@@ -4,7 +4,7 @@
 #include <random>
 
 #include "catch.hpp"
-#include "onedim/iteration.hpp"
+#include "onedim/solvers.hpp"
 #include "onedim_systems.hpp"
 
 namespace packtrace::onedim {

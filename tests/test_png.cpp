@@ -1,4 +1,4 @@
-#include "image/png.hpp"
+#include "image/formats.hpp"
 
 #include <libdeflate.h>
 

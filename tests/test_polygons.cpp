@@ -18,12 +18,12 @@
 #include <packtrace/write_scene.hpp>
 
 #include "catch.hpp"
-#include "lab/stress/ray_columns.hpp"
+#include "lab/stress/stress_subject.hpp"
 #include "lab/truth/textbook.hpp"
 #include "lab/truth/wide_truth.hpp"
-#include "lower/duplicates.hpp"
+#include "lower/leave_out.hpp"
 #include "lower/packed_lists.hpp"
-#include "reference/surfaces/all_hits.hpp"
+#include "reference/surfaces/hits.hpp"
 #include "reference/surfaces/inside.hpp"
 #include "reference/surfaces/own_roots.hpp"
 #include "reference_scenes.hpp"

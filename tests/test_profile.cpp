@@ -11,9 +11,8 @@
 
 #include "catch.hpp"
 #include "lab/harness/statistics.hpp"
-#include "lab/profile/busy_machine.hpp"
-#include "lab/profile/profile_subjects.hpp"
-#include "lab/profile/span_times.hpp"
+#include "lab/profile/profile_steps.hpp"
+#include "lab/profile/stage_times.hpp"
 #include "run_program.hpp"
 #include "scenes.hpp"
 

@@ -1,7 +1,7 @@
 // Closed bodies are closed in the scalar reference: what goes in comes out, at rims too.
 #include "catch.hpp"
-#include "reference/surface_point.hpp"
-#include "reference/surfaces/all_hits.hpp"
+#include "reference/ray.hpp"
+#include "reference/surfaces/hits.hpp"
 #include "reference_scenes.hpp"
 
 #include <cmath>

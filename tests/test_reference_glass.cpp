@@ -1,7 +1,6 @@
 // Refraction in the scalar reference against Snell's law and the rules of the glass stack.
 #include "catch.hpp"
-#include "reference/light/glass.hpp"
-#include "reference/light/refract.hpp"
+#include "reference/glass.hpp"
 #include "reference_scenes.hpp"
 
 #include <cmath>

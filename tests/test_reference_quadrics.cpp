@@ -1,7 +1,7 @@
 // Surfaces of the scalar reference against intersections worked out by hand.
 #include <packtrace/read_scene.hpp>
 #include "catch.hpp"
-#include "reference/surfaces/all_hits.hpp"
+#include "reference/surfaces/hits.hpp"
 #include "reference_scenes.hpp"
 
 #include <algorithm>

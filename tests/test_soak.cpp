@@ -9,10 +9,9 @@
 #include <glm/geometric.hpp>
 
 #include "catch.hpp"
-#include "lab/soak/shrink.hpp"
 #include "lab/soak/soak_scene.hpp"
 #include "lab/soak/soak_way.hpp"
-#include "lab/stress/ray_faults.hpp"
+#include "lab/stress/evaluate.hpp"
 #include "lab/stress/stress_family.hpp"
 #include "run_program.hpp"
 

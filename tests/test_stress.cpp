@@ -10,11 +10,9 @@
 
 #include "catch.hpp"
 #include "lab/stress/evaluate.hpp"
-#include "lab/stress/quadric_points.hpp"
+#include "lab/stress/placed_quadric.hpp"
 #include "lab/stress/stress_family.hpp"
-#include "lab/stress/stress_group.hpp"
 #include "lab/stress/stress_subject.hpp"
-#include "lab/stress/stress_verdict.hpp"
 #include "run_program.hpp"
 #include "temp_folder.hpp"
 

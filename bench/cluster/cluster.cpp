@@ -13,7 +13,6 @@
 
 #include <tbb/global_control.h>
 
-#include "cli/render/band_source.hpp"
 #include "cli/render/render_bands.hpp"
 #include "core/seconds_since.hpp"
 #include "job_model.hpp"

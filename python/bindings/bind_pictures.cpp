@@ -1,6 +1,6 @@
 #include <packtrace/image_io.hpp>
 
-#include "image/png.hpp"
+#include "image/formats.hpp"
 #include "pictures.hpp"
 
 namespace packtrace::python {

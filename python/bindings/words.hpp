@@ -5,7 +5,6 @@
 #include <packtrace/render.hpp>
 #include <packtrace/scene.hpp>
 
-#include "scene/quadric_kinds.hpp"
 #include "scene/words.hpp"
 #include "values.hpp"
 

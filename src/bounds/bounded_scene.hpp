@@ -7,10 +7,16 @@
 
 #include <packtrace/intersect.hpp>
 
-#include "bounds/choose_bounds.hpp"
+#include "bounds/line_hits.hpp"
 #include "scene/moved_shape.hpp"
 
 namespace packtrace::bounds {
+
+/// The part of a line where hits count: t_min < t < t_max.
+struct Range {
+    double t_min = 0.0;
+    double t_max = 0.0;
+};
 
 /// The surfaces of a scene, for bounds of hits with them.
 class BoundedScene {

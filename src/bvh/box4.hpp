@@ -1,10 +1,7 @@
 #pragma once
 
 #include <cstdint>
-#include <cstring>
 #include <limits>
-
-#include "bvh/bvh.hpp"
 
 // Boxes in registers of four floats, a vector extension of both compilers; the fourth is unused.
 namespace packtrace {
@@ -36,42 +33,6 @@ struct Box4 {
         include(other.low, other.high);
     }
 };
-
-inline Float4 load4(const float* from)
-{
-    Float4 v;
-    std::memcpy(&v, from, sizeof v);
-    return v;
-}
-
-/// A face at NaN bounds nothing: it counts as infinitely far.
-inline Float4 low_of(const BvhItem& item)
-{
-    const Float4 low = load4(item.low);
-    return low == low ? low : Float4{-Box4::inf, -Box4::inf, -Box4::inf, -Box4::inf};
-}
-inline Float4 high_of(const BvhItem& item)
-{
-    const Float4 high = load4(item.high);
-    return high == high ? high : Float4{Box4::inf, Box4::inf, Box4::inf, Box4::inf};
-}
-
-/// The nearest finite number.
-inline Float4 finite(Float4 a)
-{
-    constexpr float largest = std::numeric_limits<float>::max();
-    constexpr Float4 most{largest, largest, largest, largest};
-    return larger(smaller(a, most), -most);
-}
-
-/// The centre of an item's box, finite whatever the box: halves are added, which cannot overflow.
-/// The fourth is 0, as the integers there would make numbers that some processors are slow at.
-inline Float4 centroid(const BvhItem& item)
-{
-    constexpr Int4 first_three{-1, -1, -1, 0};
-    const Float4 center = 0.5f * finite(low_of(item)) + 0.5f * finite(high_of(item));
-    return reinterpret_cast<Float4>(reinterpret_cast<Int4>(center) & first_three);
-}
 
 /// Half the surface of a box: 0 for an empty one, infinite for one without bounds.
 inline float half_area(const Box4& box)

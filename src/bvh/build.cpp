@@ -18,7 +18,7 @@ constexpr int heuristic_levels = 24;
 constexpr std::size_t task_items = 2048;
 
 /// A node's children while it is built.
-struct Children {
+struct NodeChildren {
     std::array<BvhRange, abi::node_width> range;
     std::size_t count = 0;
 };
@@ -34,7 +34,7 @@ public:
         const BvhRange all = range_of(items_, 0, items_.size());
         nodes_.grow_by(1);
         if (is_leaf(all)) {
-            Children only;
+            NodeChildren only;
             only.range[only.count++] = all;
             fill_node(0, only, 0);
         } else {
@@ -65,9 +65,9 @@ private:
     }
 
     /// Splits the largest child until there are eight, or only leaves.
-    [[nodiscard]] Children divide(const BvhRange& range, int level)
+    [[nodiscard]] NodeChildren divide(const BvhRange& range, int level)
     {
-        Children children;
+        NodeChildren children;
         children.range[children.count++] = range;
         while (children.count < children.range.size()) {
             int largest = -1;
@@ -97,7 +97,7 @@ private:
         fill_node(index, divide(range, level), level);
     }
 
-    void fill_node(std::uint32_t index, const Children& children, int level)
+    void fill_node(std::uint32_t index, const NodeChildren& children, int level)
     {
         abi::BvhNode node;
         for (std::size_t slot = 0; slot < abi::node_width; ++slot) {

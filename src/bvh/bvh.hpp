@@ -4,6 +4,7 @@
 #include <span>
 #include <vector>
 
+#include "bvh/box4.hpp"
 #include "kernel_abi/bvh_view.hpp"
 
 namespace packtrace {
@@ -36,5 +37,12 @@ struct Bvh {
 /// of the TBB arena the call runs in; the result does not depend on their number. The items
 /// are reordered.
 [[nodiscard]] Bvh build_bvh(std::span<BvhItem> items);
+
+/// Gives the nodes the boxes of items that have moved; `leaf_boxes` are those of `bvh.leaves`. What
+/// stands in which leaf and node stays. Leaves must be named as build_bvh() names them.
+void refit_bvh(Bvh& bvh, std::span<const Box4> leaf_boxes);
+
+/// The surface area heuristic of the whole: how many boxes a random line enters that hits the root.
+[[nodiscard]] double surface_area_cost(const Bvh& bvh);
 
 }  // namespace packtrace

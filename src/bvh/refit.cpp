@@ -1,4 +1,4 @@
-#include "bvh/refit.hpp"
+#include "bvh/bvh.hpp"
 
 #include <cstddef>
 #include <vector>

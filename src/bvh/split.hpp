@@ -1,11 +1,52 @@
 #pragma once
 
+#include <cstddef>
+#include <cstring>
+#include <limits>
 #include <span>
 #include <utility>
 
 #include "bvh/box4.hpp"
+#include "bvh/bvh.hpp"
 
+// Ranges of items, and where they are split.
 namespace packtrace {
+
+inline Float4 load4(const float* from)
+{
+    Float4 v;
+    std::memcpy(&v, from, sizeof v);
+    return v;
+}
+
+/// A face at NaN bounds nothing: it counts as infinitely far.
+inline Float4 low_of(const BvhItem& item)
+{
+    const Float4 low = load4(item.low);
+    return low == low ? low : Float4{-Box4::inf, -Box4::inf, -Box4::inf, -Box4::inf};
+}
+inline Float4 high_of(const BvhItem& item)
+{
+    const Float4 high = load4(item.high);
+    return high == high ? high : Float4{Box4::inf, Box4::inf, Box4::inf, Box4::inf};
+}
+
+/// The nearest finite number.
+inline Float4 finite(Float4 a)
+{
+    constexpr float largest = std::numeric_limits<float>::max();
+    constexpr Float4 most{largest, largest, largest, largest};
+    return larger(smaller(a, most), -most);
+}
+
+/// The centre of an item's box, finite whatever the box: halves are added, which cannot overflow.
+/// The fourth is 0, as the integers there would make numbers that some processors are slow at.
+inline Float4 centroid(const BvhItem& item)
+{
+    constexpr Int4 first_three{-1, -1, -1, 0};
+    const Float4 center = 0.5f * finite(low_of(item)) + 0.5f * finite(high_of(item));
+    return reinterpret_cast<Float4>(reinterpret_cast<Int4>(center) & first_three);
+}
 
 /// Items that may become a node, a leaf or part of either.
 struct BvhRange {

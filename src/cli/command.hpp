@@ -1,5 +1,9 @@
 #pragma once
 
+#include <functional>
+
+#include <packtrace/scene.hpp>
+
 #include <CLI/CLI.hpp>
 
 namespace packtrace::cli {
@@ -33,5 +37,11 @@ void add_render(CLI::App& app);
 void add_report(CLI::App& app);
 void add_soak(CLI::App& app);
 void add_stress(CLI::App& app);
+
+using TakeScene = std::function<void(Scene)>;
+
+/// Adds a command for each procedural scene to `generate`; the one that is used gives its scene to
+/// `take`.
+void add_generators(CLI::App& generate, const TakeScene& take);
 
 }  // namespace packtrace::cli

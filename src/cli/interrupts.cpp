@@ -16,7 +16,7 @@ namespace packtrace::cli {
 namespace {
 
 /// Lines for the handler of signals: one that may be read, one that may be written.
-std::array<std::array<char, 512>, 2> lines;
+std::array<std::array<char, 512>, 2> signal_lines;
 std::atomic<const char*> given_line{nullptr};
 volatile std::sig_atomic_t linger = 0;  ///< milliseconds
 
@@ -51,7 +51,7 @@ void set_interrupt_line(const std::string& given)
         return given_line.store(nullptr);
     // One line, whatever is in the names of files.
     const std::string line = language::escape(given);
-    std::array<char, 512>& text = lines[next];
+    std::array<char, 512>& text = signal_lines[next];
     next = 1 - next;
     const std::size_t length = std::min(line.size(), text.size() - 3);
     text[0] = '\n';

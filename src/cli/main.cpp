@@ -9,7 +9,7 @@
 #include "cli/command.hpp"
 #include "cli/interrupts.hpp"
 #include "cli/usage_error.hpp"
-#include "core/file_error.hpp"
+#include "core/read_file.hpp"
 #include "scene/quote.hpp"
 
 namespace packtrace::cli {

@@ -2,8 +2,7 @@
 #include <string>
 
 #include "cli/command.hpp"
-#include "cli/study/certainty_option.hpp"
-#include "cli/study/join_stress.hpp"
+#include "cli/study/study.hpp"
 
 // Stands in for the commands of src/lab in programs built without it (PACKTRACE_BUILD_STUDY).
 namespace packtrace::cli {

@@ -7,7 +7,7 @@
 #include <span>
 #include <string_view>
 
-#include "core/file_error.hpp"
+#include "core/read_file.hpp"
 
 namespace packtrace {
 

@@ -2,10 +2,21 @@
 
 #include <cstdint>
 #include <span>
+#include <string_view>
 
+// Numbers that tell whether bytes or texts are the same.
 namespace packtrace {
 
 /// The CRC-32 of bytes that follow those of the checksum `before`.
 [[nodiscard]] std::uint32_t checksum(std::span<const std::uint8_t> bytes, std::uint32_t before = 0);
+
+/// FNV-1a (Fowler, Noll and Vo) in 64 bits: the same on every machine and in every version.
+[[nodiscard]] constexpr std::uint64_t text_hash(std::string_view text)
+{
+    std::uint64_t hash = 0xcbf29ce484222325u;
+    for (const char letter : text)
+        hash = (hash ^ static_cast<std::uint8_t>(letter)) * 0x100000001b3u;
+    return hash;
+}
 
 }  // namespace packtrace

@@ -1,13 +1,50 @@
 #pragma once
 
+#include <cerrno>
+#include <cstdio>
 #include <filesystem>
+#include <memory>
+#include <stdexcept>
 #include <string>
+#include <system_error>
 
-#include "core/file_error.hpp"
-
+// Files read whole, and the error of files that can't be read or written.
 namespace packtrace {
 
+/// A file that can't be read or written; `what()` is one line, `file: what: why`.
+struct FileError : std::runtime_error {
+    using std::runtime_error::runtime_error;
+    FileError(const std::filesystem::path& file, const std::string& what, int error_number)
+        : std::runtime_error(file.string() + ": " + what + ": " +
+                             std::generic_category().message(error_number))
+    {
+    }
+};
+
 /// The bytes of a file. Throws FileError.
-[[nodiscard]] std::string read_file(const std::filesystem::path& file);
+[[nodiscard]] inline std::string read_file(const std::filesystem::path& file)
+{
+    struct Close {
+        void operator()(std::FILE* opened) const
+        {
+            std::fclose(opened);
+        }
+    };
+    const std::unique_ptr<std::FILE, Close> input(std::fopen(file.c_str(), "rb"));
+    if (!input)
+        throw FileError(file, "can't read", errno);
+
+    // In growing steps, not by the file's size: a pipe has none.
+    std::string bytes;
+    std::size_t used = 0;
+    do {
+        bytes.resize(used == 0 ? std::size_t{1} << 16 : 2 * used);
+        used += std::fread(bytes.data() + used, 1, bytes.size() - used, input.get());
+    } while (used == bytes.size());
+    if (std::ferror(input.get()))
+        throw FileError(file, "can't read", errno);
+    bytes.resize(used);
+    return bytes;
+}
 
 }  // namespace packtrace

@@ -33,7 +33,8 @@ void* take_pages(std::size_t bytes)
     if (posix_memalign(&memory, boundary, rounded) != 0)
         throw std::bad_alloc();
 #if defined(MADV_HUGEPAGE)
-    // Rays walk large arrays in no order, and first frames touch all pages; a refusal costs time only.
+    // Rays walk large arrays in no order, and first frames touch all pages; a refusal costs time
+    // only.
     if (boundary == huge_page)
         (void)madvise(memory, rounded, MADV_HUGEPAGE);
 #endif

@@ -6,12 +6,56 @@
 #include <glm/geometric.hpp>
 #include <glm/matrix.hpp>
 
-#include "geometry/symmetric_eigen.hpp"
-
 namespace packtrace {
 namespace {
 
 constexpr double negligible = 1e-12;
+
+struct SymmetricEigen {
+    Vec3 values{0.0};
+    Mat3 vectors{1.0};  ///< orthonormal columns, in the order of the values
+};
+
+/// The rotation in the plane of axes p and q that makes matrix[p][q] zero.
+Mat3 jacobi_rotation(const Mat3& matrix, int p, int q)
+{
+    const double ratio = (matrix[q][q] - matrix[p][p]) / (2.0 * matrix[p][q]);
+    const double tangent =
+        std::copysign(1.0, ratio) / (std::abs(ratio) + std::sqrt(ratio * ratio + 1.0));
+    const double cosine = 1.0 / std::sqrt(tangent * tangent + 1.0);
+    Mat3 rotation(1.0);
+    rotation[p][p] = cosine;
+    rotation[q][q] = cosine;
+    rotation[q][p] = tangent * cosine;
+    rotation[p][q] = -tangent * cosine;
+    return rotation;
+}
+
+/// Eigenvalues and eigenvectors of a symmetric matrix by cyclic Jacobi rotations (Golub and Van
+/// Loan, Matrix Computations, section 8.5). A diagonal matrix comes back with its own axes.
+SymmetricEigen symmetric_eigen(Mat3 matrix)
+{
+    SymmetricEigen result;
+    // Convergence is quadratic; a 3x3 matrix needs five or six sweeps.
+    for (int sweep = 0; sweep < 30; ++sweep) {
+        bool changed = false;
+        for (int p = 0; p < 2; ++p)
+            for (int q = p + 1; q < 3; ++q) {
+                const double diagonal = std::abs(matrix[p][p]) + std::abs(matrix[q][q]);
+                if (diagonal + std::abs(matrix[p][q]) == diagonal)
+                    continue;
+                const Mat3 rotation = jacobi_rotation(matrix, p, q);
+                matrix = glm::transpose(rotation) * matrix * rotation;
+                matrix[p][q] = matrix[q][p] = 0.0;
+                result.vectors = result.vectors * rotation;
+                changed = true;
+            }
+        if (!changed)
+            break;
+    }
+    result.values = {matrix[0][0], matrix[1][1], matrix[2][2]};
+    return result;
+}
 
 double largest(const Vec3& v)
 {

@@ -7,7 +7,6 @@
 #include <glm/matrix.hpp>
 
 #include "geometry/kinds.hpp"
-#include "geometry/round_to.hpp"
 
 namespace packtrace {
 namespace {

@@ -1,9 +1,13 @@
 #pragma once
 
+#include <packtrace/image.hpp>
+
 #include <algorithm>
 #include <array>
 #include <cstddef>
+#include <string>
 
+// The colours of pictures that show numbers, and the legend below such a picture.
 namespace packtrace {
 
 /// The colour at `place` in [0, 1] from black through blue, green, yellow and red to white.
@@ -20,5 +24,10 @@ namespace packtrace {
         color[c] = stops[below][c] + share * (stops[below + 1][c] - stops[below][c]);
     return color;
 }
+
+/// The picture over a bar with the colours of color_ramp() from end to end, and below it what
+/// the ends stand for. Texts are of digits and the characters of "e.+-ns".
+[[nodiscard]] Image<float> with_legend(const Image<float>& picture, const std::string& low,
+                                       const std::string& high);
 
 }  // namespace packtrace

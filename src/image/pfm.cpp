@@ -1,4 +1,4 @@
-#include "image/pfm.hpp"
+#include "image/formats.hpp"
 
 #include <bit>
 #include <cmath>

@@ -1,5 +1,5 @@
 // libpng, row by row: reads every PNG, and writes those that are too large to be held whole.
-#include "image/png_rows.hpp"
+#include "image/formats.hpp"
 
 #include <algorithm>
 #include <csetjmp>
@@ -9,8 +9,6 @@
 #include <utility>
 
 #include <png.h>
-
-#include "image/png.hpp"
 
 namespace packtrace {
 namespace {

@@ -1,5 +1,8 @@
 // Pictures as PNG: stb_image_write with libdeflate behind it, one filter and one level, chosen in
 // results/png.json.
+#include "image/bytes.hpp"
+#include "image/formats.hpp"
+
 #include <libdeflate.h>
 
 #include <cmath>
@@ -10,10 +13,6 @@
 #include <stdexcept>
 #include <string>
 #include <string_view>
-
-#include "image/png.hpp"
-#include "image/png_rows.hpp"
-#include "image/quantise.hpp"
 
 namespace {
 

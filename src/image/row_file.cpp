@@ -1,16 +1,12 @@
 #include "image/row_file.hpp"
 
-#include <cstring>
-#include <optional>
-#include <string>
-#include <utility>
-
 #include "core/atomic_file.hpp"
-#include "image/hdr.hpp"
-#include "image/pfm.hpp"
-#include "image/png.hpp"
-#include "image/png_rows.hpp"
-#include "image/quantise.hpp"
+#include "image/bytes.hpp"
+
+#include <cstring>
+#include <memory>
+#include <string>
+#include <vector>
 
 namespace packtrace {
 

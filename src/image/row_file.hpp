@@ -1,15 +1,12 @@
 #pragma once
 
+#include "image/formats.hpp"
+
 #include <cstddef>
 #include <cstdint>
 #include <filesystem>
 #include <memory>
 #include <span>
-
-#include <packtrace/image_io.hpp>
-
-#include "image/bytes.hpp"
-#include "image/format.hpp"
 
 namespace packtrace {
 

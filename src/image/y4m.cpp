@@ -1,9 +1,9 @@
 #include "image/y4m.hpp"
 
+#include "image/bytes.hpp"
+
 #include <algorithm>
 #include <string_view>
-
-#include "image/quantise.hpp"
 
 namespace packtrace {
 namespace {

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstddef>
 #include <string>
 #include <vector>
 
@@ -7,7 +8,16 @@
 
 #include "lower/lowered_scene.hpp"
 
+// What a picture needs of its scene, and what it does without (docs/features.md).
 namespace packtrace {
+
+/// What of the features a scene uses, whatever its lights and depth are.
+[[nodiscard]] abi::Features features_of(const LoweredScene& lowered);
+
+/// Removes surfaces that are an earlier one of their kind once more: at equal t the lower number is
+/// hit, so they are never seen. Where light passes through objects each counts, and nothing is
+/// removed. Returns how many surfaces went.
+std::size_t remove_duplicates(LoweredScene& lowered);
 
 /// Something that a picture does without, and why it may.
 struct LeftOut {

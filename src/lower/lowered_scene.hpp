@@ -56,13 +56,14 @@ struct LoweredScene : SurfaceLists {
     abi::Features features;                ///< `exact` as the accuracy asked for has it
 };
 
-/// What of the features a scene uses, whatever its lights and depth are.
-[[nodiscard]] abi::Features features_of(const LoweredScene& lowered);
-
 /// Lowers a scene on the threads of the TBB arena the call runs in; the result does not depend on
 /// their number. Throws as validate() does.
 [[nodiscard]] LoweredScene lower(const Scene& scene, Accuracy accuracy = Accuracy::exact,
                                  SelfHits self_hits = default_self_hits);
+
+/// The most light that a ray can bring in each channel, by its generation from 0 (camera rays) to
+/// max_depth. docs/numerics_derivations.md derives it.
+[[nodiscard]] std::vector<Rgb> most_light(const LoweredScene& lowered);
 
 /// The accuracy that counts for kernels of `Real`: doubles need nothing wider.
 template <class Real>

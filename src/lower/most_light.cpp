@@ -1,4 +1,4 @@
-#include "lower/most_light.hpp"
+#include "lower/lowered_scene.hpp"
 
 #include <cmath>
 

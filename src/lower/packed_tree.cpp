@@ -12,7 +12,7 @@
 
 #include <tbb/parallel_reduce.h>
 
-#include "bvh/refit.hpp"
+#include "bvh/bvh.hpp"
 #include "lower/in_parallel.hpp"
 
 namespace packtrace {

@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <deque>
 #include <functional>
+#include <limits>
 #include <map>
 #include <memory>
 #include <mutex>
@@ -13,7 +14,6 @@
 #include <vector>
 
 #include "image/bytes.hpp"
-#include "mpi/counter.hpp"
 #include "mpi/hand_out.hpp"
 #include "mpi/world.hpp"
 
@@ -37,6 +37,53 @@ struct RankReport {
     std::uint64_t bytes_sent = 0;
     double busy = 0.0;     ///< seconds of work
     double waiting = 0.0;  ///< seconds besides
+};
+
+/// A number on rank 0 that every rank may take and raise at once: whose turn it is, without a
+/// master. Made and unmade by all ranks together.
+class Counter {
+public:
+    explicit Counter(const World& world)
+    {
+        MPI_Win_allocate(world.is_first() ? sizeof(std::int64_t) : 0, sizeof(std::int64_t),
+                         MPI_INFO_NULL, MPI_COMM_WORLD, &number_, &window_);
+        MPI_Win_lock_all(MPI_MODE_NOCHECK, window_);
+        if (world.is_first()) {
+            const std::int64_t zero = 0;
+            call(MPI_REPLACE, zero);
+        }
+        MPI_Barrier(MPI_COMM_WORLD);
+    }
+    ~Counter()
+    {
+        MPI_Win_unlock_all(window_);
+        MPI_Win_free(&window_);
+    }
+    Counter(const Counter&) = delete;
+    Counter& operator=(const Counter&) = delete;
+
+    /// The next number, from 0.
+    [[nodiscard]] std::int64_t next()
+    {
+        return call(MPI_SUM, 1);
+    }
+    /// From now on every rank gets numbers beyond all work.
+    void stop()
+    {
+        call(MPI_REPLACE, std::numeric_limits<std::int64_t>::max() / 2);
+    }
+
+private:
+    std::int64_t call(MPI_Op operation, std::int64_t operand)
+    {
+        std::int64_t before = 0;
+        MPI_Fetch_and_op(&operand, &before, MPI_INT64_T, 0, 0, operation, window_);
+        MPI_Win_flush(0, window_);
+        return before;
+    }
+
+    std::int64_t* number_ = nullptr;
+    MPI_Win window_ = MPI_WIN_NULL;
 };
 
 /// Pieces of work handed out to all ranks, made on a thread of each rank's own, and brought to rank

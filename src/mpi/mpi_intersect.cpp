@@ -12,8 +12,6 @@
 #include "core/checksum.hpp"
 #include "core/seconds_since.hpp"
 #include "mpi/commands.hpp"
-#include "mpi/job_report.hpp"
-#include "mpi/shared_scene.hpp"
 
 namespace packtrace::mpi {
 namespace {
@@ -21,7 +19,7 @@ namespace {
 using cli::RayCount;
 using cli::RayRange;
 
-struct Arguments : cli::IntersectArguments {
+struct IntersectJobArguments : cli::IntersectArguments {
     JobArguments job;
 
     [[nodiscard]] bool json_on_rows() const
@@ -138,9 +136,9 @@ Bytes rows_of(cli::BlockTracer<Real>& tracer, const std::string& file, const Ray
 }
 
 template <class Real>
-std::vector<RankReport> trace(const World& world, const Arguments& arguments, const Scene& scene,
-                              const RenderOptions& options, const RayPieces& pieces,
-                              cli::HitOutput* output, int finished)
+std::vector<RankReport> trace(const World& world, const IntersectJobArguments& arguments,
+                              const Scene& scene, const RenderOptions& options,
+                              const RayPieces& pieces, cli::HitOutput* output, int finished)
 {
     std::unique_ptr<cli::BlockTracer<Real>> tracer;
     world.together([&] {
@@ -167,7 +165,7 @@ std::vector<RankReport> trace(const World& world, const Arguments& arguments, co
     });
 }
 
-void run(const World& world, const Arguments& arguments)
+void run_intersect(const World& world, const IntersectJobArguments& arguments)
 {
     const auto start = std::chrono::steady_clock::now();
     RenderOptions options;
@@ -224,13 +222,13 @@ void add_intersect(CLI::App& app, const World& world)
 {
     CLI::App* command = app.add_subcommand(
         "intersect", "Say where rays of your own meet a scene's objects, on all ranks");
-    const auto arguments = std::make_shared<Arguments>();
+    const auto arguments = std::make_shared<IntersectJobArguments>();
     cli::add_intersect_options(*command, *arguments);
     command->add_flag("--resume", arguments->resume,
                       "Keep finished rows beside FILE until it is complete; after an "
                       "interruption, the same command goes on with them");
     add_job_options(*command, arguments->job);
-    command->callback([arguments, &world] { run(world, *arguments); });
+    command->callback([arguments, &world] { run_intersect(world, *arguments); });
 }
 
 }  // namespace packtrace::mpi

@@ -10,14 +10,12 @@
 #include "cli/options/thread_limit.hpp"
 #include "cli/output/progress_bar.hpp"
 #include "cli/render/band_file.hpp"
-#include "cli/render/cut_rays.hpp"
 #include "cli/render/render_animation.hpp"
 #include "cli/render/render_arguments.hpp"
 #include "cli/render/render_bands.hpp"
+#include "cli/render/render_picture.hpp"
 #include "core/seconds_since.hpp"
 #include "mpi/commands.hpp"
-#include "mpi/job_report.hpp"
-#include "mpi/shared_scene.hpp"
 #include "scene/quote.hpp"
 
 namespace packtrace::mpi {
@@ -28,14 +26,14 @@ using cli::Bands;
 using cli::FinishedBand;
 using cli::RenderArguments;
 
-struct Arguments : RenderArguments {
+struct RenderJobArguments : RenderArguments {
     JobArguments job;
 };
 
 /// The picture on rank 0: bands that an earlier run kept, and those that come.
 class Assembly {
 public:
-    Assembly(const Arguments& arguments, const Scene& scene, const RenderOptions& options)
+    Assembly(const RenderJobArguments& arguments, const Scene& scene, const RenderOptions& options)
         : arguments_(arguments),
           file_(arguments, scene, options, cli::band_pixels),
           bar_(arguments.quiet ? cli::Verbosity::quiet : cli::Verbosity::normal)
@@ -111,7 +109,7 @@ private:
                       ", which are lost; with --resume they are kept");
     }
 
-    const Arguments& arguments_;
+    const RenderJobArguments& arguments_;
     BandFile file_;
     cli::ProgressBar bar_;
     std::vector<int> missing_;
@@ -119,7 +117,7 @@ private:
     int written_ = 0;
 };
 
-void render_picture(const World& world, const Arguments& arguments, const Scene& scene,
+void render_picture(const World& world, const RenderJobArguments& arguments, const Scene& scene,
                     const RenderOptions& options)
 {
     const auto start = std::chrono::steady_clock::now();
@@ -167,7 +165,7 @@ void render_picture(const World& world, const Arguments& arguments, const Scene&
                  seconds_since(start));
 }
 
-void render_frames(const World& world, const Arguments& arguments, const Scene& scene,
+void render_frames(const World& world, const RenderJobArguments& arguments, const Scene& scene,
                    const RenderOptions& options)
 {
     const auto start = std::chrono::steady_clock::now();
@@ -213,7 +211,7 @@ void render_frames(const World& world, const Arguments& arguments, const Scene& 
 }
 
 /// Throws CLI::ValidationError for what a job of many ranks does not do.
-void check_job(const Arguments& arguments)
+void check_job(const RenderJobArguments& arguments)
 {
     const auto refuse = [](const std::string& option, const std::string& why) {
         throw CLI::ValidationError(option + ": " + why);
@@ -226,7 +224,7 @@ void check_job(const Arguments& arguments)
         refuse("--shard", "ranks share the frames by themselves; leave it out");
 }
 
-void run(const World& world, const Arguments& arguments)
+void run_render(const World& world, const RenderJobArguments& arguments)
 {
     RenderOptions options;
     world.together([&] {
@@ -254,10 +252,10 @@ void run(const World& world, const Arguments& arguments)
 void add_render(CLI::App& app, const World& world)
 {
     CLI::App* command = app.add_subcommand("render", "Render a scene to a picture on all ranks");
-    const auto arguments = std::make_shared<Arguments>();
+    const auto arguments = std::make_shared<RenderJobArguments>();
     cli::add_render_options(*command, *arguments);
     add_job_options(*command, arguments->job);
-    command->callback([arguments, &world] { run(world, *arguments); });
+    command->callback([arguments, &world] { run_render(world, *arguments); });
 }
 
 }  // namespace packtrace::mpi

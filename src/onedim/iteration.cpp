@@ -1,4 +1,4 @@
-#include "onedim/iteration.hpp"
+#include "onedim/solvers.hpp"
 
 #include "onedim/intensity.hpp"
 

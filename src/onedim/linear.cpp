@@ -1,10 +1,9 @@
-#include "onedim/linear.hpp"
+#include "onedim/solvers.hpp"
+
+#include "onedim/transfer.hpp"
 
 #include <array>
 #include <cstdint>
-
-#include "onedim/surface_code.hpp"
-#include "onedim/transfer.hpp"
 
 namespace packtrace::onedim {
 namespace {

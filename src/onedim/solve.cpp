@@ -1,13 +1,10 @@
-#include <algorithm>
-
 #include <packtrace/isa.hpp>
 #include <packtrace/onedim.hpp>
-
 #include "dispatch/kernels.hpp"
-#include "onedim/group.hpp"
-#include "onedim/iteration.hpp"
-#include "onedim/linear.hpp"
-#include "onedim/order.hpp"
+#include "onedim/solvers.hpp"
+
+#include <span>
+#include <vector>
 
 namespace packtrace::onedim {
 namespace {
@@ -25,19 +22,6 @@ void solve_linear(const Systems& systems, std::span<Intensity> answers)
 {
     for (std::size_t k = 0; k < systems.size(); ++k)
         answers[k] = solve_linear(systems[k]);
-}
-
-/// L0 of every system, a register's bits of them at a time.
-void solve_bitsliced(const Systems& systems, const abi::OnedimTable& kernel,
-                     std::span<Intensity> answers)
-{
-    const std::vector<std::uint32_t> order = order_by_length(systems);
-    Group group(kernel);
-    for (std::span<const std::uint32_t> rest = order; !rest.empty();) {
-        const std::size_t count = std::min(rest.size(), group.capacity());
-        group.solve(systems, rest.first(count), answers);
-        rest = rest.subspan(count);
-    }
 }
 
 }  // namespace

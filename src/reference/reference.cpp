@@ -1,6 +1,6 @@
 #include "reference/reference.hpp"
 
-#include "reference/tree_recorder.hpp"
+#include "reference/recorder.hpp"
 
 namespace packtrace::reference {
 

@@ -2,12 +2,12 @@
 
 #include <packtrace/image.hpp>
 #include <packtrace/scene.hpp>
-#include "reference/cut_rays.hpp"
 #include "reference/models/general.hpp"
 #include "reference/models/note_000.hpp"
 #include "reference/models/note_001.hpp"
 #include "reference/models/note_002.hpp"
 #include "reference/models/note_004.hpp"
+#include "reference/ray_weight.hpp"
 #include "reference/world.hpp"
 
 #include <variant>

@@ -1,7 +1,6 @@
 #include "reference/render_reference.hpp"
 
 #include "image/contrast.hpp"
-#include "image/region_parts.hpp"
 #include "reference/reference.hpp"
 #include "scene/sample_pattern.hpp"
 

@@ -1,8 +1,8 @@
 #pragma once
 
 #include <packtrace/render.hpp>
+#include "reference/surfaces/hits.hpp"
 #include "reference/surfaces/own_roots.hpp"
-#include "reference/surfaces/surface_normal.hpp"
 #include "reference/world.hpp"
 
 namespace packtrace::reference {

@@ -1,5 +1,9 @@
 #pragma once
 
+#include <cmath>
+#include <stdexcept>
+#include <string>
+
 #include <packtrace/render.hpp>
 
 namespace packtrace {
@@ -9,10 +13,38 @@ inline constexpr int most_samples = 1024;
 
 /// Returns the options. Throws std::invalid_argument with one line when their sampling is
 /// impossible.
-const RenderOptions& checked_sampling(const RenderOptions& options);
+inline const RenderOptions& checked_sampling(const RenderOptions& options)
+{
+    if (options.samples < 1 || options.samples > most_samples)
+        throw std::invalid_argument("samples: " + std::to_string(options.samples) +
+                                    " a pixel; choose from 1 to " + std::to_string(most_samples));
+    if (!options.adaptive)
+        return options;
+    if (!(*options.adaptive >= 0.0) || !std::isfinite(*options.adaptive))
+        throw std::invalid_argument("adaptive: the contrast is a finite number >= 0");
+    if (options.samples == 1)
+        throw std::invalid_argument("adaptive: needs more than one sample a pixel");
+    return options;
+}
 
 /// What of the scene's picture is rendered. Throws std::invalid_argument for a region that is not
 /// within it.
-[[nodiscard]] Region checked_region(const RenderOptions& options, const Scene& scene);
+[[nodiscard]] inline Region checked_region(const RenderOptions& options, const Scene& scene)
+{
+    if (!options.region)
+        return {0, 0, scene.width, scene.height};
+    const Region& region = *options.region;
+    const bool within = region.x >= 0 && region.y >= 0 && region.width >= 1 && region.height >= 1 &&
+                        region.x < scene.width && region.y < scene.height &&
+                        region.width <= scene.width - region.x &&
+                        region.height <= scene.height - region.y;
+    if (!within)
+        throw std::invalid_argument(
+            "region: " + std::to_string(region.width) + " x " + std::to_string(region.height) +
+            " pixels from (" + std::to_string(region.x) + ", " + std::to_string(region.y) +
+            ") on are not within the picture of " + std::to_string(scene.width) + " x " +
+            std::to_string(scene.height) + "; stay inside it");
+    return region;
+}
 
 }  // namespace packtrace

@@ -5,7 +5,7 @@
 
 #include <tbb/task_arena.h>
 
-#include "image/region_parts.hpp"
+#include "image/contrast.hpp"
 #include "render/check_sampling.hpp"
 
 namespace packtrace {

@@ -9,14 +9,14 @@
 
 #include <tbb/enumerable_thread_specific.h>
 
-#include "bvh/refit.hpp"
+#include "bvh/bvh.hpp"
 #include "core/aligned_array.hpp"
 #include "dispatch/kernels.hpp"
 #include "lower/move_objects.hpp"
 #include "lower/packed_scene.hpp"
 #include "render/lit_scene.hpp"
 #include "render/ray_backend.hpp"
-#include "render/ray_parts.hpp"
+#include "render/ray_pieces.hpp"
 
 namespace packtrace {
 namespace {

@@ -4,10 +4,8 @@
 #include <optional>
 #include <vector>
 
-#include "reference/surfaces/all_hits.hpp"
 #include "reference/surfaces/bodies.hpp"
-#include "reference/surfaces/closest_intersection.hpp"
-#include "reference/surfaces/surface_normal.hpp"
+#include "reference/surfaces/hits.hpp"
 #include "render/ray_backend.hpp"
 
 namespace packtrace {

@@ -11,9 +11,7 @@
 #include "bounds/bounded_scene.hpp"
 #include "render/moved_objects.hpp"
 #include "render/ray_backend.hpp"
-#include "render/ray_parts.hpp"
-#include "render/ray_structs.hpp"
-#include "render/watched_pieces.hpp"
+#include "render/ray_pieces.hpp"
 #include "scene/scene_faults.hpp"
 
 namespace packtrace {

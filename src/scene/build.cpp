@@ -6,8 +6,8 @@
 #include <glm/ext/matrix_transform.hpp>
 
 #include "scene/keys.hpp"
-#include "scene/quadric_kinds.hpp"
 #include "scene/unit_vector.hpp"
+#include "scene/words.hpp"
 
 namespace packtrace {
 

@@ -1,11 +1,12 @@
-#include "scene/growth.hpp"
-
 #include <algorithm>
 #include <cmath>
 #include <variant>
 
-#include "scene/values.hpp"
+#include "scene/object_names.hpp"
+#include "scene/scene_faults.hpp"
 
+// Colours that may grow beyond single precision where factors are above 1: each reflection and
+// refraction multiplies by them, and so does each object that a transparent shadow passes.
 namespace packtrace::language {
 namespace {
 
@@ -60,7 +61,7 @@ double decades(double factor)
 
 }  // namespace
 
-std::optional<Growth> find_growth(const Scene& scene)
+std::optional<SceneFault> fault_of_growth(const Scene& scene)
 {
     double light = 0.0;
     for (const Light& each : scene.lights)
@@ -86,11 +87,12 @@ std::optional<Growth> find_growth(const Scene& scene)
     const double all = of_local + of_depth + in_shadow;
     if (all <= most_decades)
         return std::nullopt;
-    return Growth{object, "factors above 1 let colours grow to 1e" + to_text(std::ceil(all)) +
-                              ", beyond single precision: it mirrors and lets through " +
-                              to_text(most.bounced) + " times the light, at max_depth = " +
-                              std::to_string(scene.max_depth) +
-                              "; use smaller factors or a lower max_depth"};
+    const std::string message =
+        "factors above 1 let colours grow to 1e" + to_text(std::ceil(all)) +
+        ", beyond single precision: it mirrors and lets through " + to_text(most.bounced) +
+        " times the light, at max_depth = " + std::to_string(scene.max_depth) +
+        "; use smaller factors or a lower max_depth";
+    return SceneFault{label_of(scene, object), message, object, ""};
 }
 
 }  // namespace packtrace::language

@@ -1,5 +1,3 @@
-#include "scene/key_tables.hpp"
-
 #include <map>
 #include <utility>
 #include <vector>

@@ -1,7 +1,7 @@
 #pragma once
 
-#include "scene/quadric_kinds.hpp"
 #include "scene/rows.hpp"
+#include "scene/words.hpp"
 
 // The scene language's keys.
 namespace packtrace::language {

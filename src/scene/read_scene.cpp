@@ -111,11 +111,6 @@ Keys material_keys(Illumination illumination)
     return result;
 }
 
-bool contains(const Keys& keys, std::string_view key)
-{
-    return std::find(keys.begin(), keys.end(), key) != keys.end();
-}
-
 /// Reads the objects of a scene and the materials they use.
 class ObjectReader {
 public:

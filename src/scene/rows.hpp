@@ -2,8 +2,10 @@
 
 #include "scene/values.hpp"
 
+#include <cstddef>
 #include <functional>
 #include <optional>
+#include <span>
 #include <string>
 #include <string_view>
 #include <type_traits>
@@ -232,5 +234,20 @@ std::size_t write_rows(std::string& out, const Owner& owner, std::string_view be
         }
     return written;
 }
+
+/// A scene's text, and how many keys it has.
+struct SceneText {
+    std::string text;
+    std::size_t keys = 0;
+};
+
+/// The text of a scene, whatever faults it has; one without reads back as the same.
+[[nodiscard]] SceneText write_unchecked(const Scene& scene);
+
+/// The names of the tables that describe the language: "scene", "camera", …
+[[nodiscard]] std::span<const std::string_view> key_table_names();
+
+/// A table of docs/scene.md in Markdown, made from the rows; empty for an unknown name.
+[[nodiscard]] std::string key_table(std::string_view name);
 
 }  // namespace packtrace::language

@@ -13,7 +13,6 @@
 #include <tbb/blocked_range.h>
 #include <tbb/parallel_for.h>
 
-#include "scene/growth.hpp"
 #include "scene/keys.hpp"
 #include "scene/object_names.hpp"
 #include "scene/quote.hpp"
@@ -340,13 +339,6 @@ std::optional<SceneFault> fault_of_shapes(const Scene& scene, std::span<const st
     const std::size_t number = number_at(first);
     const OwnerFault fault = fault_of_shape(scene.objects[number]);
     return SceneFault{label_of(scene, number), fault->message, number, fault->key};
-}
-
-std::optional<SceneFault> fault_of_growth(const Scene& scene)
-{
-    if (const auto grown = find_growth(scene))
-        return SceneFault{label_of(scene, grown->object), grown->message, grown->object, ""};
-    return std::nullopt;
 }
 
 std::optional<SceneFault> fault_of_scene(const Scene& scene)

@@ -58,7 +58,8 @@ struct SceneFault {
                                                         std::span<const std::int32_t> objects,
                                                         std::vector<MovedShape>& shapes);
 
-/// Colours that may grow beyond single precision.
+/// Colours that may grow beyond single precision. Nothing where none can, which no factor at or
+/// below 1 in sum can make it.
 [[nodiscard]] std::optional<SceneFault> fault_of_growth(const Scene& scene);
 
 inline constexpr std::string_view looks_nowhere =

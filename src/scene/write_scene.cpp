@@ -7,7 +7,6 @@
 
 #include "scene/keys.hpp"
 #include "scene/object_names.hpp"
-#include "scene/scene_writer.hpp"
 
 namespace packtrace::language {
 namespace {

@@ -3,9 +3,7 @@
 #include <packtrace/image_io.hpp>
 
 #include "fuzzer.hpp"
-#include "image/hdr.hpp"
-#include "image/pfm.hpp"
-#include "image/png.hpp"
+#include "image/formats.hpp"
 
 namespace {
 

@@ -1,9 +1,9 @@
 // Any text as a CSV of rays: as many rays in every column, or one line that says why not.
 #include <string>
 
-#include "cli/intersect/ray_blocks.hpp"
-#include "cli/intersect/ray_reader.hpp"
-#include "core/file_error.hpp"
+#include "cli/intersect/ray_csv.hpp"
+#include "cli/intersect/ray_file.hpp"
+#include "core/read_file.hpp"
 #include "input_file.hpp"
 
 namespace {

@@ -9,7 +9,6 @@
 #include <packtrace/read_scene.hpp>
 
 #include "fuzzer.hpp"
-#include "lab/soak/shrink.hpp"
 #include "lab/soak/soak.hpp"
 #include "lab/soak/soak_scene.hpp"
 

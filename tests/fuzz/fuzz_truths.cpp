@@ -1,6 +1,6 @@
 // Any bytes as a kept truth of the key "key": a whole picture, or nothing.
 #include "input_file.hpp"
-#include "lab/truth/truth_file.hpp"
+#include "lab/truth/truth_cache.hpp"
 
 PACKTRACE_FUZZER(truths)
 {

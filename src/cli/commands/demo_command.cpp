@@ -1,3 +1,4 @@
+#include <cstdint>
 #include <filesystem>
 #include <iostream>
 #include <memory>
@@ -6,12 +7,16 @@
 #include <vector>
 
 #include <packtrace/compare.hpp>
+#include <packtrace/image.hpp>
 #include <packtrace/image_io.hpp>
+#include <packtrace/isa.hpp>
+#include <packtrace/render.hpp>
+#include <packtrace/renderer.hpp>
+#include <packtrace/scene.hpp>
 
 #include <tbb/info.h>
 
 #include "cli/command.hpp"
-#include "cli/commands/demo_entry.hpp"
 #include "cli/options/common_options.hpp"
 #include "cli/options/scene_input.hpp"
 #include "cli/options/thread_limit.hpp"
@@ -32,6 +37,79 @@ struct DemoArguments {
     int threads = tbb::info::default_concurrency();
     int rounds = 5;
 };
+
+/// One way to render the demonstration's scene, and what came of it.
+struct DemoEntry {
+    bool packet = false;
+    bool single = false;  ///< precision; else double
+    std::string isa;      ///< packets only
+    int lanes = 1;
+    int threads = 1;
+    std::vector<double> seconds;  ///< one a round
+    std::uint64_t rays = 0;       ///< of the packets' picture: camera, shadow and reflected
+    Image<double> image;
+};
+
+/// The scalar reference, then every instruction set of this machine, in single and double on
+/// one thread; then the widest single packets on `threads` when there are more than one.
+std::vector<DemoEntry> demo_entries(int threads)
+{
+    std::vector<DemoEntry> entries;
+    for (const bool single : {false, true}) {
+        DemoEntry entry;
+        entry.single = single;
+        entries.push_back(entry);
+        entry.packet = true;
+        for (const IsaInfo& isa : list_isas()) {
+            entry.isa = isa.name;
+            entry.lanes = single ? isa.lanes_single : isa.lanes_double;
+            if (isa.supported)
+                entries.push_back(entry);
+        }
+    }
+    if (threads > 1 && entries.back().packet) {
+        entries.push_back(entries.back());
+        entries.back().threads = threads;
+    }
+    return entries;
+}
+
+template <class Real>
+double render_packets(const Scene& scene, DemoEntry& entry)
+{
+    RenderOptions options;
+    options.isa = entry.isa;
+    options.threads = entry.threads;
+    const Renderer<Real> renderer(scene, options);
+    Image<Real> image;
+    // A renderer's first frame pays for the memory that later ones reuse.
+    entry.rays = renderer.render(image).total();
+    const double seconds =
+        seconds_of(entry.threads, [&] { static_cast<void>(renderer.render(image)); });
+    entry.image = convert<double>(image);
+    return seconds;
+}
+
+template <class Real>
+double render_scalar(const Scene& scene, DemoEntry& entry)
+{
+    RenderOptions options;
+    options.kernel = Kernel::scalar;
+    options.threads = entry.threads;
+    Image<Real> image;
+    const double seconds = seconds_of(entry.threads, [&] { image = render<Real>(scene, options); });
+    entry.image = convert<double>(image);
+    return seconds;
+}
+
+/// Renders the scene once more and keeps the picture; the seconds it took.
+double render_entry(const Scene& scene, DemoEntry& entry)
+{
+    if (entry.packet)
+        return entry.single ? render_packets<float>(scene, entry)
+                            : render_packets<double>(scene, entry);
+    return entry.single ? render_scalar<float>(scene, entry) : render_scalar<double>(scene, entry);
+}
 
 void render_rounds(const Scene& scene, int rounds, std::vector<DemoEntry>& entries)
 {

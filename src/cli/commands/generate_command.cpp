@@ -7,7 +7,6 @@
 #include <packtrace/write_scene.hpp>
 
 #include "cli/command.hpp"
-#include "cli/commands/generators.hpp"
 #include "cli/options/common_options.hpp"
 #include "cli/options/validators.hpp"
 #include "cli/output/text_output.hpp"

@@ -17,10 +17,10 @@
 #include "cli/options/scene_input.hpp"
 #include "cli/options/validators.hpp"
 #include "cli/output/text_table.hpp"
-#include "cli/study/certainty_option.hpp"
+#include "cli/study/study.hpp"
 #include "core/json_text.hpp"
-#include "scene/key_tables.hpp"
 #include "scene/quote.hpp"
+#include "scene/rows.hpp"
 #include "scene/values.hpp"
 #include "scene/words.hpp"
 

@@ -6,9 +6,9 @@
 #include <vector>
 
 #include "cli/command.hpp"
-#include "cli/intersect/part_head.hpp"
+#include "cli/options/shard.hpp"
 #include "cli/output/text_output.hpp"
-#include "cli/study/join_stress.hpp"
+#include "cli/study/study.hpp"
 #include "scene/quote.hpp"
 
 namespace packtrace::cli {

@@ -12,7 +12,7 @@
 #include "cli/command.hpp"
 #include "cli/options/common_options.hpp"
 #include "cli/options/validators.hpp"
-#include "core/file_error.hpp"
+#include "core/read_file.hpp"
 #include "scene/quote.hpp"
 
 namespace packtrace::cli {

@@ -1,12 +1,15 @@
 #pragma once
 
+#include <algorithm>
 #include <string>
 #include <vector>
 
 #include <packtrace/isa.hpp>
 #include <packtrace/scene.hpp>
 
+#include "dispatch/kernels.hpp"
 #include "lower/leave_out.hpp"
+#include "lower/packed_scene.hpp"
 
 namespace packtrace::cli {
 
@@ -20,6 +23,54 @@ struct SceneFeatures {
     std::size_t bytes = 0;  ///< held for the scene by packets
 };
 
-[[nodiscard]] SceneFeatures scene_features(const Scene& scene, const IsaInfo& isa);
+/// What a scene makes the kernels do, in words.
+[[nodiscard]] inline std::vector<std::string> used_features(const LoweredScene& lowered,
+                                                            Traversal traversal)
+{
+    std::vector<std::string> uses;
+    const auto add = [&](bool used, const char* what) {
+        if (used)
+            uses.emplace_back(what);
+    };
+    add(traversal == Traversal::tree, "hierarchy");
+    add(!lowered.spheres.empty(), "spheres");
+    add(!lowered.anchored_spheres.empty(), "anchored spheres");
+    add(!lowered.planes.empty(), "planes");
+    add(!lowered.quadrics.empty(), "quadrics");
+    add(!lowered.polygons.empty(), "polygons");
+    add(std::any_of(lowered.quadrics.begin(), lowered.quadrics.end(),
+                    [](const LoweredQuadric& quadric) { return quadric.clipped(); }),
+        "clipping");
+    add(!lowered.checkers.empty(), "checkers");
+    add(!lowered.lights.empty(), lowered.lights.size() > 1 ? "several lights" : "one light");
+    add(lowered.features.highlights, "highlights");
+    add(lowered.shadows && !lowered.transparent_shadows, "opaque shadows");
+    add(lowered.transparent_shadows, "transparent shadows");
+    add(lowered.features.bounces, "mirrored rays");
+    add(lowered.features.glass, "refracted rays");
+    return uses;
+}
+
+[[nodiscard]] inline SceneFeatures scene_features(const Scene& scene, const IsaInfo& isa)
+{
+    LoweredScene lowered = lower(scene);
+    SceneFeatures features;
+    features.left_out = leave_out(lowered);
+    const Traversal traversal = frame_traversal(lowered, Traversal::automatic, isa.lanes_single);
+    for (LeftOut& unused : unused_features(lowered, traversal))
+        features.left_out.push_back(std::move(unused));
+    features.uses = used_features(lowered, traversal);
+    features.kernel =
+        kernels_for(precision<float>(kernels_of(isa.name)), lowered.features).set.name;
+    PackedScene<float> packed(lowered, traversal);
+    packed.add_light_buffers(lowered, static_cast<double>(scene.width) * scene.height);
+    features.in_registers = fused_for(precision<float>(kernels_of(isa.name)), lowered.features,
+                                      packed.view()) != nullptr;
+    features.sorts_mirrored = sorts_mirrored(lowered.features, packed.view());
+    if (packed.has_light_buffers())
+        features.uses.emplace_back("light buffers");
+    features.bytes = packed.bytes();
+    return features;
+}
 
 }  // namespace packtrace::cli

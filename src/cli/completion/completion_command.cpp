@@ -1,13 +1,76 @@
+#include "cli/completion/completion.hpp"
+
+#include <algorithm>
+#include <array>
 #include <iostream>
 #include <memory>
+#include <sstream>
 #include <string>
+#include <string_view>
 
 #include "cli/command.hpp"
-#include "cli/completion/command_words.hpp"
 #include "cli/options/validators.hpp"
 
 namespace packtrace::cli {
 namespace {
+
+// What options call their arguments where these are paths; positional arguments have no type name,
+// and are all paths.
+constexpr std::array<std::string_view, 5> path_types{"DIR", "FILE", "FOLDER", "IMAGE", "PROGRAM"};
+
+std::string first_sentence(const std::string& text)
+{
+    return text.substr(0, std::min(text.find(". "), text.find("; ")));
+}
+
+/// Those of "fast|exact".
+std::vector<std::string> alternatives(const std::string& type)
+{
+    std::vector<std::string> words;
+    std::istringstream stream(type);
+    for (std::string word; std::getline(stream, word, '|');)
+        words.push_back(word);
+    return words;
+}
+
+OptionWords option_words(const CLI::Option& option)
+{
+    OptionWords words;
+    for (const std::string& name : option.get_snames())
+        words.names.push_back("-" + name);
+    for (const std::string& name : option.get_lnames())
+        words.names.push_back("--" + name);
+    words.description = first_sentence(option.get_description());
+    const std::string type = option.get_type_name();
+    if (option.get_items_expected_max() == 0)
+        return words;
+    words.argument = Argument::other;
+    if (std::find(path_types.begin(), path_types.end(), type) != path_types.end())
+        words.argument = Argument::path;
+    if (type.find('|') != std::string::npos) {
+        words.argument = Argument::words;
+        words.words = alternatives(type);
+    }
+    return words;
+}
+
+/// The words of `app`; commands without a group are hidden, here as in the help.
+CommandWords command_words(const CLI::App& app)
+{
+    CommandWords words;
+    words.name = app.get_name();
+    words.description = first_sentence(app.get_description());
+    for (const CLI::Option* option : app.get_options()) {
+        if (option->get_positional())
+            words.takes_paths = true;
+        else
+            words.options.push_back(option_words(*option));
+    }
+    for (const CLI::App* command : app.get_subcommands([](const CLI::App*) { return true; }))
+        if (!command->get_group().empty())
+            words.commands.push_back(command_words(*command));
+    return words;
+}
 
 void print_completion(const CLI::App& app, const std::string& shell)
 {
@@ -18,6 +81,22 @@ void print_completion(const CLI::App& app, const std::string& shell)
 }
 
 }  // namespace
+
+std::string join_words(const std::vector<std::string>& words, const std::string& between)
+{
+    std::string text;
+    for (const std::string& word : words)
+        text += (text.empty() ? "" : between) + word;
+    return text;
+}
+
+std::string inner_names(const CommandWords& command)
+{
+    std::vector<std::string> names;
+    for (const CommandWords& inner : command.commands)
+        names.push_back(inner.name);
+    return join_words(names);
+}
 
 // For installation, and for those who don't install: hidden from the help.
 void add_completion(CLI::App& app)

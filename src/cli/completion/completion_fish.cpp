@@ -1,6 +1,6 @@
 #include <sstream>
 
-#include "cli/completion/command_words.hpp"
+#include "cli/completion/completion.hpp"
 
 namespace packtrace::cli {
 namespace {

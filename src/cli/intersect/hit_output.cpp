@@ -3,7 +3,7 @@
 #include <algorithm>
 
 #include "cli/interrupts.hpp"
-#include "cli/render/band_file.hpp"
+#include "cli/render/frame_recipe.hpp"
 #include "core/checksum.hpp"
 #include "image/bytes.hpp"
 

@@ -121,4 +121,18 @@ template void HitRows::append_all(std::string&, std::uint64_t,
 template void HitRows::append_all(std::string&, std::uint64_t, std::span<const SurfaceHit<double>>,
                                   std::span<const HitBounds>) const;
 
+std::string_view header_of(RayQuery query, RayBounds bounds)
+{
+    const bool bounded = bounds == RayBounds::proven;
+    switch (query) {
+        case RayQuery::all:
+            return bounded ? HitRows::bounded_all_header : HitRows::all_header;
+        case RayQuery::any:
+            return HitRows::any_header;
+        case RayQuery::closest:
+            break;
+    }
+    return bounded ? HitRows::bounded_closest_header : HitRows::closest_header;
+}
+
 }  // namespace packtrace::cli

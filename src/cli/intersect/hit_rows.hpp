@@ -11,6 +11,12 @@
 
 namespace packtrace::cli {
 
+/// What to say of each ray: its first hit, all of them in order, or whether there is any.
+enum class RayQuery { closest, all, any };
+
+/// Whether hits come with proven bounds of their t.
+enum class RayBounds { none, proven };
+
 /// Writes hits as CSV rows, numbers with 17 significant digits, objects by name.
 class HitRows {
 public:
@@ -50,5 +56,8 @@ private:
 
     std::vector<std::string> names_;  // in quotes where CSV wants them
 };
+
+/// The line above all rows.
+[[nodiscard]] std::string_view header_of(RayQuery query, RayBounds bounds);
 
 }  // namespace packtrace::cli

@@ -5,7 +5,7 @@
 
 #include <packtrace/scene.hpp>
 
-#include "cli/intersect/ray_query.hpp"
+#include "cli/intersect/hit_rows.hpp"
 #include "cli/options/common_options.hpp"
 
 namespace packtrace::cli {

@@ -6,7 +6,6 @@
 #include "cli/intersect/hit_output.hpp"
 #include "cli/intersect/intersect_arguments.hpp"
 #include "cli/intersect/intersect_rays.hpp"
-#include "cli/intersect/part_head.hpp"
 #include "cli/options/scene_input.hpp"
 #include "cli/options/shard.hpp"
 #include "cli/options/thread_limit.hpp"

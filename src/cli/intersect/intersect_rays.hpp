@@ -1,12 +1,51 @@
 #pragma once
 
+#include <cstdint>
 #include <functional>
+#include <string>
 #include <string_view>
+#include <vector>
 
-#include "cli/intersect/block_tracer.hpp"
-#include "cli/intersect/ray_blocks.hpp"
+#include <packtrace/intersect.hpp>
+
+#include <tbb/enumerable_thread_specific.h>
+
+#include "cli/intersect/hit_rows.hpp"
+#include "cli/intersect/ray_csv.hpp"
+#include "cli/intersect/ray_file.hpp"
 
 namespace packtrace::cli {
+
+/// Turns blocks of rays into rows of hits; several threads may do so at once.
+template <class Real>
+class BlockTracer {
+public:
+    /// Throws as RayScene does.
+    BlockTracer(const Scene& scene, const RenderOptions& options, RayQuery query, RayBounds bounds);
+
+    /// Throws FileError for a wrong line.
+    [[nodiscard]] std::string rows_of(const RayBlock& block);
+
+private:
+    // The memory a thread needs for a block, kept for its next one.
+    struct Scratch {
+        RayArrays<Real> rays;
+        std::vector<Real> t, normal_x, normal_y, normal_z;
+        std::vector<std::int32_t> object;
+        std::vector<std::uint8_t> mask;
+        std::vector<HitBounds> bounds;
+    };
+
+    void append_closest(std::string& rows, Scratch& s) const;
+    void append_all(std::string& rows, std::uint64_t first_ray, Scratch& s) const;
+    void append_any(std::string& rows, Scratch& s) const;
+
+    RayScene<Real> scene_;
+    HitRows rows_;
+    RayQuery query_;
+    RayBounds bounds_;
+    tbb::enumerable_thread_specific<Scratch> scratch_;
+};
 
 /// Takes the rows of one block after the other, in order.
 using TakeRows = std::function<void(const RayBlock& block, std::string_view rows)>;

@@ -11,7 +11,7 @@ namespace {
 
 // As the scene language has them.
 constexpr int largest_side = 65536;
-constexpr int deepest = 64;
+constexpr int most_depth = 64;
 constexpr int most_threads = 1024;
 // As RenderOptions::samples has them.
 constexpr int most_samples = 1024;
@@ -105,7 +105,7 @@ void add_picture_options(CLI::App& command, PictureArguments& arguments)
     command
         .add_option("--depth", arguments.depth,
                     "Reflections after the camera ray (default the scene's)")
-        ->check(whole_number(0, deepest))
+        ->check(whole_number(0, most_depth))
         ->type_name("N");
     command
         .add_option("--min-weight", arguments.min_weight,

@@ -1,10 +1,15 @@
 #pragma once
 
+#include <filesystem>
+#include <iostream>
 #include <string>
 
+#include <packtrace/read_scene.hpp>
 #include <packtrace/scene.hpp>
 
 #include <CLI/CLI.hpp>
+
+#include "scene/source.hpp"
 
 namespace packtrace::cli {
 
@@ -17,10 +22,28 @@ struct SceneInput {
 };
 
 /// Adds the positional SCENE, which is required.
-CLI::Option* add_scene_option(CLI::App& command, std::string& file);
+inline CLI::Option* add_scene_option(CLI::App& command, std::string& file)
+{
+    return command.add_option("SCENE", file, "Scene file; - is standard input")
+        ->required()
+        ->type_name("");
+}
 
 /// Reads it; warnings go to standard error. Throws SceneError, also where standard input has been
 /// read before.
-[[nodiscard]] SceneInput read_scene_input(const std::string& file);
+[[nodiscard]] inline SceneInput read_scene_input(const std::string& file)
+{
+    const bool piped = file == "-";
+    SceneInput input;
+    input.name = piped ? "standard input" : file;
+    input.stem = piped ? "stdin" : std::filesystem::path(file).stem().string();
+    if (piped && std::cin.eof())
+        throw SceneError(input.name + ": has been read already; give - for one scene only");
+    input.text = piped ? language::load_text(std::cin, input.name) : language::load_text(file);
+    input.scene = parse_scene(input.text, input.name, [](const std::string& line) {
+        std::cerr << "warning: " << line << '\n';
+    });
+    return input;
+}
 
 }  // namespace packtrace::cli

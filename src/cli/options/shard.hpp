@@ -1,7 +1,9 @@
 #pragma once
 
+#include <charconv>
 #include <optional>
 #include <string>
+#include <string_view>
 
 #include <CLI/CLI.hpp>
 
@@ -20,10 +22,58 @@ struct Shard {
 };
 
 /// Reads "I/N"; nothing where it is none.
-[[nodiscard]] std::optional<Shard> parse_shard(const std::string& text);
+[[nodiscard]] inline std::optional<Shard> parse_shard(const std::string& text)
+{
+    constexpr int most_shards = 1'000'000;
+    Shard shard;
+    const char* const end = text.data() + text.size();
+    const auto [slash, error] = std::from_chars(text.data(), end, shard.index);
+    if (error != std::errc() || slash == end || *slash != '/')
+        return std::nullopt;
+    const auto [stop, second_error] = std::from_chars(slash + 1, end, shard.count);
+    if (second_error != std::errc() || stop != end || shard.index < 0 ||
+        shard.index >= shard.count || shard.count > most_shards)
+        return std::nullopt;
+    return shard;
+}
 
 /// `--shard`; `what` says what it cuts.
-CLI::Option* add_shard_option(CLI::App& command, std::optional<std::string>& shard,
-                              const std::string& what);
+inline CLI::Option* add_shard_option(CLI::App& command, std::optional<std::string>& shard,
+                                     const std::string& what)
+{
+    const auto check = [](const std::string& text) {
+        return parse_shard(text)
+                   ? std::string()
+                   : "'" + text + "' is no shard such as 0/8, the first of eight, or 7/8, the last";
+    };
+    return command.add_option("--shard", shard, what)
+        ->check(CLI::Validator(check, ""))
+        ->type_name("I/N");
+}
+
+/// The first line of a part of a file of hits, so that parts of different work are not joined.
+struct PartHead {
+    Shard shard;
+    std::string recipe;  ///< what the hits depend on, the same for all parts
+
+    static constexpr std::string_view begin = "# packtrace part ";
+
+    [[nodiscard]] std::string line() const
+    {
+        return std::string(begin) + shard.text() + " of " + recipe + "\n";
+    }
+    /// Of a line without its end; nothing for any other line.
+    [[nodiscard]] static std::optional<PartHead> parse(std::string_view line)
+    {
+        if (!line.starts_with(begin))
+            return std::nullopt;
+        line.remove_prefix(begin.size());
+        const std::size_t end = line.find(" of ");
+        const std::optional<Shard> shard = parse_shard(std::string(line.substr(0, end)));
+        if (!shard || end == std::string_view::npos)
+            return std::nullopt;
+        return PartHead{*shard, std::string(line.substr(end + 4))};
+    }
+};
 
 }  // namespace packtrace::cli

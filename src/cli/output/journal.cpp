@@ -10,8 +10,8 @@
 #include <unistd.h>
 
 #include "core/atomic_file.hpp"
+#include "core/checksum.hpp"
 #include "core/read_file.hpp"
-#include "core/text_hash.hpp"
 
 namespace packtrace::cli {
 namespace {

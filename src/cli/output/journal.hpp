@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "core/file_error.hpp"
+#include "core/read_file.hpp"
 
 namespace packtrace::cli {
 

@@ -1,6 +1,11 @@
 #pragma once
 
 #include <chrono>
+#include <cmath>
+#include <iostream>
+#include <string>
+
+#include <unistd.h>
 
 namespace packtrace::cli {
 
@@ -10,13 +15,33 @@ enum class Verbosity { normal, quiet };
 /// It disappears with the object.
 class ProgressBar {
 public:
-    explicit ProgressBar(Verbosity verbosity);
-    ~ProgressBar();
+    explicit ProgressBar(Verbosity verbosity)
+        : wanted_(verbosity == Verbosity::normal && isatty(STDERR_FILENO) != 0),
+          next_(Clock::now() + std::chrono::seconds(1))
+    {
+    }
+    ~ProgressBar()
+    {
+        // Back to the start of the line, and clear it.
+        if (drawn_)
+            std::cerr << "\r\033[K" << std::flush;
+    }
     ProgressBar(const ProgressBar&) = delete;
     ProgressBar& operator=(const ProgressBar&) = delete;
 
     /// `share` of the work is done, in [0, 1]. One call at a time.
-    void update(double share);
+    void update(double share)
+    {
+        if (!wanted_ || Clock::now() < next_)
+            return;
+        constexpr std::size_t bar_width = 40;
+        drawn_ = true;
+        next_ = Clock::now() + std::chrono::milliseconds(100);
+        const auto filled = static_cast<std::size_t>(std::lround(share * bar_width));
+        const std::string bar = std::string(filled, '#') + std::string(bar_width - filled, '.');
+        std::cerr << "\r[" + bar + "] " + std::to_string(std::lround(100.0 * share)) + " %"
+                  << std::flush;
+    }
 
 private:
     using Clock = std::chrono::steady_clock;

@@ -17,28 +17,7 @@ std::string head_of(const RenderArguments& arguments, const Scene& scene,
            std::to_string(bands.rows);
 }
 
-/// The parts of a recipe that commas end: the program, the scene, the camera; then all else.
-std::string part_of(const std::string& recipe, int number)
-{
-    std::size_t begin = 0;
-    for (int i = 0; i < number; ++i)
-        if (begin = recipe.find(", ", begin); begin != std::string::npos)
-            begin += 2;
-        else
-            return {};
-    return recipe.substr(begin, number == 3 ? std::string::npos : recipe.find(", ", begin) - begin);
-}
-
 }  // namespace
-
-std::string recipe_difference(const std::string& before, const std::string& now)
-{
-    if (part_of(before, 0) != part_of(now, 0))
-        return "another version";
-    if (part_of(before, 1) != part_of(now, 1))
-        return "another scene";
-    return part_of(before, 2) != part_of(now, 2) ? "another camera" : "other options";
-}
 
 BandFile::BandFile(const RenderArguments& arguments, const Scene& scene,
                    const RenderOptions& options, std::int64_t pixels)

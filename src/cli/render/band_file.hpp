@@ -7,8 +7,8 @@
 #include <packtrace/scene.hpp>
 
 #include "cli/output/journal.hpp"
-#include "cli/render/band_source.hpp"
 #include "cli/render/render_arguments.hpp"
+#include "cli/render/render_bands.hpp"
 
 namespace packtrace::cli {
 
@@ -73,8 +73,5 @@ private:
     std::unique_ptr<Journal> journal_;
     RowFile file_;
 };
-
-/// In which respect two recipes differ, for messages.
-[[nodiscard]] std::string recipe_difference(const std::string& before, const std::string& now);
 
 }  // namespace packtrace::cli

@@ -6,7 +6,7 @@
 #include <packtrace/version.hpp>
 #include <packtrace/write_scene.hpp>
 
-#include "core/text_hash.hpp"
+#include "core/checksum.hpp"
 
 namespace packtrace::cli {
 namespace {
@@ -46,6 +46,18 @@ std::string text_of(const RenderArguments& arguments, const RenderOptions& optio
     return text + ", gamma " + exactly(arguments.write.gamma);
 }
 
+/// The parts of a recipe that commas end: the program, the scene, the camera; then all else.
+std::string part_of(const std::string& recipe, int number)
+{
+    std::size_t begin = 0;
+    for (int i = 0; i < number; ++i)
+        if (begin = recipe.find(", ", begin); begin != std::string::npos)
+            begin += 2;
+        else
+            return {};
+    return recipe.substr(begin, number == 3 ? std::string::npos : recipe.find(", ", begin) - begin);
+}
+
 }  // namespace
 
 FrameRecipe::FrameRecipe(const RenderArguments& arguments, const Scene& scene,
@@ -65,6 +77,15 @@ std::string FrameRecipe::of(const Camera& camera) const
     camera_alone.camera = camera;
     return "packtrace " PACKTRACE_VERSION_STRING ", scene " + scene_ + ", camera " +
            hash_of(camera_alone) + ", " + options_;
+}
+
+std::string recipe_difference(const std::string& before, const std::string& now)
+{
+    if (part_of(before, 0) != part_of(now, 0))
+        return "another version";
+    if (part_of(before, 1) != part_of(now, 1))
+        return "another scene";
+    return part_of(before, 2) != part_of(now, 2) ? "another camera" : "other options";
 }
 
 }  // namespace packtrace::cli

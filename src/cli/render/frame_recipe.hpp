@@ -23,4 +23,7 @@ private:
     std::string options_;
 };
 
+/// In which respect two recipes differ, for messages.
+[[nodiscard]] std::string recipe_difference(const std::string& before, const std::string& now);
+
 }  // namespace packtrace::cli

@@ -11,11 +11,10 @@
 #include "cli/options/validators.hpp"
 #include "cli/output/progress_bar.hpp"
 #include "cli/output/text_table.hpp"
-#include "cli/render/cut_rays.hpp"
 #include "cli/render/render_picture.hpp"
 #include "core/job_queue.hpp"
 #include "core/seconds_since.hpp"
-#include "render/frame_pattern.hpp"
+#include "render/frame_numbers.hpp"
 #include "scene/quote.hpp"
 
 namespace packtrace::cli {

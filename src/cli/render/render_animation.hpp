@@ -10,7 +10,7 @@
 
 #include "cli/render/frame_output.hpp"
 #include "cli/render/render_arguments.hpp"
-#include "render/frame_range.hpp"
+#include "render/frame_numbers.hpp"
 
 namespace packtrace::cli {
 

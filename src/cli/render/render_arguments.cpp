@@ -1,14 +1,16 @@
 #include "cli/render/render_arguments.hpp"
 
-#include <cstdio>
-#include <iostream>
+#include <array>
+#include <charconv>
+#include <stdexcept>
+#include <string_view>
 
 #include "cli/options/scene_input.hpp"
 #include "cli/options/validators.hpp"
 #include "cli/render/render_animation.hpp"
-#include "cli/study/certainty_option.hpp"
-#include "image/format.hpp"
-#include "scene/quote.hpp"
+#include "cli/study/study.hpp"
+#include "image/formats.hpp"
+#include "render/check_sampling.hpp"
 
 namespace packtrace::cli {
 namespace {
@@ -18,6 +20,30 @@ void check_gamma(const RenderArguments& arguments)
     if (arguments.write.gamma != 1.0 && !arguments.animation.y4m &&
         image_format(arguments.output) != ImageFormat::png)
         throw CLI::ValidationError("--gamma: only PNG has one; .pfm and .hdr hold linear values");
+}
+
+/// Four whole numbers "X,Y,W,H", or nothing.
+std::optional<Region> parse_region(std::string_view text)
+{
+    std::array<int, 4> numbers{};
+    const char* at = text.data();
+    const char* const end = at + text.size();
+    for (std::size_t i = 0; i < numbers.size(); ++i) {
+        const auto [behind, error] = std::from_chars(at, end, numbers[i]);
+        const bool is_last = i + 1 == numbers.size();
+        if (error != std::errc() || (is_last ? behind != end : behind == end || *behind != ','))
+            return std::nullopt;
+        at = behind + 1;
+    }
+    return Region{numbers[0], numbers[1], numbers[2], numbers[3]};
+}
+
+std::string check_region(const std::string& text)
+{
+    return parse_region(text) ? ""
+                              : "'" + text +
+                                    "' is not a region such as 100,50,320,240: column and row of "
+                                    "its first pixel, width and height";
 }
 
 }  // namespace
@@ -60,19 +86,37 @@ RenderOptions checked_options(const RenderArguments& arguments)
     return options;
 }
 
-void print_summary(const RenderArguments& arguments, const RenderOptions& options,
-                   const Scene& scene, double seconds, double writing)
+void add_region_option(CLI::App& command, RenderArguments& arguments)
 {
-    const Region part = options.region.value_or(Region{0, 0, scene.width, scene.height});
-    const std::string kernel =
-        options.kernel == Kernel::scalar ? "scalar" : "packet, " + options.isa;
-    const double pixels = static_cast<double>(part.width) * part.height;
-    char text[192];
-    std::snprintf(text, sizeof text,
-                  ": %d x %d, %s, %s, %.1f ms, %.1f Mpixel/s; written in %.1f ms\n", part.width,
-                  part.height, kernel.c_str(), arguments.kernel.precision.c_str(), 1e3 * seconds,
-                  1e-6 * pixels / seconds, 1e3 * writing);
-    std::cerr << language::escape(arguments.output) << text;
+    command
+        .add_option("--region", arguments.region,
+                    "Render a part of the picture alone: column and row of its first pixel, from "
+                    "the upper left, its width and height (default all of it)")
+        ->check(CLI::Validator(check_region, ""))
+        ->type_name("X,Y,W,H");
+}
+
+void check_region_options(const RenderArguments& arguments)
+{
+    if (!arguments.region)
+        return;
+    if (arguments.resume)
+        throw CLI::ValidationError("--region: can't be resumed; leave out --resume");
+    if (arguments.certainty)
+        throw CLI::ValidationError("--region: --certainty is of whole pictures; leave one out");
+}
+
+std::optional<Region> region_of(const RenderArguments& arguments, const Scene& scene)
+{
+    if (!arguments.region)
+        return std::nullopt;
+    RenderOptions options;
+    options.region = parse_region(*arguments.region);
+    try {
+        return checked_region(options, scene);
+    } catch (const std::invalid_argument& error) {
+        throw CLI::ValidationError(std::string("--") + error.what());
+    }
 }
 
 }  // namespace packtrace::cli

@@ -4,6 +4,7 @@
 #include <string>
 
 #include <packtrace/image_io.hpp>
+#include <packtrace/render.hpp>
 
 #include "cli/options/common_options.hpp"
 
@@ -45,8 +46,13 @@ void add_render_options(CLI::App& command, RenderArguments& arguments);
 /// can't be written.
 [[nodiscard]] RenderOptions checked_options(const RenderArguments& arguments);
 
-/// Says on standard error what a picture took, in seconds.
-void print_summary(const RenderArguments& arguments, const RenderOptions& options,
-                   const Scene& scene, double seconds, double writing);
+/// Adds `--region`, which jobs of many ranks do not take.
+void add_region_option(CLI::App& command, RenderArguments& arguments);
+
+/// Throws CLI::ValidationError where a region can't be together with another option.
+void check_region_options(const RenderArguments& arguments);
+
+/// What of the scene's picture is rendered. Throws CLI::ValidationError for a region outside it.
+[[nodiscard]] std::optional<Region> region_of(const RenderArguments& arguments, const Scene& scene);
 
 }  // namespace packtrace::cli

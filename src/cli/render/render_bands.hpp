@@ -1,19 +1,67 @@
 #pragma once
 
 #include <cstdint>
+#include <memory>
+#include <span>
+#include <string>
 
 #include <packtrace/render.hpp>
+#include <packtrace/renderer.hpp>
 #include <packtrace/scene.hpp>
 
 #include "cli/render/render_arguments.hpp"
+#include "image/row_file.hpp"
 
 namespace packtrace::cli {
 
-/// Of a band: enough for all threads, little memory. Journals depend on it.
+/// A picture in bands: some rows at a time, in any order.
+struct Bands {
+    int width = 0;       ///< pixels
+    int height = 0;      ///< pixels
+    int rows = 0;        ///< of each, but for the last one's
+    bool below = false;  ///< numbered from the picture's last row, as files that begin there are
+
+    struct Band {
+        int first = 0;  ///< its uppermost row
+        int rows = 0;
+    };
+
+    [[nodiscard]] int count() const
+    {
+        return (height + rows - 1) / rows;
+    }
+    /// By its number in the file's order.
+    [[nodiscard]] Band band(int number) const
+    {
+        const int first = rows * (below ? count() - 1 - number : number);
+        return {first, first + rows <= height ? rows : height - first};
+    }
+};
+
+/// Of about `pixels` pixels each: whole tiles, the last row of which may be the picture's.
+[[nodiscard]] Bands cut_into_bands(int width, int height, ImageFormat format, std::int64_t pixels);
+
+/// Pixels of a band: enough for all threads, little memory. Journals depend on it.
 inline constexpr std::int64_t band_pixels = std::int64_t{1} << 18;
 
 /// Pictures of more pixels are not held whole.
 inline constexpr std::int64_t most_whole_pixels = std::int64_t{1} << 24;
+
+/// Renders bands.
+class BandSource {
+public:
+    virtual ~BandSource() = default;
+
+    /// Fills `samples` with those of a band. Its rays are known of packets alone; what is cut of
+    /// all kernels.
+    virtual FrameCounts render(const Bands::Band& band, std::span<std::uint8_t> samples) = 0;
+};
+
+/// Throws as render() does. `options.progress`, if any, is called with the share of a band.
+[[nodiscard]] std::unique_ptr<BandSource> band_source(const Scene& scene,
+                                                      const std::string& precision,
+                                                      const RenderOptions& options,
+                                                      const RowSamples& samples);
 
 /// What a picture in bands took.
 struct BandTally {

@@ -1,5 +1,3 @@
-#include <packtrace/render.hpp>
-
 #include <chrono>
 #include <cstdio>
 #include <iostream>
@@ -7,17 +5,17 @@
 #include <string>
 
 #include <packtrace/image_io.hpp>
+#include <packtrace/render.hpp>
 
 #include "cli/command.hpp"
 #include "cli/options/scene_input.hpp"
 #include "cli/options/thread_limit.hpp"
 #include "cli/output/progress_bar.hpp"
-#include "cli/render/cut_rays.hpp"
-#include "cli/render/region_option.hpp"
 #include "cli/render/render_animation.hpp"
+#include "cli/render/render_arguments.hpp"
 #include "cli/render/render_bands.hpp"
 #include "cli/render/render_picture.hpp"
-#include "cli/study/certainty_option.hpp"
+#include "cli/study/study.hpp"
 #include "scene/quote.hpp"
 
 namespace packtrace::cli {
@@ -27,6 +25,22 @@ double seconds_between(std::chrono::steady_clock::time_point from,
                        std::chrono::steady_clock::time_point to)
 {
     return std::chrono::duration<double>(to - from).count();
+}
+
+/// Says on standard error what a picture took, in seconds.
+void print_summary(const RenderArguments& arguments, const RenderOptions& options,
+                   const Scene& scene, double seconds, double writing)
+{
+    const Region part = options.region.value_or(Region{0, 0, scene.width, scene.height});
+    const std::string kernel =
+        options.kernel == Kernel::scalar ? "scalar" : "packet, " + options.isa;
+    const double pixels = static_cast<double>(part.width) * part.height;
+    char text[192];
+    std::snprintf(text, sizeof text,
+                  ": %d x %d, %s, %s, %.1f ms, %.1f Mpixel/s; written in %.1f ms\n", part.width,
+                  part.height, kernel.c_str(), arguments.kernel.precision.c_str(), 1e3 * seconds,
+                  1e-6 * pixels / seconds, 1e3 * writing);
+    std::cerr << language::escape(arguments.output) << text;
 }
 
 void print_found(const RenderArguments& arguments, const BandTally& tally)

@@ -21,4 +21,9 @@ using AnyImage = std::variant<Image<float>, Image<double>, Image<long double>>;
 void write_picture(const std::filesystem::path& file, const AnyImage& picture,
                    const ImageWriteOptions& options);
 
+/// Says on standard error how many rays `--min-weight` left out of what went to `output`, and how
+/// far off that can make a pixel; nothing where all rays are traced.
+void print_cut_rays(const std::string& output, const Scene& scene, const RenderOptions& options,
+                    const CutRays& cut);
+
 }  // namespace packtrace::cli

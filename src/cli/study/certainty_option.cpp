@@ -1,4 +1,4 @@
-#include "cli/study/certainty_option.hpp"
+#include "cli/study/study.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -8,7 +8,7 @@
 
 #include <CLI/CLI.hpp>
 
-#include "image/format.hpp"
+#include "image/formats.hpp"
 #include "scene/quote.hpp"
 
 namespace packtrace::cli {

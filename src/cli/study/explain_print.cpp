@@ -1,8 +1,11 @@
 #include "cli/study/explain_print.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <cstdio>
 #include <ostream>
+
+#include "lab/harness/names.hpp"
 
 namespace packtrace::cli {
 namespace {
@@ -89,6 +92,50 @@ void print_lines(std::ostream& to, const std::vector<Line>& lines)
     }
 }
 
+using Json = nlohmann::ordered_json;
+
+Json triple(const Vec3& v)
+{
+    return {v.x, v.y, v.z};
+}
+
+Json lights_json(const RayNode& ray)
+{
+    Json lights = Json::array();
+    for (const LightShare& light : ray.lights)
+        lights.push_back({{"light", light.light + 1},
+                          {"share", light.share ? triple(*light.share) : Json(nullptr)},
+                          {"color", triple(light.color)}});
+    return lights;
+}
+
+Json ray_json(const Scene& scene, const RayNode& ray)
+{
+    Json json{{"kind", name_of(ray.kind)},
+              {"origin", triple(ray.org)},
+              {"direction", triple(ray.dir)},
+              {"weight", triple(ray.weight)},
+              {"object", nullptr}};
+    if (ray.object >= 0) {
+        json["object"] = scene.objects[static_cast<std::size_t>(ray.object)].name;
+        json["t"] = ray.t;
+        json["point"] = triple(ray.point);
+        json["normal"] = triple(ray.normal);
+        json["lights"] = lights_json(ray);
+    }
+    json["local"] = triple(ray.local);
+    json["brought"] = triple(ray.brought);
+    json["children"] = Json::array();
+    for (const RayNode& child : ray.children)
+        json["children"].push_back(ray_json(scene, child));
+    return json;
+}
+
+Json tree_json(const Scene& scene, const RayNode& tree)
+{
+    return {{"color", triple(sum_of(tree))}, {"tree", ray_json(scene, tree)}};
+}
+
 }  // namespace
 
 const TreeRow* first_difference(const Explanation& explanation)
@@ -112,6 +159,22 @@ void print_explanation(std::ostream& to, const Scene& scene, const Explanation& 
     else
         to << "first difference beyond " << in_words({explanation.tolerance}, 3) << ": " << row->ray
            << ": " << row->field << '\n';
+}
+
+Json explanation_json(const Scene& scene, const Explanation& explanation)
+{
+    const TreeRow* const row = first_difference(explanation);
+    return {{"scene", explanation.file},
+            {"pixel", {{"x", explanation.x}, {"y", explanation.y}}},
+            {"width", scene.width},
+            {"height", scene.height},
+            {"isa", explanation.isa},
+            {"precision", explanation.precision},
+            {"tolerance", explanation.tolerance},
+            {"first_difference",
+             row == nullptr ? Json(nullptr) : Json{{"ray", row->ray}, {"field", row->field}}},
+            {"reference", tree_json(scene, explanation.reference)},
+            {"packets", tree_json(scene, explanation.packets)}};
 }
 
 }  // namespace packtrace::cli

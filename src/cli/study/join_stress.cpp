@@ -1,4 +1,4 @@
-#include "cli/study/join_stress.hpp"
+#include "cli/study/study.hpp"
 
 #include <algorithm>
 #include <optional>
@@ -9,7 +9,6 @@
 #include "core/json_text.hpp"
 #include "core/read_file.hpp"
 #include "lab/stress/stress.hpp"
-#include "lab/stress/stress_verdict.hpp"
 #include "scene/quote.hpp"
 
 namespace packtrace::cli {

@@ -1,13 +1,61 @@
-#include "cli/study/profile_kernels.hpp"
+#include "cli/study/profile_print.hpp"
 
 #include <algorithm>
 #include <ostream>
+#include <string>
+#include <vector>
 
 #include "cli/output/text_table.hpp"
-#include "cli/study/deep_rows.hpp"
 
 namespace packtrace::cli {
 namespace {
+
+/// Generations that tables show apart; the last of them stands for all further ones, too.
+constexpr int depths_shown = 5;
+
+/// `deepest` is that of all rows.
+std::string depth_name(int depth, int deepest)
+{
+    const bool more = depth == depths_shown - 1 && deepest > depth;
+    return "depth " + std::to_string(depth) + (more ? " on" : "");
+}
+
+template <class Row>
+int deepest_of(const std::vector<Row>& rows)
+{
+    int depth = 0;
+    for (const Row& row : rows)
+        depth = std::max(depth, row.depth);
+    return depth;
+}
+
+/// Rows of generations that are not shown apart, added by `add(to, row)` where `same` says they
+/// are of one kind.
+template <class Row, class Same, class Add>
+std::vector<Row> with_deep_ones_joined(const std::vector<Row>& rows, const Same& same,
+                                       const Add& add)
+{
+    std::vector<Row> joined;
+    for (Row row : rows) {
+        row.depth = std::min(row.depth, depths_shown - 1);
+        const auto found = std::find_if(joined.begin(), joined.end(), [&](const Row& other) {
+            return other.depth == row.depth && same(other, row);
+        });
+        if (found == joined.end())
+            joined.push_back(row);
+        else
+            add(*found, row);
+    }
+    return joined;
+}
+
+double sum_of(const std::vector<KernelStage>& stages)
+{
+    double sum = 0.0;
+    for (const KernelStage& stage : stages)
+        sum += stage.seconds;
+    return sum;
+}
 
 std::string ratio(std::uint64_t part, std::uint64_t whole)
 {
@@ -181,6 +229,46 @@ void print_kernels(std::ostream& to, const Profile& profile)
     to << '\n';
     print_tests(to, kernels);
     print_unsure(to, kernels);
+}
+
+nlohmann::ordered_json kernels_json(const KernelProfile& kernels)
+{
+    nlohmann::ordered_json json{{"plain_s", kernels.plain},
+                                {"observed_s", kernels.observed},
+                                {"clocked_s", kernels.clocked},
+                                {"stages_sum_s", sum_of(kernels.stages)},
+                                {"stages", nlohmann::ordered_json::array()},
+                                {"rays", nlohmann::ordered_json::array()},
+                                {"lanes", nlohmann::ordered_json::array()},
+                                {"tests", nlohmann::ordered_json::array()},
+                                {"unsure", nlohmann::ordered_json::array()}};
+    for (const KernelStage& row : kernels.stages)
+        json["stages"].push_back({{"depth", row.depth},
+                                  {"rays", row.rays},
+                                  {"name", row.name},
+                                  {"seconds", row.seconds}});
+    for (const RayTime& row : kernels.rays)
+        json["rays"].push_back({{"depth", row.depth},
+                                {"rays", row.rays},
+                                {"count", row.count},
+                                {"seconds", row.seconds}});
+    for (const LaneUse& row : kernels.lanes)
+        json["lanes"].push_back({{"depth", row.depth},
+                                 {"work", row.work},
+                                 {"packets", row.packets},
+                                 {"live", row.live},
+                                 {"coherent", row.coherent ? nlohmann::ordered_json(*row.coherent)
+                                                           : nlohmann::ordered_json()}});
+    for (const TestUse& row : kernels.tests)
+        json["tests"].push_back({{"depth", row.depth},
+                                 {"rays", row.rays},
+                                 {"tested", row.tested},
+                                 {"together", row.tests},
+                                 {"single", row.single}});
+    for (const UnsureUse& row : kernels.unsure)
+        json["unsure"].push_back(
+            {{"depth", row.depth}, {"rays", row.rays}, {"cause", row.cause}, {"count", row.count}});
+    return json;
 }
 
 }  // namespace packtrace::cli

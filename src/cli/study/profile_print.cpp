@@ -3,7 +3,6 @@
 #include <ostream>
 
 #include "cli/output/text_table.hpp"
-#include "cli/study/profile_kernels.hpp"
 
 namespace packtrace::cli {
 namespace {
@@ -130,9 +129,8 @@ nlohmann::ordered_json profile_json(const std::string& scene, const Profile& pro
                                 {"generations", nlohmann::ordered_json::array()},
                                 {"what_if", nlohmann::ordered_json::array()}};
     for (const FirstFrameStep& step : profile.first_frame)
-        json["first_frame"].push_back({{"name", step.name},
-                                       {"seconds", step.seconds},
-                                       {"page_faults", step.page_faults}});
+        json["first_frame"].push_back(
+            {{"name", step.name}, {"seconds", step.seconds}, {"page_faults", step.page_faults}});
     for (const ProfileStage& stage : profile.stages)
         json["stages"].push_back({{"name", stage.name}, {"seconds", stage.seconds}});
     for (const ProfileGeneration& generation : profile.generations)

@@ -17,4 +17,9 @@ void print_profile(std::ostream& to, const std::string& scene, const Profile& pr
 /// Events that chrome://tracing and Perfetto show: a row a thread.
 [[nodiscard]] nlohmann::ordered_json trace_json(const std::vector<TileSpan>& tiles);
 
+/// The inside of a frame: stages, rays, lanes and tests.
+void print_kernels(std::ostream& to, const Profile& profile);
+
+[[nodiscard]] nlohmann::ordered_json kernels_json(const KernelProfile& kernels);
+
 }  // namespace packtrace::cli

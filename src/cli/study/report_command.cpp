@@ -1,17 +1,168 @@
+#include "cli/study/report_command.hpp"
+
+#include <algorithm>
+#include <cstdlib>
+#include <iostream>
 #include <memory>
 #include <mutex>
 #include <set>
 #include <utility>
 
+#include <packtrace/isa.hpp>
 #include <packtrace/write_report.hpp>
+
+#include <tbb/info.h>
 
 #include "cli/command.hpp"
 #include "cli/options/scene_input.hpp"
 #include "cli/options/thread_limit.hpp"
+#include "cli/options/validators.hpp"
 #include "cli/output/progress_bar.hpp"
-#include "cli/study/report_arguments.hpp"
+#include "core/atomic_file.hpp"
+#include "lab/harness/machine.hpp"
+#include "lab/report/plot.hpp"
+#include "lab/report/report_text.hpp"
 
 namespace packtrace::cli {
+namespace {
+
+std::filesystem::path default_cache()
+{
+    if (const char* folder = std::getenv("XDG_CACHE_HOME"); folder != nullptr && *folder != '\0')
+        return std::filesystem::path(folder) / "packtrace";
+    if (const char* home = std::getenv("HOME"); home != nullptr && *home != '\0')
+        return std::filesystem::path(home) / ".cache" / "packtrace";
+    return {};
+}
+
+void add_measure_options(CLI::App& command, ReportArguments& arguments)
+{
+    command
+        .add_option("--repetitions", arguments.repetitions, "Frames timed for each run (default 9)")
+        ->check(whole_number(1, 1000))
+        ->type_name("N");
+    command
+        .add_option("--truth-spp", arguments.truth_samples,
+                    "Samples a pixel of the truth where samples are studied (default 256)")
+        ->check(whole_number(2, 1024))
+        ->type_name("N");
+    command
+        .add_option("--threshold", arguments.options.threshold,
+                    "Error above which a pixel counts as off (default 1/255)")
+        ->check(non_negative_number())
+        ->type_name("T");
+    command.add_option("--threads", arguments.options.threads, "Numbers of threads (default 1,2)")
+        ->check(whole_number(1, 1024))
+        ->delimiter(',')
+        ->type_name("N,N…");
+    command
+        .add_option(
+            "--cache", arguments.cache,
+            "Folder in which reference pictures are kept (default packtrace in the user's cache)")
+        ->type_name("DIR");
+}
+
+}  // namespace
+
+void add_report_options(CLI::App& command, ReportArguments& arguments)
+{
+    command.add_option("SCENE", arguments.scenes, "Scene files; - is standard input")
+        ->required()
+        ->type_name("");
+    command.add_option("-o,--output", arguments.folder, "Folder for the report")
+        ->required()
+        ->type_name("DIR");
+    add_picture_options(command, arguments.picture);
+    add_measure_options(command, arguments);
+    command
+        .add_option("--max-error", arguments.options.max_error,
+                    "Name the fastest run whose RMSE is at most E (default 0.001)")
+        ->check(positive_number())
+        ->type_name("E");
+    command
+        .add_option("--max-time", arguments.max_time_ms,
+                    "Name the most exact run that takes at most MS milliseconds (default 20)")
+        ->check(positive_number())
+        ->type_name("MS");
+    command.add_flag("--quick", arguments.quick,
+                     "Fewer runs: the widest packets, 3 repetitions, up to 16 samples");
+    command.add_flag("-q,--quiet", arguments.quiet, "No progress bar");
+}
+
+std::string report_command(const std::string& program, const CLI::App& command,
+                           const ReportArguments& arguments)
+{
+    std::string typed = program + " " + command.get_name();
+    for (const std::string& scene : arguments.scenes)
+        typed += " " + scene;
+    typed += " -o " + arguments.folder.string();
+    for (const CLI::Option* option : command.get_options())
+        if (option->count() > 0 && !option->get_lnames().empty() &&
+            option->get_lnames().front() != "output") {
+            typed += " --" + option->get_lnames().front();
+            if (option->get_items_expected_max() > 0)
+                for (const std::string& word : option->results())
+                    typed += " " + word;
+        }
+    return typed;
+}
+
+ReportOptions report_options(const ReportArguments& arguments)
+{
+    ReportOptions options = arguments.options;
+    if (arguments.quick) {
+        options.repetitions = 3;
+        options.truth_samples = 64;
+        options.min_weights = {0.03, 0.002, 0.0};
+        options.samples = {1, 4, 16};
+        options.adaptive = {{16, 0.02}};
+        options.isas = {choose_isa().name};
+    }
+    options.repetitions = arguments.repetitions.value_or(options.repetitions);
+    options.truth_samples = arguments.truth_samples.value_or(options.truth_samples);
+    options.cache = arguments.cache ? std::filesystem::path(*arguments.cache) : default_cache();
+    options.max_time = 1e-3 * arguments.max_time_ms;
+    return options;
+}
+
+std::string free_scene_name(const std::string& stem, std::set<std::string>& taken)
+{
+    std::string name = stem;
+    for (int number = 2; !taken.insert(name).second; ++number)
+        name = stem + "_" + std::to_string(number);
+    return name;
+}
+
+void check_report_target(const ReportArguments& arguments)
+{
+    check_plots();
+    make_folders(arguments.folder);
+    check_writable(arguments.folder / "report.md");
+}
+
+int report_threads(const ReportOptions& options)
+{
+    return std::max(tbb::info::default_concurrency(),
+                    *std::max_element(options.threads.begin(), options.threads.end()));
+}
+
+void print_judgement(const SceneReport& scene, const ReportOptions& options)
+{
+    for (const StudyReport& study : scene.studies)
+        for (const std::string& line : judgement(study, options))
+            std::cout << scene.name << ", " << name_of(study.study) << ": " << line << '\n';
+}
+
+void write_whole_report(const std::vector<SceneReport>& reports, const ReportOptions& options,
+                        const ReportArguments& arguments)
+{
+    const ReportConditions conditions{processor_name(),  tbb::info::default_concurrency(),
+                                      compiler_name(),   commit_name(),
+                                      arguments.command, flags_name(),
+                                      load_at_start(),   load_now()};
+    write_report(reports, options, conditions, arguments.folder);
+}
+
 namespace {
 
 std::vector<ReportScene> read_scenes(const ReportArguments& arguments)

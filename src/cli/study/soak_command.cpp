@@ -17,7 +17,7 @@
 #include "cli/options/validators.hpp"
 #include "core/atomic_file.hpp"
 #include "lab/soak/soak.hpp"
-#include "lab/stress/ray_faults.hpp"
+#include "lab/stress/evaluate.hpp"
 #include "scene/quote.hpp"
 
 namespace packtrace::cli {

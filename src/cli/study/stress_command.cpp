@@ -1,13 +1,91 @@
+#include "cli/study/stress_command.hpp"
+
 #include <memory>
 #include <vector>
 
 #include "cli/command.hpp"
+#include "cli/options/common_options.hpp"
 #include "cli/options/shard.hpp"
 #include "cli/options/thread_limit.hpp"
-#include "cli/study/stress_output.hpp"
-#include "lab/stress/stress_verdict.hpp"
+#include "cli/options/validators.hpp"
+#include "lab/stress/stress.hpp"
+#include "lab/stress/stress_subject.hpp"
 
 namespace packtrace::cli {
+namespace {
+
+constexpr int most_rays = 10000000;
+
+std::vector<std::string> family_names()
+{
+    std::vector<std::string> names;
+    for (const auto& family : lab::list_stress_families())
+        names.push_back(family.name);
+    return names;
+}
+
+std::vector<std::string> mode_names()
+{
+    std::vector<std::string> names;
+    for (const lab::StressMode& mode : lab::stress_modes)
+        names.emplace_back(mode.name);
+    return names;
+}
+
+}  // namespace
+
+void add_stress_options(CLI::App& command, StressArguments& arguments)
+{
+    lab::StressOptions& options = arguments.options;
+    command.add_option("--family", options.families, "Only this family of rays (repeatable)")
+        ->check(one_of(family_names()))
+        ->type_name("NAME");
+    command.add_flag("--list", arguments.list, "List the families");
+    command.add_option("--rays", options.rays, "Rays of each family (default 4096)")
+        ->check(whole_number(1, most_rays))
+        ->type_name("N");
+    command.add_option("--seed", options.seed, "Seed of the random rays (default 1)")
+        ->type_name("N");
+    command.add_option("--kernel", options.kernels, "Only this kernel (repeatable)")
+        ->check(one_of({"packet", "scalar", "textbook"}))
+        ->type_name("packet|scalar|textbook");
+    command
+        .add_option("--mode", options.modes,
+                    "Only this accuracy mode of packets: fast or exact (repeatable)")
+        ->check(one_of(mode_names()))
+        ->type_name("NAME");
+    command.add_option("--precision", options.precisions, "Only this precision (repeatable)")
+        ->check(one_of({"single", "double"}))
+        ->type_name("single|double");
+    command.add_option("--isa", arguments.isa, "Only this instruction set (default all)")
+        ->type_name("NAME");
+    add_traversal_option(command, arguments.traversal);
+    command
+        .add_option_function<std::string>(
+            "--self-hits",
+            [&arguments](const std::string& rule) {
+                arguments.options.self_hits = rule == "note" ? SelfHits::note : SelfHits::exact;
+            },
+            "How secondary rays avoid hitting the surface they start on (default exact)")
+        ->check(one_of({"note", "exact"}))
+        ->type_name("note|exact");
+    add_threads_option(command, arguments.threads);
+    command
+        .add_option("--cases", arguments.cases,
+                    "Write the first wrong ray of each row, and its scene, into this folder")
+        ->type_name("FOLDER");
+    command.add_flag("--json", arguments.json, "Print JSON");
+}
+
+lab::StressOptions stress_options(const StressArguments& arguments)
+{
+    lab::StressOptions options = arguments.options;
+    if (arguments.isa)
+        options.isa = chosen_isa({arguments.isa, {}}).name;
+    options.traversal = traversal_named(arguments.traversal.value_or("auto"));
+    return options;
+}
+
 namespace {
 
 using lab::StressRow;

@@ -1,5 +1,3 @@
-#include "cli/study/stress_output.hpp"
-
 #include <filesystem>
 #include <iostream>
 #include <string>
@@ -7,9 +5,10 @@
 #include <nlohmann/json.hpp>
 
 #include "cli/output/text_table.hpp"
+#include "cli/study/stress_command.hpp"
 #include "core/atomic_file.hpp"
 #include "core/json_text.hpp"
-#include "lab/stress/stress_verdict.hpp"
+#include "lab/stress/stress.hpp"
 
 namespace packtrace::cli {
 namespace {

@@ -6,7 +6,7 @@
 
 #include <packtrace/report.hpp>
 
-#include "lab/harness/report_subject.hpp"
+#include "lab/harness/report_variants.hpp"
 #include "lab/harness/statistics.hpp"
 
 namespace packtrace {

@@ -1,7 +1,5 @@
 #include "lab/harness/machine.hpp"
 
-#include "lab/harness/build_stamp.hpp"
-
 #include <cstdlib>
 #include <fstream>
 

@@ -2,7 +2,19 @@
 
 #include <string>
 
+// The machine and the build that measurements come from.
 namespace packtrace {
+
+// The next three are written by each build (cmake/write_build_stamp.cmake).
+
+/// What git called the state of the sources when they were built, "-dirty" at its end where files
+/// differed from the commit; "unknown" outside a repository.
+extern const char* const built_commit;
+/// Digest of every file in src/ and include/, the kernels' sources left out: what the scalar
+/// reference and its truths are made of.
+extern const char* const built_sources;
+/// The flags of the compiler that optimise the kernels, without those of each instruction set.
+extern const char* const kernel_flags;
 
 /// The processor's name as the operating system has it, or "unknown".
 [[nodiscard]] std::string processor_name();
@@ -10,7 +22,7 @@ namespace packtrace {
 /// The compiler the library was built with.
 [[nodiscard]] std::string compiler_name();
 
-/// The commit the library was built of, and the flags of its kernels: see build_stamp.hpp.
+/// The commit the library was built of, and the flags of its kernels.
 [[nodiscard]] std::string commit_name();
 [[nodiscard]] std::string flags_name();
 

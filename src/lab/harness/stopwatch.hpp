@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstddef>
+#include <ctime>
 #include <vector>
 
 namespace packtrace {
@@ -10,7 +11,9 @@ namespace packtrace {
 /// are those of the clock.
 class Stopwatch {
 public:
-    explicit Stopwatch(int threads);
+    explicit Stopwatch(int threads) : one_thread_(threads == 1), start_(now())
+    {
+    }
 
     [[nodiscard]] double seconds() const
     {
@@ -18,7 +21,12 @@ public:
     }
 
 private:
-    [[nodiscard]] double now() const;
+    [[nodiscard]] double now() const
+    {
+        timespec time{};
+        clock_gettime(one_thread_ ? CLOCK_PROCESS_CPUTIME_ID : CLOCK_MONOTONIC, &time);
+        return static_cast<double>(time.tv_sec) + 1e-9 * static_cast<double>(time.tv_nsec);
+    }
 
     bool one_thread_;
     double start_;

@@ -1,4 +1,4 @@
-#include "lab/profile/busy_machine.hpp"
+#include "lab/profile/profile_steps.hpp"
 
 #include <cmath>
 #include <cstdio>

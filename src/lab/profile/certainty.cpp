@@ -9,7 +9,7 @@
 
 #include "dispatch/kernels.hpp"
 #include "lab/profile/observed_frame.hpp"
-#include "lab/profile/unsure_rows.hpp"
+#include "lab/profile/work_rows.hpp"
 #include "render/check_sampling.hpp"
 #include "render/sample_batch.hpp"
 #include "render/tile_loop.hpp"

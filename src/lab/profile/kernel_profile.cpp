@@ -1,14 +1,10 @@
-#include "lab/profile/kernel_profile.hpp"
+#include "lab/profile/profile_steps.hpp"
 
 #include <algorithm>
 
 #include "dispatch/kernels.hpp"
 #include "lab/profile/observed_frame.hpp"
-#include "lab/profile/piece_times.hpp"
-#include "lab/profile/profile_subjects.hpp"
-#include "lab/profile/span_times.hpp"
-#include "lab/profile/stage_seconds.hpp"
-#include "lab/profile/unsure_rows.hpp"
+#include "lab/profile/stage_times.hpp"
 #include "lab/profile/work_rows.hpp"
 
 namespace packtrace {

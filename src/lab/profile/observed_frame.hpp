@@ -1,14 +1,17 @@
 #pragma once
 
 #include <chrono>
+#include <vector>
 
 #include <packtrace/render.hpp>
 
 #include "image/contrast.hpp"
 #include "kernel_abi/observation.hpp"
+#include "lab/harness/statistics.hpp"
 #include "render/tile_loop.hpp"
 #include "render/tile_renderer.hpp"
 
+// A frame traced piece by piece, observed by its kernels or not, and the times of the pieces.
 namespace packtrace {
 
 /// The same scene for kernels that observe their stages.
@@ -75,6 +78,32 @@ private:
     Image<Real> image_;
     Region picture_;
     TileGrid blocks_;
+};
+
+/// Times of a frame's pieces. The frame is the sum of each one's median: what a busy machine takes
+/// from a piece now and then is not in it.
+class PieceTimes {
+public:
+    explicit PieceTimes(int pieces) : seconds_(static_cast<std::size_t>(pieces))
+    {
+    }
+
+    void add(int piece, double seconds)
+    {
+        seconds_[static_cast<std::size_t>(piece)].push_back(seconds);
+    }
+
+    /// Every piece was added at least once.
+    [[nodiscard]] double frame() const
+    {
+        double sum = 0.0;
+        for (const std::vector<double>& piece : seconds_)
+            sum += median_of(piece);
+        return sum;
+    }
+
+private:
+    std::vector<std::vector<double>> seconds_;
 };
 
 }  // namespace packtrace

@@ -5,13 +5,10 @@
 #include <packtrace/read_scene.hpp>
 
 #include "dispatch/kernels.hpp"
-#include "image/png.hpp"
+#include "image/formats.hpp"
 #include "lab/harness/statistics.hpp"
 #include "lab/harness/stopwatch.hpp"
-#include "lab/profile/busy_machine.hpp"
-#include "lab/profile/first_frame.hpp"
-#include "lab/profile/kernel_profile.hpp"
-#include "lab/profile/profile_subjects.hpp"
+#include "lab/profile/profile_steps.hpp"
 #include "lab/profile/work_rows.hpp"
 #include "lower/packed_scene.hpp"
 

@@ -1,14 +1,18 @@
 #include <algorithm>
 #include <atomic>
 #include <chrono>
+#include <cstdio>
 #include <mutex>
+#include <string>
 
 #include <packtrace/profile.hpp>
 
 #include <tbb/task_arena.h>
 
 #include "dispatch/kernels.hpp"
-#include "lab/profile/profile_subjects.hpp"
+#include "image/color_ramp.hpp"
+#include "lab/harness/statistics.hpp"
+#include "lab/profile/profile_steps.hpp"
 #include "render/camera_view.hpp"
 #include "render/tile_loop.hpp"
 #include "render/tile_renderer.hpp"
@@ -41,6 +45,13 @@ private:
     std::atomic<int> count_{0};
     tbb::enumerable_thread_specific<int> numbers_{-1};
 };
+
+std::string nanoseconds(double seconds)
+{
+    char text[32];
+    std::snprintf(text, sizeof text, "%.1fns", 1e9 * seconds);
+    return text;
+}
 
 }  // namespace
 
@@ -122,6 +133,19 @@ std::vector<double> pixel_costs(const Scene& scene, const ProfileOptions& option
             costs.push_back(least);
         }
     return costs;
+}
+
+Image<float> cost_picture(const std::vector<double>& seconds, int width, int height)
+{
+    // An interrupted pixel is off the scale, not the scale.
+    const double low = quantile(seconds, 0.001);
+    const double high = std::max(quantile(seconds, 0.999), low * 1.0001);
+    Image<float> image(width, height);
+    for (std::size_t i = 0; i < seconds.size(); ++i) {
+        const auto color = color_ramp(std::clamp((seconds[i] - low) / (high - low), 0.0, 1.0));
+        std::copy(color.begin(), color.end(), &image.rgb[3 * i]);
+    }
+    return with_legend(image, nanoseconds(low), nanoseconds(high));
 }
 
 template std::vector<TileSpan> trace_tiles<float>(const Scene&, const ProfileOptions&);

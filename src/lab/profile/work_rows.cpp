@@ -10,7 +10,7 @@ constexpr const char* work_names[] = {"closest hits", "shadow rays", "local ligh
 static_assert(std::size(work_names) == abi::packet_work_count);
 
 constexpr const char* primitive_names[] = {"spheres", "anchored spheres", "planes", "quadrics",
-                                             "polygons"};
+                                           "polygons"};
 static_assert(std::size(primitive_names) == abi::primitive_count);
 
 constexpr const char* role_names[] = {"closest", "shadow"};
@@ -95,6 +95,32 @@ std::optional<double> lanes_filled(const abi::WorkCounts& counts, int lanes)
         return std::nullopt;
     return static_cast<double>(packets.live) /
            (static_cast<double>(packets.packets) * static_cast<double>(lanes));
+}
+
+const std::vector<std::string>& unsure_causes()
+{
+    static const std::vector<std::string> names{"tangent", "order", "range", "clip", "magnitude"};
+    static_assert(abi::cause_count == 5);
+    return names;
+}
+
+void add_causes(const abi::WorkCounts& counts, UnsureCounts& sum)
+{
+    for (const auto& by_cause : counts.unsure)
+        for (std::size_t cause = 0; cause < abi::cause_count; ++cause)
+            sum[cause] += by_cause[cause];
+}
+
+std::vector<UnsureUse> unsure_rows(const std::vector<abi::WorkCounts>& counts)
+{
+    std::vector<UnsureUse> rows;
+    for (std::size_t depth = 0; depth < counts.size(); ++depth)
+        for (std::size_t role = 0; role < abi::role_count; ++role)
+            for (std::size_t cause = 0; cause < abi::cause_count; ++cause)
+                if (const std::uint64_t count = counts[depth].unsure[role][cause]; count > 0)
+                    rows.push_back(
+                        {static_cast<int>(depth), role_names[role], unsure_causes()[cause], count});
+    return rows;
 }
 
 }  // namespace packtrace

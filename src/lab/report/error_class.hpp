@@ -1,13 +1,15 @@
 #pragma once
 
+#include <functional>
 #include <memory>
 #include <optional>
 #include <string>
 
 #include <packtrace/explain.hpp>
-#include <packtrace/intersect.hpp>
+#include <packtrace/report.hpp>
 #include <packtrace/scene.hpp>
 
+// Why pixels differ from the truth, and how many for which reason.
 namespace packtrace {
 
 /// Why a pixel differs from the truth: the difference between the two ray trees that moves its
@@ -52,5 +54,15 @@ private:
     struct State;
     std::unique_ptr<State> state_;
 };
+
+// error_shares.cpp
+
+/// Why a pixel is off, by any means.
+using ClassOfPixel = std::function<std::optional<ClassifiedError>(int x, int y)>;
+
+/// Fills in the run's shares: of its pixels that are off or, when there are none, of its worst
+/// ones. When they are more than options.classified, some spread evenly over them stand for all.
+void find_shares(ReportRun& run, const Image<double>& truth, const Image<double>& picture,
+                 const ReportOptions& options, const ClassOfPixel& class_of);
 
 }  // namespace packtrace

@@ -1,4 +1,4 @@
-#include "lab/report/error_shares.hpp"
+#include "lab/report/error_class.hpp"
 
 #include <algorithm>
 #include <array>

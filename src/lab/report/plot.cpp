@@ -8,8 +8,7 @@
 #include <sstream>
 
 #include "core/run_filter.hpp"
-#include "lab/report/label_places.hpp"
-#include "lab/report/plot_axis.hpp"
+#include "lab/report/plot_layout.hpp"
 #include "scene/quote.hpp"
 
 namespace packtrace {

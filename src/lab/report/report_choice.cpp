@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "lab/report/report_choice.hpp"
+#include "lab/report/report_study.hpp"
 
 namespace packtrace {
 namespace {

@@ -1,10 +1,12 @@
 #include <algorithm>
+#include <cstdint>
+#include <span>
 #include <sstream>
+#include <string>
 
 #include <nlohmann/json.hpp>
 
-#include "core/base64.hpp"
-#include "image/png.hpp"
+#include "image/formats.hpp"
 #include "lab/report/plot.hpp"
 #include "lab/report/report_page.hpp"
 #include "lab/report/report_pictures.hpp"
@@ -42,6 +44,24 @@ std::string json_in_page(const nlohmann::ordered_json& json)
     for (const char c : text)
         result += c == '<' ? std::string("\\u003c") : std::string(1, c);
     return result;
+}
+
+// Bytes in the alphabet of RFC 4648, padded.
+std::string base64(std::span<const std::uint8_t> bytes)
+{
+    constexpr const char* alphabet =
+        "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
+    std::string text;
+    text.reserve((bytes.size() + 2) / 3 * 4);
+    for (std::size_t i = 0; i < bytes.size(); i += 3) {
+        const std::size_t count = bytes.size() - i < 3 ? bytes.size() - i : 3;
+        std::uint32_t group = 0;
+        for (std::size_t k = 0; k < 3; ++k)
+            group = group << 8 | (k < count ? bytes[i + k] : 0u);
+        for (std::size_t k = 0; k < 4; ++k)
+            text += k <= count ? alphabet[group >> (18 - 6 * k) & 63] : '=';
+    }
+    return text;
 }
 
 std::string png_uri(const Image<float>& image)

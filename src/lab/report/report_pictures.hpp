@@ -1,26 +1,64 @@
 #pragma once
 
+#include <algorithm>
+#include <cmath>
 #include <cstddef>
 #include <string>
 
+#include <packtrace/compare.hpp>
 #include <packtrace/report.hpp>
+
+#include "image/color_ramp.hpp"
+#include "image/pixel_error.hpp"
+#include "lab/report/report_text.hpp"
 
 // The pictures of a report and their heat maps, by their index in StudyReport::pictures.
 namespace packtrace {
 
 /// What a reader calls it: "truth", or the run that gave it and how many others did, too.
-[[nodiscard]] std::string picture_label(const StudyReport& study, std::size_t picture);
+[[nodiscard]] inline std::string picture_label(const StudyReport& study, std::size_t picture)
+{
+    const std::string& name = study.pictures[picture].label;
+    const auto runs = std::count_if(
+        study.runs.begin(), study.runs.end(),
+        [&](const ReportRun& run) { return run.picture == picture && run.variant.name != name; });
+    if (runs == 0)
+        return name;
+    return name + (picture == 0 ? ", as " : " and ") + std::to_string(runs) +
+           (picture == 0 ? (runs == 1 ? " run has it" : " runs have it") : " alike");
+}
 
 /// The largest finite error of a pixel against the truth, which white stands for in its heat map.
-[[nodiscard]] double largest_error(const StudyReport& study, std::size_t picture);
+[[nodiscard]] inline double largest_error(const StudyReport& study, std::size_t picture)
+{
+    const Image<double>& truth = study.pictures.front().image;
+    const Image<double>& image = study.pictures[picture].image;
+    double largest = 0.0;
+    for (std::size_t i = 0; i < truth.rgb.size(); i += 3)
+        if (const double error = pixel_error(&truth.rgb[i], &image.rgb[i]); std::isfinite(error))
+            largest = std::max(largest, error);
+    return largest;
+}
 
 /// What black stands for where white is `largest`: any error as small, or none.
-[[nodiscard]] double least_error_shown(double largest);
+[[nodiscard]] inline double least_error_shown(double largest)
+{
+    return 1e-6 * largest;
+}
 
 /// Its heat map, without a legend.
-[[nodiscard]] Image<float> error_map(const StudyReport& study, std::size_t picture);
+[[nodiscard]] inline Image<float> error_map(const StudyReport& study, std::size_t picture)
+{
+    return heatmap(study.pictures[picture].image, study.pictures.front().image);
+}
 
 /// Its heat map as a picture of its own, over a legend.
-[[nodiscard]] Image<float> error_map_with_legend(const StudyReport& study, std::size_t picture);
+[[nodiscard]] inline Image<float> error_map_with_legend(const StudyReport& study,
+                                                        std::size_t picture)
+{
+    const double largest = largest_error(study, picture);
+    return with_legend(error_map(study, picture), brief(least_error_shown(largest), 2),
+                       brief(largest, 2));
+}
 
 }  // namespace packtrace

@@ -3,7 +3,7 @@
 
 #include "lab/harness/names.hpp"
 #include "lab/report/plot.hpp"
-#include "lab/report/report_choice.hpp"
+#include "lab/report/report_study.hpp"
 #include "lab/report/report_text.hpp"
 
 namespace packtrace {

@@ -6,8 +6,7 @@
 
 #include "lab/harness/statistics.hpp"
 #include "lab/harness/stopwatch.hpp"
-#include "lab/report/error_shares.hpp"
-#include "lab/report/report_choice.hpp"
+#include "lab/report/error_class.hpp"
 #include "scene/sample_pattern.hpp"
 
 namespace packtrace {
@@ -46,6 +45,16 @@ void check_truth(const ReportOptions& options)
         throw std::invalid_argument("report: a truth of " + std::to_string(options.truth_samples) +
                                     " samples a pixel cannot judge runs of " +
                                     std::to_string(most) + "; give it more");
+}
+
+Truth truth_of(const Scene& scene, int samples, const ReportOptions& options)
+{
+    TruthRequest request;
+    request.samples = samples;
+    request.cache = options.cache;
+    if (options.progress)
+        request.progress = [&](double share) { options.progress("truth", share); };
+    return find_truth(scene, request);
 }
 
 }  // namespace
@@ -214,6 +223,26 @@ StudyReport run_study(const Scene& scene_of_truth, Study study, const Truth& tru
     }
     set_times(report, times_of(subjects, options));
     return report;
+}
+
+SceneReport report(const ReportScene& scene, const ReportOptions& options)
+{
+    const std::vector<StudyPlan> plans = plan_studies(scene.scene, options);
+    SceneReport result;
+    result.name = scene.name;
+    result.width = scene.scene.width;
+    result.height = scene.scene.height;
+    const Scene whole = scene_of_truth(scene.scene);
+    const Truth one = truth_of(whole, 1, options);
+    const Truth many = truth_of(whole, options.truth_samples, options);
+    for (const StudyPlan& plan : plans) {
+        std::vector<Subject> subjects;
+        for (const Variant& variant : plan.variants)
+            subjects.push_back(subject_of(scene.scene, variant));
+        const Truth& truth = plan.truth_samples > 1 ? many : one;
+        result.studies.push_back(run_study(whole, plan.study, truth, subjects, options));
+    }
+    return result;
 }
 
 }  // namespace packtrace

@@ -6,7 +6,8 @@
 
 #include <packtrace/report.hpp>
 
-#include "lab/harness/report_subject.hpp"
+#include "lab/harness/report_variants.hpp"
+#include "lab/harness/statistics.hpp"
 #include "lab/truth/truth.hpp"
 
 namespace packtrace {
@@ -71,5 +72,16 @@ void set_times(StudyReport& report, std::vector<std::vector<double>> seconds);
 [[nodiscard]] StudyReport run_study(const Scene& scene_of_truth, Study study, const Truth& truth,
                                     const std::vector<Subject>& subjects,
                                     const ReportOptions& options);
+
+// report_choice.cpp: which runs to take, by their times as far as these can be told apart.
+
+/// The middle half of a run's times, seconds; its median where there are none.
+[[nodiscard]] Interval middle_times(const ReportRun& run);
+
+/// Whether the middle halves of their times do not overlap, and that of `run` is the lower.
+[[nodiscard]] bool surely_faster(const ReportRun& run, const ReportRun& other);
+
+/// Sets each run's standing among the others.
+void mark_pareto(std::vector<ReportRun>& runs);
 
 }  // namespace packtrace

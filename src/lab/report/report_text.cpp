@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cstdio>
 
-#include "lab/report/report_choice.hpp"
+#include "lab/report/report_study.hpp"
 
 namespace packtrace {
 namespace {

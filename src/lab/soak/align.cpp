@@ -1,4 +1,4 @@
-#include "lab/soak/align.hpp"
+#include "lab/soak/soak_scene.hpp"
 
 #include <algorithm>
 #include <cmath>

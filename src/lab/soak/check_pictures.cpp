@@ -5,7 +5,7 @@
 
 #include <packtrace/write_scene.hpp>
 
-#include "lab/soak/soak_finding.hpp"
+#include "lab/soak/soak.hpp"
 
 // What pictures promise: the same bits in every way of a group, numbers everywhere, and the scalar
 // kernel's colours where these do not hang on the last digits.
@@ -46,7 +46,7 @@ std::string not_a_number(const Scene& scene, const Values& values)
     return "";
 }
 
-double largest(const Values& values)
+double largest_value(const Values& values)
 {
     double most = 0.0;
     for (const double value : values)
@@ -63,7 +63,7 @@ double allowed_difference(const Scene& scene, const SoakWay& a, const SoakWay& b
         a.options.traversal == Traversal::list && b.options.traversal == Traversal::list;
     if (scene.shadows != ShadowKind::transparent || same_order)
         return 0.0;
-    return (a.precision == "single" ? 1e-5 : 1e-13) * largest(values);
+    return (a.precision == "single" ? 1e-5 : 1e-13) * largest_value(values);
 }
 
 std::string differing(const Scene& scene, const Values& a, const Values& b, double allowed)
@@ -156,7 +156,7 @@ Judges judges_of(const std::string& precision, SelfHits self_hits)
 std::string off_reference(const Scene& scene, const Values& values, const Values& truth,
                           const Values& other, const Judges& judges)
 {
-    const double unit = std::max(largest(truth), 1e-30);
+    const double unit = std::max(largest_value(truth), 1e-30);
     std::size_t counted = 0;
     std::size_t off = 0;
     std::size_t where = 0;

@@ -4,10 +4,9 @@
 
 #include <glm/geometric.hpp>
 
-#include "lab/soak/align.hpp"
-#include "lab/soak/soak_finding.hpp"
+#include "lab/soak/soak.hpp"
 #include "lab/soak/soak_scene.hpp"
-#include "lab/stress/ray_faults.hpp"
+#include "lab/stress/evaluate.hpp"
 #include "lab/stress/stress_family.hpp"
 
 // What answers to rays promise: the same bits in every way of a group; of `exact` packets and

@@ -1,4 +1,4 @@
-#include "lab/soak/shrink.hpp"
+#include "lab/soak/soak.hpp"
 
 #include <algorithm>
 #include <charconv>

@@ -9,8 +9,6 @@
 
 #include <tbb/parallel_for.h>
 
-#include "lab/soak/align.hpp"
-#include "lab/soak/shrink.hpp"
 #include "lab/soak/soak_scene.hpp"
 #include "lab/stress/stress_family.hpp"
 

@@ -7,7 +7,6 @@
 #include <glm/gtc/matrix_transform.hpp>
 
 #include "lab/stress/placed_quadric.hpp"
-#include "lab/stress/quadric_points.hpp"
 
 namespace packtrace::lab {
 namespace {

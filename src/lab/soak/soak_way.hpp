@@ -3,8 +3,10 @@
 #include <string>
 #include <vector>
 
+#include <packtrace/isa.hpp>
 #include <packtrace/render.hpp>
 
+// The ways in which a scene is traced.
 namespace packtrace::lab {
 
 /// How many threads make some of the pictures.
@@ -16,23 +18,94 @@ struct SoakWay {
     RenderOptions options;
 };
 
-/// The options of `packtrace render` that ask for it; those of `packtrace intersect`, where the
-/// answer is to be to rays.
-[[nodiscard]] std::string render_words(const SoakWay& way);
-[[nodiscard]] std::string intersect_words(const SoakWay& way);
+[[nodiscard]] inline std::string common_words(const SoakWay& way)
+{
+    const RenderOptions& options = way.options;
+    std::string words = " --precision " + way.precision;
+    if (options.kernel == Kernel::scalar)
+        return words + " --kernel scalar";
+    words += " --isa " + options.isa;
+    words += options.traversal == Traversal::list ? " --traversal list" : " --traversal tree";
+    if (way.precision == "single")
+        words += options.accuracy == Accuracy::fast ? " --accuracy fast" : " --accuracy exact";
+    return words + (options.self_hits == SelfHits::note ? " --self-hits note" : "");
+}
+
+/// The options of `packtrace render` that ask for it.
+[[nodiscard]] inline std::string render_words(const SoakWay& way)
+{
+    std::string words = common_words(way);
+    if (way.options.force_general)
+        words += " --force-general";
+    return words + " --threads " + std::to_string(way.options.threads);
+}
+
+/// Those of `packtrace intersect`, where the answer is to be to rays.
+[[nodiscard]] inline std::string intersect_words(const SoakWay& way)
+{
+    return common_words(way);
+}
 
 /// The scalar kernel.
-[[nodiscard]] SoakWay scalar_way(const std::string& precision, SelfHits self_hits);
+[[nodiscard]] inline SoakWay scalar_way(const std::string& precision, SelfHits self_hits)
+{
+    SoakWay way;
+    way.precision = precision;
+    way.options.kernel = Kernel::scalar;
+    way.options.self_hits = self_hits;
+    way.options.threads = 1;
+    return way;
+}
 
 /// Ways that must give the same bits.
 struct SoakGroup {
     std::vector<SoakWay> ways;  ///< the first is the plainest
 };
 
+[[nodiscard]] inline bool has_fused_operations(const IsaInfo& isa)
+{
+    return isa.name != "sse42";
+}
+
+[[nodiscard]] inline std::vector<SoakWay> ways_of(const IsaInfo& isa, const SoakWay& plain)
+{
+    std::vector<SoakWay> ways;
+    for (const Traversal traversal : {Traversal::list, Traversal::tree})
+        for (const bool general : {false, true}) {
+            SoakWay way = plain;
+            way.options.isa = isa.name;
+            way.options.traversal = traversal;
+            way.options.force_general = general;
+            way.options.threads = general ? soak_threads : 1;
+            ways.push_back(way);
+        }
+    return ways;
+}
+
 /// Packets of one precision and accuracy through every instruction set here, list and hierarchy,
 /// special and general kernel, one thread and several: sets with fused multiply-add in one group,
 /// each other one in its own.
-[[nodiscard]] std::vector<SoakGroup> packet_groups(const std::string& precision, Accuracy accuracy,
-                                                   SelfHits self_hits);
+[[nodiscard]] inline std::vector<SoakGroup> packet_groups(const std::string& precision,
+                                                          Accuracy accuracy, SelfHits self_hits)
+{
+    SoakWay plain;
+    plain.precision = precision;
+    plain.options.accuracy = accuracy;
+    plain.options.self_hits = self_hits;
+    SoakGroup fused;
+    std::vector<SoakGroup> groups;
+    for (const IsaInfo& isa : list_isas()) {
+        if (!isa.supported)
+            continue;
+        const std::vector<SoakWay> ways = ways_of(isa, plain);
+        if (has_fused_operations(isa))
+            fused.ways.insert(fused.ways.end(), ways.begin(), ways.end());
+        else
+            groups.push_back({ways});
+    }
+    if (!fused.ways.empty())
+        groups.insert(groups.begin(), fused);
+    return groups;
+}
 
 }  // namespace packtrace::lab

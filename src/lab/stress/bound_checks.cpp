@@ -1,11 +1,9 @@
-#include "lab/stress/bound_checks.hpp"
+#include "lab/stress/stress_subject.hpp"
 
 #include <algorithm>
 #include <cmath>
 
 #include <packtrace/intersect.hpp>
-
-#include "lab/stress/ray_columns.hpp"
 
 namespace packtrace::lab {
 namespace {

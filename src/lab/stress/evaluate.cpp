@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdio>
 
 #include <glm/geometric.hpp>
 
@@ -12,7 +13,7 @@ namespace {
 constexpr double condition_slack = 4.0;
 
 /// What a component of a normal is within.
-constexpr double normal_bound = 1e-6;
+constexpr double allowed_normal_error = 1e-6;
 
 bool finite(const Answer& answer)
 {
@@ -169,7 +170,7 @@ void Evaluation::measure(const StressRay& ray, const Expected& expected, const A
         return;
     const double off = largest_of(answer.normal - expected.normal);
     errors_.normal.push_back(static_cast<float>(off));
-    errors_.normal_beyond += off > normal_bound;
+    errors_.normal_beyond += off > allowed_normal_error;
     const double cosine = glm::dot(answer.normal, ray.dir) / glm::length(ray.dir);
     const double told = 4.0 * roundoff_ + double_band * expected.normal_spread;
     errors_.wrong_side += cosine * expected.cosine < 0.0 && std::abs(expected.cosine) > told;
@@ -197,6 +198,86 @@ void Evaluation::add_crossings(const Expected& expected, std::size_t count)
         expected.hits.begin(), expected.hits.end(), [](const TrueHit& hit) { return hit.exists; }));
     const std::size_t odd = expected.certain ? 1 : 0;
     errors_.not_closed += count % 2 != odd || (sure && count != exist);
+}
+
+namespace {
+
+std::string text_of(const Vec3& v)
+{
+    char text[96];
+    std::snprintf(text, sizeof text, "(%.17g,%.17g,%.17g)", v.x, v.y, v.z);
+    return text;
+}
+
+std::string hit_text(std::int32_t object, double t, const Vec3& normal)
+{
+    char text[64];
+    std::snprintf(text, sizeof text, "object %d at t = %.17g, normal ", object, t);
+    return object < 0 ? "a miss" : text + text_of(normal);
+}
+
+}  // namespace
+
+bool same_answers(const StressRun& a, const StressRun& b)
+{
+    return std::equal(a.answers.begin(), a.answers.end(), b.answers.begin(), b.answers.end(),
+                      [](const Answer& x, const Answer& y) {
+                          return x.object == y.object && x.t == y.t &&
+                                 (x.object < 0 || x.normal == y.normal);
+                      });
+}
+
+const char* fault_of(const Errors& one)
+{
+    if (one.wrong() > 0)
+        return one.lost > 0           ? "lost"
+               : one.false_hits > 0   ? "false hit"
+               : one.wrong_object > 0 ? "wrong object"
+                                      : "wrong root";
+    if (one.occluded > 0)
+        return "any-hit answer wrong";
+    if (one.order > 0)
+        return "another object first in the list of all hits";
+    if (one.not_closed > 0)
+        return "does not leave once";
+    if (one.not_finite + one.no_normal > 0)
+        return "no number, or no normal";
+    if (one.wrong_side > 0)
+        return "normal on the wrong side";
+    if (one.t_beyond > 0)
+        return "t off";
+    return one.normal_beyond > 0 ? "normal off" : "";
+}
+
+std::string example_text(const StressGroup& group, std::size_t scene, std::size_t ray,
+                         const Answer& answer, const char* fault)
+{
+    const StressRay& r = group.rays[ray];
+    const Expected& e = group.expected[ray];
+    return std::string(fault) + ": scene " + std::to_string(scene) + ", ray " +
+           std::to_string(ray) + " " + text_of(r.org) + " -> " + text_of(r.dir) + ": expected " +
+           hit_text(e.object, static_cast<double>(e.t), e.normal) + "; got " +
+           hit_text(answer.object, answer.t, answer.normal);
+}
+
+void evaluate_ray(Evaluation& evaluation, const StressGroup& group, const StressRun& run,
+                  std::size_t i)
+{
+    const Expected& expected = group.expected[i];
+    evaluation.add(group.rays[i], expected, run.answers[i]);
+    if (run.occluded.empty())
+        return;
+    evaluation.add_occluded(expected, run.occluded[i] != 0);
+    evaluation.add_first_of_all(expected, run.first[i], run.answers[i].object);
+    evaluation.add_crossings(expected, run.crossings[i]);
+}
+
+std::string csv_of(const StressRay& ray)
+{
+    char text[256];
+    std::snprintf(text, sizeof text, "%.17g,%.17g,%.17g,%.17g,%.17g,%.17g,%.17g,%.17g", ray.org.x,
+                  ray.org.y, ray.org.z, ray.dir.x, ray.dir.y, ray.dir.z, ray.t_min, ray.t_max);
+    return text;
 }
 
 }  // namespace packtrace::lab

@@ -3,7 +3,6 @@
 #include <glm/geometric.hpp>
 
 #include "lab/stress/placed_quadric.hpp"
-#include "lab/stress/quadric_points.hpp"
 
 // Edges: of crossing planes, of capped bodies; and rays along a cone's sides.
 namespace packtrace::lab {

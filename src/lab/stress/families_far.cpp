@@ -4,7 +4,6 @@
 #include <glm/gtc/matrix_transform.hpp>
 
 #include "lab/stress/placed_quadric.hpp"
-#include "lab/stress/quadric_points.hpp"
 
 // What is small, thin or huge, seen from afar.
 namespace packtrace::lab {

@@ -4,7 +4,6 @@
 #include <glm/gtc/matrix_transform.hpp>
 
 #include "lab/stress/placed_quadric.hpp"
-#include "lab/stress/quadric_points.hpp"
 
 // Odd rays and odd company: lengths and ranges of any size, twins, nests, crowds of every kind.
 namespace packtrace::lab {

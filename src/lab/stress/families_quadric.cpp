@@ -4,8 +4,6 @@
 
 #include <glm/geometric.hpp>
 
-#include "lab/stress/quadric_points.hpp"
-
 namespace packtrace::lab {
 namespace {
 

@@ -4,7 +4,7 @@
 #include <glm/geometric.hpp>
 
 #include "lab/stress/stress_family.hpp"
-#include "lab/stress/stress_pixels.hpp"
+#include "lab/stress/stress_measure.hpp"
 #include "lab/truth/wide.hpp"
 
 // Total internal reflection: from inside a ball of glass, at its critical angle.

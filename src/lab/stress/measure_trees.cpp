@@ -4,7 +4,7 @@
 #include <glm/geometric.hpp>
 
 #include "lab/stress/stress_family.hpp"
-#include "lab/stress/stress_pixels.hpp"
+#include "lab/stress/stress_measure.hpp"
 #include "lab/truth/wide.hpp"
 
 // Deep ray trees: in a room of mirrors, and inside a mirrored ball.

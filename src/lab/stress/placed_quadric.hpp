@@ -2,9 +2,18 @@
 
 #include <functional>
 
+#include <packtrace/surface.hpp>
+
 #include "lab/stress/stress_family.hpp"
 
+// Quadrics of a kind, points of them, and random places for them.
 namespace packtrace::lab {
+
+/// The quadric of a kind with its coefficients; not for `general`.
+[[nodiscard]] Quadric quadric_of(QuadricKind kind);
+
+/// A point of its surface in its own space, within a few units of its middle.
+[[nodiscard]] Vec3 own_surface_point(StressRandom& random, QuadricKind kind);
 
 [[nodiscard]] Mat4 any_turn(StressRandom& random);
 

@@ -1,4 +1,4 @@
-#include "lab/stress/second_hits.hpp"
+#include "lab/stress/stress_subject.hpp"
 
 #include <algorithm>
 #include <array>
@@ -8,6 +8,7 @@
 #include <glm/geometric.hpp>
 #include <packtrace/intersect.hpp>
 
+#include "lab/stress/evaluate.hpp"
 #include "lab/stress/stress_random.hpp"
 
 namespace packtrace::lab {

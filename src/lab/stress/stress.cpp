@@ -8,12 +8,9 @@
 #include <tbb/parallel_for.h>
 #include <packtrace/write_scene.hpp>
 
-#include "lab/stress/bound_checks.hpp"
-#include "lab/stress/ray_faults.hpp"
-#include "lab/stress/second_hits.hpp"
+#include "lab/stress/evaluate.hpp"
 #include "lab/stress/stress_measure.hpp"
 #include "lab/stress/stress_subject.hpp"
-#include "lab/stress/stress_verdict.hpp"
 
 namespace packtrace::lab {
 namespace {

@@ -1,4 +1,4 @@
-#include "lab/stress/stress_group.hpp"
+#include "lab/stress/stress_subject.hpp"
 
 #include <algorithm>
 #include <cmath>

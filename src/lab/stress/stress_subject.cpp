@@ -8,7 +8,6 @@
 #include <packtrace/intersect.hpp>
 #include <packtrace/isa.hpp>
 
-#include "lab/stress/ray_columns.hpp"
 #include "lab/truth/textbook.hpp"
 
 namespace packtrace::lab {

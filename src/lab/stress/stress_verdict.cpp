@@ -1,4 +1,4 @@
-#include "lab/stress/stress_verdict.hpp"
+#include "lab/stress/stress.hpp"
 
 #include <algorithm>
 #include <set>

@@ -1,4 +1,4 @@
-#include "lab/truth/expected_hit.hpp"
+#include "lab/truth/wide_truth.hpp"
 
 #include <algorithm>
 #include <cmath>

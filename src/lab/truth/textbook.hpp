@@ -4,7 +4,7 @@
 #include <limits>
 #include <vector>
 
-#include "lab/stress/evaluate.hpp"
+#include "lab/truth/wide_truth.hpp"
 
 namespace packtrace::lab {
 

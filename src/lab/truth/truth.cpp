@@ -1,10 +1,9 @@
 #include "lab/truth/truth.hpp"
 
 #include "core/atomic_file.hpp"
-#include "core/text_hash.hpp"
+#include "core/checksum.hpp"
 #include "lab/harness/stopwatch.hpp"
-#include "lab/truth/truth_file.hpp"
-#include "lab/truth/truth_key.hpp"
+#include "lab/truth/truth_cache.hpp"
 #include "reference/reference.hpp"
 #include "reference/render_reference.hpp"
 #include "scene/sample_pattern.hpp"

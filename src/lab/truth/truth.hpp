@@ -24,7 +24,7 @@ struct TruthRequest {
 };
 
 /// The scalar reference's picture: in long double at one sample a pixel, in double at more. A file
-/// of the cache is used only if it has the key of all that the truth depends on (truth_key.hpp),
+/// of the cache is used only if it has the key of all that the truth depends on (truth_cache.hpp),
 /// its bytes agree with their checksum, and some of its pixels with what the reference gives now;
 /// else it is made anew. Throws FileError when it can't be kept, and std::invalid_argument for a
 /// scene to be kept that has no text (write_scene.hpp).

@@ -1,4 +1,4 @@
-#include "lab/truth/wide_surface.hpp"
+#include "lab/truth/wide_truth.hpp"
 
 #include <algorithm>
 #include <type_traits>

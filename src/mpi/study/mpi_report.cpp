@@ -12,19 +12,17 @@
 #include "cli/interrupts.hpp"
 #include "cli/options/thread_limit.hpp"
 #include "cli/output/progress_bar.hpp"
-#include "cli/study/report_arguments.hpp"
+#include "cli/study/report_command.hpp"
 #include "core/seconds_since.hpp"
 #include "lab/harness/stopwatch.hpp"
 #include "lab/truth/truth.hpp"
 #include "mpi/commands.hpp"
-#include "mpi/job_report.hpp"
-#include "mpi/shared_scene.hpp"
 #include "mpi/study/study_wire.hpp"
 
 namespace packtrace::mpi {
 namespace {
 
-using Arguments = cli::ReportArguments;
+using ReportJobArguments = cli::ReportArguments;
 
 /// A scene of the report, and what is known of it on this rank.
 struct SceneWork {
@@ -43,7 +41,7 @@ struct SceneWork {
 /// The stages of a report. All ranks call each.
 class ReportJob {
 public:
-    ReportJob(const World& world, const Arguments& arguments, const ReportOptions& options,
+    ReportJob(const World& world, const ReportJobArguments& arguments, const ReportOptions& options,
               std::vector<SceneWork>& works)
         : world_(world), arguments_(arguments), options_(options), works_(works)
     {
@@ -96,7 +94,7 @@ private:
     }
 
     const World& world_;
-    const Arguments& arguments_;
+    const ReportJobArguments& arguments_;
     const ReportOptions& options_;
     std::vector<SceneWork>& works_;
     std::vector<SceneReport> reports_;
@@ -295,7 +293,7 @@ std::string stem_of(const std::string& scene)
     return scene == "-" ? "stdin" : std::filesystem::path(scene).stem().string();
 }
 
-std::vector<SceneWork> read_works(const World& world, const Arguments& arguments,
+std::vector<SceneWork> read_works(const World& world, const ReportJobArguments& arguments,
                                   const ReportOptions& options)
 {
     world.together([&] {
@@ -319,7 +317,7 @@ std::vector<SceneWork> read_works(const World& world, const Arguments& arguments
     return works;
 }
 
-void run_report_on_ranks(const World& world, const Arguments& arguments)
+void run_report_on_ranks(const World& world, const ReportJobArguments& arguments)
 {
     const auto start = std::chrono::steady_clock::now();
     ReportOptions options;
@@ -358,7 +356,7 @@ void add_report(CLI::App& app, const World& world)
 {
     CLI::App* command = app.add_subcommand(
         "report", "Render scenes in many ways on all ranks; report errors against run times");
-    const auto arguments = std::make_shared<Arguments>();
+    const auto arguments = std::make_shared<ReportJobArguments>();
     cli::add_report_options(*command, *arguments);
     command->callback([arguments, command, &world] {
         arguments->command = cli::report_command("packtrace-mpi", *command, *arguments);

@@ -4,13 +4,11 @@
 
 #include "cli/interrupts.hpp"
 #include "cli/options/thread_limit.hpp"
-#include "cli/study/stress_output.hpp"
+#include "cli/study/stress_command.hpp"
 #include "core/seconds_since.hpp"
-#include "lab/stress/stress_verdict.hpp"
+#include "lab/stress/stress.hpp"
 #include "mpi/commands.hpp"
-#include "mpi/job_report.hpp"
 #include "mpi/quiet_node.hpp"
-#include "mpi/shared_scene.hpp"
 #include "mpi/study/study_wire.hpp"
 
 namespace packtrace::mpi {

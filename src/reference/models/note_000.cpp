@@ -1,8 +1,6 @@
 #include "reference/models/note_000.hpp"
 
-#include "reference/light/shadow.hpp"
-#include "reference/models/model_of.hpp"
-#include "reference/tree_recorder.hpp"
+#include "reference/shadow.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -1,8 +1,8 @@
 #pragma once
 
-#include "reference/no_recorder.hpp"
+#include "reference/ray.hpp"
 #include "reference/ray_weight.hpp"
-#include "reference/surface_point.hpp"
+#include "reference/recorder.hpp"
 
 #include <vector>
 

@@ -1,8 +1,6 @@
 #include "reference/models/note_002.hpp"
 
-#include "reference/light/shadow.hpp"
-#include "reference/models/model_of.hpp"
-#include "reference/tree_recorder.hpp"
+#include "reference/shadow.hpp"
 
 #include <cmath>
 

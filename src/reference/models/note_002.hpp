@@ -1,8 +1,8 @@
 #pragma once
 
-#include "reference/light/glass.hpp"
-#include "reference/no_recorder.hpp"
+#include "reference/glass.hpp"
 #include "reference/ray_weight.hpp"
+#include "reference/recorder.hpp"
 #include "reference/world.hpp"
 
 #include <vector>

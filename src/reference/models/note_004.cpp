@@ -1,7 +1,6 @@
 #include "reference/models/note_004.hpp"
 
-#include "reference/models/model_of.hpp"
-#include "reference/tree_recorder.hpp"
+#include "reference/world.hpp"
 
 #include <algorithm>
 #include <cmath>

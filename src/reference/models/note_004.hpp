@@ -1,7 +1,7 @@
 #pragma once
 
-#include "reference/no_recorder.hpp"
 #include "reference/ray_weight.hpp"
+#include "reference/recorder.hpp"
 #include "reference/start.hpp"
 #include "reference/surfaces/bodies.hpp"
 

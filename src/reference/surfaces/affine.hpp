@@ -42,4 +42,16 @@ private:
     Vec3<Real> origin_;
 };
 
+template <class Real>
+Affine<Real>::Affine(const Mat4& matrix) : origin_(packtrace::Vec3(matrix[3]))
+{
+    for (int i = 0; i < 3; ++i)
+        columns_[i] = Vec3<Real>(packtrace::Vec3(matrix[i]));
+    // Cramer's rule: the rows of the inverse are the cross products of the columns over the
+    // determinant.
+    const Real determinant = dot(columns_[0], cross(columns_[1], columns_[2]));
+    for (int i = 0; i < 3; ++i)
+        inverse_rows_[i] = cross(columns_[(i + 1) % 3], columns_[(i + 2) % 3]) / determinant;
+}
+
 }  // namespace packtrace::reference

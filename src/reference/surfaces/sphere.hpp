@@ -1,6 +1,6 @@
 #pragma once
 
-#include "reference/surfaces/interior.hpp"
+#include "reference/surfaces/roots.hpp"
 #include "reference/vec3.hpp"
 
 #include <cmath>

@@ -1,0 +1,96 @@
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include <packtrace/intersect.hpp>
+
+// Rays as lines of a CSV file: its lines, the format that the first of them tells, and its numbers.
+namespace packtrace::cli {
+
+/// A line of a CSV file without its line end.
+struct CsvLine {
+    std::string_view text;
+    std::size_t number = 1;  ///< in the file, from 1
+};
+
+/// Walks the lines of a text that are neither blank nor # comments. Lines end in LF or CR LF;
+/// the last may lack its end.
+class CsvLines {
+public:
+    CsvLines(std::string_view text, std::size_t first_line) : rest_(text), number_(first_line)
+    {
+    }
+
+    [[nodiscard]] std::optional<CsvLine> next()
+    {
+        while (!rest_.empty()) {
+            const CsvLine line = cut_line();
+            const std::size_t first = line.text.find_first_not_of(" \t");
+            if (first != std::string_view::npos && line.text[first] != '#')
+                return line;
+        }
+        return std::nullopt;
+    }
+
+    /// The number of the line after those walked.
+    [[nodiscard]] std::size_t number() const
+    {
+        return number_;
+    }
+
+private:
+    CsvLine cut_line()
+    {
+        const std::size_t end = rest_.find('\n');
+        std::string_view text = rest_.substr(0, end);
+        rest_.remove_prefix(end == std::string_view::npos ? rest_.size() : end + 1);
+        if (text.ends_with('\r'))
+            text.remove_suffix(1);
+        return {text, number_++};
+    }
+
+    std::string_view rest_;
+    std::size_t number_;
+};
+
+inline constexpr std::size_t most_ray_columns = 8;
+inline constexpr std::array<std::string_view, most_ray_columns> ray_columns{
+    "ox", "oy", "oz", "dx", "dy", "dz", "t_min", "t_max"};
+
+/// How a file writes its rays; its first line tells.
+struct RayFormat {
+    std::string file;             ///< its name, as messages show it
+    std::size_t columns = 0;      ///< 6 or 8; 0 until the first line has been read
+    std::size_t first_line = 0;   ///< the number of that line
+    std::size_t header_line = 0;  ///< the same if it is a header, else 0
+};
+
+/// Learns the format from the file's first line. Throws FileError for a line that has neither
+/// 6 nor 8 columns.
+void learn(RayFormat& format, const CsvLine& first);
+
+/// Rays by column, as RaysView wants them.
+template <class Real>
+struct RayArrays {
+    std::array<std::vector<Real>, most_ray_columns> columns;
+
+    [[nodiscard]] RaysView<Real> view() const
+    {
+        const auto& c = columns;
+        return {c[0].data(), c[1].data(), c[2].data(), c[3].data(), c[4].data(),
+                c[5].data(), c[6].data(), c[7].data(), c[0].size()};
+    }
+};
+
+/// Replaces `rays` by those of whole lines of a file, the first of which has the number
+/// `first_line`. Throws FileError, `file:line:column: …`, for what is not a ray.
+template <class Real>
+void read_rays(const RayFormat& format, std::string_view text, std::size_t first_line,
+               RayArrays<Real>& rays);
+
+}  // namespace packtrace::cli

@@ -1,0 +1,146 @@
+#include "cli/intersect/ray_file.hpp"
+
+#include <algorithm>
+#include <cerrno>
+#include <cstdint>
+#include <cstdio>
+#include <filesystem>
+#include <memory>
+#include <string_view>
+#include <utility>
+
+#include <sys/types.h>
+
+#include "core/read_file.hpp"
+#include "scene/quote.hpp"
+
+namespace packtrace::cli {
+namespace {
+
+// What spreadsheets put before a text to say that it is UTF-8.
+constexpr std::string_view byte_order_mark = "\xEF\xBB\xBF";
+
+/// The first line that begins at `place` or after it.
+std::uint64_t next_line(const std::string& file, std::uint64_t place)
+{
+    const std::uint64_t size = ray_file_size(file);
+    if (place == 0 || place >= size)
+        return place == 0 ? 0 : size;
+    const auto close = [](std::FILE* opened) { std::fclose(opened); };
+    const std::unique_ptr<std::FILE, decltype(close)> input(std::fopen(file.c_str(), "rb"), close);
+    if (!input || fseeko(input.get(), static_cast<off_t>(place - 1), SEEK_SET) != 0)
+        throw FileError(language::escape(file), "can't read", errno);
+    for (int c; place <= size; ++place)
+        if (c = std::fgetc(input.get()); c == '\n' || c == EOF)
+            return c == EOF ? size : place;
+    return size;
+}
+
+}  // namespace
+
+TextBlocks::TextBlocks(const std::string& file, std::uint64_t begin, std::uint64_t end)
+    : name_(file == "-" ? "standard input" : language::escape(file)),
+      file_(file == "-" ? stdin : std::fopen(file.c_str(), "rb")),
+      left_(end - begin)
+{
+    if (!file_ || (begin > 0 && fseeko(file_.get(), static_cast<off_t>(begin), SEEK_SET) != 0))
+        throw FileError(name_, "can't read", errno);
+}
+
+std::string TextBlocks::next()
+{
+    std::string block = std::exchange(begun_, {});
+    const std::size_t kept = block.size();
+    block.resize(largest);
+    const std::size_t wanted = std::min<std::uint64_t>(largest - kept, left_);
+    const std::size_t got = std::fread(block.data() + kept, 1, wanted, file_.get());
+    left_ -= got;
+    block.resize(kept + got);
+    if (std::ferror(file_.get()))
+        throw FileError(name_, "can't read", errno);
+    if (block.size() < largest)
+        return block;
+
+    const std::size_t end = block.rfind('\n');
+    if (end == std::string::npos)
+        throw FileError(name_ + ':' + std::to_string(lines_ + 1) + ":1: a line of " +
+                        std::to_string(largest) +
+                        " bytes or more can't be a ray; write one ray a line");
+    begun_ = block.substr(end + 1);
+    block.resize(end + 1);
+    lines_ += static_cast<std::size_t>(std::count(block.begin(), block.end(), '\n'));
+    return block;
+}
+
+RayBlocks::RayBlocks(const std::string& file, const RayRange& range)
+    : blocks_(file, range.begin, range.end),
+      format_(range.format),
+      line_(range.first_line),
+      ray_(range.first_ray)
+{
+    format_.file = blocks_.name();
+}
+
+RayBlock RayBlocks::next()
+{
+    RayBlock block;
+    block.text = blocks_.next();
+    if (line_ == 1 && block.text.starts_with(byte_order_mark))
+        block.text.replace(0, byte_order_mark.size(), byte_order_mark.size(), ' ');
+    block.first_line = line_;
+    block.first_ray = ray_;
+    CsvLines lines(block.text, line_);
+    while (const std::optional<CsvLine> line = lines.next()) {
+        if (format_.columns == 0)
+            learn(format_, *line);
+        if (line->number != format_.header_line)
+            ++ray_;
+    }
+    line_ = lines.number();
+    block.rays = ray_ - block.first_ray;
+    block.format = format_;
+    return block;
+}
+
+std::uint64_t ray_file_size(const std::string& file)
+{
+    std::error_code error;
+    const bool regular = std::filesystem::is_regular_file(file, error);
+    if (!regular && (error || file == "-"))
+        throw FileError(language::escape(file) + ": can't read: No such file or directory");
+    if (!regular)
+        throw FileError(language::escape(file) +
+                        ": only a regular file can be cut into parts; write the rays into one");
+    return std::filesystem::file_size(file);
+}
+
+RayRange cut_rays(const std::string& file, std::uint64_t index, std::uint64_t count)
+{
+    const std::uint64_t size = ray_file_size(file);
+    // In two steps: a product could exceed 64 bits.
+    const auto place = [&](std::uint64_t i) { return size / count * i + size % count * i / count; };
+    RayRange range;
+    range.begin = next_line(file, place(index));
+    range.end = next_line(file, place(index + 1));
+    return range;
+}
+
+RayFormat format_of_rays(const std::string& file)
+{
+    RayBlocks blocks(file);
+    for (RayBlock block = blocks.next(); !block.text.empty(); block = blocks.next())
+        if (block.format.columns != 0)
+            return block.format;
+    return {};
+}
+
+RayCount count_rays(const std::string& file, const RayRange& range)
+{
+    RayBlocks blocks(file, range);
+    RayBlock block = blocks.next();
+    while (!block.text.empty())
+        block = blocks.next();
+    return {block.first_line - range.first_line, block.first_ray - range.first_ray};
+}
+
+}  // namespace packtrace::cli

@@ -1,0 +1,39 @@
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include <CLI/CLI.hpp>
+
+#include "lab/stress/stress.hpp"
+
+// What `stress` takes and prints, on one machine or many ranks.
+namespace packtrace::cli {
+
+/// Its options, as they were given.
+struct StressArguments {
+    lab::StressOptions options;
+    std::optional<std::string> isa;
+    std::optional<std::string> traversal;
+    std::optional<std::string> cases;  ///< a folder for scenes and rays of wrong answers
+    std::optional<std::string> shard;
+    int threads = 0;
+    bool list = false;
+    bool json = false;
+};
+
+/// Adds them all but for `--shard`.
+void add_stress_options(CLI::App& command, StressArguments& arguments);
+
+/// With the instruction set and the traversal that are named. Throws CLI::ValidationError for those
+/// that are none.
+[[nodiscard]] lab::StressOptions stress_options(const StressArguments& arguments);
+
+void print_stress_families();
+
+/// Prints the rows of a stress test and its verdict, or JSON, and writes the cases that are asked
+/// for. Throws FileError.
+void print_stress(const StressArguments& arguments, const std::vector<lab::StressRow>& rows);
+
+}  // namespace packtrace::cli

@@ -1,0 +1,179 @@
+// Radiance pictures. stb_image_write makes them, a row at a time. The reader is an own one, because
+// stb_image before its version 2.28 never returns from a file that is cut short.
+#include "image/formats.hpp"
+
+#define STB_IMAGE_WRITE_STATIC
+#define STB_IMAGE_WRITE_IMPLEMENTATION
+#include <stb_image_write.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdio>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace packtrace {
+namespace {
+
+void append(void* file, void* data, int size)
+{
+    const auto* bytes = static_cast<const std::uint8_t*>(data);
+    auto& to = *static_cast<Bytes*>(file);
+    to.insert(to.end(), bytes, bytes + size);
+}
+
+// The format keeps exponents up to 2^127; both comparisons make NaN 0.
+float clamp_to_rgbe(float value)
+{
+    constexpr float largest = 0x1.fffffep126f;
+    const float positive = value > 0.0f ? value : 0.0f;
+    return positive < largest ? positive : largest;
+}
+
+// Reads a file from front to back; its end where more is needed is an error.
+class Cursor {
+public:
+    explicit Cursor(std::span<const std::uint8_t> file) : rest_(file)
+    {
+    }
+
+    std::span<const std::uint8_t> take(std::size_t count)
+    {
+        if (count > rest_.size())
+            throw ImageError("damaged HDR picture: the file ends early");
+        const auto taken = rest_.first(count);
+        rest_ = rest_.subspan(count);
+        return taken;
+    }
+
+    std::string line()
+    {
+        const auto end = std::find(rest_.begin(), rest_.end(), '\n');
+        const auto text = take(static_cast<std::size_t>(end - rest_.begin()));
+        take(1);
+        return {text.begin(), text.end()};
+    }
+
+    [[nodiscard]] std::span<const std::uint8_t> rest() const
+    {
+        return rest_;
+    }
+
+private:
+    std::span<const std::uint8_t> rest_;
+};
+
+struct Size {
+    int width = 0;
+    int height = 0;
+};
+
+Size read_header(Cursor& file)
+{
+    const std::string magic = file.line();
+    if (magic != "#?RADIANCE" && magic != "#?RGBE")
+        throw ImageError("not a Radiance HDR file");
+    for (std::string line = file.line(); !line.empty(); line = file.line())
+        if (line.starts_with("FORMAT=") && line != "FORMAT=32-bit_rle_rgbe")
+            throw ImageError("HDR pixels of the kind " + line.substr(7) + " are not supported");
+    const std::string resolution = file.line();
+    Size size;
+    char end = 0;
+    if (std::sscanf(resolution.c_str(), "-Y %9d +X %9d%c", &size.height, &size.width, &end) != 2 ||
+        size.width < 1 || size.height < 1)
+        throw ImageError("HDR size '" + resolution + "' is not of the form -Y height +X width");
+    return size;
+}
+
+// Four runs of bytes, one a component; a count above 128 repeats one byte.
+void read_packed_row(Cursor& file, Bytes& row)
+{
+    const std::size_t width = row.size() / 4;
+    for (std::size_t component = 0; component < 4; ++component)
+        for (std::size_t x = 0; x < width;) {
+            const std::size_t code = file.take(1)[0];
+            const std::size_t count = code > 128 ? code - 128 : code;
+            if (count == 0 || count > width - x)
+                throw ImageError("damaged HDR picture: a run does not fit its row");
+            const auto bytes = file.take(code > 128 ? 1 : count);
+            for (std::size_t i = 0; i < count; ++i, ++x)
+                row[4 * x + component] = bytes[code > 128 ? 0 : i];
+        }
+}
+
+void read_row(Cursor& file, Bytes& row)
+{
+    const std::size_t width = row.size() / 4;
+    const std::array<std::uint8_t, 4> packed{2, 2, static_cast<std::uint8_t>(width >> 8),
+                                             static_cast<std::uint8_t>(width & 255)};
+    const auto rest = file.rest();
+    const bool may_be_packed = width >= 8 && width < 32768 && rest.size() >= 4;
+    if (may_be_packed && std::equal(packed.begin(), packed.end(), rest.begin())) {
+        file.take(4);
+        read_packed_row(file, row);
+    } else {
+        const auto plain = file.take(row.size());
+        std::copy(plain.begin(), plain.end(), row.begin());
+    }
+}
+
+void expand(const std::uint8_t* rgbe, float* rgb)
+{
+    const float unit = rgbe[3] == 0 ? 0.0f : std::ldexp(1.0f, rgbe[3] - (128 + 8));
+    for (int c = 0; c < 3; ++c)
+        rgb[c] = static_cast<float>(rgbe[c]) * unit;
+}
+
+}  // namespace
+
+std::string hdr_header(int width, int height)
+{
+    return "#?RADIANCE\n# Written by stb_image_write.h\nFORMAT=32-bit_rle_rgbe\n"
+           "EXPOSURE=          1.0000000000000\n\n-Y " +
+           std::to_string(height) + " +X " + std::to_string(width) + "\n";
+}
+
+void append_hdr_row(Bytes& file, std::span<const float> row)
+{
+    std::vector<float> values(row.size());
+    std::transform(row.begin(), row.end(), values.begin(), clamp_to_rgbe);
+    const auto width = static_cast<int>(row.size() / 3);
+    std::vector<unsigned char> scratch(4 * row.size() / 3);
+    stbi__write_context context{};
+    stbi__start_write_callbacks(&context, append, &file);
+    stbiw__write_hdr_scanline(&context, width, 3, scratch.data(), values.data());
+    stbiw__write_flush(&context);
+}
+
+Bytes encode_hdr(const Image<float>& image)
+{
+    const std::string header = hdr_header(image.width, image.height);
+    Bytes file(header.begin(), header.end());
+    const std::size_t row = 3 * static_cast<std::size_t>(image.width);
+    for (int y = 0; y < image.height; ++y)
+        append_hdr_row(file, {image.pixel(0, y), row});
+    return file;
+}
+
+Image<float> decode_hdr(std::span<const std::uint8_t> bytes)
+{
+    Cursor file(bytes);
+    const Size size = read_header(file);
+    // A run of two bytes gives one component of at most 127 pixels. A size that the file can't
+    // hold is not allocated.
+    if (static_cast<double>(size.width) * size.height / 127.0 * 8.0 >
+        static_cast<double>(file.rest().size()))
+        throw ImageError("damaged HDR picture: the file ends early");
+    Image<float> image(size.width, size.height);
+    Bytes row(4 * static_cast<std::size_t>(size.width));
+    for (int y = 0; y < size.height; ++y) {
+        read_row(file, row);
+        for (int x = 0; x < size.width; ++x)
+            expand(&row[4 * static_cast<std::size_t>(x)], image.pixel(x, y));
+    }
+    return image;
+}
+
+}  // namespace packtrace

@@ -1,0 +1,190 @@
+// Picture files by their names: written, checked and read in the format of the extension, and the
+// recipe of what made a picture, which formats without room for text keep in a file beside it.
+#include <packtrace/image_io.hpp>
+
+#include "core/atomic_file.hpp"
+#include "core/read_file.hpp"
+#include "image/formats.hpp"
+
+#include <libdeflate.h>
+
+#include <algorithm>
+#include <array>
+#include <fstream>
+#include <span>
+#include <stdexcept>
+#include <string>
+
+namespace packtrace {
+namespace {
+
+constexpr std::size_t longest_recipe = 2000;
+
+std::filesystem::path beside(std::filesystem::path picture)
+{
+    picture += ".recipe";
+    return picture;
+}
+
+/// Tells a picture from one that has since been put into its place.
+std::string mark_of(const void* bytes, std::size_t size)
+{
+    return std::to_string(size) + " bytes, checksum " +
+           std::to_string(libdeflate_crc32(0, bytes, size));
+}
+
+std::string recipe_in_png(const std::filesystem::path& picture)
+{
+    std::array<char, longest_recipe + 100> head{};
+    std::ifstream in(picture, std::ios::binary);
+    in.read(head.data(), head.size());
+    return png_recipe({reinterpret_cast<const std::uint8_t*>(head.data()),
+                       static_cast<std::size_t>(in.gcount())});
+}
+
+/// Writes the file beside `picture`, which has these bytes. Throws FileError.
+void write_recipe_beside(const std::filesystem::path& picture, std::span<const std::uint8_t> bytes,
+                         const std::string& recipe)
+{
+    AtomicFile output(beside(picture));
+    output.write(recipe + "\n" + mark_of(bytes.data(), bytes.size()) + "\n");
+    output.commit();
+}
+
+/// The recipe beside `picture`; empty when there is none, or when the picture has other bytes now.
+std::string read_recipe_beside(const std::filesystem::path& picture)
+{
+    try {
+        const std::string text = read_file(beside(picture));
+        const std::string bytes = read_file(picture);
+        const std::string mark = "\n" + mark_of(bytes.data(), bytes.size()) + "\n";
+        if (text.ends_with(mark))
+            return text.substr(0, text.size() - mark.size());
+    } catch (const FileError&) {
+        // Not there, or not to be read: nobody knows what made the picture.
+    }
+    return {};
+}
+
+Bytes encode_as_hdr(const Image<float>& image)
+{
+    return encode_hdr(image);
+}
+template <class Real>
+Bytes encode_as_hdr(const Image<Real>& image)
+{
+    return encode_hdr(convert<float>(image));
+}
+
+template <class Real>
+Bytes encode(ImageFormat format, const Image<Real>& image, const ImageWriteOptions& options)
+{
+    switch (format) {
+        case ImageFormat::png:
+            return encode_png(image, {.gamma = options.gamma, .recipe = options.recipe});
+        case ImageFormat::pfm:
+            return encode_pfm(image);
+        case ImageFormat::hdr:
+            break;
+    }
+    return encode_as_hdr(image);
+}
+
+void check_recipe(const std::string& recipe)
+{
+    const auto printable = [](char letter) { return letter >= ' ' && letter <= '~'; };
+    if (recipe.size() > longest_recipe || !std::all_of(recipe.begin(), recipe.end(), printable))
+        throw std::invalid_argument("a recipe is a line of at most " +
+                                    std::to_string(longest_recipe) + " printable ASCII characters");
+}
+
+Image<float> decode(ImageFormat format, std::span<const std::uint8_t> bytes)
+{
+    switch (format) {
+        case ImageFormat::png:
+            return decode_png(bytes);
+        case ImageFormat::pfm:
+            return decode_pfm(bytes);
+        case ImageFormat::hdr:
+            break;
+    }
+    return decode_hdr(bytes);
+}
+
+}  // namespace
+
+ImageFormat image_format(const std::filesystem::path& file)
+{
+    const std::string extension = file.extension().string();
+    std::string lower = extension;
+    std::transform(lower.begin(), lower.end(), lower.begin(),
+                   [](char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c + 32) : c; });
+    if (lower == ".png")
+        return ImageFormat::png;
+    if (lower == ".pfm")
+        return ImageFormat::pfm;
+    if (lower == ".hdr")
+        return ImageFormat::hdr;
+    const std::string what = extension.empty() ? "no extension tells the picture format"
+                                               : "unknown picture format '" + extension + "'";
+    throw ImageError(file.string() + ": " + what + "; use .png, .pfm or .hdr");
+}
+
+template <class Real>
+void write_image(const std::filesystem::path& file, const Image<Real>& image,
+                 const ImageWriteOptions& options)
+{
+    const ImageFormat format = image_format(file);
+    check_recipe(options.recipe);
+    if (image.width < 1 || image.height < 1)
+        throw ImageError(file.string() + ": can't write a picture without pixels");
+    try {
+        AtomicFile output(file);
+        const Bytes bytes = encode(format, image, options);
+        output.write(std::as_bytes(std::span(bytes)));
+        output.commit();
+        if (!options.recipe.empty() && format != ImageFormat::png)
+            write_recipe_beside(file, bytes, options.recipe);
+    } catch (const FileError& error) {
+        throw ImageError(error.what());
+    } catch (const ImageError& error) {
+        throw ImageError(file.string() + ": " + error.what());
+    }
+}
+
+template void write_image(const std::filesystem::path&, const Image<float>&,
+                          const ImageWriteOptions&);
+template void write_image(const std::filesystem::path&, const Image<double>&,
+                          const ImageWriteOptions&);
+template void write_image(const std::filesystem::path&, const Image<long double>&,
+                          const ImageWriteOptions&);
+
+void check_image_writable(const std::filesystem::path& file)
+{
+    static_cast<void>(image_format(file));
+    try {
+        check_writable(file);
+    } catch (const FileError& error) {
+        throw ImageError(error.what());
+    }
+}
+
+Image<float> read_image(const std::filesystem::path& file)
+{
+    const ImageFormat format = image_format(file);
+    try {
+        const std::string bytes = read_file(file);
+        return decode(format, {reinterpret_cast<const std::uint8_t*>(bytes.data()), bytes.size()});
+    } catch (const FileError& error) {
+        throw ImageError(error.what());
+    } catch (const ImageError& error) {
+        throw ImageError(file.string() + ": " + error.what());
+    }
+}
+
+std::string read_recipe(const std::filesystem::path& file)
+{
+    return image_format(file) == ImageFormat::png ? recipe_in_png(file) : read_recipe_beside(file);
+}
+
+}  // namespace packtrace

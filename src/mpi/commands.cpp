@@ -1,0 +1,150 @@
+#include "mpi/commands.hpp"
+
+#include <algorithm>
+#include <cstdio>
+#include <iostream>
+#include <stdexcept>
+#include <utility>
+
+#include <packtrace/isa.hpp>
+#include <packtrace/read_scene.hpp>
+#include <packtrace/version.hpp>
+
+#include <nlohmann/json.hpp>
+
+#include "cli/command.hpp"
+#include "cli/usage_error.hpp"
+#include "core/json_text.hpp"
+#include "scene/quote.hpp"
+#include "scene/source.hpp"
+
+namespace packtrace::mpi {
+namespace {
+
+constexpr std::string_view generate_word = "generate ";
+
+Scene generate(const std::string& words)
+{
+    CLI::App app("", "packtrace");
+    Scene made;
+    CLI::App* generators = app.add_subcommand("generate", "");
+    cli::add_generators(*generators, [&](Scene scene) { made = std::move(scene); });
+    app.require_subcommand(1);
+    try {
+        app.parse(words, false);
+    } catch (const CLI::ParseError& error) {
+        const char* const none = "";
+        throw std::runtime_error("SCENE: " + cli::usage_error(app, error, 1, &none));
+    }
+    return made;
+}
+
+nlohmann::ordered_json report_json(const std::string& output, const std::string& what,
+                                   const std::vector<RankReport>& reports,
+                                   const std::vector<std::string>& hosts, double seconds)
+{
+    nlohmann::ordered_json json{{"output", output}, {"seconds", seconds}, {"pieces", what}};
+    json["ranks"] = nlohmann::ordered_json::array();
+    for (std::size_t rank = 0; rank < reports.size(); ++rank) {
+        const RankReport& report = reports[rank];
+        json["ranks"].push_back({{"rank", rank},
+                                 {"host", hosts[rank]},
+                                 {"pieces", report.pieces},
+                                 {"rays", report.rays},
+                                 {"busy_seconds", report.busy},
+                                 {"waiting_seconds", report.waiting},
+                                 {"bytes_sent", report.bytes_sent}});
+    }
+    return json;
+}
+
+}  // namespace
+
+void add_job_options(CLI::App& command, JobArguments& arguments)
+{
+    command.add_flag("--allow-mixed", arguments.allow_mixed,
+                     "Let ranks with and without fused multiply-add work on one result, whose bits "
+                     "then depend on who made them");
+    command.add_flag("--json", arguments.json,
+                     "Print JSON: rays, busy and waiting seconds of each rank");
+}
+
+Scene shared_scene(const World& world, const std::string& name)
+{
+    Scene scene;
+    if (name.starts_with(generate_word)) {
+        world.together([&] { scene = generate(name); });
+        return scene;
+    }
+    const std::string shown = name == "-" ? "standard input" : name;
+    std::string text;
+    world.together([&] {
+        if (world.is_first())
+            text = name == "-" ? language::load_text(std::cin, shown) : language::load_text(name);
+    });
+    world.broadcast(text);
+    world.together([&] {
+        scene = parse_scene(text, shown, [&](const std::string& line) {
+            if (world.is_first())
+                std::cerr << "warning: " << line << '\n';
+        });
+    });
+    return scene;
+}
+
+void check_ranks(const World& world, const RenderOptions& options, Mixing mixing)
+{
+    const RankSetup setup{PACKTRACE_VERSION_STRING,
+                          options.kernel == Kernel::scalar || options.isa != "sse42"};
+    const std::string why = why_not_together(world.gather(setup.text()), mixing);
+    world.together([&] {
+        if (!why.empty())
+            throw std::runtime_error(why);
+    });
+}
+
+void check_same_isas(const World& world, std::vector<std::string> isas)
+{
+    if (isas.empty())
+        for (const IsaInfo& isa : list_isas())
+            if (isa.supported)
+                isas.push_back(isa.name);
+    std::string names;
+    for (const std::string& isa : isas)
+        names += (names.empty() ? "" : ", ") + isa;
+    const std::vector<std::string> versions = world.gather(PACKTRACE_VERSION_STRING);
+    const std::vector<std::string> all = world.gather(names);
+    world.together([&] {
+        std::string why = why_not_together(versions, Mixing::allowed);
+        if (why.empty())
+            why = why_rows_differ(all);
+        if (!why.empty())
+            throw std::runtime_error(why);
+    });
+}
+
+void print_report(const World& world, const JobArguments& arguments, bool quiet,
+                  const std::string& output, const std::string& what,
+                  const std::vector<RankReport>& reports, double seconds)
+{
+    const std::vector<std::string> hosts = world.gather(world.host());
+    if (!world.is_first())
+        return;
+    if (arguments.json)
+        std::cout << json_text(report_json(output, what, reports, hosts, seconds)) << std::flush;
+    if (quiet || arguments.json)
+        return;
+    std::int64_t pieces = 0;
+    double waiting = 0.0;
+    for (const RankReport& report : reports) {
+        pieces += report.pieces;
+        waiting = std::max(waiting, report.waiting);
+    }
+    char times[96];
+    std::snprintf(times, sizeof times, " in %.1f s; no rank waited longer than %.1f s\n", seconds,
+                  waiting);
+    std::cerr << language::escape(output) << ": " << pieces << ' ' << what << " on "
+              << reports.size() << " ranks" << times;
+}
+
+}  // namespace packtrace::mpi

@@ -1,0 +1,103 @@
+#pragma once
+
+#include "reference/ray.hpp"
+#include "reference/surfaces/inside.hpp"
+#include "reference/world.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+#include <utility>
+#include <vector>
+
+// Light that goes through glass.
+namespace packtrace::reference {
+
+/// The direction after Snell's law n1 sin(i) = n2 sin(r), for unit `D` and unit `N` turned
+/// against it; nothing at total internal reflection. Unit again, to rounding.
+template <class Real>
+[[nodiscard]] std::optional<Vec3<Real>> refract(const Vec3<Real>& D, const Vec3<Real>& N, Real n1,
+                                                Real n2)
+{
+    const Real eta = n1 / n2;
+    const Real cos_i = -dot(N, D);
+    const Real cos_r_squared = 1 - eta * eta * (1 - cos_i * cos_i);
+    if (cos_r_squared < 0)
+        return std::nullopt;
+    return eta * D + (eta * cos_i - std::sqrt(cos_r_squared)) * N;
+}
+
+/// What light does on its way through each object.
+template <class Real>
+struct Glass {
+    struct Body {
+        Color<Real> transmittance;  ///< share of light passed on; all zero for opaque
+        Real ior;
+    };
+    std::vector<Body> bodies;  ///< by object number
+
+    /// The ray that goes on behind the surface at `at`, or nothing at total internal reflection.
+    [[nodiscard]] std::optional<Ray<Real>> refraction_ray(const Ray<Real>& ray,
+                                                          const SurfacePoint<Real>& at) const;
+
+    /// What a ray from `camera` starts inside of. The bodies are stacked in the order in which
+    /// they are left going `forward`, the first on top, which puts nested bodies in theirs.
+    [[nodiscard]] GlassStack stack_at(const Bodies<Real>& surfaces, const Vec3<Real>& camera,
+                                      const Vec3<Real>& forward) const;
+
+private:
+    [[nodiscard]] Real ior_in(const GlassStack& stack) const;
+};
+
+template <class Real>
+Real Glass<Real>::ior_in(const GlassStack& stack) const
+{
+    return stack.top() == GlassStack::outside ? Real(1)
+                                              : bodies[static_cast<std::size_t>(stack.top())].ior;
+}
+
+template <class Real>
+std::optional<Ray<Real>> Glass<Real>::refraction_ray(const Ray<Real>& ray,
+                                                     const SurfacePoint<Real>& at) const
+{
+    Ray<Real> frac{at.P, ray.dir, ray.inside, at.through()};
+    const bool recorded = ray.inside.contains(at.object);
+    // Straight on: in again where the ray already is, or out where it never was, as happens
+    // with open surfaces and with a full stack.
+    if (at.leaving != recorded || (!at.leaving && ray.inside.full()))
+        return frac;
+    if (at.leaving)
+        frac.inside.remove(at.object);
+    else
+        frac.inside.push(at.object);
+    // Leaving a body further down than the one the ray travels in changes no medium.
+    if (at.leaving && ray.inside.top() != at.object)
+        return frac;
+    const auto dir = refract(ray.dir, at.N, ior_in(ray.inside), ior_in(frac.inside));
+    if (!dir)
+        return std::nullopt;
+    frac.dir = *dir;
+    return frac;
+}
+
+template <class Real>
+GlassStack Glass<Real>::stack_at(const Bodies<Real>& surfaces, const Vec3<Real>& camera,
+                                 const Vec3<Real>& forward) const
+{
+    std::vector<std::pair<Real, int>> left_at;
+    visit_bodies(surfaces, [&](const auto& body) {
+        const auto object = static_cast<std::size_t>(body.object);
+        if (!any_positive(bodies[object].transmittance) || !is_inside(body, camera))
+            return true;
+        left_at.emplace_back(leaves_at(body, camera, forward), body.object);
+        return true;
+    });
+    std::sort(left_at.rbegin(), left_at.rend());
+    GlassStack stack;
+    for (const auto& [t, object] : left_at)
+        if (!stack.full())
+            stack.push(object);
+    return stack;
+}
+
+}  // namespace packtrace::reference

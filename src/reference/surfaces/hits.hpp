@@ -1,0 +1,159 @@
+#pragma once
+
+#include "reference/surfaces/bodies.hpp"
+
+#include <algorithm>
+#include <limits>
+#include <utility>
+#include <vector>
+
+// Hits of rays: the closest one, the surface's normal there, and all of them.
+namespace packtrace::reference {
+
+template <class Real>
+struct Hit {
+    Real t = std::numeric_limits<Real>::infinity();
+    int object = -1;  ///< -1 for none
+    Part part = Part::side;
+    bool leaving = false;  ///< the ray comes from the inside
+
+    [[nodiscard]] explicit operator bool() const
+    {
+        return object >= 0;
+    }
+};
+
+/// The nearest root in the closed range [t_min, t_max], over all objects one by one; among
+/// equal t the lower object number.
+template <class Real>
+[[nodiscard]] Hit<Real> closest_intersection(const Bodies<Real>& bodies, const Vec3<Real>& O,
+                                             const Vec3<Real>& D, Real t_min, Real t_max)
+{
+    Hit<Real> closest;
+    const auto offer = [&](Real t, int object, Part part, bool leaving) {
+        if (t >= t_min && t <= t_max &&
+            (t < closest.t || (t == closest.t && object < closest.object)))
+            closest = {t, object, part, leaving};
+    };
+    for (const SphereBody<Real>& sphere : bodies.spheres) {
+        const Interior<Real> interior = interior_along(sphere, O, D);
+        offer(interior.first, sphere.object, Part::side, false);
+        offer(interior.last, sphere.object, Part::side, true);
+    }
+    for (const PlaneBody<Real>& plane : bodies.planes)
+        offer(intersect_ray_plane(O, D, plane), plane.object, Part::side, dot(plane.normal, D) > 0);
+    for (const PolygonBody<Real>& polygon : bodies.polygons)
+        for (const auto& root : roots_of(polygon, O, D))
+            offer(root.t, polygon.object, root.part, root.leaving);
+    for (const PlacedBody<Real>& body : bodies.placed)
+        for (const auto& root : roots_of(body, O, D))
+            offer(root.t, body.object, root.part, root.leaving);
+    return closest;
+}
+
+/// How a surface stands to the ray that meets it.
+template <class Real>
+struct Facing {
+    Vec3<Real> outward;  ///< unit, on the surface's own outer side: away from a sphere's centre,
+                         ///< along a plane's normal, up the gradient of a quadric
+    bool leaving;        ///< the ray comes from the inside
+
+    /// The normal's side from which the ray comes.
+    [[nodiscard]] Vec3<Real> turned() const
+    {
+        return leaving ? -outward : outward;
+    }
+};
+
+/// Outwards, not normalised, at the point `P` of a hit.
+template <class Real>
+[[nodiscard]] Vec3<Real> gradient_at(const Bodies<Real>& bodies, const Hit<Real>& hit,
+                                     const Vec3<Real>& P)
+{
+    const auto [kind, index] = bodies.places[static_cast<std::size_t>(hit.object)];
+    switch (kind) {
+        case BodyKind::sphere:
+            return normal_at(bodies.spheres[index], P, hit.part);
+        case BodyKind::plane:
+            return normal_at(bodies.planes[index], P, hit.part);
+        case BodyKind::polygon:
+            return normal_at(bodies.polygons[index], P, hit.part);
+        case BodyKind::placed:
+            break;
+    }
+    return normal_at(bodies.placed[index], P, hit.part);
+}
+
+/// At the point `P` of a hit of a ray along `D`. Where the gradient vanishes, at a cone's apex or
+/// the edge of crossing planes, the normal is the unit vector against the ray.
+template <class Real>
+[[nodiscard]] Facing<Real> facing(const Bodies<Real>& bodies, const Hit<Real>& hit,
+                                  const Vec3<Real>& P, const Vec3<Real>& D)
+{
+    if (const auto outward = unit(gradient_at(bodies, hit, P)))
+        return {*outward, hit.leaving};
+    return {-unit(D).value_or(Vec3<Real>()), false};
+}
+
+/// The place that a surface's coordinates are off from: a sphere's centre, a plane's or a
+/// polygon's first point, where
+/// a matrix takes the own origin.
+template <class Real>
+[[nodiscard]] Vec3<Real> place_of(const Bodies<Real>& bodies, int object)
+{
+    const auto [kind, index] = bodies.places[static_cast<std::size_t>(object)];
+    switch (kind) {
+        case BodyKind::sphere:
+            return bodies.spheres[index].center;
+        case BodyKind::plane:
+            return bodies.planes[index].point;
+        case BodyKind::polygon:
+            return bodies.polygons[index].contours[0][0];
+        case BodyKind::placed:
+            break;
+    }
+    return bodies.placed[index].placement.point_to_world({});
+}
+
+/// `P` in the space the object's surface is defined in.
+template <class Real>
+[[nodiscard]] Vec3<Real> own_point(const Bodies<Real>& bodies, int object, const Vec3<Real>& P)
+{
+    const auto [kind, index] = bodies.places[static_cast<std::size_t>(object)];
+    return kind == BodyKind::placed ? bodies.placed[index].placement.point_to_own(P) : P;
+}
+
+/// One meeting of a ray with a surface.
+template <class Real>
+struct SurfaceHit {
+    Real t;
+    int object;
+    Vec3<Real> normal;  ///< unit, the surface's outward one, not turned to the ray
+    bool leaving;       ///< the ray comes from the inside
+};
+
+/// Every meeting with t in [t_min, t_max], by increasing t, then object number. A ray that
+/// touches a surface without crossing meets it twice at the same t.
+template <class Real>
+[[nodiscard]] std::vector<SurfaceHit<Real>> all_hits(const Bodies<Real>& bodies,
+                                                     const Vec3<Real>& org, const Vec3<Real>& dir,
+                                                     Real t_min, Real t_max)
+{
+    std::vector<SurfaceHit<Real>> hits;
+    visit_bodies(bodies, [&](const auto& body) {
+        for (const auto& root : roots_of(body, org, dir)) {
+            if (root.t < t_min || root.t > t_max)
+                continue;
+            const Hit<Real> hit{root.t, body.object, root.part, root.leaving};
+            const Facing<Real> at = facing(bodies, hit, org + root.t * dir, dir);
+            hits.push_back({root.t, body.object, at.outward, root.leaving});
+        }
+        return true;
+    });
+    std::stable_sort(hits.begin(), hits.end(), [](const auto& a, const auto& b) {
+        return std::pair(a.t, a.object) < std::pair(b.t, b.object);
+    });
+    return hits;
+}
+
+}  // namespace packtrace::reference

@@ -1,0 +1,132 @@
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdio>
+#include <limits>
+
+#include <glm/common.hpp>
+#include <glm/geometric.hpp>
+#include <packtrace/surface.hpp>
+
+// The axes of a plane, and the plane of a polygon.
+namespace packtrace {
+namespace {
+
+/// How far a corner may be off the plane, as a share of the polygon's size: what seven written
+/// digits leave.
+constexpr double flatness = 1e-6;
+
+/// The least area of a polygon, as a share of its size's square.
+constexpr double least_area = 1e-12;
+
+using Contour = std::vector<Vec3>;
+
+double largest_component(const Vec3& v)
+{
+    return std::max({std::abs(v.x), std::abs(v.y), std::abs(v.z)});
+}
+
+/// The sum of the edges' cross products, twice the area long. From the first corner on, so that a
+/// far polygon keeps its digits.
+Vec3 newell_normal(const Contour& contour)
+{
+    Vec3 sum(0.0);
+    for (std::size_t i = 1; i + 1 < contour.size(); ++i)
+        sum += glm::cross(contour[i] - contour[0], contour[i + 1] - contour[0]);
+    return sum;
+}
+
+double size_of(const Polygon& polygon)
+{
+    double size = 0.0;
+    for (const Contour& contour : polygon.contours)
+        for (const Vec3& corner : contour)
+            size = std::max(size, glm::length(corner - polygon.contours[0][0]));
+    return size;
+}
+
+std::string brief(double number)
+{
+    std::array<char, 32> text{};
+    (void)std::snprintf(text.data(), text.size(), "%.3g", number);
+    return text.data();
+}
+
+std::optional<std::string> fault_of_contours(const Polygon& polygon)
+{
+    if (polygon.contours.empty())
+        return "the polygon has no vertices; give it three or more";
+    for (const Contour& contour : polygon.contours) {
+        if (contour.size() < 3)
+            return "the polygon has a contour of " + std::to_string(contour.size()) +
+                   (contour.size() == 1 ? " vertex" : " vertices") + "; give it three or more";
+        for (const Vec3& corner : contour)
+            if (!std::isfinite(corner.x) || !std::isfinite(corner.y) || !std::isfinite(corner.z))
+                return "a vertex of the polygon is not finite; give it three finite numbers";
+    }
+    return std::nullopt;
+}
+
+}  // namespace
+
+void plane_axes(Plane& plane)
+{
+    const Vec3 size{std::abs(plane.normal.x), std::abs(plane.normal.y), std::abs(plane.normal.z)};
+    int major = 0;
+    if (size.y > size[major])
+        major = 1;
+    if (size.z > size[major])
+        major = 2;
+
+    Vec3 first{0.0};
+    first[major == 0 ? 1 : 0] = 1.0;
+    plane.u = glm::normalize(first - plane.normal * glm::dot(plane.normal, first));
+    plane.v = glm::cross(plane.u, plane.normal);
+
+    // The second axis points the way its world axis does.
+    const int second = major == 2 ? 1 : 2;
+    if (plane.v[second] < 0.0)
+        plane.v = -plane.v;
+}
+
+Vec3 polygon_normal(const Polygon& polygon)
+{
+    const Vec3 sum = newell_normal(polygon.contours[0]);
+    const double largest = largest_component(sum);
+    return largest > 0.0 ? glm::normalize(sum / largest) : Vec3(0.0);
+}
+
+std::optional<std::string> polygon_fault(const Polygon& polygon)
+{
+    if (const auto fault = fault_of_contours(polygon))
+        return fault;
+    const double size = size_of(polygon);
+    if (!(glm::length(newell_normal(polygon.contours[0])) > least_area * size * size))
+        return "the polygon's first contour encloses no area: its vertices are on one line, or it "
+               "crosses itself into halves that cancel; move one, or begin with another contour";
+
+    const Vec3 normal = polygon_normal(polygon);
+    const Vec3& first = polygon.contours[0][0];
+    int number = 0;
+    int worst = 0;
+    double off = 0.0;
+    double coordinate = 0.0;
+    for (const Contour& contour : polygon.contours)
+        for (const Vec3& corner : contour) {
+            ++number;
+            coordinate = std::max(coordinate, largest_component(corner));
+            if (const double here = std::abs(glm::dot(normal, corner - first)); here > off) {
+                off = here;
+                worst = number;
+            }
+        }
+    const double allowed =
+        flatness * size + 8.0 * std::numeric_limits<double>::epsilon() * coordinate;
+    if (off > allowed)
+        return "the polygon is not flat: vertex " + std::to_string(worst) + " is " + brief(off) +
+               " off its plane, and " + brief(allowed) +
+               " is allowed; move it, or split the polygon into flat ones";
+    return std::nullopt;
+}
+
+}  // namespace packtrace
