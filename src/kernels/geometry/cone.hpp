@@ -1,6 +1,7 @@
 #pragma once
 
 #include "kernels/geometry/packet.hpp"
+#include "kernels/simd/vfloat8.hpp"
 
 // A bound of many rays: a cone of directions around an axis, started anywhere in a ball. It
 // tells which objects none of the rays can reach.
@@ -126,21 +127,61 @@ struct Box {
     Real high[3];
 };
 
+/// The most of a packet's lanes.
+template <class Real>
+inline Real largest_lane(batch<Real> x)
+{
+    alignas(64) Real value[lanes<Real>];
+    store(value, x);
+    if constexpr (sizeof(Real) == sizeof(float) && lanes<Real> % 8 == 0) {
+        vfloat8 most = load8(value);
+        for (int first = 8; first < lanes<Real>; first += 8)
+            most = max(most, load8(value + first));
+        return largest_of8(most);
+    } else {
+        Real most = value[0];
+        for (int lane = 1; lane < lanes<Real>; ++lane)
+            most = value[lane] > most ? value[lane] : most;
+        return most;
+    }
+}
+
 /// The least of the lanes of one packet and the most of another's.
 template <class Real>
 inline void extent_of_lanes(batch<Real> smallest, batch<Real> largest, Real& low, Real& high)
 {
-    alignas(64) Real smallest_lanes[lanes<Real>];
-    alignas(64) Real largest_lanes[lanes<Real>];
-    store(smallest_lanes, smallest);
-    store(largest_lanes, largest);
-    low = smallest_lanes[0];
-    high = largest_lanes[0];
-    for (int lane = 1; lane < lanes<Real>; ++lane) {
-        low = smallest_lanes[lane] < low ? smallest_lanes[lane] : low;
-        high = largest_lanes[lane] > high ? largest_lanes[lane] : high;
-    }
+    low = -largest_lane<Real>(negated(smallest));
+    high = largest_lane<Real>(largest);
 }
+
+/// The box of points that come in packets.
+template <class Real>
+class PacketBox {
+public:
+    void add(const Vec3v<Real>& points)
+    {
+        low_ = {min(low_.x, points.x), min(low_.y, points.y), min(low_.z, points.z)};
+        high_ = {max(high_.x, points.x), max(high_.y, points.y), max(high_.z, points.z)};
+    }
+
+    [[nodiscard]] Box<Real> box() const
+    {
+        Box<Real> box;
+        extent_of_lanes<Real>(low_.x, high_.x, box.low[0], box.high[0]);
+        extent_of_lanes<Real>(low_.y, high_.y, box.low[1], box.high[1]);
+        extent_of_lanes<Real>(low_.z, high_.z, box.low[2], box.high[2]);
+        return box;
+    }
+
+private:
+    static vreal<Real> never()
+    {
+        return vreal<Real>(static_cast<Real>(__builtin_inf()));
+    }
+
+    Vec3v<Real> low_{never(), never(), never()};
+    Vec3v<Real> high_{negated(never()), negated(never()), negated(never())};
+};
 
 /// `count` > 0.
 template <class Real>

@@ -5,11 +5,12 @@
 #include "kernels/simd/lanes.hpp"
 
 // Hooks throughout the kernels that tell where time and tests go. A source that defines
-// PACKTRACE_OBSERVED has those of observer.hpp; for all others they are nothing. They find what to
-// record into by themselves: to hand it down would change functions that other kernels run.
+// PACKTRACE_OBSERVED has those of stage_clock.hpp, work_counts.hpp and unsure_causes.hpp; for all
+// others they are nothing. They find what to record into by themselves: to hand it down would
+// change functions that other kernels run.
 #if defined(PACKTRACE_OBSERVED)
 
-#include "kernels/stats/observer.hpp"
+#include "kernels/stats/unsure_causes.hpp"
 
 #else
 

@@ -88,6 +88,26 @@ template <abi::Features F, class Objects>
     }
 }
 
+/// A bundle of `count` rays from `begin` on. `Starts` tells whether rays may start on surfaces.
+template <bool Starts, abi::Features F, class Real>
+[[gnu::noinline]] void fill_bundle(RayBundle<Real>& bundle, const abi::SceneView<Real>& scene,
+                                   const abi::RaysView<Real>& view, int begin, int count)
+{
+    for (int first = 0; first < count; first += lanes<Real>) {
+        const StreamPacket<Real> packet(view, begin + first);
+        const std::uint32_t active = first_lanes<Real>(count - first) & numbers(packet);
+        store_rays(bundle, first, packet.rays);
+        if constexpr (Starts) {
+            const StartPacket<Real> start = start_of(scene, view, begin + first, packet.rays);
+            start_rays<F>(bundle, first, start_of_search(start, packet.t_max), start.surface,
+                          active);
+        } else {
+            start_rays<F>(bundle, first, no_hit<Real>(packet.t_max), no_surface<Real>(), active);
+        }
+    }
+    end_bundle(bundle, count);
+}
+
 template <abi::Features F, class Real>
 [[gnu::noinline]] void closest_chunk_in_tree(const abi::SceneView<Real>& scene,
                                              const StreamWork<F, Real>& work,
@@ -102,14 +122,10 @@ template <abi::Features F, class Real>
     const auto t_max_at = [&](int first) {
         return load_some(view.t_max + begin + first, count - first);
     };
-    for (int first = 0; first < count; first += lanes<Real>) {
-        const StreamPacket<Real> packet(view, begin + first);
-        const StartPacket<Real> start = start_of(scene, view, begin + first, packet.rays);
-        store_rays(bundle, first, packet.rays);
-        start_rays<F>(bundle, first, start_of_search(start, packet.t_max), start.surface,
-                      first_lanes<Real>(count - first) & numbers(packet));
-    }
-    end_bundle(bundle, count);
+    if (view.start_surface == nullptr)
+        fill_bundle<false, F>(bundle, scene, view, begin, count);
+    else
+        fill_bundle<true, F>(bundle, scene, view, begin, count);
     closest_of_bundle<F>(scene, work.nearby, bundle);
     settle_bundle<F>(scene, bundle, start_at, t_max_at);
     for (int first = 0; first < count; first += lanes<Real>)

@@ -175,24 +175,13 @@ inline void find_nearby_of(StreamWork<F, Real>& work, const abi::SceneView<Real>
         return;
     }
     if constexpr (F.exact) {
-        const vreal<float> never(__builtin_inff());
-        const vreal<float> before = negated(never);
-        Vec3v<float> lows{never, never, never};
-        Vec3v<float> highs{before, before, before};
-        for (int ray = 0; ray < count; ray += lanes<float>) {
-            const Vec3v<float> org = load_some3(view.org, begin + ray, count - ray);
-            lows = {min(lows.x, org.x), min(lows.y, org.y), min(lows.z, org.z)};
-            highs = {max(highs.x, org.x), max(highs.y, org.y), max(highs.z, org.z)};
-        }
-        float low[3];
-        float high[3];
-        extent_of_lanes(lows.x, highs.x, low[0], high[0]);
-        extent_of_lanes(lows.y, highs.y, low[1], high[1]);
-        extent_of_lanes(lows.z, highs.z, low[2], high[2]);
-        const Origins origins = origins_in(low, high);
-        find_objects<F>(work.nearby, origins, scene);
+        PacketBox<float> origins;
+        for (int ray = 0; ray < count; ray += lanes<float>)
+            origins.add(load_some3(view.org, begin + ray, count - ray));
+        const Box<float> box = origins.box();
+        find_objects<F>(work.nearby, origins_in(box.low, box.high), scene);
         if (work.looks_for_common(view, begin, count))
-            fill_common(work.common, scene, near_origins(scene, low, high), first);
+            fill_common(work.common, scene, near_origins(scene, box.low, box.high), first);
     } else {
         work.nearby.scene = &scene;
     }

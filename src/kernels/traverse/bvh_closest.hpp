@@ -50,51 +50,61 @@ private:
     {
         const PartScope part(abi::Part::spheres);
         bool closer = false;
-        visit_spheres(bounds_, leaf.block, cells,
-                      [&](int slot, int cell) { closer |= sphere(leaf, slot, cell); });
+        if constexpr (F.exact) {
+            BlockBounds bounds(bundle_, leaf.block);
+            visit_spheres(bounds_, leaf.block, cells, [&](int slot, int cell) {
+                closer |= sphere(cell, [&](int first) {
+                    return keep_certain_sphere(bounds, slot, leaf.surface_of(slot), first);
+                });
+            });
+        } else {
+            visit_spheres(bounds_, leaf.block, cells, [&](int slot, int cell) {
+                closer |=
+                    sphere(cell, [&](int first) { return keep_rounded_sphere(leaf, slot, first); });
+            });
+        }
         if (closer)
             join_t_max(bounds_);
     }
 
-    bool sphere(const SphereLeaf<Real>& leaf, int slot, int cell) const
+    /// `keep(first)` tells whether the packet at `first` may have a closer hit now.
+    template <class Keep>
+    bool sphere(int cell, const Keep& keep) const
     {
         bool any_closer = false;
         for (int first = cell * cell_rays; first < (cell + 1) * cell_rays; first += lanes<Real>) {
             tell_live(active_lanes(bundle_, first));
             count_tests(abi::Primitive::sphere, 1);
-            any_closer |= keep_sphere_of(leaf, slot, first);
+            any_closer |= keep(first);
         }
         if (any_closer)
             bounds_.t_max[cell] = furthest(bundle_, cell);
         return any_closer;
     }
 
-    /// Whether the packet at `first` may have a closer hit now.
-    bool keep_sphere_of(const SphereLeaf<Real>& leaf, int slot, int first) const
+    bool keep_certain_sphere(BlockBounds& bounds, int slot, std::int32_t surface, int first) const
+    {
+        const RayPacket<float> rays = load_rays(bundle_, first);
+        const SphereTest test = bounds.test(slot, rays);
+        const SphereApproach near = approach(test.w, test.bounds.outer2, rays);
+        if (near.near == 0)
+            return false;
+        HitPacket<float> hit = load_hits(bundle_, first);
+        keep_sphere(hit, test, near, rays, scale_of(bundle_, first, rays), surface,
+                    own_of(bundle_, first));
+        store_hits<F>(bundle_, first, hit);
+        return true;
+    }
+
+    bool keep_rounded_sphere(const SphereLeaf<Real>& leaf, int slot, int first) const
     {
         const RayPacket<Real> rays = load_rays(bundle_, first);
-        if constexpr (F.exact) {
-            const Vec3v<float> center{vreal<float>(leaf.block.center[0][slot]),
-                                      vreal<float>(leaf.block.center[1][slot]),
-                                      vreal<float>(leaf.block.center[2][slot])};
-            const vreal<float> radius(leaf.block.radius[slot]);
-            const Vec3v<float> w = rays.org - center;
-            const SphereApproach near = approach(w, leaf_outer2(bundle_, radius), rays);
-            if (near.near == 0)
-                return false;
-            HitPacket<float> hit = load_hits(bundle_, first);
-            keep_sphere(hit, {w, radius * radius, leaf_bounds(bundle_, radius)}, near, rays,
-                        scale_of(bundle_, first, rays), leaf.surface_of(slot),
-                        own_of(bundle_, first));
-            store_hits<F>(bundle_, first, hit);
-        } else {
-            const Quadratic<Real> quadratic = quadratic_of(leaf.block, slot, rays);
-            if (none(may_hit(quadratic)))
-                return false;
-            HitPacket<Real> hit = load_hits(bundle_, first);
-            keep_quadratic(hit, quadratic, rays, leaf.surface_of(slot), own_of(bundle_, first));
-            store_hits<F>(bundle_, first, hit);
-        }
+        const Quadratic<Real> quadratic = quadratic_of(leaf.block, slot, rays);
+        if (none(may_hit(quadratic)))
+            return false;
+        HitPacket<Real> hit = load_hits(bundle_, first);
+        keep_quadratic(hit, quadratic, rays, leaf.surface_of(slot), own_of(bundle_, first));
+        store_hits<F>(bundle_, first, hit);
         return true;
     }
 

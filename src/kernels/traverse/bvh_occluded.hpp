@@ -59,38 +59,45 @@ private:
     void spheres(const SphereLeaf<Real>& leaf, std::uint32_t cells) const
     {
         const PartScope part(abi::Part::spheres);
-        visit_spheres(bounds_, leaf.block, cells, [&](int slot, int cell) {
-            object(abi::Primitive::sphere, cell, leaf.surface_of(slot),
-                   [&](int first) { return sphere_occludes(leaf, slot, first); });
-        });
+        if constexpr (F.exact) {
+            BlockBounds bounds(bundle_, leaf.block);
+            visit_spheres(bounds_, leaf.block, cells, [&](int slot, int cell) {
+                const std::int32_t surface = leaf.surface_of(slot);
+                object(abi::Primitive::sphere, cell, surface, [&](int first) {
+                    return certain_sphere_occludes(bounds, slot, surface, first);
+                });
+            });
+        } else {
+            visit_spheres(bounds_, leaf.block, cells, [&](int slot, int cell) {
+                object(abi::Primitive::sphere, cell, leaf.surface_of(slot),
+                       [&](int first) { return rounded_sphere_occludes(leaf, slot, first); });
+            });
+        }
         join_t_max(bounds_);
     }
 
-    Occlusion sphere_occludes(const SphereLeaf<Real>& leaf, int slot, int first) const
+    Occlusion certain_sphere_occludes(BlockBounds& bounds, int slot, std::int32_t surface,
+                                      int first) const
+    {
+        const RayPacket<float> rays = load_rays(bundle_, first);
+        const SphereTest test = bounds.test(slot, rays);
+        const SphereApproach near = approach(test.w, test.bounds.outer2, rays);
+        if (near.near == 0)
+            return {};
+        const vint<float> own = load(bundle_.own + first);
+        const Occlusion occlusion =
+            occludes(test, near, rays, scale_of(bundle_, first, rays), load(bundle_.t + first));
+        return decided_alone(but_own<float>(occlusion.blocked, own, surface),
+                             but_own<float>(occlusion.unsure, own, surface), surface, first);
+    }
+
+    Occlusion rounded_sphere_occludes(const SphereLeaf<Real>& leaf, int slot, int first) const
     {
         const RayPacket<Real> rays = load_rays(bundle_, first);
-        const vint<Real> own = load(bundle_.own + first);
-        const std::int32_t surface = leaf.surface_of(slot);
-        if constexpr (F.exact) {
-            const Vec3v<float> center{vreal<float>(leaf.block.center[0][slot]),
-                                      vreal<float>(leaf.block.center[1][slot]),
-                                      vreal<float>(leaf.block.center[2][slot])};
-            const vreal<float> radius(leaf.block.radius[slot]);
-            const Vec3v<float> w = rays.org - center;
-            const SphereApproach near = approach(w, leaf_outer2(bundle_, radius), rays);
-            if (near.near == 0)
-                return {};
-            const Occlusion occlusion =
-                occludes({w, radius * radius, leaf_bounds(bundle_, radius)}, near, rays,
-                         scale_of(bundle_, first, rays), load(bundle_.t + first));
-            return decided_alone(but_own<Real>(occlusion.blocked, own, surface),
-                                 but_own<Real>(occlusion.unsure, own, surface), surface, first);
-        } else {
-            const RayEnd<Real> end{load(bundle_.t + first), closed_};
-            return {but_own<Real>(bits(end.blocked_by(quadratic_of(leaf.block, slot, rays), rays)),
-                                  own, surface),
-                    0};
-        }
+        const RayEnd<Real> end{load(bundle_.t + first), closed_};
+        return {but_own<Real>(bits(end.blocked_by(quadratic_of(leaf.block, slot, rays), rays)),
+                              load(bundle_.own + first), leaf.surface_of(slot)),
+                0};
     }
 
     /// Asks double of the lanes of `unsure`, one by one.

@@ -11,26 +11,19 @@ namespace {
 inline void bound_origins(RayBundle<float>& bundle, const abi::BvhView<float>& tree)
 {
     // Of rays that are not active, too: they are like their neighbours.
-    const vreal<float> never(__builtin_inff());
-    Vec3v<float> low{never, never, never};
-    Vec3v<float> high{negated(never), negated(never), negated(never)};
+    PacketBox<float> origins;
     for (int first = 0; first < bundle_rays; first += lanes<float>) {
         if (active_lanes(bundle, first) == 0)
             continue;
         const RayPacket<float> rays = load_rays(bundle, first);
-        low = {min(low.x, rays.org.x), min(low.y, rays.org.y), min(low.z, rays.org.z)};
-        high = {max(high.x, rays.org.x), max(high.y, rays.org.y), max(high.z, rays.org.z)};
+        origins.add(rays.org);
         store(bundle.inverse + first, RayScale(rays).inverse);
     }
-    float lowest[3];
-    float highest[3];
-    extent_of_lanes(low.x, high.x, lowest[0], highest[0]);
-    extent_of_lanes(low.y, high.y, lowest[1], highest[1]);
-    extent_of_lanes(low.z, high.z, lowest[2], highest[2]);
+    const Box<float> box = origins.box();
     float distance2 = 0;
     for (int axis = 0; axis < 3; ++axis) {
         const float most =
-            max(max(0.0f, tree.middle[axis] - lowest[axis]), highest[axis] - tree.middle[axis]);
+            max(max(0.0f, tree.middle[axis] - box.low[axis]), box.high[axis] - tree.middle[axis]);
         distance2 += most * most;
     }
     bundle.length = (__builtin_sqrtf(distance2) + tree.radius) * inflation;
@@ -81,16 +74,63 @@ inline SphereBounds<vreal<float>> leaf_bounds(const RayBundle<float>& bundle,
                          vreal<float>(bundle.moment_error));
 }
 
-/// The outer bound alone, above the one of sphere_bounds(); leaf_outer2() is its square.
+/// The outer bound alone, above the one of sphere_bounds().
 inline vreal<float> leaf_outer(const RayBundle<float>& bundle, const vreal<float>& radius)
 {
     const vreal<float> moment(bundle.moment_error * (1.0f + roundoffs(12.0f)));
     return madd(radius, vreal<float>(1.0f + roundoffs(12.0f)), moment);
 }
-inline vreal<float> leaf_outer2(const RayBundle<float>& bundle, const vreal<float>& radius)
-{
-    return signed_square<float>(leaf_outer(bundle, radius));
-}
+
+/// The bounds of a block's spheres for a bundle's rays, side by side, from when one is first asked
+/// for.
+class BlockBounds {
+public:
+    BlockBounds(const RayBundle<float>& bundle, const abi::SphereBlock<float>& block)
+        : bundle_(bundle), block_(block)
+    {
+    }
+
+    /// The sphere in one place of the block, for the rays of a packet of the bundle.
+    SphereTest test(int slot, const RayPacket<float>& rays)
+    {
+        if (!is_set_)
+            set();
+        const auto all = [slot](const float* values) { return vreal<float>(values[slot]); };
+        const Vec3v<float> center{all(block_.center[0]), all(block_.center[1]),
+                                  all(block_.center[2])};
+        return {rays.org - center,
+                all(radius2_),
+                {all(bounds_.outer2), all(bounds_.inner2), all(bounds_.along), all(bounds_.moment),
+                 all(bounds_.size), all(bounds_.band2)}};
+    }
+
+private:
+    void set()
+    {
+        for (int first = 0; first < abi::node_width; first += lanes<float>) {
+            const vreal<float> radius = load_of_block(block_.radius, first);
+            const SphereBounds<vreal<float>> bounds = leaf_bounds(bundle_, radius);
+            store(radius2_ + first, radius * radius);
+            store(bounds_.outer2 + first, bounds.outer2);
+            store(bounds_.inner2 + first, bounds.inner2);
+            store(bounds_.along + first, bounds.along);
+            store(bounds_.moment + first, bounds.moment);
+            store(bounds_.size + first, bounds.size);
+            store(bounds_.band2 + first, bounds.band2);
+        }
+        is_set_ = true;
+    }
+
+    /// A block, or a packet where that is more.
+    static constexpr int room = lanes<float> > abi::node_width ? lanes<float> : abi::node_width;
+    using Values = float[room];
+
+    const RayBundle<float>& bundle_;
+    const abi::SphereBlock<float>& block_;
+    bool is_set_ = false;
+    alignas(64) Values radius2_;
+    alignas(64) SphereBounds<Values> bounds_;
+};
 
 }  // namespace
 }  // namespace packtrace::PACKTRACE_ISA

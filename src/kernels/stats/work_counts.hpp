@@ -1,0 +1,171 @@
+#pragma once
+
+#include "kernel_abi/bvh_view.hpp"
+#include "kernels/stats/stage_clock.hpp"
+
+// The hooks that count a tile's packets, tests and nodes, into TileJob::observation.
+namespace packtrace::PACKTRACE_ISA {
+namespace {
+
+/// The rays that are traced next, after their span began.
+inline void tell_chunk(int refracted, int rays)
+{
+    observer.refracted_share = static_cast<double>(refracted) / rays;
+    if (observer.counts != nullptr)
+        observer.counts->refracted += static_cast<unsigned>(refracted);
+}
+
+/// Camera rays of a tile that can meet nothing.
+inline void tell_untraced(std::uint64_t rays)
+{
+    if (observer.counts != nullptr)
+        observer.counts->untraced += rays;
+}
+
+/// A packet does `work` for the lanes of `active`, with the same result in those of `same`.
+template <class Real>
+inline void count_packet(abi::PacketWork work, std::uint32_t active, std::uint32_t same = 0)
+{
+    if (observer.counts == nullptr || active == 0)
+        return;
+    abi::PacketCounts& packets = observer.counts->work[index(work)];
+    ++packets.packets;
+    packets.live += popcount(active);
+    packets.coherent += (active & same) == all_lanes<Real> ? 1 : 0;
+}
+
+/// Adds to what is counted of the pixels of the lanes of `active`.
+template <class Real>
+inline void count_pixels(std::uint32_t active, const vint<Real>& pixel)
+{
+    alignas(64) lane_int<Real> number[lanes<Real>];
+    store(number, pixel);
+    for (; active != 0; active &= active - 1)
+        ++observer.to->pixels[number[__builtin_ctz(active)]].traced;
+}
+
+/// A packet found which surfaces its rays meet.
+template <class Real>
+inline void count_traced(std::uint32_t active, const vint<Real>& surface, const vint<Real>& pixel)
+{
+    if (counts_pixels())
+        count_pixels<Real>(active, pixel);
+    if (observer.counts == nullptr)
+        return;
+    alignas(64) lane_int<Real> number[lanes<Real>];
+    store(number, surface);
+    std::uint32_t same = 0;
+    for (int lane = 0; lane < lanes<Real>; ++lane)
+        same |= number[lane] == number[0] ? 1u << lane : 0;
+    count_packet<Real>(abi::PacketWork::trace, active, same);
+}
+
+/// A packet found which of its shadow rays reach the light, which are returned.
+template <class Real>
+inline std::uint32_t count_lit(std::uint32_t active, std::uint32_t lit)
+{
+    count_packet<Real>(abi::PacketWork::shadow, active, lit == 0 ? active : lit);
+    return lit;
+}
+
+/// Objects will be tested against a packet with rays in these lanes.
+inline void tell_live(std::uint32_t active)
+{
+    observer.live = active;
+}
+
+inline abi::TestCounts& tests_of(abi::Primitive kind)
+{
+    return observer.counts->tests[index(observer.role)][index(kind)];
+}
+
+/// The packet is tested against `objects` of a kind.
+inline void count_tests(abi::Primitive kind, int objects)
+{
+    if (observer.counts == nullptr)
+        return;
+    tests_of(kind).packets += static_cast<unsigned>(objects);
+    tests_of(kind).pairs += popcount(observer.live) * static_cast<unsigned>(objects);
+}
+
+/// One ray is tested against the spheres of a block side by side.
+template <class Real>
+inline void count_block_tests(const abi::SphereBlock<Real>& block)
+{
+    if (observer.counts == nullptr)
+        return;
+    constexpr int packets = lanes<Real> < abi::node_width ? abi::node_width / lanes<Real> : 1;
+    tests_of(abi::Primitive::sphere).packets += packets;
+    for (const Real radius : block.radius)
+        tests_of(abi::Primitive::sphere).pairs += radius >= 0 ? 1 : 0;
+}
+
+constexpr abi::Part part_of(abi::Primitive kind)
+{
+    constexpr abi::Part parts[] = {abi::Part::spheres, abi::Part::anchored_spheres,
+                                   abi::Part::planes, abi::Part::quadrics, abi::Part::polygons};
+    return parts[static_cast<int>(kind)];
+}
+
+/// Until its end a packet is tested against lists of objects, one kind after another.
+class TestScope {
+public:
+    void test(abi::Primitive kind, int objects = 1) const
+    {
+        if (objects == 0)
+            return;
+        part_.next(part_of(kind));
+        count_tests(kind, objects);
+    }
+
+private:
+    PartScope part_{observer.part};
+};
+
+/// A node is met by the frustum of several rays.
+inline void count_bundle_node()
+{
+    if (observer.counts != nullptr)
+        ++observer.counts->group_nodes[index(observer.role)];
+}
+
+/// A node is met by one ray.
+inline void count_ray_node()
+{
+    if (observer.counts != nullptr)
+        ++observer.counts->ray_nodes[index(observer.role)];
+}
+
+/// The pixels of the rays that are traced next, or of the hits that shadow rays start from; null
+/// for camera rays, each of which has its pixel's number.
+inline void tell_pixels(const lane_int<float>* pixels)
+{
+    observer.pixels = pixels;
+    observer.first = 0;
+}
+inline void tell_pixels(const lane_int<double>*)
+{
+}
+
+/// The number among them of the first ray of the packet at hand.
+inline void tell_first(int first)
+{
+    observer.first = first;
+}
+
+inline abi::PixelRays& pixel_of(int ray)
+{
+    return observer.to->pixels[observer.pixels != nullptr ? observer.pixels[ray] : ray];
+}
+
+/// Shadow rays start from the hits of a packet.
+inline void count_shadow_pixels(int first, std::uint32_t wanted)
+{
+    if (!counts_pixels() || observer.pixels == nullptr)
+        return;
+    for (; wanted != 0; wanted &= wanted - 1)
+        ++pixel_of(first + __builtin_ctz(wanted)).traced;
+}
+
+}  // namespace
+}  // namespace packtrace::PACKTRACE_ISA
