@@ -705,7 +705,7 @@ TEST_CASE("ranks killed at random moments lose nothing", "[mpi][slow]")
     const TempFolder folder;
     REQUIRE(run_packtrace(render_high(folder / "w.png")).exit_code == 0);
     std::uint32_t random = 1;
-    for (std::size_t i = 0; i < 50; ++i) {
+    for (std::size_t i = 0; i < 25; ++i) {
         random = random * 1664525u + 1013904223u;
         const auto end = std::chrono::steady_clock::now() + std::chrono::milliseconds(random >> 21);
         (void)kill_rank(3, render_high(folder / "m.png"), random >> 8, folder / "err",

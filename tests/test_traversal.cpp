@@ -304,9 +304,9 @@ TEST_CASE("caps without end are found through a hierarchy, too", "[traversal]")
     CHECK(packets.hits == expected.hits);
 }
 
-TEST_CASE("lists and hierarchies give the same for two hundred scenes", "[traversal][slow]")
+TEST_CASE("lists and hierarchies give the same for a hundred scenes", "[traversal][slow]")
 {
-    compare_on_every_isa(200, 5000, 1000);
+    compare_on_every_isa(100, 5000, 1000);
 }
 
 TEST_CASE("light through glass passes a hierarchy as it passes a list", "[traversal]")
