@@ -170,8 +170,9 @@ TEST_CASE("the same through a hierarchy, with other kinds beside its spheres", "
         CAPTURE(isa);
         const RayScene<float> queries(scene, options);
         const std::size_t found = check_alone(queries, rays);
+        // Compilers choose the order in which a scene's random numbers are taken.
         CHECK(found > 300);
-        CHECK(found < 1400);
+        CHECK(found + 20 < rays.t.size());
         StartArrays starts;
         RayArrays leaving = leaving_rays(queries, rays, starts);
         CHECK(check_alone(queries, leaving, &starts) > 100);
