@@ -162,7 +162,9 @@ TEST_CASE("the same through a hierarchy, with other kinds beside its spheres", "
             others += !std::holds_alternative<Sphere>(object.surface);
         }
     REQUIRE(others > 1);
-    RayArrays rays = scattered_rays(7, 1500);
+    // Compilers choose the order in which a scene's random numbers are taken: of these rays about a
+    // thousand hit it either way.
+    RayArrays rays = scattered_rays(4, 1500);
     for (const std::string& isa : supported_isas()) {
         RenderOptions options;
         options.isa = isa;
@@ -170,9 +172,8 @@ TEST_CASE("the same through a hierarchy, with other kinds beside its spheres", "
         CAPTURE(isa);
         const RayScene<float> queries(scene, options);
         const std::size_t found = check_alone(queries, rays);
-        // Compilers choose the order in which a scene's random numbers are taken.
         CHECK(found > 300);
-        CHECK(found + 20 < rays.t.size());
+        CHECK(found < 1400);
         StartArrays starts;
         RayArrays leaving = leaving_rays(queries, rays, starts);
         CHECK(check_alone(queries, leaving, &starts) > 100);

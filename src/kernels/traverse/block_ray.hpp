@@ -7,6 +7,13 @@
 namespace packtrace::PACKTRACE_ISA {
 namespace {
 
+/// As many values of a block from `first` on as a packet has lanes.
+template <class Real>
+inline vreal<Real> load_of_block(const Real* block, int first)
+{
+    return load(block + first);
+}
+
 /// One ray in every lane.
 template <class Real>
 inline RayPacket<Real> broadcast_ray(const RayBundle<Real>& bundle, int ray)

@@ -7,6 +7,12 @@
 namespace packtrace::PACKTRACE_ISA {
 namespace {
 
+/// Eight values, and eight zeros.
+inline vreal<float> load_of_block(const float (&block)[abi::node_width], int)
+{
+    return _mm512_zextps256_ps512(_mm256_load_ps(block));
+}
+
 template <>
 class BlockRay<float> {
     static_assert(abi::node_width == 8);

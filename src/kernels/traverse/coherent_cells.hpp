@@ -1,7 +1,7 @@
 #pragma once
 
 #include "kernels/geometry/kinds.hpp"
-#include "kernels/traverse/leaf.hpp"
+#include "kernels/traverse/block_ray.hpp"
 #include "kernels/traverse/walk_cells.hpp"
 
 // The coherent cells of a bundle and the spheres of leaves, whatever is asked of them.
@@ -66,6 +66,57 @@ inline void visit_spheres(const CellBounds& bounds, const abi::SphereBlock<Real>
             visit(slot, __builtin_ctz(by));
     }
 }
+
+/// The bounds of a block's spheres for a bundle's rays, side by side, from when one is first asked
+/// for.
+class BlockBounds {
+public:
+    BlockBounds(const RayBundle<float>& bundle, const abi::SphereBlock<float>& block)
+        : bundle_(bundle), block_(block)
+    {
+    }
+
+    /// The sphere in one place of the block, for the rays of a packet of the bundle.
+    SphereTest test(int slot, const RayPacket<float>& rays)
+    {
+        if (!is_set_)
+            set();
+        const auto all = [slot](const float* values) { return vreal<float>(values[slot]); };
+        const Vec3v<float> center{all(block_.center[0]), all(block_.center[1]),
+                                  all(block_.center[2])};
+        return {rays.org - center,
+                all(radius2_),
+                {all(bounds_.outer2), all(bounds_.inner2), all(bounds_.along), all(bounds_.moment),
+                 all(bounds_.size), all(bounds_.band2)}};
+    }
+
+private:
+    void set()
+    {
+        for (int first = 0; first < abi::node_width; first += lanes<float>) {
+            const vreal<float> radius = load_of_block(block_.radius, first);
+            const SphereBounds<vreal<float>> bounds = leaf_bounds(bundle_, radius);
+            store(radius2_ + first, radius * radius);
+            store(bounds_.outer2 + first, bounds.outer2);
+            store(bounds_.inner2 + first, bounds.inner2);
+            store(bounds_.along + first, bounds.along);
+            store(bounds_.moment + first, bounds.moment);
+            store(bounds_.size + first, bounds.size);
+            store(bounds_.band2 + first, bounds.band2);
+        }
+        is_set_ = true;
+    }
+
+    /// A block, or a packet where that is more.
+    static constexpr int room = lanes<float> > abi::node_width ? lanes<float> : abi::node_width;
+    using Values = float[room];
+
+    const RayBundle<float>& bundle_;
+    const abi::SphereBlock<float>& block_;
+    bool is_set_ = false;
+    alignas(64) Values radius2_;
+    alignas(64) SphereBounds<Values> bounds_;
+};
 
 }  // namespace
 }  // namespace packtrace::PACKTRACE_ISA

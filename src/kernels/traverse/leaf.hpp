@@ -47,21 +47,6 @@ inline SphereLeaf<Real> sphere_leaf(const abi::BvhView<Real>& tree, std::uint32_
     return {room, surfaces};
 }
 
-/// As many values of a block from `first` on as a packet has lanes.
-template <class Real>
-inline vreal<Real> load_of_block(const Real* block, int first)
-{
-    return load(block + first);
-}
-
-#if PACKTRACE_LANES == 16
-/// Eight values, and eight zeros.
-inline vreal<float> load_of_block(const float (&block)[abi::node_width], int)
-{
-    return _mm512_zextps256_ps512(_mm256_load_ps(block));
-}
-#endif
-
 /// One record of `records`, or its shape where those are not kept for rays in double.
 template <class Real, template <class> class Record>
 inline const Record<Real>& record_or_shape(const Record<Real>* records, int number,
