@@ -14,7 +14,7 @@
 // - Its tests: keep_closest, occluding_lanes and visit_crossings, or quadratic_of for all three.
 // - Its tests with error bounds: keep_certain, occludes.
 // - Of its shape in double, the place of a hit: refine, unit_normal, and form_of where one step of
-//   Newton's betters a rough root.
+//   Newton's betters a rough root, or the root that the search found.
 // - Where rays that start on it meet it again: hit_again, second_crossing.
 // - The struct of its name, with the types and lists that the loops ask for.
 // What holds of an object unless its kind says otherwise is in object_list.hpp.

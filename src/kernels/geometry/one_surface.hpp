@@ -105,6 +105,8 @@ struct WideRays {
 
 /// Anchored spheres and, with no curvature, planes: (g + n)·w + offset = 0 for g = n + curvature w.
 struct AnchoredForm {
+    static constexpr bool root_is_known = false;
+
     BothHalves<Vec3v<double>> base;
     Vec3v<double> normal;
     vreal<double> curvature;

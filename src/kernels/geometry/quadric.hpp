@@ -11,7 +11,7 @@
 #include "kernels/geometry/one_surface.hpp"
 
 // Quadrics after the inverse transform (abi::QuadricRecord): the test, for rays from one point,
-// too, and a hit's place.
+// too.
 namespace packtrace::PACKTRACE_ISA {
 namespace {
 
@@ -300,120 +300,6 @@ inline std::uint32_t occluding_lanes(const RayEnd<Real>& end, const Object& quad
         blocked |= bits(valid & end.blocked_at(t, rays));
     });
     return blocked;
-}
-/// A covector of canonical space in the world.
-template <class Real>
-inline Vec3v<Real> apply_transposed(const abi::QuadricRecord<double>& quadric, const Vec3v<Real>& g)
-{
-    return madd<Real>(g.x, broadcast_as<Real>(quadric.inverse[0]),
-                      madd<Real>(g.y, broadcast_as<Real>(quadric.inverse[1]),
-                                 scale<Real>(g.z, broadcast_as<Real>(quadric.inverse[2]))));
-}
-
-/// Whether a quadric is two planes that cross: s_i x_i² + s_j x_j² = 0.
-inline bool crossing_planes(const abi::QuadricRecord<double>& quadric)
-{
-    const double(&s)[3] = quadric.square;
-    const int flat = (s[0] == 0) + (s[1] == 0) + (s[2] == 0);
-    return quadric.constant == 0 && quadric.linear == 0 && flat == 1;
-}
-
-/// The gradient of two planes that cross is that of one of them, and of no other direction however
-/// near to their edge: |s_i| x_i² = |s_j| x_j² there.
-template <class Real>
-inline Vec3v<Real> plane_gradient(const abi::QuadricRecord<double>& quadric, const Vec3v<Real>& p)
-{
-    const auto component = [](double s, const vreal<Real>& x) {
-        const vreal<Real> size(static_cast<Real>(__builtin_sqrt(s < 0 ? -s : s)));
-        const vreal<Real> g = with_sign_of(size, s < 0 ? negated(x) : x);
-        return select(x == vreal<Real>(Real(0)), x, g);
-    };
-    return apply_transposed<Real>(
-        quadric, {component(quadric.square[0], p.x), component(quadric.square[1], p.y),
-                  component(quadric.square[2], p.z)});
-}
-
-/// Of the side, at a point given in canonical space.
-template <class Real>
-inline Vec3v<Real> side_gradient(const abi::QuadricRecord<double>& quadric, const Vec3v<Real>& p)
-{
-    if (crossing_planes(quadric))
-        return plane_gradient<Real>(quadric, p);
-    Vec3v<Real> g = broadcast_as<Real>(quadric.square) * p;
-    g.z = g.z + vreal<Real>(static_cast<Real>(quadric.linear));
-    return apply_transposed<Real>(quadric, g);
-}
-
-/// The same at a point of the world.
-template <class Real>
-inline Vec3v<Real> side_gradient_at(const abi::QuadricRecord<double>& quadric,
-                                    const Vec3v<Real>& point)
-{
-    const Vec3v<Real> w =
-        (point - broadcast_as<Real>(quadric.center)) - broadcast_as<Real>(quadric.center_low);
-    const Vec3v<Real> p{dot(broadcast_as<Real>(quadric.inverse[0]), w),
-                        dot(broadcast_as<Real>(quadric.inverse[1]), w),
-                        dot(broadcast_as<Real>(quadric.inverse[2]), w)};
-    return side_gradient<Real>(quadric, p);
-}
-
-template <class Real>
-inline Vec3v<Real> cap_gradient(const abi::QuadricRecord<double>& quadric, bool high)
-{
-    const vreal<Real> sign(high ? Real(1) : Real(-1));
-    return scale<Real>(sign, broadcast_as<Real>(quadric.clip));
-}
-
-/// Piece 0 is the side, 1 and 2 the low and the high cap.
-template <class Real>
-inline Vec3v<Real> unit_normal(const abi::QuadricRecord<double>& quadric, unsigned piece,
-                               const Vec3v<Real>& point, const Vec3v<Real>& dir)
-{
-    return unit_or_against<Real>(piece == 0 ? side_gradient_at<Real>(quadric, point)
-                                            : cap_gradient<Real>(quadric, piece == 2),
-                                 dir);
-}
-
-/// A root of the side, one step of Newton's nearer, where that leads to no other root: of rays that
-/// nearly run along the surface the discriminant loses digits that the equation has. The residual
-/// is that of the point p + t v itself. Taken from a place far from the hit, as the point nearest
-/// to the centre is on long hyperboloids, its terms would be larger, and lose more than is gained.
-inline vreal<double> bettered(const abi::QuadricRecord<double>& quadric, const Vec3v<double>& p,
-                              const Vec3v<double>& v, const vreal<double>& t,
-                              const vreal<double>& t_min)
-{
-    const Vec3v<double> square = broadcast(quadric.square);
-    const Vec3v<double> at = madd<double>(t, v, p);
-    const vreal<double> value = quadric_value<double>(quadric, at);
-    const vreal<double> slope = madd(vreal<double>(quadric.linear), v.z, dot(square * at, v));
-    const vreal<double> better = t - value / (slope + slope);
-    const vreal<double> a = dot(square * v, v);
-    const auto near = abs(a * (better - t)) <= vreal<double>(0x1p-11) * abs(slope);
-    return select(near & (better > t_min), better, t);
-}
-
-/// The first of the crossings of one piece.
-[[gnu::noinline]] inline RefinedHalf refine(const abi::QuadricRecord<double>& quadric,
-                                            unsigned wanted, const RayPacket<double>& rays)
-{
-    vreal<double> first(__builtin_inf());
-    const QuadricOrigin<double> origin = quadric_origin<double>(quadric, rays.org);
-    visit_crossings(quadric, origin, rays,
-                    [&](vmask<double> valid, const vreal<double>& t, int piece) {
-                        if (piece == static_cast<int>(wanted))
-                            first = select(valid & (t > rays.t_min) & (t < first), t, first);
-                    });
-    const Vec3v<double> v = apply_inverse(quadric, rays.dir);
-    if (wanted == 0)
-        first = bettered(quadric, origin.p, v, first, rays.t_min);
-    RefinedHalf hit;
-    hit.t = first;
-    hit.point = point_at(rays, first);
-    const Vec3v<double> gradient =
-        wanted == 0 ? side_gradient<double>(quadric, madd<double>(first, v, origin.p))
-                    : cap_gradient<double>(quadric, wanted == 2);
-    hit.normal = unit_or_against<double>(gradient, rays.dir);
-    return hit;
 }
 
 }  // namespace

@@ -110,6 +110,27 @@ inline HitAgain hit_again(const abi::QuadricRecord<double>& quadric, unsigned pi
                                                                : HitAgain::from_anywhere;
 }
 
+/// Lanes whose line the side surely bends away from: rays that leave its outer side don't meet it
+/// again. v is off by five roundings of the rows' lengths, a sum of squares by five more.
+template <class Real>
+inline std::uint32_t bends_away(const abi::QuadricRecord<double>& quadric, const Vec3v<Real>& dir)
+{
+    constexpr double rounding = sizeof(Real) == sizeof(float) ? 0x1p-24 : 0x1p-53;
+    double error = 0;
+    vreal<Real> bend(Real(0));
+    for (int axis = 0; axis < 3; ++axis) {
+        const double(&row)[3] = quadric.inverse[axis];
+        const double square = quadric.square[axis];
+        error +=
+            (square < 0 ? -square : square) * (row[0] * row[0] + row[1] * row[1] + row[2] * row[2]);
+        const vreal<Real> v = dot(broadcast_as<Real>(row), dir);
+        bend = madd(vreal<Real>(static_cast<Real>(square)) * v, v, bend);
+    }
+    const vreal<Real> slack(static_cast<Real>(64 * rounding * error));
+    const vreal<Real> smallest(Real(0x1p-90));
+    return bits(bend > max(slack * dot(dir, dir), smallest));
+}
+
 inline OwnCrossing second_crossing(const abi::QuadricRecord<double>& quadric, unsigned piece,
                                    const Vec3v<double>& point, const Vec3v<double>& dir,
                                    const vreal<double>& t_min, vmask<double> outside)

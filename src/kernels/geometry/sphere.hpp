@@ -202,6 +202,8 @@ inline RefinedHalf refine(const abi::SphereShape& sphere, unsigned, const RayPac
 
 /// Spheres, one a lane or one for all: |w|² = radius² for w from the centre.
 struct SphereForm {
+    static constexpr bool root_is_known = false;
+
     BothHalves<Vec3v<double>> base;
     BothHalves<vreal<double>> radius2;
     Vec3v<float> rough_base;

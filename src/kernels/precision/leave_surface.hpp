@@ -126,6 +126,20 @@ inline std::int32_t first_piece(const abi::SurfaceIndex& index, std::int32_t sur
     return index.kind == abi::SurfaceKind::high_cap ? surface - 2 : surface;
 }
 
+/// Lanes of a surface that HitAgain::from_anywhere is said of whose rays, leaving its outer side,
+/// surely don't meet it again.
+template <class Real>
+inline std::uint32_t leaves_for_good(const abi::ShapesView& shapes, const abi::SurfaceIndex& index,
+                                     const Vec3v<Real>& dir)
+{
+    return with_shape(shapes, index, [&](const auto& shape, unsigned) -> std::uint32_t {
+        if constexpr (requires { bends_away<Real>(shape, dir); })
+            return bends_away<Real>(shape, dir);
+        else
+            return 0;
+    });
+}
+
 /// Those of some lanes that may meet the body again which they start on.
 inline std::uint32_t may_hit_again(HitAgain again, std::uint32_t lanes_of, std::uint32_t outside)
 {
@@ -144,8 +158,10 @@ template <class Real>
     SecondHit<Real> hit = no_second_hit<Real>();
     for_each_distinct<Real>(surface, active, [&](lane_int<Real> number, vmask<Real> same) {
         const abi::SurfaceIndex& index = shapes.index[number];
-        const std::uint32_t leavers =
-            may_hit_again(hit_again(shapes, index), bits(same) & active, outside);
+        const HitAgain again = hit_again(shapes, index);
+        std::uint32_t leavers = may_hit_again(again, bits(same) & active, outside);
+        if (again == HitAgain::from_anywhere && (leavers & outside) != 0)
+            leavers &= ~(outside & leaves_for_good<Real>(shapes, index, dir));
         if (leavers == 0)
             return;
         const SecondHit<Real> met =

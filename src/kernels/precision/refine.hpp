@@ -43,20 +43,27 @@ inline std::uint32_t is_surely_enough(const vreal<float>& t, const vreal<float>&
                 (size <= vreal<float>(0x1p-10f) * t) & (t > vreal<float>(1.01f) * t_min));
 }
 
-/// Those lanes of `same` in which t + dt is within 2^-30 of the first root beyond t_min. Newton's
-/// step leaves bend dt² / slope / 2 of the error dt it began with.
+/// Lanes in which t + dt is within 2^-30 of a root and beyond t_min. Newton's step leaves
+/// bend dt² / slope / 2 of the error dt it began with.
+inline vmask<float> is_close(const RoughRoot& root, const vreal<float>& slope,
+                             const vreal<float>& dt, const vreal<float>& t_min)
+{
+    const vreal<float> size = abs(dt);
+    const vreal<float> steep = abs(slope);
+    const vreal<float> bent = abs(root.bend) * size;
+    return (bent <= vreal<float>(0x1p-11f) * steep) &
+           (bent * size <= vreal<float>(0x1p-30f) * (steep * root.t)) &
+           (size <= vreal<float>(0x1p-9f) * root.t) & (root.t + dt > t_min);
+}
+
+/// Those lanes of `same` in which that is the first root beyond t_min; bends are not negative.
 inline std::uint32_t is_enough(const RoughRoot& root, const vreal<float>& slope,
                                const vreal<float>& dt, const vreal<float>& t_min,
                                std::uint32_t same)
 {
     if ((same & ~is_surely_enough(root.t, root.bend, slope, dt, t_min)) == 0)
         return same;
-    const vreal<float> size = abs(dt);
-    const vreal<float> steep = abs(slope);
-    const vreal<float> bent = root.bend * size;
-    const auto close = (bent <= vreal<float>(0x1p-11f) * steep) &
-                       (bent * size <= vreal<float>(0x1p-30f) * (steep * root.t)) &
-                       (size <= vreal<float>(0x1p-9f) * root.t) & (root.t + dt > t_min);
+    const auto close = is_close(root, slope, dt, t_min);
     // Leaving, the ray must have entered before t_min: the roots' middle is slope / bend before t,
     // so the other root dt + 2 slope / bend before.
     const vreal<float> since =
@@ -75,7 +82,9 @@ inline std::uint32_t refine_by_newton(RefinedHits<float>& hits, const Form& form
     const RoughRoot root = rough_root(form, rays);
     const Residual at = residual(form, wide, root.t);
     const vreal<float> dt = vreal<float>(-0.5f) * at.value / at.slope;
-    const std::uint32_t done = is_enough(root, at.slope, dt, rays.t_min, same);
+    const std::uint32_t done = Form::root_is_known
+                                   ? same & bits(is_close(root, at.slope, dt, rays.t_min))
+                                   : is_enough(root, at.slope, dt, rays.t_min, same);
     const vmask<float> active = from_bits<float>(done);
     hits.t = select(active, root.t + dt, hits.t);
     if constexpr (R == Refine::place) {
@@ -91,15 +100,21 @@ inline std::uint32_t refine_by_newton(RefinedHits<float>& hits, const Form& form
     return done;
 }
 
-/// The same of surfaces of whatever kind, all lanes of `same` on one.
+/// The same of surfaces of whatever kind, all lanes of `same` on one, which the search found at
+/// `found`.
 template <Refine R>
 inline std::uint32_t refine_by_newton(RefinedHits<float>& hits, const abi::ShapesView& shapes,
                                       const abi::SurfaceIndex& index, const RayPacket<float>& rays,
-                                      const WideRays& wide, std::uint32_t same)
+                                      const vreal<float>& found, const WideRays& wide,
+                                      std::uint32_t same)
 {
-    return with_shape(shapes, index, [&](const auto& shape, unsigned) -> std::uint32_t {
+    return with_shape(shapes, index, [&](const auto& shape, unsigned piece) -> std::uint32_t {
         if constexpr (requires { form_of(shape); })
             return refine_by_newton<R>(hits, form_of(shape), rays, wide, same);
+        else if constexpr (requires { form_of(shape, piece, found); })
+            return has_form(shape, piece)
+                       ? refine_by_newton<R>(hits, form_of(shape, piece, found), rays, wide, same)
+                       : 0;
         else
             return 0;
     });
@@ -172,36 +187,38 @@ template <Refine R>
 [[gnu::noinline]] std::uint32_t refine_mixed(RefinedHits<float>& hits,
                                              const abi::ShapesView& shapes,
                                              const RayPacket<float>& rays,
-                                             const vint<float>& surface, std::uint32_t active)
+                                             const vreal<float>& found, const vint<float>& surface,
+                                             std::uint32_t active)
 {
     const WideRays wide(rays);
     SphereLanes spheres;
     const std::uint32_t on_spheres = put_spheres(spheres, shapes, surface, active);
     std::uint32_t done = 0;
-    for_each_distinct<float>(surface, active & ~on_spheres,
-                             [&](std::int32_t number, const vmask<float>& mask) {
-                                 done |= refine_by_newton<R>(hits, shapes, shapes.index[number],
-                                                             rays, wide, bits(mask) & active);
-                             });
+    for_each_distinct<float>(
+        surface, active & ~on_spheres, [&](std::int32_t number, const vmask<float>& mask) {
+            done |= refine_by_newton<R>(hits, shapes, shapes.index[number], rays, found, wide,
+                                        bits(mask) & active);
+        });
     if (on_spheres != 0)
         done |= refine_by_newton<R>(hits, spheres.form(), rays, wide, on_spheres);
     return done;
 }
 
-/// The places of the hits of `active` on surfaces that their rays don't start on.
+/// The places of the hits of `active` on surfaces that their rays don't start on, which the search
+/// found at `found`.
 template <Refine R>
 inline void refine_others(RefinedHits<float>& hits, const abi::ShapesView& shapes,
-                          const RayPacket<float>& rays, const vint<float>& surface,
-                          std::uint32_t active)
+                          const RayPacket<float>& rays, const vreal<float>& found,
+                          const vint<float>& surface, std::uint32_t active)
 {
     DistinctNumbers<float> distinct(surface, active);
     const abi::SurfaceIndex& index = shapes.index[distinct.value()];
     const std::uint32_t same = bits(distinct.lanes_of()) & active;
     std::uint32_t left = active;
     if (same == active)
-        left &= ~refine_by_newton<R>(hits, shapes, index, rays, WideRays(rays), active);
+        left &= ~refine_by_newton<R>(hits, shapes, index, rays, found, WideRays(rays), active);
     else
-        left &= ~refine_mixed<R>(hits, shapes, rays, surface, active);
+        left &= ~refine_mixed<R>(hits, shapes, rays, found, surface, active);
     for_each_distinct<float>(surface, left, [&](std::int32_t number, const vmask<float>& lanes_of) {
         solve_in_double(hits, shapes, shapes.index[number], rays, bits(lanes_of) & left);
     });
@@ -219,7 +236,7 @@ inline RefinedHits<Real> refined(const abi::ShapesView& shapes, const RayPacket<
     if constexpr (F.exact) {
         const std::uint32_t again = bits(int_equal(hit.surface, start.second.surface)) & active;
         if (active != again)
-            refine_others<R>(hits, shapes, rays, hit.surface, active & ~again);
+            refine_others<R>(hits, shapes, rays, hit.t, hit.surface, active & ~again);
         if constexpr (R == Refine::t)
             hits.t = select(from_bits<Real>(again), start.second.t, hits.t);
         else if (again != 0)

@@ -131,10 +131,10 @@ private:
         Real* const to = hits_.t + at;
         if constexpr (!F.exact) {
             store_some(to, t, live);
-        } else if (PendingHits<Real>::is_worth_it(found)) {
+        } else if (PendingHits<F, Real>::is_worth_it(found)) {
             const auto again = int_equal(hit.surface, start.second.surface);
             store_some(to, select(from_bits<Real>(bits(again) & found), start.second.t, t), live);
-            pending_.add(rays, hit.surface, found & ~bits(again), at);
+            pending_.add(rays, hit, found & ~bits(again), at);
         } else {
             const vmask<Real> hits = from_bits<Real>(found);
             const vreal<Real> better =
@@ -145,7 +145,7 @@ private:
 
     const abi::SceneView<Real>& scene_;
     const abi::HitsView<Real>& hits_;
-    PendingHits<Real> pending_;
+    PendingHits<F, Real> pending_;
 };
 
 }  // namespace

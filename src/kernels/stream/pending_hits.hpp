@@ -8,7 +8,7 @@
 namespace packtrace::PACKTRACE_ISA {
 namespace {
 
-template <class Real>
+template <abi::Features F, class Real>
 class PendingHits {
 public:
     /// The t of a hit goes to where in `t` its ray stands.
@@ -22,8 +22,9 @@ public:
         return __builtin_popcount(found) <= lanes<Real> * 3 / 4;
     }
 
-    /// Hits in lanes of a packet, which stands at `at`, on surfaces that their rays don't start on.
-    void add(const RayPacket<Real>& rays, const vint<Real>& surface, std::uint32_t found, int at)
+    /// Hits in the lanes `found` of a packet, which stands at `at`, on surfaces that their rays
+    /// don't start on.
+    void add(const RayPacket<Real>& rays, const HitPacket<Real>& hit, std::uint32_t found, int at)
     {
         if (found == 0)
             return;
@@ -35,7 +36,9 @@ public:
         compress_store(dir_[1] + count, found, rays.dir.y);
         compress_store(dir_[2] + count, found, rays.dir.z);
         compress_store(t_min_ + count, found, rays.t_min);
-        compress_store(surface_ + count, found, surface);
+        if constexpr (asks_for_t)
+            compress_store(found_ + count, found, hit.t);
+        compress_store(surface_ + count, found, hit.surface);
         compress_store(at_ + count, found, lane_numbers<Real>(at));
         count_ = count + __builtin_popcount(found);
         if (count_ >= lanes<Real>)
@@ -60,14 +63,17 @@ private:
         rays.t_min = load(t_min_ + count_);
         RefinedHits<Real> hits;
         hits.t = rays.t_min;
-        refine_others<Refine::t>(hits, shapes_, rays, load(surface_ + count_),
-                                 first_lanes<Real>(count));
+        refine_others<Refine::t>(hits, shapes_, rays,
+                                 asks_for_t ? load(found_ + count_) : rays.t_min,
+                                 load(surface_ + count_), first_lanes<Real>(count));
         alignas(64) Real t[lanes<Real>];
         store(t, hits.t);
         for (int i = 0; i < count; ++i)
             t_[at_[count_ + i]] = t[i];
     }
 
+    /// Where the search found them matters to quadrics alone.
+    static constexpr bool asks_for_t = F.quadrics;
     /// What is left of a packet, and a packet more.
     static constexpr std::size_t room = 2 * lanes<Real>;
 
@@ -77,6 +83,7 @@ private:
     alignas(64) Real org_[3][room];
     alignas(64) Real dir_[3][room];
     alignas(64) Real t_min_[room];
+    alignas(64) Real found_[room];
     alignas(64) lane_int<Real> surface_[room];
     alignas(64) lane_int<Real> at_[room];
 };

@@ -7,6 +7,14 @@
 namespace packtrace::PACKTRACE_ISA {
 namespace {
 
+/// The upper end of the interval that a search in single precision would have: refining begins
+/// there, whoever found the hit.
+inline float found_at(double t)
+{
+    const float rounded = static_cast<float>(t);
+    return madd(roundoffs(2.0f), rounded < 0 ? -rounded : rounded, rounded);
+}
+
 /// Finds their closest hits in double, and calls `take(ray, t, surface)` for each.
 template <abi::Features F, class Take>
 inline void find_wide(const abi::GeometryView<double>& wide, WideBundle& bundle, const Take& take)
@@ -23,7 +31,7 @@ inline void find_wide(const abi::GeometryView<double>& wide, WideBundle& bundle,
                                });
     closest_of_bundle<wide_features<F>>(wide, wide, bundle.rays);
     for (int i = 0; i < bundle.count; ++i)
-        take(bundle.from[i], static_cast<float>(bundle.rays.t[i]),
+        take(bundle.from[i], found_at(bundle.rays.t[i]),
              static_cast<std::int32_t>(bundle.rays.surface[i]));
 }
 

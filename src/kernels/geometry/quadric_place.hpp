@@ -1,0 +1,216 @@
+#pragma once
+
+#include "kernels/geometry/quadric.hpp"
+
+// The place of a hit on a quadric, whose shape in double is the record itself.
+namespace packtrace::PACKTRACE_ISA {
+namespace {
+
+/// A covector of canonical space in the world.
+template <class Real>
+inline Vec3v<Real> apply_transposed(const abi::QuadricRecord<double>& quadric, const Vec3v<Real>& g)
+{
+    return madd<Real>(g.x, broadcast_as<Real>(quadric.inverse[0]),
+                      madd<Real>(g.y, broadcast_as<Real>(quadric.inverse[1]),
+                                 scale<Real>(g.z, broadcast_as<Real>(quadric.inverse[2]))));
+}
+
+/// Whether a quadric is two planes that cross: s_i x_i² + s_j x_j² = 0.
+inline bool crossing_planes(const abi::QuadricRecord<double>& quadric)
+{
+    const double(&s)[3] = quadric.square;
+    const int flat = (s[0] == 0) + (s[1] == 0) + (s[2] == 0);
+    return quadric.constant == 0 && quadric.linear == 0 && flat == 1;
+}
+
+/// The gradient of two planes that cross is that of one of them, and of no other direction however
+/// near to their edge: |s_i| x_i² = |s_j| x_j² there.
+template <class Real>
+inline Vec3v<Real> plane_gradient(const abi::QuadricRecord<double>& quadric, const Vec3v<Real>& p)
+{
+    const auto component = [](double s, const vreal<Real>& x) {
+        const vreal<Real> size(static_cast<Real>(__builtin_sqrt(s < 0 ? -s : s)));
+        const vreal<Real> g = with_sign_of(size, s < 0 ? negated(x) : x);
+        return select(x == vreal<Real>(Real(0)), x, g);
+    };
+    return apply_transposed<Real>(
+        quadric, {component(quadric.square[0], p.x), component(quadric.square[1], p.y),
+                  component(quadric.square[2], p.z)});
+}
+
+/// Of the side, at a point given in canonical space.
+template <class Real>
+inline Vec3v<Real> side_gradient(const abi::QuadricRecord<double>& quadric, const Vec3v<Real>& p)
+{
+    if (crossing_planes(quadric))
+        return plane_gradient<Real>(quadric, p);
+    Vec3v<Real> g = broadcast_as<Real>(quadric.square) * p;
+    g.z = g.z + vreal<Real>(static_cast<Real>(quadric.linear));
+    return apply_transposed<Real>(quadric, g);
+}
+
+/// The same at a point of the world.
+template <class Real>
+inline Vec3v<Real> side_gradient_at(const abi::QuadricRecord<double>& quadric,
+                                    const Vec3v<Real>& point)
+{
+    const Vec3v<Real> w =
+        (point - broadcast_as<Real>(quadric.center)) - broadcast_as<Real>(quadric.center_low);
+    const Vec3v<Real> p{dot(broadcast_as<Real>(quadric.inverse[0]), w),
+                        dot(broadcast_as<Real>(quadric.inverse[1]), w),
+                        dot(broadcast_as<Real>(quadric.inverse[2]), w)};
+    return side_gradient<Real>(quadric, p);
+}
+
+template <class Real>
+inline Vec3v<Real> cap_gradient(const abi::QuadricRecord<double>& quadric, bool high)
+{
+    const vreal<Real> sign(high ? Real(1) : Real(-1));
+    return scale<Real>(sign, broadcast_as<Real>(quadric.clip));
+}
+
+/// Piece 0 is the side, 1 and 2 the low and the high cap.
+template <class Real>
+inline Vec3v<Real> unit_normal(const abi::QuadricRecord<double>& quadric, unsigned piece,
+                               const Vec3v<Real>& point, const Vec3v<Real>& dir)
+{
+    return unit_or_against<Real>(piece == 0 ? side_gradient_at<Real>(quadric, point)
+                                            : cap_gradient<Real>(quadric, piece == 2),
+                                 dir);
+}
+
+/// A root of the side, one step of Newton's nearer, where that leads to no other root: of rays that
+/// nearly run along the surface the discriminant loses digits that the equation has. The residual
+/// is that of the point p + t v itself. Taken from a place far from the hit, as the point nearest
+/// to the centre is on long hyperboloids, its terms would be larger, and lose more than is gained.
+inline vreal<double> bettered(const abi::QuadricRecord<double>& quadric, const Vec3v<double>& p,
+                              const Vec3v<double>& v, const vreal<double>& t,
+                              const vreal<double>& t_min)
+{
+    const Vec3v<double> square = broadcast(quadric.square);
+    const Vec3v<double> at = madd<double>(t, v, p);
+    const vreal<double> value = quadric_value<double>(quadric, at);
+    const vreal<double> slope = madd(vreal<double>(quadric.linear), v.z, dot(square * at, v));
+    const vreal<double> better = t - value / (slope + slope);
+    const vreal<double> a = dot(square * v, v);
+    const auto near = abs(a * (better - t)) <= vreal<double>(0x1p-11) * abs(slope);
+    return select(near & (better > t_min), better, t);
+}
+
+/// The first of the crossings of one piece.
+[[gnu::noinline]] inline RefinedHalf refine(const abi::QuadricRecord<double>& quadric,
+                                            unsigned wanted, const RayPacket<double>& rays)
+{
+    vreal<double> first(__builtin_inf());
+    const QuadricOrigin<double> origin = quadric_origin<double>(quadric, rays.org);
+    visit_crossings(quadric, origin, rays,
+                    [&](vmask<double> valid, const vreal<double>& t, int piece) {
+                        if (piece == static_cast<int>(wanted))
+                            first = select(valid & (t > rays.t_min) & (t < first), t, first);
+                    });
+    const Vec3v<double> v = apply_inverse(quadric, rays.dir);
+    if (wanted == 0)
+        first = bettered(quadric, origin.p, v, first, rays.t_min);
+    RefinedHalf hit;
+    hit.t = first;
+    hit.point = point_at(rays, first);
+    const Vec3v<double> gradient =
+        wanted == 0 ? side_gradient<double>(quadric, madd<double>(first, v, origin.p))
+                    : cap_gradient<double>(quadric, wanted == 2);
+    hit.normal = unit_or_against<double>(gradient, rays.dir);
+    return hit;
+}
+
+/// A piece of a quadric, for one step of Newton's from the root that the search found in double and
+/// rounded: which of its roots is meant needs no telling then.
+struct QuadricForm {
+    static constexpr bool root_is_known = true;
+
+    const abi::QuadricRecord<double>& quadric;
+    unsigned piece;
+    vreal<float> found;
+};
+
+/// What two planes that cross have for a gradient is no polynomial.
+inline bool has_form(const abi::QuadricRecord<double>& quadric, unsigned piece)
+{
+    return piece != 0 || !crossing_planes(quadric);
+}
+
+inline QuadricForm form_of(const abi::QuadricRecord<double>& quadric, unsigned piece,
+                           const vreal<float>& found)
+{
+    return {quadric, piece, found};
+}
+
+inline Vec3v<float> canonical_direction(const QuadricForm& form, const Vec3v<float>& dir)
+{
+    const auto& rows = form.quadric.inverse;
+    return {dot(rough(rows[0]), dir), dot(rough(rows[1]), dir), dot(rough(rows[2]), dir)};
+}
+
+inline RoughRoot rough_root(const QuadricForm& form, const RayPacket<float>& rays)
+{
+    if (form.piece != 0)
+        return {form.found, vreal<float>(0.0f)};
+    const Vec3v<float> v = canonical_direction(form, rays.dir);
+    return {form.found, dot(rough(form.quadric.square) * v, v)};
+}
+
+/// The residual of half a packet, in double.
+struct WideResidual {
+    vreal<double> value;
+    vreal<double> slope;
+    Vec3v<double> gradient;
+};
+
+inline WideResidual residual(const QuadricForm& form, const Vec3v<double>& org,
+                             const Vec3v<double>& dir, const vreal<double>& t)
+{
+    const abi::QuadricRecord<double>& quadric = form.quadric;
+    const Vec3v<double> w =
+        from_base(org, dir, t, broadcast(quadric.center)) - broadcast(quadric.center_low);
+    if (form.piece != 0) {
+        const bool high = form.piece == 2;
+        const double sign = high ? 1.0 : -1.0;
+        const double offset = quadric.clip_offset - (high ? quadric.clip_high : quadric.clip_low);
+        const Vec3v<double> gradient = cap_gradient<double>(quadric, high);
+        const vreal<double> value = dot(gradient, w) + vreal<double>(sign * offset);
+        return {value + value, dot(gradient, dir), gradient};
+    }
+    const Vec3v<double> p = apply_inverse(quadric, w);
+    Vec3v<double> inner = broadcast(quadric.square) * p;
+    const vreal<double> linear(quadric.linear);
+    const vreal<double> value =
+        madd(linear + linear, p.z, dot(inner, p)) + vreal<double>(quadric.constant);
+    inner.z = inner.z + linear;
+    const Vec3v<double> gradient = apply_transposed<double>(quadric, inner);
+    return {value, dot(gradient, dir), gradient};
+}
+
+/// Gradients whose squares leave single precision's range make no step: their slope is a NaN.
+inline Residual residual(const QuadricForm& form, const WideRays& rays, const vreal<float>& t)
+{
+    const WideResidual low = residual(form, rays.org.low, rays.dir.low, widen_low(t));
+    const WideResidual high = residual(form, rays.org.high, rays.dir.high, widen_high(t));
+    const Vec3v<float> gradient = narrow(low.gradient, high.gradient);
+    const vreal<float> size2 = dot(gradient, gradient);
+    const auto fits = (size2 > vreal<float>(1e-30f)) & (size2 < vreal<float>(1e30f));
+    return {narrow(low.value, high.value),
+            select(fits, narrow(low.slope, high.slope), vreal<float>(__builtin_nanf(""))),
+            gradient};
+}
+
+/// The unit normal a `step` from where the gradient was taken.
+inline Vec3v<float> normal_of(const QuadricForm& form, const Vec3v<float>& gradient,
+                              const Vec3v<float>& step)
+{
+    Vec3v<float> at = gradient;
+    if (form.piece == 0)
+        at = at + apply_transposed<float>(
+                      form.quadric, rough(form.quadric.square) * canonical_direction(form, step));
+    return scale<float>(vreal<float>(1.0f) / sqrt(dot(at, at)), at);
+}
+
+}  // namespace
+}  // namespace packtrace::PACKTRACE_ISA
