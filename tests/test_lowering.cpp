@@ -229,7 +229,7 @@ TEMPLATE_TEST_CASE("many spheres look as few do, to the bit", "[lowering]", floa
         }
 }
 
-TEST_CASE("a sphere is anchored where its surface passes near the origin for its size",
+TEST_CASE("a large sphere is anchored where its surface passes near the origin for its size",
           "[lowering]")
 {
     Scene scene;
@@ -237,16 +237,17 @@ TEST_CASE("a sphere is anchored where its surface passes near the origin for its
         scene.objects.emplace_back().surface = Sphere{center, radius};
     };
     add({0.0, -3000.0, 0.0}, 3000.0);  // through the origin
-    add({0.0, 1.0, 0.0}, 1.0);
+    add({0.0, 4.0, 0.0}, 4.0);         // a ball that stands there
     add({0.0, -5001.0, 0.0}, 5000.0);
     add({3.0, 0.0, 4.0}, 1e6);      // around the origin, which is off its middle
     add({0.0, 0.0, 200.0}, 100.0);  // large, but as far off
     add({0.0, 65.2, 0.0}, 64.2);    // a little more than 64 times as large as it is far off
     add({0.0, 64.8, 0.0}, 63.8);    // a little less
     add({0.0, 0.0, 0.0}, 5.0);      // its surface is a radius away
+    add({0.0, 4.1, 0.0}, 4.1);      // larger than a ball
     const LoweredScene lowered = lower(scene);
-    CHECK(surfaces_of(lowered.anchored_spheres) == std::vector<std::int32_t>{0, 1, 2, 5});
-    CHECK(surfaces_of(lowered.spheres) == std::vector<std::int32_t>{3, 4, 6, 7});
+    CHECK(surfaces_of(lowered.anchored_spheres) == std::vector<std::int32_t>{0, 2, 5, 8});
+    CHECK(surfaces_of(lowered.spheres) == std::vector<std::int32_t>{1, 3, 4, 6, 7});
     for (const LoweredAnchoredSphere& sphere : lowered.anchored_spheres) {
         // On the surface, as near the origin as that comes.
         CHECK(glm::length(sphere.anchor - sphere.center) == Approx(sphere.radius));

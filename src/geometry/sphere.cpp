@@ -15,6 +15,9 @@ namespace {
 /// from the study of formulas in docs/numerics_derivations.md, where both forms are about as exact
 /// at this ratio. The sphere alone decides, so that nothing else of a scene changes a digit.
 constexpr double anchored_ratio = 64.0;
+/// Smaller ones are not grounds but balls, which often stand at the world's origin: a plain sphere
+/// loses no more digits than its neighbours do, and goes into the hierarchy.
+constexpr double smallest_anchored = 4.0;
 
 /// The point of the surface nearest the world's origin.
 Vec3 anchor_of(const LoweredSphere& sphere)
@@ -53,6 +56,8 @@ Exit exit_of_sphere(const Vec3& center, double radius, const Vec3& eye, const Ve
 
 bool is_anchored(const LoweredSphere& sphere)
 {
+    if (sphere.radius <= smallest_anchored)
+        return false;
     // Most spheres are not by far, which costs no square root.
     const double reach = sphere.radius * (1.0 + 2.0 / anchored_ratio);
     if (glm::dot(sphere.center, sphere.center) > reach * reach)
