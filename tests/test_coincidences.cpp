@@ -57,6 +57,36 @@ TEST_CASE("A ray that only touches the sphere it starts on meets it in no query"
         }
 }
 
+TEST_CASE("The near side is hit of what is so thin that both its roots round to one number",
+          "[coincidences]")
+{
+    // Single precision's numbers are 1.2e-4 apart at 1000 and more.
+    const Scene scene = parse_scene(R"(
+        ellipsoid { scale = (1, 1, 1e-4)  translate = (0, 0, 1500) }
+        quadric { coefficients = (0, 0, 1, 0, 0, 0, 0, 0, 0, -1)  scale = (1, 1, 5e-5)
+                  rotate = (1, 0, 0, 30)  translate = (0, -40, 1600) }
+    )",
+                                    "thin", {});
+    SceneRandom random(5);
+    std::vector<Ray<float>> rays;
+    for (int i = 0; i < 20000; ++i) {
+        const auto number = [&](double low, double high) {
+            return static_cast<float>(random.between(low, high));
+        };
+        rays.push_back({{number(-1, 1), number(-1, 1), number(0, 100)}, {0, 0, 1}});
+    }
+    for (const RenderOptions& options : packet_ways()) {
+        INFO(options.isa);
+        const RayScene<float> traced(scene, options);
+        std::vector<SurfaceHit<float>> hits(rays.size());
+        traced.closest_hits(RayStructs<float>(rays), HitStructs<float>(hits));
+        int inside = 0;
+        for (const SurfaceHit<float>& hit : hits)
+            inside += hit.object == -1 || !(hit.normal[2] < 0.0f) ? 1 : 0;
+        CHECK(inside == 0);
+    }
+}
+
 TEST_CASE("Rays along planes meet them nowhere, however the planes are turned", "[coincidences]")
 {
     struct Turned {

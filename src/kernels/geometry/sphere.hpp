@@ -220,45 +220,28 @@ inline SphereForm form_of(const abi::SphereShape& sphere)
 /// A sphere a lane; of radius 1 around the origin in those that none is put in.
 class SphereLanes {
 public:
-    SphereLanes()
+    void put(std::uint32_t lanes_of, const abi::SphereShape& sphere)
     {
-        const vreal<double> none(0.0);
-        for (int axis = 0; axis < 3; ++axis) {
-            store(center_[axis], none);
-            store(center_[axis] + lanes<double>, none);
-        }
-        store(radius_, vreal<double>(1.0));
-        store(radius_ + lanes<double>, vreal<double>(1.0));
-    }
-
-    void put(int lane, const abi::SphereShape& sphere)
-    {
-        for (int axis = 0; axis < 3; ++axis)
-            center_[axis][lane] = sphere.center[axis];
-        radius_[lane] = sphere.radius;
+        const vmask<double> low = from_bits<double>(lanes_of & all_lanes<double>);
+        const vmask<double> high = from_bits<double>(lanes_of >> lanes<double>);
+        const Vec3v<double> center = broadcast(sphere.center);
+        const vreal<double> radius(sphere.radius);
+        center_ = {select(low, center, center_.low), select(high, center, center_.high)};
+        radius_ = {select(low, radius, radius_.low), select(high, radius, radius_.high)};
     }
 
     [[nodiscard]] SphereForm form() const
     {
-        const BothHalves<vreal<double>> radius = both(radius_);
-        const BothHalves<vreal<double>> x = both(center_[0]);
-        const BothHalves<vreal<double>> y = both(center_[1]);
-        const BothHalves<vreal<double>> z = both(center_[2]);
-        const BothHalves<Vec3v<double>> center{{x.low, y.low, z.low}, {x.high, y.high, z.high}};
-        return {center,
-                {radius.low * radius.low, radius.high * radius.high},
-                narrow(center.low, center.high),
-                narrow(radius.low, radius.high)};
+        return {center_,
+                {radius_.low * radius_.low, radius_.high * radius_.high},
+                narrow(center_.low, center_.high),
+                narrow(radius_.low, radius_.high)};
     }
 
 private:
-    static BothHalves<vreal<double>> both(const double (&values)[lanes<float>])
-    {
-        return {load(values), load(values + lanes<double>)};
-    }
-
-    alignas(64) double center_[3][lanes<float>];
-    alignas(64) double radius_[lanes<float>];
+    const vreal<double> none_ = vreal<double>(0.0);
+    BothHalves<Vec3v<double>> center_ = {{none_, none_, none_}, {none_, none_, none_}};
+    BothHalves<vreal<double>> radius_ = {vreal<double>(1.0), vreal<double>(1.0)};
 };
 
 inline RoughRoot rough_root(const SphereForm& form, const RayPacket<float>& rays)

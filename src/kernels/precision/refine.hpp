@@ -56,6 +56,16 @@ inline vmask<float> is_close(const RoughRoot& root, const vreal<float>& slope,
            (size <= vreal<float>(0x1p-9f) * root.t) & (root.t + dt > t_min);
 }
 
+/// Lanes in which that is the root that the search found and rounded to within four roundoffs of
+/// `root`: the other one is further away by far. Smaller t are off by more.
+inline vmask<float> is_found(const RoughRoot& root, const vreal<float>& slope,
+                             const vreal<float>& dt, const vreal<float>& t_min)
+{
+    return is_close(root, slope, dt, t_min) &
+           (abs(root.bend) * root.t <= vreal<float>(0x1p18f) * abs(slope)) &
+           (root.t > vreal<float>(1e-30f));
+}
+
 /// Those lanes of `same` in which that is the first root beyond t_min; bends are not negative.
 inline std::uint32_t is_enough(const RoughRoot& root, const vreal<float>& slope,
                                const vreal<float>& dt, const vreal<float>& t_min,
@@ -83,7 +93,7 @@ inline std::uint32_t refine_by_newton(RefinedHits<float>& hits, const Form& form
     const Residual at = residual(form, wide, root.t);
     const vreal<float> dt = vreal<float>(-0.5f) * at.value / at.slope;
     const std::uint32_t done = Form::root_is_known
-                                   ? same & bits(is_close(root, at.slope, dt, rays.t_min))
+                                   ? same & bits(is_found(root, at.slope, dt, rays.t_min))
                                    : is_enough(root, at.slope, dt, rays.t_min, same);
     const vmask<float> active = from_bits<float>(done);
     hits.t = select(active, root.t + dt, hits.t);
@@ -158,30 +168,6 @@ inline std::uint32_t refine_by_newton(RefinedHits<float>& hits, const abi::Shape
         });
 }
 
-/// Puts the spheres that lanes of `active` are on into theirs, and returns those lanes. Kinds are
-/// compared all at once: a branch for each lane is hard to foresee.
-inline std::uint32_t put_spheres(SphereLanes& spheres, const abi::ShapesView& shapes,
-                                 const vint<float>& surface, std::uint32_t active)
-{
-    alignas(64) std::int32_t number[lanes<float>];
-    alignas(64) std::int32_t record[lanes<float>];
-    alignas(64) std::int32_t kind[lanes<float>];
-    const vint<float> any(DistinctNumbers<float>(surface, active).value());
-    store(number, select(from_bits<float>(active), surface, any));
-    for (int lane = 0; lane < lanes<float>; ++lane) {
-        const abi::SurfaceIndex index = shapes.index[number[lane]];
-        record[lane] = index.record;
-        kind[lane] = static_cast<std::int32_t>(index.kind);
-    }
-    const vint<float> sphere(static_cast<std::int32_t>(abi::SurfaceKind::sphere));
-    const std::uint32_t on_spheres = bits(int_equal(load(kind), sphere)) & active;
-    for (std::uint32_t left = on_spheres; left != 0; left &= left - 1) {
-        const int lane = __builtin_ctz(left);
-        spheres.put(lane, shapes.spheres[record[lane]]);
-    }
-    return on_spheres;
-}
-
 /// Of the lanes of `active`, which are on more than one surface: all spheres together.
 template <Refine R>
 [[gnu::noinline]] std::uint32_t refine_mixed(RefinedHits<float>& hits,
@@ -192,13 +178,18 @@ template <Refine R>
 {
     const WideRays wide(rays);
     SphereLanes spheres;
-    const std::uint32_t on_spheres = put_spheres(spheres, shapes, surface, active);
+    std::uint32_t on_spheres = 0;
     std::uint32_t done = 0;
-    for_each_distinct<float>(
-        surface, active & ~on_spheres, [&](std::int32_t number, const vmask<float>& mask) {
-            done |= refine_by_newton<R>(hits, shapes, shapes.index[number], rays, found, wide,
-                                        bits(mask) & active);
-        });
+    for_each_distinct<float>(surface, active, [&](std::int32_t number, const vmask<float>& mask) {
+        const abi::SurfaceIndex& index = shapes.index[number];
+        const std::uint32_t same = bits(mask) & active;
+        if (index.kind == abi::SurfaceKind::sphere) {
+            spheres.put(same, shapes.spheres[index.record]);
+            on_spheres |= same;
+        } else {
+            done |= refine_by_newton<R>(hits, shapes, index, rays, found, wide, same);
+        }
+    });
     if (on_spheres != 0)
         done |= refine_by_newton<R>(hits, spheres.form(), rays, wide, on_spheres);
     return done;
