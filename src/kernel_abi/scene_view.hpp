@@ -25,6 +25,8 @@ struct GeometryView {
     RecordList<QuadricRecord<Real>> quadrics;
     RecordList<PolygonRecord<Real>> polygons;
     BvhView<Real> tree;  ///< holds what the lists do not
+    /// Every coordinate and size is of a magnitude that error bounds in single precision hold for.
+    bool certifiable = false;
 };
 
 /// What hits are made of.
@@ -86,8 +88,6 @@ struct SceneView : GeometryView<Real> {
     /// The same geometry in double, list by list in the same order, which rays in single precision
     /// that are unsure of their hit are traced in again; null in fast mode and for doubles.
     const GeometryView<double>* wide = nullptr;
-    /// Every coordinate and size is of a magnitude that error bounds in single precision hold for.
-    bool certifiable = false;
     ShapesView shapes;
 
     MaterialsView<Real> materials;

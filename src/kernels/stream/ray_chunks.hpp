@@ -175,6 +175,9 @@ inline void find_nearby_of(StreamWork<F, Real>& work, const abi::SceneView<Real>
         return;
     }
     if constexpr (F.exact) {
+        // Where all objects are in the hierarchy, that has bounds of its own.
+        if (!scene.tree.empty() && !has_objects<F>(AllObjects<float>{&scene}))
+            return;
         PacketBox<float> origins;
         for (int ray = 0; ray < count; ray += lanes<float>)
             origins.add(load_some3(view.org, begin + ray, count - ray));

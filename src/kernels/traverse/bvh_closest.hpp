@@ -174,14 +174,28 @@ template <abi::Features F, class Real>
     walk_in_lists(tree, slabs, bundle, cells, ClosestOfListed<F, Real>{tree, slabs, bundle});
 }
 
+/// Nothing is certain of what some rays of a bundle hit.
+struct DoubtHits {
+    RayBundle<float>& bundle;
+
+    void operator()(int first, std::uint32_t doubted) const
+    {
+        HitPacket<float> hit = load_hits(bundle, first);
+        doubt_all(hit, from_bits<float>(doubted));
+        store_hits<abi::Features{.exact = true}>(bundle, first, hit);
+    }
+};
+
 /// Brings the t and surface of a bundle's active rays down to their first hit in the hierarchy,
 /// where that comes before.
 template <abi::Features F, class Real>
-[[gnu::noinline]] void closest_in_tree(const abi::BvhView<Real>& tree, RayBundle<Real>& bundle)
+[[gnu::noinline]] void closest_in_tree(const abi::GeometryView<Real>& scene,
+                                       RayBundle<Real>& bundle)
 {
     const PartScope part(abi::Part::boxes);
+    const abi::BvhView<Real>& tree = scene.tree;
     if constexpr (F.exact)
-        bound_origins(bundle, tree);
+        bound_origins(bundle, scene, DoubtHits{bundle});
     CellBounds bounds;
     bound_cells(bounds, bundle, tree, tree.spread);
     if (bounds.coherent != 0)
@@ -195,16 +209,6 @@ template <abi::Features F, class Real>
 template <abi::Features F, class Objects, class Real>
 [[gnu::noinline]] void closest_in_lists(const Objects& lists, RayBundle<Real>& bundle)
 {
-    if (!has_objects<F>(lists)) {
-        if constexpr (F.exact)
-            for_each_uncertifiable(bundle, lists.certifiable,
-                                   [&](int first, std::uint32_t doubted) {
-                                       HitPacket<float> hit = load_hits(bundle, first);
-                                       doubt_all(hit, from_bits<float>(doubted));
-                                       store_hits<F>(bundle, first, hit);
-                                   });
-        return;
-    }
     for (int first = 0; first < bundle_rays; first += lanes<Real>) {
         const std::uint32_t active = active_lanes(bundle, first);
         if (active == 0)
@@ -216,14 +220,19 @@ template <abi::Features F, class Objects, class Real>
     }
 }
 
-/// The same among all objects of a scene, lists first: what stands in them is large.
+/// The same among all objects of a scene that has a hierarchy, lists first: what stands in them is
+/// large.
 template <abi::Features F, class Objects, class Real>
 inline void closest_of_bundle(const abi::GeometryView<Real>& scene, const Objects& lists,
                               RayBundle<Real>& bundle)
 {
-    closest_in_lists<abi::tree_features(F)>(lists, bundle);
+    constexpr abi::Features features = abi::tree_features(F);
+    if (has_objects<features>(lists))
+        closest_in_lists<features>(lists, bundle);
     if (!scene.tree.empty())
-        closest_in_tree<abi::tree_features(F)>(scene.tree, bundle);
+        closest_in_tree<features>(scene, bundle);
+    else if constexpr (F.exact)
+        doubt_uncertifiable(bundle, lists.certifiable, DoubtHits{bundle});
 }
 
 }  // namespace

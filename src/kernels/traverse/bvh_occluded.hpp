@@ -255,15 +255,6 @@ template <abi::Features F, class Objects, class Real>
 [[gnu::noinline]] bool visit_listed_occluders(const Objects& lists, RayBundle<Real>& bundle,
                                               bool closed, const Occluder& occluder)
 {
-    if (!has_objects<F>(lists)) {
-        if constexpr (F.exact)
-            for_each_uncertifiable(bundle, lists.certifiable,
-                                   [&](int first, std::uint32_t doubted) {
-                                       note_in_the_way(doubted, abi::Cause::magnitude);
-                                       doubt_lanes(bundle, first, doubted);
-                                   });
-        return active_cells(bundle) != 0;
-    }
     std::uint32_t left = 0;
     for (int first = 0; first < bundle_rays; first += lanes<Real>) {
         const std::uint32_t wanted = active_lanes(bundle, first);
@@ -291,6 +282,17 @@ template <abi::Features F, class Objects, class Real>
     return left != 0;
 }
 
+/// Something of a magnitude that no bounds hold for may be in the way of some rays of a bundle.
+struct DoubtWays {
+    RayBundle<float>& bundle;
+
+    void operator()(int first, std::uint32_t doubted) const
+    {
+        note_in_the_way(doubted, abi::Cause::magnitude);
+        doubt_lanes(bundle, first, doubted);
+    }
+};
+
 /// The same among all objects of a scene, lists first.
 template <abi::Features F, class Objects, class Real>
 inline void visit_occluders_of_bundle(const abi::GeometryView<Real>& scene, const Objects& lists,
@@ -298,12 +300,19 @@ inline void visit_occluders_of_bundle(const abi::GeometryView<Real>& scene, cons
                                       const Occluder& occluder,
                                       const abi::LightBuffer* buffer = nullptr)
 {
-    if (!visit_listed_occluders<abi::tree_features(F)>(lists, bundle, closed, occluder) ||
-        scene.tree.empty())
+    constexpr abi::Features features = abi::tree_features(F);
+    if (has_objects<features>(lists)
+            ? !visit_listed_occluders<features>(lists, bundle, closed, occluder)
+            : active_cells(bundle) == 0)
         return;
+    if (scene.tree.empty()) {
+        if constexpr (F.exact)
+            doubt_uncertifiable(bundle, lists.certifiable, DoubtWays{bundle});
+        return;
+    }
     if constexpr (F.exact)
-        bound_origins(bundle, scene.tree);
-    visit_occluders_in_tree<abi::tree_features(F)>(scene.tree, buffer, bundle, closed, occluder);
+        bound_origins(bundle, scene, DoubtWays{bundle});
+    visit_occluders_in_tree<features>(scene.tree, buffer, bundle, closed, occluder);
 }
 
 }  // namespace

@@ -7,19 +7,52 @@
 namespace packtrace::PACKTRACE_ISA {
 namespace {
 
-/// Sets what a bundle's bounds of the hierarchy's spheres hang on: where its rays start.
-inline void bound_origins(RayBundle<float>& bundle, const abi::BvhView<float>& tree)
+/// Those of some lanes whose magnitudes no bounds hold for.
+inline std::uint32_t uncertifiable(const RayPacket<float>& rays, std::uint32_t active)
 {
+    return active & ~bits(certifiable(rays));
+}
+
+/// Calls `doubt(first, lanes)` for the active rays whose magnitudes no bounds hold for: for all of
+/// them where the origins' are not certifiable.
+template <class Doubt>
+inline void doubt_uncertifiable(const RayBundle<float>& bundle, bool certifiable_origins,
+                                const Doubt& doubt)
+{
+    for (int first = 0; first < bundle_rays; first += lanes<float>) {
+        const std::uint32_t active = active_lanes(bundle, first);
+        if (active == 0)
+            continue;
+        const std::uint32_t doubted =
+            certifiable_origins ? uncertifiable(load_rays(bundle, first), active) : active;
+        if (doubted != 0)
+            doubt(first, doubted);
+    }
+}
+
+/// Sets what a bundle's bounds of the hierarchy's spheres hang on: where its rays start. Doubts as
+/// doubt_uncertifiable() does.
+template <class Doubt>
+inline void bound_origins(RayBundle<float>& bundle, const abi::GeometryView<float>& scene,
+                          const Doubt& doubt)
+{
+    const abi::BvhView<float>& tree = scene.tree;
     // Of rays that are not active, too: they are like their neighbours.
     PacketBox<float> origins;
     for (int first = 0; first < bundle_rays; first += lanes<float>) {
-        if (active_lanes(bundle, first) == 0)
+        const std::uint32_t active = active_lanes(bundle, first);
+        if (active == 0)
             continue;
         const RayPacket<float> rays = load_rays(bundle, first);
         origins.add(rays.org);
         store(bundle.inverse + first, RayScale(rays).inverse);
+        const std::uint32_t doubted = uncertifiable(rays, active);
+        if (doubted != 0)
+            doubt(first, doubted);
     }
     const Box<float> box = origins.box();
+    if (!scene.certifiable || !certifiable(origins_in(box.low, box.high)))
+        doubt_uncertifiable(bundle, false, doubt);
     float distance2 = 0;
     for (int axis = 0; axis < 3; ++axis) {
         const float most =
@@ -30,23 +63,6 @@ inline void bound_origins(RayBundle<float>& bundle, const abi::BvhView<float>& t
     bundle.center_error = tree.center_error;
     bundle.moment_error = first_lane<float>(
         moment_error(vreal<float>(tree.center_error), vreal<float>(bundle.length)));
-}
-
-/// Calls `visit(first, lanes)` for the active rays whose magnitudes no bounds hold for: for all of
-/// them where the origins' are not certifiable.
-template <class Visit>
-inline void for_each_uncertifiable(const RayBundle<float>& bundle, bool certifiable_origins,
-                                   const Visit& visit)
-{
-    for (int first = 0; first < bundle_rays; first += lanes<float>) {
-        const std::uint32_t active = active_lanes(bundle, first);
-        if (active == 0)
-            continue;
-        const std::uint32_t certain =
-            certifiable_origins ? bits(certifiable(load_rays(bundle, first))) : 0;
-        if ((active & ~certain) != 0)
-            visit(first, active & ~certain);
-    }
 }
 
 inline RayScale scale_of(const RayBundle<float>& bundle, int first, const RayPacket<float>& rays)
