@@ -201,6 +201,22 @@ inline Residual residual(const QuadricForm& form, const WideRays& rays, const vr
             gradient};
 }
 
+/// Lanes in which single precision is good enough for what a step of `dt` turns the gradient by:
+/// its terms, which may cancel, are far below the gradient.
+inline vmask<float> turns_little(const QuadricForm& form, const Vec3v<float>& gradient,
+                                 const RayPacket<float>& rays, const vreal<float>& dt)
+{
+    double size = 0;
+    for (int axis = 0; axis < 3; ++axis) {
+        const double(&row)[3] = form.quadric.inverse[axis];
+        const double square = form.quadric.square[axis];
+        size +=
+            (square < 0 ? -square : square) * (row[0] * row[0] + row[1] * row[1] + row[2] * row[2]);
+    }
+    const vreal<float> turn = vreal<float>(static_cast<float>(8.0 * size)) * dt;
+    return turn * turn * rays.dir2 <= dot(gradient, gradient);
+}
+
 /// The unit normal a `step` from where the gradient was taken.
 inline Vec3v<float> normal_of(const QuadricForm& form, const Vec3v<float>& gradient,
                               const Vec3v<float>& step)

@@ -92,9 +92,12 @@ inline std::uint32_t refine_by_newton(RefinedHits<float>& hits, const Form& form
     const RoughRoot root = rough_root(form, rays);
     const Residual at = residual(form, wide, root.t);
     const vreal<float> dt = vreal<float>(-0.5f) * at.value / at.slope;
-    const std::uint32_t done = Form::root_is_known
-                                   ? same & bits(is_found(root, at.slope, dt, rays.t_min))
-                                   : is_enough(root, at.slope, dt, rays.t_min, same);
+    std::uint32_t done;
+    if constexpr (Form::root_is_known)
+        done = same & bits(is_found(root, at.slope, dt, rays.t_min) &
+                           turns_little(form, at.gradient, rays, dt));
+    else
+        done = is_enough(root, at.slope, dt, rays.t_min, same);
     const vmask<float> active = from_bits<float>(done);
     hits.t = select(active, root.t + dt, hits.t);
     if constexpr (R == Refine::place) {
