@@ -79,6 +79,19 @@ inline vreal<Real> bend_along(const Vec3v<Real>& scaled, const Vec3v<Real>& v)
     return select(none, vreal<Real>(Real(0)), bend);
 }
 
+/// The largest Σ |s_i| v_i² of any direction, per d·d.
+inline double largest_bend(const abi::QuadricRecord<double>& quadric)
+{
+    double sum = 0;
+    for (int axis = 0; axis < 3; ++axis) {
+        const double(&row)[3] = quadric.inverse[axis];
+        const double square = quadric.square[axis];
+        sum +=
+            (square < 0 ? -square : square) * (row[0] * row[0] + row[1] * row[1] + row[2] * row[2]);
+    }
+    return sum;
+}
+
 /// The ray p + t v in canonical space against the unclipped side, from the ray's point nearest to
 /// the centre, `start` along it: there no term is larger than it must be.
 template <class Real>

@@ -116,17 +116,12 @@ template <class Real>
 inline std::uint32_t bends_away(const abi::QuadricRecord<double>& quadric, const Vec3v<Real>& dir)
 {
     constexpr double rounding = sizeof(Real) == sizeof(float) ? 0x1p-24 : 0x1p-53;
-    double error = 0;
     vreal<Real> bend(Real(0));
     for (int axis = 0; axis < 3; ++axis) {
-        const double(&row)[3] = quadric.inverse[axis];
-        const double square = quadric.square[axis];
-        error +=
-            (square < 0 ? -square : square) * (row[0] * row[0] + row[1] * row[1] + row[2] * row[2]);
-        const vreal<Real> v = dot(broadcast_as<Real>(row), dir);
-        bend = madd(vreal<Real>(static_cast<Real>(square)) * v, v, bend);
+        const vreal<Real> v = dot(broadcast_as<Real>(quadric.inverse[axis]), dir);
+        bend = madd(vreal<Real>(static_cast<Real>(quadric.square[axis])) * v, v, bend);
     }
-    const vreal<Real> slack(static_cast<Real>(64 * rounding * error));
+    const vreal<Real> slack(static_cast<Real>(64 * rounding * largest_bend(quadric)));
     const vreal<Real> smallest(Real(0x1p-90));
     return bits(bend > max(slack * dot(dir, dir), smallest));
 }

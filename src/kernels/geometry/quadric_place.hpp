@@ -206,14 +206,8 @@ inline Residual residual(const QuadricForm& form, const WideRays& rays, const vr
 inline vmask<float> turns_little(const QuadricForm& form, const Vec3v<float>& gradient,
                                  const RayPacket<float>& rays, const vreal<float>& dt)
 {
-    double size = 0;
-    for (int axis = 0; axis < 3; ++axis) {
-        const double(&row)[3] = form.quadric.inverse[axis];
-        const double square = form.quadric.square[axis];
-        size +=
-            (square < 0 ? -square : square) * (row[0] * row[0] + row[1] * row[1] + row[2] * row[2]);
-    }
-    const vreal<float> turn = vreal<float>(static_cast<float>(8.0 * size)) * dt;
+    const auto bend = static_cast<float>(8.0 * largest_bend(form.quadric));
+    const vreal<float> turn = vreal<float>(bend) * dt;
     return turn * turn * rays.dir2 <= dot(gradient, gradient);
 }
 
