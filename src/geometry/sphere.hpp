@@ -46,7 +46,7 @@ bool lower_sphere(const Sphere& sphere, const Mat4& transform, std::int32_t surf
 /// an anchored one.
 [[nodiscard]] bool is_anchored(const LoweredSphere& sphere);
 
-/// Moves the spheres whose surface passes near the world's origin for their size to a list of
+/// Moves the large spheres whose surface passes near the world's origin for their size to a list of
 /// their own, and finds their anchors.
 void part_anchored_spheres(SurfaceLists& lists);
 

@@ -29,6 +29,15 @@ inline Vec3v<Real> apply_inverse(const abi::QuadricRecord<Real>& quadric, const 
             dot(broadcast(quadric.inverse[2]), v)};
 }
 
+/// The same by the record in double, in either precision.
+template <class Real>
+inline Vec3v<Real> apply_inverse_as(const abi::QuadricRecord<double>& quadric, const Vec3v<Real>& v)
+{
+    return {dot(broadcast_as<Real>(quadric.inverse[0]), v),
+            dot(broadcast_as<Real>(quadric.inverse[1]), v),
+            dot(broadcast_as<Real>(quadric.inverse[2]), v)};
+}
+
 /// The centre is subtracted in two parts, so that a quadric far from the origin keeps its digits.
 template <class Real>
 inline QuadricOrigin<Real> quadric_origin(const abi::QuadricRecord<Real>& quadric,

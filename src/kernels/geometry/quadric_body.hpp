@@ -116,11 +116,8 @@ template <class Real>
 inline std::uint32_t bends_away(const abi::QuadricRecord<double>& quadric, const Vec3v<Real>& dir)
 {
     constexpr double rounding = sizeof(Real) == sizeof(float) ? 0x1p-24 : 0x1p-53;
-    vreal<Real> bend(Real(0));
-    for (int axis = 0; axis < 3; ++axis) {
-        const vreal<Real> v = dot(broadcast_as<Real>(quadric.inverse[axis]), dir);
-        bend = madd(vreal<Real>(static_cast<Real>(quadric.square[axis])) * v, v, bend);
-    }
+    const Vec3v<Real> v = apply_inverse_as<Real>(quadric, dir);
+    const vreal<Real> bend = dot(broadcast_as<Real>(quadric.square) * v, v);
     const vreal<Real> slack(static_cast<Real>(64 * rounding * largest_bend(quadric)));
     const vreal<Real> smallest(Real(0x1p-90));
     return bits(bend > max(slack * dot(dir, dir), smallest));

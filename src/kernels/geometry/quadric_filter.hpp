@@ -9,6 +9,11 @@
 namespace packtrace::PACKTRACE_ISA {
 namespace {
 
+inline Body body_of(const QuadricFilter& quadric)
+{
+    return body_of(*quadric.record);
+}
+
 /// The unclipped side along the rays, a t² + 2 b t + c = 0, by its discriminant.
 struct QuadricLine {
     Vec3v<float> p;
@@ -191,7 +196,7 @@ inline QuadricCrossing certain_crossing(const QuadricFilter& filter, const RayPa
                                         const RayScale& scale, const vreal<float>& t_end,
                                         const Own& own)
 {
-    const Body body = body_of(*filter.record);
+    const Body body = body_of(filter);
     std::uint32_t near = own.template lanes_on_others<float>(body.first, body.pieces);
     if (filter.ball.outer2 < __builtin_inff())
         near &= may_hit_ball<Shared>(filter.ball, rays, scale, t_end);
@@ -239,11 +244,6 @@ inline void visit_in_double(const abi::QuadricRecord<double>& quadric, const Ray
         const vreal<float> t = narrow(low.t[at], high.t[at]);
         visit(valid, rounded_low(t), rounded_high(t), at < 2 ? 0 : at - 1);
     }
-}
-
-inline Body body_of(const QuadricFilter& quadric)
-{
-    return body_of(*quadric.record);
 }
 
 template <bool Shared>

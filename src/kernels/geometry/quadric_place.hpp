@@ -56,10 +56,7 @@ inline Vec3v<Real> side_gradient_at(const abi::QuadricRecord<double>& quadric,
 {
     const Vec3v<Real> w =
         (point - broadcast_as<Real>(quadric.center)) - broadcast_as<Real>(quadric.center_low);
-    const Vec3v<Real> p{dot(broadcast_as<Real>(quadric.inverse[0]), w),
-                        dot(broadcast_as<Real>(quadric.inverse[1]), w),
-                        dot(broadcast_as<Real>(quadric.inverse[2]), w)};
-    return side_gradient<Real>(quadric, p);
+    return side_gradient<Real>(quadric, apply_inverse_as<Real>(quadric, w));
 }
 
 template <class Real>
@@ -143,17 +140,11 @@ inline QuadricForm form_of(const abi::QuadricRecord<double>& quadric, unsigned p
     return {quadric, piece, found};
 }
 
-inline Vec3v<float> canonical_direction(const QuadricForm& form, const Vec3v<float>& dir)
-{
-    const auto& rows = form.quadric.inverse;
-    return {dot(rough(rows[0]), dir), dot(rough(rows[1]), dir), dot(rough(rows[2]), dir)};
-}
-
 inline RoughRoot rough_root(const QuadricForm& form, const RayPacket<float>& rays)
 {
     if (form.piece != 0)
         return {form.found, vreal<float>(0.0f)};
-    const Vec3v<float> v = canonical_direction(form, rays.dir);
+    const Vec3v<float> v = apply_inverse_as<float>(form.quadric, rays.dir);
     return {form.found, dot(rough(form.quadric.square) * v, v)};
 }
 
@@ -179,13 +170,8 @@ inline WideResidual residual(const QuadricForm& form, const Vec3v<double>& org,
         return {value + value, dot(gradient, dir), gradient};
     }
     const Vec3v<double> p = apply_inverse(quadric, w);
-    Vec3v<double> inner = broadcast(quadric.square) * p;
-    const vreal<double> linear(quadric.linear);
-    const vreal<double> value =
-        madd(linear + linear, p.z, dot(inner, p)) + vreal<double>(quadric.constant);
-    inner.z = inner.z + linear;
-    const Vec3v<double> gradient = apply_transposed<double>(quadric, inner);
-    return {value, dot(gradient, dir), gradient};
+    const Vec3v<double> gradient = side_gradient<double>(quadric, p);
+    return {quadric_value<double>(quadric, p), dot(gradient, dir), gradient};
 }
 
 /// Gradients whose squares leave single precision's range make no step: their slope is a NaN.
@@ -218,7 +204,8 @@ inline Vec3v<float> normal_of(const QuadricForm& form, const Vec3v<float>& gradi
     Vec3v<float> at = gradient;
     if (form.piece == 0)
         at = at + apply_transposed<float>(
-                      form.quadric, rough(form.quadric.square) * canonical_direction(form, step));
+                      form.quadric,
+                      rough(form.quadric.square) * apply_inverse_as<float>(form.quadric, step));
     return scale<float>(vreal<float>(1.0f) / sqrt(dot(at, at)), at);
 }
 

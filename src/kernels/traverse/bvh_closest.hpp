@@ -220,8 +220,8 @@ template <abi::Features F, class Objects, class Real>
     }
 }
 
-/// The same among all objects of a scene that has a hierarchy, lists first: what stands in them is
-/// large.
+/// The same among all objects of a scene, lists first: what stands in them is large. Without a
+/// hierarchy single precision has no bundles.
 template <abi::Features F, class Objects, class Real>
 inline void closest_of_bundle(const abi::GeometryView<Real>& scene, const Objects& lists,
                               RayBundle<Real>& bundle)
@@ -231,8 +231,6 @@ inline void closest_of_bundle(const abi::GeometryView<Real>& scene, const Object
         closest_in_lists<features>(lists, bundle);
     if (!scene.tree.empty())
         closest_in_tree<features>(scene, bundle);
-    else if constexpr (F.exact)
-        doubt_uncertifiable(bundle, lists.certifiable, DoubtHits{bundle});
 }
 
 }  // namespace
