@@ -7,7 +7,7 @@
 #include "catch.hpp"
 #include "dispatch/kernels.hpp"
 #include "feature_scenes.hpp"
-#include "lower/leave_out.hpp"
+#include "lower/prune.hpp"
 #include "lower/packed_scene.hpp"
 #include "render/tile_loop.hpp"
 #include "render/tile_renderer.hpp"
@@ -56,7 +56,7 @@ Work work_of(const Scene& scene, bool force_general = false, Accuracy accuracy =
 abi::Features features_of(const Scene& scene)
 {
     LoweredScene lowered = lower(scene);
-    leave_out(lowered);
+    prune(lowered);
     return lowered.features;
 }
 
@@ -207,7 +207,7 @@ TEST_CASE("memory is not taken for what is left out", "[features]")
 TEST_CASE("dark lights and objects in another's place count for nothing", "[features]")
 {
     LoweredScene lowered = lower(scene_named("a dark light and an object twice"));
-    const std::vector<LeftOut> left_out = leave_out(lowered);
+    const std::vector<LeftOut> left_out = prune(lowered);
     REQUIRE(left_out.size() == 2);
     CHECK(left_out[0].what == "1 light");
     CHECK(left_out[1].what == "2 surfaces");
@@ -219,13 +219,13 @@ TEST_CASE("dark lights and objects in another's place count for nothing", "[feat
     lowered = lower(parse("illumination = general\nshadows = transparent\n" + one_light +
                           "sphere { center = (0, 0, 3) radius = 1 transmit = 0.5 }\n"
                           "sphere { center = (0, 0, 3) radius = 1 transmit = 0.5 }\n"));
-    CHECK(leave_out(lowered).empty());
+    CHECK(prune(lowered).empty());
     CHECK(lowered.spheres.size() == 2);
 
     // Nor does an object without a shadow stand for one with.
     lowered = lower(parse(one_light + "sphere { center = (0, 0, 3) radius = 1 casts_shadow = no }\n"
                                       "sphere { center = (0, 0, 3) radius = 1 }\n"));
-    CHECK(leave_out(lowered).empty());
+    CHECK(prune(lowered).empty());
 }
 
 TEST_CASE("a material that no surface left has counts for nothing", "[features]")

@@ -8,7 +8,7 @@
 #include "catch.hpp"
 #include "dispatch/kernels.hpp"
 #include "few_objects.hpp"
-#include "lower/leave_out.hpp"
+#include "lower/prune.hpp"
 #include "lower/packed_scene.hpp"
 #include "render/tile_loop.hpp"
 #include "render/tile_renderer.hpp"
@@ -20,7 +20,7 @@ namespace {
 bool in_registers(const Scene& scene, const std::string& isa)
 {
     LoweredScene lowered = lower(scene);
-    leave_out(lowered);
+    prune(lowered);
     const auto& table = precision<float>(kernels_of(isa));
     const PackedScene<float> packed(lowered,
                                     frame_traversal(lowered, Traversal::automatic, table.lanes));

@@ -21,7 +21,7 @@
 #include "lab/stress/stress_subject.hpp"
 #include "lab/truth/textbook.hpp"
 #include "lab/truth/wide_truth.hpp"
-#include "lower/leave_out.hpp"
+#include "lower/prune.hpp"
 #include "lower/packed_lists.hpp"
 #include "reference/surfaces/hits.hpp"
 #include "reference/surfaces/inside.hpp"

@@ -19,7 +19,7 @@
 #include "dispatch/kernels.hpp"
 #include "lab/harness/machine.hpp"
 #include "lab/harness/statistics.hpp"
-#include "lower/leave_out.hpp"
+#include "lower/prune.hpp"
 
 namespace {
 
@@ -85,7 +85,7 @@ private:
 std::string kernel_name(const Scene& scene, const std::string& isa)
 {
     LoweredScene lowered = lower(scene);
-    leave_out(lowered);
+    prune(lowered);
     return kernels_for(precision<float>(kernels_of(isa)), lowered.features).set.name;
 }
 

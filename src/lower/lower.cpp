@@ -9,7 +9,7 @@
 
 #include <tbb/parallel_for.h>
 
-#include "lower/leave_out.hpp"
+#include "lower/prune.hpp"
 #include "lower/lower_shading.hpp"
 #include "lower/lowered_scene.hpp"
 

@@ -44,7 +44,7 @@ struct LoweredScene : SurfaceLists {
     int max_depth = 0;
     double min_weight = 0.0;  ///< Scene::min_weight
     bool shadows = true;
-    bool flat = false;  ///< see leave_out()
+    bool flat = false;  ///< see prune()
     bool transparent_shadows = false;
     bool visible_lights = false;
     abi::RayUnits units = abi::RayUnits::as_given;

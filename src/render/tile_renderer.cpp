@@ -4,7 +4,7 @@
 #include <stdexcept>
 
 #include "dispatch/kernels.hpp"
-#include "lower/leave_out.hpp"
+#include "lower/prune.hpp"
 #include "render/camera_view.hpp"
 #include "render/sample_batch.hpp"
 #include "render/tile_loop.hpp"
@@ -22,7 +22,7 @@ Vec2 only_sample(const Scene& scene, const RenderOptions& options)
 const LoweredScene& fitted(LoweredScene& lowered, const RenderOptions& options)
 {
     if (!options.force_general)
-        leave_out(lowered);
+        prune(lowered);
     else if (!lowered.features.probe)
         lowered.features =
             abi::with_exact(abi::feature_sets[abi::general_set].features, lowered.features.exact);

@@ -8,7 +8,7 @@
 #include <packtrace/scene.hpp>
 
 #include "dispatch/kernels.hpp"
-#include "lower/leave_out.hpp"
+#include "lower/prune.hpp"
 #include "lower/packed_scene.hpp"
 
 namespace packtrace::cli {
@@ -55,7 +55,7 @@ struct SceneFeatures {
 {
     LoweredScene lowered = lower(scene);
     SceneFeatures features;
-    features.left_out = leave_out(lowered);
+    features.left_out = prune(lowered);
     const Traversal traversal = frame_traversal(lowered, Traversal::automatic, isa.lanes_single);
     for (LeftOut& unused : unused_features(lowered, traversal))
         features.left_out.push_back(std::move(unused));

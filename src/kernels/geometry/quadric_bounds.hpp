@@ -138,9 +138,9 @@ inline void set_clip_errors(QuadricFilter& filter, const QuadricLengths& lengths
 }
 
 template <bool Shared>
-[[gnu::noinline]] QuadricFilter quadric_filter(const abi::QuadricRecord<float>& record,
-                                               const abi::QuadricRecord<double>& wide,
-                                               const Origins& origins)
+[[gnu::noinline]] QuadricFilter certain_form(const abi::QuadricRecord<float>& record,
+                                             const abi::QuadricRecord<double>& wide,
+                                             const Origins& origins)
 {
     QuadricFilter filter{};
     filter.record = &record;

@@ -246,13 +246,6 @@ inline void visit_in_double(const abi::QuadricRecord<double>& quadric, const Ray
     }
 }
 
-template <bool Shared>
-inline QuadricFilter certain_form(const abi::QuadricRecord<float>& record,
-                                  const abi::QuadricRecord<double>& wide, const Origins& origins)
-{
-    return quadric_filter<Shared>(record, wide, origins);
-}
-
 /// What may hit is tested in double.
 template <bool Shared, class Own>
 inline void keep_certain(HitPacket<float>& hit, const QuadricFilter& filter,

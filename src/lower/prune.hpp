@@ -29,10 +29,10 @@ struct LeftOut {
 /// is left: dark lights, objects in another's very place, reflections that no depth allows,
 /// shadows that nothing casts, hits that nothing would be done with. For pictures alone: rays of
 /// the caller's own may ask for all of it.
-std::vector<LeftOut> leave_out(LoweredScene& lowered);
+std::vector<LeftOut> prune(LoweredScene& lowered);
 
 /// Everything that the kernels chosen for a scene are without, in the order of a frame's stages.
-/// `lowered` is what leave_out() left.
+/// `lowered` is what prune() left.
 [[nodiscard]] std::vector<LeftOut> unused_features(const LoweredScene& lowered,
                                                    Traversal traversal);
 

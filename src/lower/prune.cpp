@@ -1,4 +1,4 @@
-#include "lower/leave_out.hpp"
+#include "lower/prune.hpp"
 
 #include <algorithm>
 #include <cstdint>
@@ -179,7 +179,7 @@ std::size_t remove_duplicates(LoweredScene& lowered)
     return count;
 }
 
-std::vector<LeftOut> leave_out(LoweredScene& lowered)
+std::vector<LeftOut> prune(LoweredScene& lowered)
 {
     std::vector<LeftOut> left_out;
     add(left_out, remove_dark_lights(lowered), "light", "of no intensity");
