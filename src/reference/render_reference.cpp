@@ -1,14 +1,13 @@
 #include "reference/render_reference.hpp"
 
+#include "core/arena.hpp"
 #include "image/contrast.hpp"
 #include "reference/reference.hpp"
 #include "scene/sample_pattern.hpp"
 
 #include <tbb/blocked_range.h>
-#include <tbb/global_control.h>
 #include <tbb/parallel_for.h>
 #include <tbb/partitioner.h>
-#include <tbb/task_arena.h>
 
 #include <algorithm>
 #include <cstddef>
@@ -38,21 +37,6 @@ private:
     const std::function<void(double)>& progress_;
     std::mutex mutex_;
 };
-
-// Runs `work` on `threads` threads, also where the machine has fewer (TBB would warn and use
-// what there is), or in the present arena for 0.
-template <class Work>
-void run_on_threads(int threads, const Work& work)
-{
-    if (threads <= 0)
-        return work();
-    using tbb::global_control;
-    const std::size_t allowed =
-        global_control::active_value(global_control::max_allowed_parallelism);
-    const global_control raised(global_control::max_allowed_parallelism,
-                                std::max(allowed, static_cast<std::size_t>(threads)));
-    tbb::task_arena(threads).execute(work);
-}
 
 template <class Real>
 class RegionTracer {

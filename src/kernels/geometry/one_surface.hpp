@@ -46,7 +46,7 @@ inline vreal<double> first_root(const Quadratic<double>& quadratic, const vreal<
 {
     const vreal<double> root = sqrt(max(quadratic.discriminant, vreal<double>(0.0)));
     const vreal<double> minus_q = quadratic.b + with_sign_of(root, quadratic.b);
-    const vreal<double> first = negated(quadratic.c) / minus_q;
+    const vreal<double> first = lesser_root(quadratic, minus_q, all_lanes<double>);
     // For t_min >= 0 this is the first root that can count.
     const auto counts = first > t_min;
     if (all(counts))

@@ -13,6 +13,25 @@ struct Quadratic {
     vreal<Real> discriminant;
 };
 
+/// By how much rounding may have the lesser root be the larger.
+template <class Real>
+inline constexpr Real lesser_slack = Real(1) + Real(0x1p-20);
+
+/// The root of lesser size, -c / minus_q, of the lanes of `crosses`. By size the other, -minus_q/a,
+/// is no less; where it seems so, the line all but touches the surface where its equation starts,
+/// and of c nothing but rounding is left, of which a quotient could be anything.
+template <class Real>
+inline vreal<Real> lesser_root(const Quadratic<Real>& quadratic, const vreal<Real>& minus_q,
+                               std::uint32_t crosses)
+{
+    const vreal<Real> root = negated(quadratic.c) / minus_q;
+    const auto rounding =
+        abs(quadratic.a * quadratic.c) > vreal<Real>(lesser_slack<Real>) * (minus_q * minus_q);
+    if ((bits(rounding) & crosses) == 0)
+        return root;
+    return select(rounding, (minus_q - (quadratic.b + quadratic.b)) / quadratic.a, root);
+}
+
 /// Lanes where a root may lie at t > 0: with b >= 0 and c >= 0 both roots are behind.
 template <class Real>
 inline vmask<Real> may_hit(const Quadratic<Real>& q)
@@ -31,7 +50,7 @@ inline void keep_first_root(HitPacket<Real>& hit, const Quadratic<Real>& quadrat
     // Lanes that miss may hold a NaN here; no comparison lets it through. -q is used for q.
     const vreal<Real> root = sqrt(quadratic.discriminant);
     const vreal<Real> minus_q = quadratic.b + with_sign_of(root, quadratic.b);
-    vreal<Real> t = negated(quadratic.c) / minus_q;
+    vreal<Real> t = lesser_root(quadratic, minus_q, bits(active));
     const auto in_front = t > t_min;
     const std::uint32_t too_near = bits(active) & ~bits(in_front);
     if ((too_near & bits(minus_q < vreal<Real>(Real(0)))) == 0) {
@@ -54,7 +73,7 @@ inline void visit_roots(const Quadratic<Real>& quadratic, const Visit& visit)
         return;
     const vreal<Real> root = sqrt(quadratic.discriminant);
     const vreal<Real> minus_q = quadratic.b + with_sign_of(root, quadratic.b);
-    visit(crosses, negated(quadratic.c) / minus_q);
+    visit(crosses, lesser_root(quadratic, minus_q, bits(crosses)));
     visit(crosses, negated(minus_q) / quadratic.a);
 }
 

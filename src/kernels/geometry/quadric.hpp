@@ -192,7 +192,8 @@ inline void visit_crossings(const abi::QuadricRecord<Real>& quadric,
             : 0;
     if ((crosses | never_crosses) == 0)
         return;
-    const vreal<Real> first = start + select(at_start, zero, negated(quadratic.c) / minus_q);
+    const vreal<Real> first =
+        start + select(at_start, zero, lesser_root(quadratic, minus_q, crosses));
     const vreal<Real> second = start + negated(minus_q) / quadratic.a;
     if (!quadric.clipped) {
         visit(from_bits<Real>(crosses), first, 0);

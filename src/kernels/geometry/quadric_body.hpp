@@ -84,7 +84,8 @@ inline OwnCrossing crossing_from_cap(const abi::QuadricRecord<double>& quadric, 
     const vreal<double> root = sqrt(max(side.discriminant, zero));
     const vreal<double> minus_q = side.b + with_sign_of(root, side.b);
     const auto at_start = minus_q == zero;
-    const vreal<double> first = start + select(at_start, zero, negated(side.c) / minus_q);
+    const vreal<double> first =
+        start + select(at_start, zero, lesser_root(side, minus_q, all_lanes<double>));
     const vreal<double> second = select(at_start, first, start + negated(minus_q) / side.a);
     const LineInterval<double> between = ordered<double>(first, second);
     const std::uint32_t along = bits(at_start & (side.a == zero));

@@ -35,7 +35,7 @@ public:
         if (active == 0)
             return 0;
         const __m256 minus_q = minus_q_of(q);
-        __m256 root = _mm256_div_ps(negated(q.c), minus_q);
+        __m256 root = lesser_root(q, minus_q, active);
         std::uint32_t beyond = _mm256_cmp_ps_mask(root, t_min_, _CMP_GT_OQ);
         const std::uint32_t leaving = _mm256_cmp_ps_mask(minus_q, _mm256_setzero_ps(), _CMP_LT_OQ);
         const auto retry = static_cast<__mmask8>(active & ~beyond & leaving);
@@ -137,6 +137,19 @@ private:
         return _mm256_add_ps(q.b, _mm256_or_ps(_mm256_sqrt_ps(q.discriminant), sign));
     }
 
+    __m256 lesser_root(const Eights& q, __m256 minus_q, std::uint32_t crosses) const
+    {
+        const __m256 root = _mm256_div_ps(negated(q.c), minus_q);
+        const __m256 product = _mm256_andnot_ps(_mm256_set1_ps(-0.0f), _mm256_mul_ps(dir2_, q.c));
+        const __m256 most =
+            _mm256_mul_ps(_mm256_set1_ps(lesser_slack<float>), _mm256_mul_ps(minus_q, minus_q));
+        const __mmask8 rounding = _mm256_cmp_ps_mask(product, most, _CMP_GT_OQ);
+        if ((rounding & crosses) == 0)
+            return root;
+        return _mm256_mask_div_ps(root, rounding, _mm256_sub_ps(minus_q, _mm256_add_ps(q.b, q.b)),
+                                  dir2_);
+    }
+
     std::uint32_t any_root(const Eights& q, __m256 t_end) const
     {
         const std::uint32_t active = may_hit(q);
@@ -147,7 +160,7 @@ private:
             return _mm256_cmp_ps_mask(t, t_min_, _CMP_GT_OQ) &
                    _mm256_cmp_ps_mask(t, t_end, _CMP_LT_OQ);
         };
-        return active & (between(_mm256_div_ps(negated(q.c), minus_q)) |
+        return active & (between(lesser_root(q, minus_q, active)) |
                          between(_mm256_div_ps(negated(minus_q), dir2_)));
     }
 

@@ -80,9 +80,10 @@ template <class Real>
         return without_roots<Real>(a < 0 && discriminant < 0);
     const Real root = std::sqrt(discriminant);
     // Where b and the root are of one size, one of the two sums cancels, and Press' q does not
-    // (Numerical Recipes, section 5.6). Where b is the lesser, c may be nothing but rounding.
-    const bool cancels = std::abs(b) > root / 2;
+    // (Numerical Recipes, section 5.6). Where b is the lesser, c may be nothing but rounding, and
+    // so it is where c / q, by size the lesser root, seems to be the larger.
     const Real q = -(b + std::copysign(root, b));
+    const bool cancels = std::abs(b) > root / 2 && std::abs(a * c) <= q * q;
     const Real t0 = cancels ? q / a : (-b - root) / a;
     const Real t1 = cancels ? c / q : (-b + root) / a;
     return {std::min(t0, t1), std::max(t0, t1), a > 0};
