@@ -10,32 +10,30 @@
 namespace packtrace::PACKTRACE_ISA {
 namespace {
 
-/// What rays of a packet are tested against.
+/// What mirrored rays of a packet are tested against that start beyond the plan's origins.
 template <abi::Features F>
-struct NearObjects {
-    const FilteredObjects<false>* objects;
-    const LightObjects<F, float>* occluders;
-};
-
-/// Objects with bounds for the origins of one packet.
-template <abi::Features F>
-[[gnu::noinline]] NearObjects<F> find_from_far(const FusedTile<F>& tile, const Vec3v<float>& place,
-                                               std::uint32_t active)
+[[gnu::noinline]] const FilteredObjects<false>& objects_from_far(const FusedTile<F>& tile,
+                                                                 const Vec3v<float>& place,
+                                                                 std::uint32_t active)
 {
-    const Origins origins = origins_of_lanes(place, active);
-    FusedMemory<F>& memory = tile.memory;
-    if (tile.scene.rules.max_depth > 0)
-        find_objects<F>(memory.from_far, origins, tile.scene);
-    const auto& lights = tile.scene.lighting.lights;
-    for (int i = 0; i < lights.count; ++i) {
-        if (!lights.data[i].casts_shadow)
-            continue;
-        if (lights.data[i].kind == abi::LightKind::point)
-            memory.occluders[i].from_point = tile.plan.occluders[i].from_point;
-        else
-            find_objects<F>(memory.occluders[i].along, origins, casters_of(tile.scene));
-    }
-    return {&memory.from_far, memory.occluders};
+    FilteredObjects<false>& objects = tile.memory.from_far;
+    find_objects<F>(objects, origins_of_lanes(place, active), tile.scene);
+    return objects;
+}
+
+/// What may be in the way of a light, by light, for hits there. A point light sees what it sees.
+template <abi::Features F>
+[[gnu::noinline]] const LightObjects<F, float>* occluders_from_far(const FusedTile<F>& tile,
+                                                                   int light,
+                                                                   const Vec3v<float>& place,
+                                                                   std::uint32_t active)
+{
+    if (tile.scene.lighting.lights.data[light].kind == abi::LightKind::point)
+        return tile.plan.occluders;
+    LightObjects<F, float>* const occluders = tile.memory.occluders;
+    find_objects<F>(occluders[light].along, origins_of_lanes(place, active),
+                    casters_of(tile.scene));
+    return occluders;
 }
 
 /// What camera rays of a tile are tested against: where tests are dear, only what its cone meets.
@@ -59,9 +57,9 @@ template <Generation G, abi::Features F>
     if constexpr (G == Generation::camera) {
         closest_hit<F>(found, from_eye(tile), rays, NoOwn{});
     } else {
-        const FilteredObjects<false>* const objects =
-            is_far ? find_from_far(tile, rays.org, active).objects : &tile.plan.from_near;
-        closest_hit<F>(found, *objects, rays,
+        const FilteredObjects<false>& objects =
+            is_far ? objects_from_far(tile, rays.org, active) : tile.plan.from_near;
+        closest_hit<F>(found, objects, rays,
                        ActiveOwn{start.surface, path_start.at.common, active});
     }
     count_unsure(tile.counts, settle_packet<F>(tile.scene, rays, found, start, no_end_yet, active));
@@ -149,14 +147,19 @@ inline std::uint32_t lit_lanes(const FusedTile<F>& tile, int number, const LitHi
                      ? shadow_towards(tests, hits.at, packet.to_light, length2,
                                       length2 * packet.inverse_length, wanted)
                      : shadow_along(tests, hits.at, packet.to_light, wanted);
-    const std::uint32_t clear = wanted & ~shadow.open & ~shadow.blocked;
+    std::uint32_t clear = wanted & ~shadow.open & ~shadow.blocked;
+    const bool may_be_blocked = F.quadrics && tests.has_unbounded && clear != 0;
+    if (shadow.open == 0 && !may_be_blocked)
+        return clear;
+    const SurfacePacket<float> surface = lit_surface(hits, dir, tile.scene.rules.start_error);
+    const LightPacket<float> copy = packet;
+    if (may_be_blocked)
+        clear = trace_to_light(tile, number, tile.plan.unbounded, surface, copy, clear);
     if (shadow.open == 0)
         return clear;
     const LightObjects<F, float>* occluders = tile.plan.occluders;
     if (hits.is_far)
-        occluders = find_from_far(tile, Vec3v<float>(hits.at.point), hits.at.lanes).occluders;
-    const SurfacePacket<float> surface = lit_surface(hits, dir, tile.scene.rules.start_error);
-    const LightPacket<float> copy = packet;
+        occluders = occluders_from_far(tile, number, Vec3v<float>(hits.at.point), hits.at.lanes);
     return clear | trace_to_light(tile, number, occluders, surface, copy, shadow.open);
 }
 

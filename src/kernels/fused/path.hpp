@@ -92,7 +92,7 @@ struct FusedMemory {
     std::uint8_t* visible_balls = nullptr;    ///< likewise
     FilteredObjects<true> visible;            ///< likewise, where tests are dear
     FilteredObjects<false> from_far;          ///< for mirrored rays beyond the plan's origins
-    LightObjects<F, float>* occluders = nullptr;  ///< likewise, by light
+    LightObjects<F, float>* occluders = nullptr;  ///< likewise, by light; of directional ones
     std::size_t bytes = 0;
 
     /// With no `scratch`, only `bytes` is of use.
@@ -111,11 +111,21 @@ struct FusedMemory {
             take_objects<F>(arena, from_far, scene);
         occluders = arena.take<LightObjects<F, float>>(
             static_cast<std::size_t>(scene.lighting.lights.count));
-        LightObjects<F, float> measured;
         for (int i = 0; i < scene.lighting.lights.count; ++i)
-            take_occluders<F, float>(arena, scratch != nullptr ? occluders[i] : measured, scene,
-                                     scene.lighting.lights.data[i]);
+            take_along(arena, scratch != nullptr ? occluders + i : nullptr, scene,
+                       scene.lighting.lights.data[i]);
         bytes = arena.used();
+    }
+
+private:
+    static void take_along(Arena& arena, LightObjects<F, float>* objects,
+                           const abi::SceneView<float>& scene, const abi::LightRecord<float>& light)
+    {
+        if (!light.casts_shadow || light.kind == abi::LightKind::point)
+            return;
+        LightObjects<F, float> measured;
+        take_objects<F>(arena, objects != nullptr ? objects->along : measured.along,
+                        casters_of(scene));
     }
 };
 
