@@ -92,7 +92,7 @@ TEST_CASE("a command's help names its options", "[cli]")
         {"intersect", "--any"},      {"explain", "--pixel"},     {"demo", "--rounds"},
         {"onedim", "--keep-going"},  {"stress", "--family"},     {"render", "--accuracy"},
         {"render", "--self-hits"},   {"explain", "--accuracy"},  {"explain", "--self-hits"},
-        {"profile", "--accuracy"},   {"profile", "--self-hits"}, {"intersect", "--self-hits"},
+        {"profile", "--accuracy"},   {"profile", "--self-hits"}, {"intersect", "--accuracy"},
         {"intersect", "--traversal"}};
     for (const auto& [command, option] : options)
         CHECK_THAT(run_packtrace({command, "--help"}).out, ContainsSubstring(option));

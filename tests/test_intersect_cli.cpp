@@ -286,17 +286,16 @@ TEST_CASE("rays come from standard input, hits leave by standard output", "[inte
     CHECK(read_text(folder / "err") == "standard output: can't write: No space left on device\n");
 }
 
-TEST_CASE("intersect answers alike by either traversal and rule of self-hits", "[intersect_cli]")
+TEST_CASE("intersect answers alike by either traversal", "[intersect_cli]")
 {
-    for (const char* const traversal : {"auto", "list", "tree"})
-        for (const char* const rule : {"note", "exact"}) {
-            const ProgramResult result =
-                intersect(hand_rays(), {"--traversal", traversal, "--self-hits", rule});
-            CHECK(result.exit_code == 0);
-            CHECK(result.out == hand_rows());
-        }
+    for (const char* const traversal : {"auto", "list", "tree"}) {
+        const ProgramResult result = intersect(hand_rays(), {"--traversal", traversal});
+        CHECK(result.exit_code == 0);
+        CHECK(result.out == hand_rows());
+    }
     CHECK(intersect("", {"--traversal", "none"}).exit_code == 2);
-    CHECK(intersect("", {"--self-hits", "none"}).exit_code == 2);
+    // It traces no secondary rays.
+    CHECK(intersect("", {"--self-hits", "note"}).exit_code == 2);
     CHECK(intersect("", {"--kernel", "scalar", "--traversal", "tree"}).exit_code == 2);
 }
 
@@ -307,7 +306,7 @@ TEST_CASE("the help of intersect names the columns and every option", "[intersec
     for (const std::string word :
          {"ox,oy,oz,dx,dy,dz[,t_min,t_max]", "hit,t,object,nx,ny,nz", "--all", "--any", "--bounds",
           "--kernel packet|scalar", "--precision single|double", "--isa", "--width", "--threads",
-          "--output", "--accuracy", "--self-hits note|exact", "--traversal auto|list|tree"})
+          "--output", "--accuracy", "--traversal auto|list|tree"})
         CHECK_THAT(result.out, ContainsSubstring(word));
 }
 

@@ -142,7 +142,7 @@ TEST_CASE("a picture begun otherwise is not gone on with", "[resume]")
     write_text(studio.folder / "a.png.journal", older);
     CHECK_THAT(studio.render("a.png").err, ContainsSubstring("was begun with another version"));
     write_text(studio.folder / "a.png.journal", "four eggs\n");
-    CHECK_THAT(studio.render("a.png").err, ContainsSubstring("is no journal"));
+    CHECK_THAT(studio.render("a.png").err, ContainsSubstring("is not a journal"));
 }
 
 TEST_CASE("bands that are damaged or cut short are rendered again", "[resume]")

@@ -128,7 +128,7 @@ TEST_CASE("parts that do not belong together are not joined", "[shard]")
         {{"p0", "p1", "p1", "p2"}, "give each part once"},
         {{"p0", "single", "p2"}, "is a part of other work"},
         {{"p0", "half", "p2"}, "is a part of other work"},
-        {{"whole"}, "is no part"},
+        {{"whole"}, "is not a part"},
         {{"none"}, "can't read"},
     };
     for (const Wrong& wrong : wrongs) {

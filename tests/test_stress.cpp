@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <filesystem>
 #include <limits>
 
 #include <nlohmann/json.hpp>
@@ -665,9 +666,13 @@ TEST_CASE("the stress command writes wrong rays and their scenes", "[stress]")
     const ProgramResult traced = run_packtrace({"intersect", name + ".scene", name + ".csv"});
     CHECK(traced.exit_code == 0);
     CHECK(std::count(traced.out.begin(), traced.out.end(), '\n') == 2);
-    const ProgramResult nowhere = run((folder / "none").string());
+    // The folder is made; where a file is in its way, nothing is traced.
+    CHECK(run((folder / "new").string()).exit_code == 0);
+    CHECK(std::filesystem::exists(folder / "new" / "tiny-far-single-textbook.csv"));
+    const ProgramResult nowhere = run(name + ".csv");
     CHECK(nowhere.exit_code != 0);
-    CHECK(nowhere.err.find("none") != std::string::npos);
+    CHECK(nowhere.out.empty());
+    CHECK(nowhere.err.find(name + ".csv") != std::string::npos);
 }
 
 TEST_CASE("accuracy is refused where it means nothing", "[stress]")

@@ -1,6 +1,8 @@
 #pragma once
 
 #include <cstddef>
+#include <stdexcept>
+#include <string>
 #include <vector>
 
 #include <packtrace/unset_allocator.hpp>
@@ -18,7 +20,7 @@ struct Image {
     Pixels rgb;
 
     Image() = default;
-    /// Black.
+    /// Black. Throws std::invalid_argument for sides below 0, as unset() does.
     Image(int w, int h) : Image(unset(w, h))
     {
         rgb.assign(rgb.size(), Real(0));
@@ -27,6 +29,9 @@ struct Image {
     /// Pixels of any colour, for who fills them all.
     [[nodiscard]] static Image unset(int w, int h)
     {
+        if (w < 0 || h < 0)
+            throw std::invalid_argument("image: " + std::to_string(w) + " x " + std::to_string(h) +
+                                        " pixels; sides are 0 or above");
         Image image;
         image.width = w;
         image.height = h;

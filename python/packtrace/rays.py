@@ -227,7 +227,8 @@ class _Rays:
     """Rays' arrays, checked, of one dtype and shape, as columns (n, 3), (n, 3), (n,), (n,)."""
 
     def __init__(self, origins: Any, directions: Any, t_min: Any, t_max: Any) -> None:
-        vectors = {"origins": _array(origins), "directions": _array(directions)}
+        # What is no array has the other's precision.
+        vectors = {"origins": _array(origins, directions), "directions": _array(directions, origins)}
         for name, array in vectors.items():
             _checked_dtype(array.dtype, name)
             if array.ndim == 0 or array.shape[-1] != 3:
@@ -261,11 +262,12 @@ class _Rays:
         return array
 
 
-def _array(value: Any) -> Array:
+def _array(value: Any, beside: Any = None) -> Array:
     if isinstance(value, np.ndarray):
         return value
+    is_single = isinstance(beside, np.ndarray) and beside.dtype == np.float32
     try:
-        return np.asarray(value, np.float64)
+        return np.asarray(value, np.float32 if is_single else np.float64)
     except (TypeError, ValueError):
         raise ValueError(f"{value!r} is no array of vectors; use a NumPy array of shape (..., 3)"
                          ) from None

@@ -1,6 +1,7 @@
 // How far two pictures are apart: as numbers, and as a picture.
 #include <packtrace/compare.hpp>
 
+#include "core/check_number.hpp"
 #include "image/color_ramp.hpp"
 #include "image/pixel_error.hpp"
 
@@ -71,6 +72,7 @@ template <class Real>
 Comparison compare(const Image<Real>& a, const Image<Real>& b, const CompareOptions& options)
 {
     check_same_size(a.width, a.height, b.width, b.height);
+    check_not_negative("threshold", options.threshold);
     Comparison result;
     result.pixels = a.rgb.size() / 3;
     // Sums by rows first, so that small errors are not lost beside a large total.

@@ -9,6 +9,7 @@
 #include "cli/intersect/intersect_arguments.hpp"
 #include "cli/intersect/intersect_rays.hpp"
 #include "cli/options/thread_limit.hpp"
+#include "cli/output/distinct_files.hpp"
 #include "core/checksum.hpp"
 #include "core/seconds_since.hpp"
 #include "mpi/commands.hpp"
@@ -176,6 +177,7 @@ void run_intersect(const World& world, const IntersectJobArguments& arguments)
             throw CLI::ValidationError("--json: standard output has the rows; give -o FILE");
         if (world.is_first() && !arguments.output.empty())
             check_writable(arguments.output);
+        cli::check_not_read(arguments.output, {arguments.scene, arguments.rays});
         pieces = std::make_unique<RayPieces>(arguments.rays);
     });
     check_ranks(world, options, arguments.job.mixing());

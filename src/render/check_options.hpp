@@ -1,27 +1,26 @@
 #pragma once
 
-#include <cmath>
 #include <stdexcept>
 #include <string>
 
 #include <packtrace/render.hpp>
+
+#include "core/check_number.hpp"
 
 namespace packtrace {
 
 /// Most samples a pixel.
 inline constexpr int most_samples = 1024;
 
-/// Returns the options. Throws std::invalid_argument with one line when their sampling is
+/// Returns the options. Throws std::invalid_argument with one line for threads or samples that are
 /// impossible.
-inline const RenderOptions& checked_sampling(const RenderOptions& options)
+inline const RenderOptions& checked_options(const RenderOptions& options)
 {
-    if (options.samples < 1 || options.samples > most_samples)
-        throw std::invalid_argument("samples: " + std::to_string(options.samples) +
-                                    " a pixel; choose from 1 to " + std::to_string(most_samples));
+    check_number("threads", options.threads, 0, most_threads);
+    check_number("samples", options.samples, 1, most_samples);
     if (!options.adaptive)
         return options;
-    if (!(*options.adaptive >= 0.0) || !std::isfinite(*options.adaptive))
-        throw std::invalid_argument("adaptive: the contrast is a finite number >= 0");
+    check_not_negative("adaptive", *options.adaptive);
     if (options.samples == 1)
         throw std::invalid_argument("adaptive: needs more than one sample a pixel");
     return options;

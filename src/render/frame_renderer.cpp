@@ -5,8 +5,9 @@
 
 #include <tbb/task_arena.h>
 
+#include "core/arena.hpp"
 #include "image/contrast.hpp"
-#include "render/check_sampling.hpp"
+#include "render/check_options.hpp"
 
 namespace packtrace {
 namespace {
@@ -28,7 +29,7 @@ FrameRenderer<Real>::FrameRenderer(const Scene& scene, LoweredScene lowered,
       height_(scene.height),
       region_(checked_region(options, scene)),
       options_(options),
-      tiles_(scene, std::move(lowered), table, checked_sampling(options))
+      tiles_(scene, std::move(lowered), table, checked_options(options))
 {
 }
 
@@ -105,20 +106,14 @@ FrameCounts FrameRenderer<Real>::render(Image<Real>& image) const
 {
     if (image.width != region_.width || image.height != region_.height)
         image = Image<Real>::unset(region_.width, region_.height);
-    if (options_.threads == 0)
-        return render_region(region_, image);
-    tbb::task_arena arena(options_.threads);
-    return arena.execute([&] { return render_region(region_, image); });
+    return run_on_threads(options_.threads, [&] { return render_region(region_, image); });
 }
 
 template <class Real>
 FrameCounts FrameRenderer<Real>::render_rows(int first, Image<Real>& image) const
 {
     const Region rows{0, first, width_, image.height};
-    if (options_.threads == 0)
-        return render_region(rows, image);
-    tbb::task_arena arena(options_.threads);
-    return arena.execute([&] { return render_region(rows, image); });
+    return run_on_threads(options_.threads, [&] { return render_region(rows, image); });
 }
 
 template class FrameRenderer<float>;

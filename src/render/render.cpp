@@ -12,7 +12,7 @@
 #include "dispatch/kernels.hpp"
 #include "lower/lowered_scene.hpp"
 #include "reference/render_reference.hpp"
-#include "render/check_sampling.hpp"
+#include "render/check_options.hpp"
 #include "render/frame_renderer.hpp"
 #include "render/row_renderer.hpp"
 
@@ -39,11 +39,11 @@ Image<Real> render_scalar(const Scene& scene, const RenderOptions& options, CutR
     if (cut == nullptr || scene.min_weight <= 0.0) {
         if (cut != nullptr)
             *cut = {};
-        return render_reference<Real>(scene, checked_sampling(options));
+        return render_reference<Real>(scene, checked_options(options));
     }
     const std::vector<Rgb> light = most_light(lower(scene));
     reference::CutCounter cuts(light);
-    Image<Real> image = render_reference<Real>(scene, checked_sampling(options), &cuts);
+    Image<Real> image = render_reference<Real>(scene, checked_options(options), &cuts);
     *cut = cuts.total();
     return image;
 }
@@ -54,7 +54,7 @@ class ScalarRows {
 public:
     ScalarRows(const Scene& scene, const RenderOptions& options)
         : height_(checked(scene).height),
-          options_(checked_sampling(options)),
+          options_(checked_options(options)),
           reference_(scene, {}, options.self_hits)
     {
         if (scene.min_weight > 0.0)

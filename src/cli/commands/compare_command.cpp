@@ -14,6 +14,7 @@
 
 #include "cli/command.hpp"
 #include "cli/options/validators.hpp"
+#include "cli/output/distinct_files.hpp"
 #include "core/json_text.hpp"
 
 namespace packtrace::cli {
@@ -79,6 +80,7 @@ void run_compare(const CompareArguments& arguments)
 {
     if (!arguments.heatmap.empty())
         check_image_writable(arguments.heatmap);
+    check_not_read(arguments.heatmap, {arguments.a, arguments.b});
     const Image<float> a = read_image(arguments.a);
     const Image<float> b = read_image(arguments.b);
     if (a.width != b.width || a.height != b.height)

@@ -31,7 +31,7 @@ namespace packtrace::cli {
 namespace {
 
 struct DemoArguments {
-    std::string scene = "scenes/four_spheres.scene";
+    std::string scene;
     std::filesystem::path folder = "demo";
     PictureArguments picture{.size = "1024x1024", .depth = {}, .min_weight = {}};
     int threads = tbb::info::default_concurrency();
@@ -195,9 +195,23 @@ void write_pictures(const std::filesystem::path& folder, const std::string& stem
     std::cout << "its error         " << language::escape(map.string()) << '\n';
 }
 
+/// Of the folder that the program runs in or, where that has none, as it is installed.
+std::string default_scene()
+{
+    const std::filesystem::path scene = "scenes/four_spheres.scene";
+    std::error_code error;
+    const std::filesystem::path program = std::filesystem::read_symlink("/proc/self/exe", error);
+    const std::filesystem::path installed =
+        program.parent_path().parent_path() / "share" / "packtrace" / scene;
+    return !std::filesystem::exists(scene, error) && std::filesystem::exists(installed, error)
+               ? installed.string()
+               : scene.string();
+}
+
 void run_demo(const DemoArguments& arguments)
 {
-    SceneInput input = read_scene_input(arguments.scene);
+    SceneInput input =
+        read_scene_input(arguments.scene.empty() ? default_scene() : arguments.scene);
     Scene& scene = input.scene;
     apply(arguments.picture, scene);
     make_folders(arguments.folder);

@@ -36,7 +36,7 @@ CLI::App* add_generator(CLI::App& generate, const std::string& name, const std::
     command
         ->add_option("--reflective", arguments->options.reflective,
                      "Mirrored light of the spheres, 0 to 1 (default 0)")
-        ->check(non_negative_number())
+        ->check(share())
         ->type_name("R");
     add_size_option(*command, arguments->picture);
     command->callback([arguments, generator, take] {

@@ -7,6 +7,7 @@
 
 #include "cli/command.hpp"
 #include "cli/options/shard.hpp"
+#include "cli/output/distinct_files.hpp"
 #include "cli/output/text_output.hpp"
 #include "cli/study/study.hpp"
 #include "scene/quote.hpp"
@@ -50,7 +51,7 @@ HitPart open_part(const std::string& name)
     const std::optional<PartHead> head = PartHead::parse(read_line(part.file.get()));
     if (!head)
         throw FileError(part.name +
-                        ": is no part that packtrace intersect --shard or stress --shard wrote");
+                        ": is not a part that packtrace intersect --shard or stress --shard wrote");
     part.head = *head;
     return part;
 }
@@ -79,7 +80,7 @@ std::vector<HitPart> open_parts(const std::vector<std::string>& names)
                                 ": is a part of other work than the parts before it; join parts of "
                                 "one scene, the same options, rays and number of parts");
         if (parts[index].file)
-            throw FileError(part.name + ": is part " + part.head.shard.text() + ", as is " +
+            throw FileError(part.name + ": is part " + part.head.shard.text() + ", and so is " +
                             parts[index].name + "; give each part once");
         parts[index] = std::move(part);
     }
@@ -112,6 +113,8 @@ void join_hits(const std::vector<HitPart>& parts, TextOutput& output)
 
 void run_join(const JoinArguments& arguments)
 {
+    for (const std::string& part : arguments.parts)
+        check_not_read(arguments.output, {part});
     const bool json = first_byte(arguments.parts.front()) == '{';
     if (json) {
         const std::string joined = join_stress(arguments.parts);

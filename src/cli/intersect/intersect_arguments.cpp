@@ -18,7 +18,7 @@ void add_options(CLI::App& command, KernelArguments& arguments)
         ->check(one_of({"single", "double"}))
         ->type_name("single|double");
     add_traversal_option(command, arguments.traversal);
-    add_accuracy_options(command, arguments.accuracy);
+    add_accuracy_option(command, arguments.accuracy);
     add_isa_options(command, arguments.isa);
     add_threads_option(command, arguments.threads);
 }
@@ -55,7 +55,7 @@ RenderOptions checked_options(const IntersectArguments& arguments)
     if (arguments.scene == "-" && arguments.rays == "-")
         throw CLI::ValidationError(
             "RAYS: standard input holds the scene or the rays, not both; give a file for one");
-    if (arguments.resume && arguments.output.empty())
+    if (arguments.resume && (arguments.output.empty() || arguments.output == "-"))
         throw CLI::ValidationError("--resume: standard output keeps nothing; give -o FILE");
     return render_options(arguments.kernel);
 }

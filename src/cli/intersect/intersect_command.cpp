@@ -9,6 +9,7 @@
 #include "cli/options/scene_input.hpp"
 #include "cli/options/shard.hpp"
 #include "cli/options/thread_limit.hpp"
+#include "cli/output/distinct_files.hpp"
 
 namespace packtrace::cli {
 namespace {
@@ -47,6 +48,7 @@ void run_intersect(const IntersectArguments& arguments)
     // Before the work, so that a wrong name doesn't cost it.
     if (!arguments.output.empty())
         check_writable(arguments.output);
+    check_not_read(arguments.output, {arguments.scene, arguments.rays});
     const Scene scene = read_scene_input(arguments.scene).scene;
     RayRange range;
     std::string recipe = hits_recipe(arguments, scene, options);

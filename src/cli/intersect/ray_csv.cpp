@@ -122,6 +122,7 @@ private:
     static constexpr const char* precision = is_single ? "single" : "double";
     static constexpr Real shortest = is_single ? Real(1e-12) : Real(1e-100);
     static constexpr Real longest = is_single ? Real(1e12) : Real(1e100);
+    static constexpr double furthest = 1e150;
     static constexpr const char* limits = is_single ? "1e-12 and 1e12" : "1e-100 and 1e100";
 
     // Kernels square directions: far from 1 that over- or underflows, and a hit would be moved
@@ -178,7 +179,13 @@ private:
             fail(line, column, field,
                  std::string("is out of the range of ") + precision + " precision");
         if (column == t_max ? std::isnan(number.value) : !std::isfinite(number.value))
-            fail(line, column, field, "is not finite; write a finite number");
+            fail(line, column, field,
+                 column == t_max
+                     ? "is not a number; write a number, or inf for a ray without an end"
+                     : "is not finite; write a finite number");
+        if (column < dx && std::abs(static_cast<double>(number.value)) > furthest)
+            fail(line, column, field,
+                 "is further than squares of doubles reach; stay within 1e150");
         if (column == t_min && number.value < 0)
             fail(line, column, field, "is below 0; a ray starts at t_min >= 0");
         return number.value;

@@ -106,8 +106,8 @@ std::uint64_t ray_file_size(const std::string& file)
 {
     std::error_code error;
     const bool regular = std::filesystem::is_regular_file(file, error);
-    if (!regular && (error || file == "-"))
-        throw FileError(language::escape(file) + ": can't read: No such file or directory");
+    if (!regular && error)
+        throw FileError(language::escape(file), "can't read", error.value());
     if (!regular)
         throw FileError(language::escape(file) +
                         ": only a regular file can be cut into parts; write the rays into one");

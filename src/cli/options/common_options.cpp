@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "cli/options/validators.hpp"
+#include "render/check_options.hpp"
 
 namespace packtrace::cli {
 namespace {
@@ -12,9 +13,6 @@ namespace {
 // As the scene language has them.
 constexpr int largest_side = 65536;
 constexpr int most_depth = 64;
-constexpr int most_threads = 1024;
-// As RenderOptions::samples has them.
-constexpr int most_samples = 1024;
 constexpr int adaptive_samples = 16;
 
 // The two numbers of "640x480"; zeros when it is something else.
@@ -48,7 +46,7 @@ Accuracy accuracy_of(const std::string& name)
 
 }  // namespace
 
-void add_accuracy_options(CLI::App& command, AccuracyArguments& arguments)
+void add_accuracy_option(CLI::App& command, AccuracyArguments& arguments)
 {
     command
         .add_option("--accuracy", arguments.accuracy,
@@ -57,11 +55,16 @@ void add_accuracy_options(CLI::App& command, AccuracyArguments& arguments)
                     "refined in double")
         ->check(one_of({"fast", "exact"}))
         ->type_name("fast|exact");
+}
+
+void add_accuracy_options(CLI::App& command, AccuracyArguments& arguments)
+{
+    add_accuracy_option(command, arguments);
     command
         .add_option("--self-hits", arguments.self_hits,
                     "How secondary rays avoid hitting the surface they start on. note: they start "
-                    "0.001 along their direction. exact: no such distance; their own surface is "
-                    "solved for its other root (default " +
+                    "0.001 along their direction. exact: they never hit it where they start, only "
+                    "where they truly meet it again (default " +
                         std::string(default_self_hits == SelfHits::note ? "note" : "exact") + ")")
         ->check(one_of({"note", "exact"}))
         ->type_name("note|exact");
@@ -85,7 +88,8 @@ void add_isa_options(CLI::App& command, IsaArguments& arguments)
         ->type_name("NAME");
     command
         .add_option("--width", arguments.width,
-                    "Lanes of a packet of floats: 1, 4, 8 or 16 (default the most)")
+                    "Instruction set by the rays of a packet in single precision: 1, 4, 8 or 16 "
+                    "(default the most); doubles have half as many")
         ->check(one_of({"1", "4", "8", "16"}))
         ->type_name("N");
 }
@@ -109,9 +113,8 @@ void add_picture_options(CLI::App& command, PictureArguments& arguments)
         ->type_name("N");
     command
         .add_option("--min-weight", arguments.min_weight,
-                    "Do not trace mirrored and refracted rays that add less than W of their "
-                    "colour to the pixel in every channel (default the scene's min_weight; 0 "
-                    "traces all)")
+                    "Leave out mirrored and refracted rays whose weight in the pixel is below W in "
+                    "every channel (default the scene's min_weight; 0 traces all)")
         ->check(share())
         ->type_name("W");
 }
@@ -120,7 +123,7 @@ void add_sampling_options(CLI::App& command, SamplingArguments& arguments)
 {
     command
         .add_option("--spp", arguments.samples,
-                    "Samples a pixel (default 1, where the scene says; 16 with --adaptive)")
+                    "Samples a pixel (default 1, at the scene's pixel_sample; 16 with --adaptive)")
         ->check(whole_number(1, most_samples))
         ->type_name("N");
     command

@@ -48,6 +48,8 @@ struct SamplingArguments {
     std::optional<double> adaptive;
 };
 
+void add_accuracy_option(CLI::App& command, AccuracyArguments& arguments);
+/// `--accuracy`, and `--self-hits` for what traces secondary rays.
 void add_accuracy_options(CLI::App& command, AccuracyArguments& arguments);
 void add_traversal_option(CLI::App& command, std::optional<std::string>& traversal);
 [[nodiscard]] Traversal traversal_named(const std::string& name);

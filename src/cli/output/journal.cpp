@@ -108,8 +108,11 @@ void Journal::open(const std::string& head,
 /// A journal without pieces; it appears whole.
 void Journal::begin(const std::string& head)
 {
-    std::error_code ignored;
-    std::filesystem::remove(part_name_, ignored);
+    // A run that ends in time removes both, and one that is killed leaves both.
+    if (std::filesystem::exists(part_name_))
+        throw FileError(part_name_.string() +
+                        ": is in the way of --resume, and no journal tells what it is; move it "
+                        "away or remove it");
     AtomicFile file(journal_name_);
     file.write(first_line);
     file.write(head + "\n");
@@ -122,7 +125,7 @@ std::string Journal::read_entries(const std::string& text)
     std::string_view rest = text;
     if (!rest.starts_with(first_line))
         throw FileError(journal_name_.string() +
-                        ": is no journal of this version's; remove it to begin again");
+                        ": is not a journal of this version; remove it to begin again");
     rest.remove_prefix(first_line.size());
     const std::string head(cut_line(rest));
     while (!rest.empty())

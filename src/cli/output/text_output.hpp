@@ -14,10 +14,10 @@ namespace packtrace::cli {
 /// FileError.
 class TextOutput {
 public:
-    /// Standard output where `file` is empty.
+    /// Standard output where `file` is empty or -.
     explicit TextOutput(const std::string& file)
     {
-        if (!file.empty())
+        if (!file.empty() && file != "-")
             file_.emplace(file);
     }
 

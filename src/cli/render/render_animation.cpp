@@ -128,11 +128,14 @@ void add_animation_options(CLI::App& command, AnimationArguments& arguments)
         ->type_name("A..B");
     command.add_flag("--overwrite", arguments.overwrite,
                      "Render frames that are there already, too");
-    add_shard_option(command, arguments.shard,
-                     "Of --frames A..B only A + I, A + I + N and so on, for N machines");
-    command.add_flag("--y4m", arguments.y4m,
-                     "Write the frames (default all) as one YUV4MPEG2 video; IMAGE is a file or -");
+    add_shard_option(
+        command, arguments.shard,
+        "Of --frames A..B every Nth only, from A + I on: the part of machine I, from 0, of N");
+    CLI::Option* const y4m = command.add_flag(
+        "--y4m", arguments.y4m,
+        "Write the frames (default all) as one YUV4MPEG2 video; IMAGE is a file or -");
     command.add_option("--fps", arguments.fps, "Frames per second of --y4m (default 30)")
+        ->needs(y4m)
         ->check(whole_number(1, 1000))
         ->type_name("N");
 }

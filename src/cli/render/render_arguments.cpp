@@ -7,10 +7,11 @@
 
 #include "cli/options/scene_input.hpp"
 #include "cli/options/validators.hpp"
+#include "cli/output/distinct_files.hpp"
 #include "cli/render/render_animation.hpp"
 #include "cli/study/study.hpp"
 #include "image/formats.hpp"
-#include "render/check_sampling.hpp"
+#include "render/check_options.hpp"
 
 namespace packtrace::cli {
 namespace {
@@ -79,6 +80,7 @@ RenderOptions checked_options(const RenderArguments& arguments)
     RenderOptions options = render_options(arguments.kernel);
     apply(arguments.sampling, options);
     check_animation_options(arguments);
+    check_not_read(arguments.output, {arguments.scene});
     check_gamma(arguments);
     // Before the work, so that a wrong name doesn't cost it.
     if (arguments.certainty)

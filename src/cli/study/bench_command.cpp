@@ -13,9 +13,11 @@
 #include "cli/output/text_table.hpp"
 #include "cli/study/bench_file.hpp"
 #include "cli/study/bench_programs.hpp"
+#include "core/atomic_file.hpp"
 #include "lab/bench/paired_bench.hpp"
 #include "lab/bench/slowdown.hpp"
 #include "scene/quote.hpp"
+#include "scene/values.hpp"
 
 namespace packtrace::cli {
 namespace {
@@ -31,7 +33,7 @@ struct BenchArguments {
     std::string output;
     std::string baseline;
     std::string against;
-    std::string max_slowdown = "10%";
+    std::optional<std::string> max_slowdown;
 };
 
 // The number of "10%" or "0.1"; none when it is something else.
@@ -114,6 +116,9 @@ std::vector<std::string> bench_words(const BenchArguments& arguments)
     words.insert(words.end(), {"--size", *arguments.picture.size});
     if (arguments.picture.depth)
         words.insert(words.end(), {"--depth", std::to_string(*arguments.picture.depth)});
+    if (arguments.picture.min_weight)
+        words.insert(words.end(),
+                     {"--min-weight", language::to_text(*arguments.picture.min_weight)});
     if (arguments.isa)
         words.insert(words.end(), {"--isa", *arguments.isa});
     return words;
@@ -188,7 +193,9 @@ bool name_lines(const BenchResult& result, Verdict wanted, const std::string& wh
         if (result.verdict(line) == wanted) {
             any = true;
             std::cerr << what << line.name << ": " << interval_text(*result.slowdown(line))
-                      << " against the baseline, with " << line.ratios.size() << " repetitions\n";
+                      << " against the baseline, with " << line.ratios.size() << " repetitions and "
+                      << result.figures.before.find(line.name)->ratios.size()
+                      << " of the baseline\n";
         }
     return any;
 }
@@ -206,9 +213,28 @@ void end_with_verdict(const BenchResult& result)
     const bool slower = name_lines(result, Verdict::slower, "slower: ");
     const bool unsure = name_lines(result, Verdict::cannot_tell, "can't tell: ");
     if (unsure)
-        std::cerr << "more --repetitions or an idler machine would tell\n";
+        std::cerr << "more --repetitions, of the baseline too, or an idler machine would tell\n";
     if (slower || unsure)
         throw Failed{slower ? exit_failed : exit_unsure};
+}
+
+// What of a picture times hang on, beside its scene.
+std::string picture_text(const PictureArguments& picture)
+{
+    const auto given = [](const auto& value) {
+        return value ? brief(static_cast<double>(*value)) : std::string("the scene's");
+    };
+    return *picture.size + ", depth " + given(picture.depth) + ", min_weight " +
+           given(picture.min_weight);
+}
+
+// Earlier versions did not write it.
+void check_same_picture(const BenchFigures& now, const BenchFigures& before,
+                        const std::string& baseline)
+{
+    if (!before.picture.empty() && before.picture != now.picture)
+        throw std::runtime_error(baseline + ": is of pictures of " + before.picture + ", not of " +
+                                 now.picture + "; give the same options");
 }
 
 // Every run of a program reads the scenes anew.
@@ -227,10 +253,18 @@ void run_bench_command(const BenchArguments& arguments)
     if (arguments.isa)
         (void)chosen_isa({arguments.isa, {}});
     BenchResult result;
-    result.limit = *parse_share(arguments.max_slowdown);
-    if (!arguments.baseline.empty())
+    result.limit = *parse_share(arguments.max_slowdown.value_or("10%"));
+    if (arguments.max_slowdown && arguments.baseline.empty() && arguments.against.empty())
+        throw CLI::ValidationError(
+            "--max-slowdown: nothing is compared; give --baseline or --against");
+    // Before the work, so that a wrong name doesn't cost it.
+    if (!arguments.output.empty())
+        check_writable(arguments.output);
+    result.figures.now.picture = picture_text(arguments.picture);
+    if (!arguments.baseline.empty()) {
         result.figures.before = read_bench_file(arguments.baseline);
-    // Before the work, so that a wrong scene doesn't cost it.
+        check_same_picture(result.figures.now, result.figures.before, arguments.baseline);
+    }
     std::vector<ReportScene> scenes;
     for (const std::string& file : arguments.scenes) {
         SceneInput input = read_scene_input(file);

@@ -96,6 +96,7 @@ std::string bench_text(const BenchFigures& figures)
                 {"commit", commit_name()},
                 {"load_before", load_at_start()},
                 {"load_after", load_now()}}},
+              {"picture", figures.picture},
               {"references", Json::array()},
               {"lines", Json::array()}};
     for (const BenchLine& reference : figures.references)
@@ -113,9 +114,11 @@ BenchFigures read_bench_file(const std::filesystem::path& file)
     if (!is_bench(json))
         throw std::runtime_error(file.string() + ": not a file that packtrace bench -o writes");
     BenchFigures figures;
+    // Earlier versions wrote none, nor references.
+    if (const Json picture = json.value("picture", Json()); picture.is_string())
+        figures.picture = picture;
     for (const Json& line : json["lines"])
         figures.lines.push_back(bench_line_of(line));
-    // Earlier versions wrote none.
     for (const Json& reference : json.value("references", Json::array()))
         if (reference.is_object() && reference.contains("name") && reference["name"].is_string() &&
             reference.contains("milliseconds") && is_positive(reference["milliseconds"]))

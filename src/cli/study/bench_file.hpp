@@ -12,6 +12,7 @@ namespace packtrace::cli {
 struct BenchFigures {
     std::vector<BenchLine> lines;
     std::vector<BenchLine> references;  ///< one a scene
+    std::string picture;                ///< its options; empty where a file has none
 
     /// The samples of a line; null when there is no line of that name.
     [[nodiscard]] const BenchLine* find(const std::string& name) const;

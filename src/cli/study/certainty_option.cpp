@@ -8,6 +8,7 @@
 
 #include <CLI/CLI.hpp>
 
+#include "cli/output/distinct_files.hpp"
 #include "image/formats.hpp"
 #include "scene/quote.hpp"
 
@@ -53,8 +54,8 @@ void check_certainty(const RenderArguments& arguments, const RenderOptions& opti
         fail("with --adaptive pixels have different numbers of rays; give --spp alone");
     if (arguments.animation.many())
         fail("it is of one picture; give --frame N in place of --frames or --y4m");
-    if (*arguments.certainty == arguments.output)
-        fail("'" + arguments.output + "' is where the picture goes; give another file");
+    check_two_files(arguments.output, *arguments.certainty);
+    check_not_read(*arguments.certainty, {arguments.scene});
     check_image_writable(*arguments.certainty);
 }
 

@@ -10,6 +10,7 @@
 #include "cli/options/scene_input.hpp"
 #include "cli/options/thread_limit.hpp"
 #include "cli/options/validators.hpp"
+#include "cli/output/distinct_files.hpp"
 #include "cli/output/text_output.hpp"
 #include "cli/study/profile_print.hpp"
 #include "core/atomic_file.hpp"
@@ -84,6 +85,9 @@ void run_profile(const ProfileArguments& arguments)
         check_image_writable(arguments.heatmap);
     if (!arguments.trace.empty())
         check_writable(arguments.trace);
+    check_two_files(arguments.heatmap, arguments.trace);
+    check_not_read(arguments.heatmap, {arguments.scene});
+    check_not_read(arguments.trace, {arguments.scene});
     SceneInput input = read_scene_input(arguments.scene);
     apply(arguments.picture, input.scene);
     if (arguments.precision == "double")

@@ -54,7 +54,8 @@ void add_measure_options(CLI::App& command, ReportArguments& arguments)
     command.add_option("--threads", arguments.options.threads, "Numbers of threads (default 1,2)")
         ->check(whole_number(1, 1024))
         ->delimiter(',')
-        ->type_name("N,N…");
+        ->allow_extra_args(false)
+        ->type_name("N[,N…]");
     command
         .add_option(
             "--cache", arguments.cache,

@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <filesystem>
 #include <iostream>
+#include <limits>
 #include <memory>
 #include <string>
 #include <vector>
@@ -121,6 +122,9 @@ int check_random(const SoakArguments& arguments)
 
 void run(const SoakArguments& arguments)
 {
+    // Before the work, so that a wrong name doesn't cost it.
+    if (arguments.files.empty())
+        make_folders(arguments.cases);
     const int threads =
         arguments.threads > 0 ? arguments.threads : tbb::info::default_concurrency();
     // Some pictures are made by several threads, in arenas of their own.
@@ -139,23 +143,28 @@ void add_soak(CLI::App& app)
     CLI::App* command = app.add_subcommand(
         "soak", "Trace random scenes with every kernel, mode and query, and compare the answers");
     const auto arguments = std::make_shared<SoakArguments>();
-    command
-        ->add_option("SCENE", arguments->files,
-                     "Check these scene files in place of random scenes; - is standard input")
-        ->type_name("");
+    CLI::Option* const files =
+        command
+            ->add_option("SCENE", arguments->files,
+                         "Check these scene files in place of random scenes; - is standard input")
+            ->type_name("");
     command
         ->add_option("--minutes", arguments->minutes,
                      "Stop after N minutes (default 1; no limit with --scenes)")
+        ->excludes(files)
         ->check(positive_number())
         ->type_name("N");
     command->add_option("--scenes", arguments->scenes, "How many scenes to trace at most")
+        ->excludes(files)
         ->check(whole_number(1, most_scenes))
         ->type_name("N");
     command->add_option("--seed", arguments->options.seed, "Seed of the random scenes (default 1)")
+        ->check(whole_number(0, std::numeric_limits<int>::max()))
         ->type_name("N");
     command
         ->add_option("--first", arguments->first,
                      "Number of the first scene (default 0); a finding names its own")
+        ->excludes(files)
         ->check(whole_number(0, most_scenes))
         ->type_name("N");
     command->add_flag(

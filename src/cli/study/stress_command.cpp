@@ -1,5 +1,7 @@
 #include "cli/study/stress_command.hpp"
 
+#include <algorithm>
+#include <limits>
 #include <memory>
 #include <vector>
 
@@ -8,6 +10,7 @@
 #include "cli/options/shard.hpp"
 #include "cli/options/thread_limit.hpp"
 #include "cli/options/validators.hpp"
+#include "core/atomic_file.hpp"
 #include "lab/stress/stress.hpp"
 #include "lab/stress/stress_subject.hpp"
 
@@ -45,6 +48,7 @@ void add_stress_options(CLI::App& command, StressArguments& arguments)
         ->check(whole_number(1, most_rays))
         ->type_name("N");
     command.add_option("--seed", options.seed, "Seed of the random rays (default 1)")
+        ->check(whole_number(0, std::numeric_limits<int>::max()))
         ->type_name("N");
     command.add_option("--kernel", options.kernels, "Only this kernel (repeatable)")
         ->check(one_of({"packet", "scalar", "textbook"}))
@@ -79,6 +83,13 @@ void add_stress_options(CLI::App& command, StressArguments& arguments)
 
 lab::StressOptions stress_options(const StressArguments& arguments)
 {
+    const auto& kernels = arguments.options.kernels;
+    const bool has_packets =
+        kernels.empty() || std::find(kernels.begin(), kernels.end(), "packet") != kernels.end();
+    if (!has_packets && (arguments.isa || arguments.traversal || !arguments.options.modes.empty()))
+        throw CLI::ValidationError(
+            "--isa, --mode, --traversal: only packets have them; add --kernel packet or leave "
+            "them out");
     lab::StressOptions options = arguments.options;
     if (arguments.isa)
         options.isa = chosen_isa({arguments.isa, {}}).name;
@@ -107,6 +118,9 @@ void run_stress_command(const StressArguments& arguments)
     if (arguments.shard)
         take_shard(arguments, options);
     const ThreadLimit limit(arguments.threads);
+    // Before the work, so that a wrong name doesn't cost it.
+    if (arguments.cases)
+        make_folders(*arguments.cases);
     std::vector<StressRow> rows;
     lab::run_stress(options, [&](const std::vector<StressRow>& some) {
         rows.insert(rows.end(), some.begin(), some.end());

@@ -5,6 +5,7 @@
 
 #include <packtrace/isa.hpp>
 
+#include "core/check_number.hpp"
 #include "dispatch/kernels.hpp"
 #include "kernel_abi/probe.hpp"
 #include "lab/harness/names.hpp"
@@ -16,10 +17,13 @@ namespace {
 
 std::vector<IsaInfo> wanted_isas(const ReportOptions& options)
 {
+    std::vector<std::string> names;
+    for (const std::string& name : options.isas)
+        names.push_back(choose_isa(name).name);
     std::vector<IsaInfo> isas;
     for (const IsaInfo& isa : list_isas())
-        if (isa.supported && (options.isas.empty() ||
-                              std::count(options.isas.begin(), options.isas.end(), isa.name) > 0))
+        if (isa.supported &&
+            (names.empty() || std::count(names.begin(), names.end(), isa.name) > 0))
             isas.push_back(isa);
     return isas;
 }
@@ -100,6 +104,8 @@ void add_arithmetic(std::vector<Variant>& variants, Variant variant, const Repor
 
 std::vector<Variant> report_variants(const Scene& scene, const ReportOptions& options)
 {
+    for (const int threads : options.threads)
+        check_number("threads", threads, 1, most_threads);
     std::vector<Variant> variants;
     const std::vector<IsaInfo> isas = wanted_isas(options);
     for (const char* precision : {"single", "double"}) {

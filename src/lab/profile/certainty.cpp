@@ -5,12 +5,12 @@
 #include <utility>
 
 #include <tbb/enumerable_thread_specific.h>
-#include <tbb/task_arena.h>
 
+#include "core/arena.hpp"
 #include "dispatch/kernels.hpp"
 #include "lab/profile/observed_frame.hpp"
 #include "lab/profile/work_rows.hpp"
-#include "render/check_sampling.hpp"
+#include "render/check_options.hpp"
 #include "render/sample_batch.hpp"
 #include "render/tile_loop.hpp"
 #include "render/tile_renderer.hpp"
@@ -30,7 +30,7 @@ const RenderOptions& checked(const RenderOptions& options)
         throw std::invalid_argument(
             "certainty: adaptive sampling has pixels of different numbers of rays; give all the "
             "same number of samples");
-    return checked_sampling(options);
+    return checked_options(options);
 }
 
 /// What a tile's kernels record.
@@ -97,10 +97,7 @@ Certainty observe_tiles(const Scene& scene, const RenderOptions& options)
 Certainty find_certainty(const Scene& scene, const RenderOptions& options)
 {
     checked(options);
-    if (options.threads == 0)
-        return observe_tiles(scene, options);
-    tbb::task_arena arena(options.threads);
-    return arena.execute([&] { return observe_tiles(scene, options); });
+    return run_on_threads(options.threads, [&] { return observe_tiles(scene, options); });
 }
 
 Image<float> certainty_picture(const Certainty& certainty)

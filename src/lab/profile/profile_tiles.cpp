@@ -3,12 +3,12 @@
 #include <chrono>
 #include <cstdio>
 #include <mutex>
+#include <stdexcept>
 #include <string>
 
 #include <packtrace/profile.hpp>
 
-#include <tbb/task_arena.h>
-
+#include "core/arena.hpp"
 #include "dispatch/kernels.hpp"
 #include "image/color_ramp.hpp"
 #include "lab/harness/statistics.hpp"
@@ -68,8 +68,7 @@ std::vector<TileSpan> trace_tiles(const Scene& scene, const ProfileOptions& opti
     Image<Real> image(scene.width, scene.height);
     const auto render = [&](const Region& piece) { return tiles.render(image, piece); };
     std::vector<TileSpan> spans;
-    tbb::task_arena arena(options.threads);
-    arena.execute([&] {
+    run_on_threads(options.threads, [&] {
         const std::function<void(double)> silent;
         // The first frame pays for memory.
         Progress first(grid.count(), silent);
@@ -137,10 +136,14 @@ std::vector<double> pixel_costs(const Scene& scene, const ProfileOptions& option
 
 Image<float> cost_picture(const std::vector<double>& seconds, int width, int height)
 {
+    Image<float> image(width, height);
+    if (seconds.empty() || 3 * seconds.size() != image.rgb.size())
+        throw std::invalid_argument("cost_picture: " + std::to_string(seconds.size()) +
+                                    " times for a picture of " + std::to_string(width) + " x " +
+                                    std::to_string(height) + " pixels; give each pixel one");
     // An interrupted pixel is off the scale, not the scale.
     const double low = quantile(seconds, 0.001);
     const double high = std::max(quantile(seconds, 0.999), low * 1.0001);
-    Image<float> image(width, height);
     for (std::size_t i = 0; i < seconds.size(); ++i) {
         const auto color = color_ramp(std::clamp((seconds[i] - low) / (high - low), 0.0, 1.0));
         std::copy(color.begin(), color.end(), &image.rgb[3 * i]);

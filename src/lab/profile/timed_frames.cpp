@@ -8,9 +8,10 @@
 
 #include <tbb/parallel_for.h>
 #include <tbb/partitioner.h>
-#include <tbb/task_arena.h>
 
 #include "core/aligned_array.hpp"
+#include "core/arena.hpp"
+#include "core/check_number.hpp"
 #include "dispatch/kernels.hpp"
 #include "lab/harness/statistics.hpp"
 #include "lab/harness/stopwatch.hpp"
@@ -39,8 +40,7 @@ FirstFrameStep step(const char* name, int threads, const Work& work)
 
 void start_threads(int threads)
 {
-    tbb::task_arena arena(threads);
-    arena.execute([threads] {
+    run_on_threads(threads, [threads] {
         tbb::parallel_for(
             0, threads, [](int) {}, tbb::static_partitioner());
     });
@@ -158,6 +158,8 @@ LoweredScene ended_at(LoweredScene lowered, int depth)
 
 RenderOptions render_options(const ProfileOptions& options)
 {
+    check_number("threads", options.threads, 1, most_threads);
+    check_number("repetitions", options.repetitions, 1, most_repetitions);
     RenderOptions result;
     result.isa = options.isa;
     result.threads = options.threads;

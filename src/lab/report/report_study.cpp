@@ -1,12 +1,15 @@
 #include "lab/report/report_study.hpp"
 
 #include <algorithm>
+#include <limits>
 #include <stdexcept>
 #include <utility>
 
+#include "core/check_number.hpp"
 #include "lab/harness/statistics.hpp"
 #include "lab/harness/stopwatch.hpp"
 #include "lab/report/error_class.hpp"
+#include "render/check_options.hpp"
 #include "scene/sample_pattern.hpp"
 
 namespace packtrace {
@@ -36,6 +39,7 @@ const ReportRun* same_picture(const StudyReport& report, std::size_t picture)
 // A run with the samples of the truth would seem to have no error.
 void check_truth(const ReportOptions& options)
 {
+    check_number("truth_samples", options.truth_samples, 2, most_samples);
     int most = 0;
     for (const int samples : options.samples)
         most = std::max(most, samples);
@@ -62,6 +66,9 @@ Truth truth_of(const Scene& scene, int samples, const ReportOptions& options)
 std::vector<StudyPlan> plan_studies(const Scene& scene, const ReportOptions& options)
 {
     check_truth(options);
+    check_number("repetitions", options.repetitions, 1, most_repetitions);
+    check_number("classified", options.classified, 0, std::numeric_limits<int>::max());
+    check_not_negative("threshold", options.threshold);
     const std::vector<Variant> variants = report_variants(scene, options);
     std::vector<StudyPlan> plans;
     for (const Study study : {Study::arithmetic, Study::depth, Study::weight, Study::sampling}) {

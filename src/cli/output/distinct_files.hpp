@@ -1,0 +1,49 @@
+#pragma once
+
+#include <filesystem>
+#include <initializer_list>
+#include <string>
+
+#include "core/read_file.hpp"
+#include "scene/quote.hpp"
+
+// Outputs that would take the place of something else that the user named.
+namespace packtrace::cli {
+
+/// Whether two names are of one file, by links too, whether it is there yet or not.
+[[nodiscard]] inline bool is_same_file(const std::filesystem::path& a,
+                                       const std::filesystem::path& b)
+{
+    std::error_code error;
+    if (std::filesystem::equivalent(a, b, error) && !error)
+        return true;
+    return std::filesystem::weakly_canonical(a, error) ==
+           std::filesystem::weakly_canonical(b, error);
+}
+
+/// Throws FileError where a file to be written is one that the command reads; `inputs` and `output`
+/// may be empty or - for standard streams. What is no regular file is not replaced.
+inline void check_not_read(const std::string& output, std::initializer_list<std::string> inputs)
+{
+    std::error_code error;
+    if (!std::filesystem::is_regular_file(output, error))
+        return;
+    for (const std::string& input : inputs)
+        if (!input.empty() && input != "-" && is_same_file(output, input))
+            throw FileError(language::escape(output) +
+                            ": is read by this command, and would be replaced; write to another "
+                            "file");
+}
+
+/// Throws FileError where two outputs are one file.
+inline void check_two_files(const std::string& a, const std::string& b)
+{
+    std::error_code error;
+    const bool is_device =
+        std::filesystem::exists(a, error) && !std::filesystem::is_regular_file(a, error);
+    if (!a.empty() && !b.empty() && !is_device && is_same_file(a, b))
+        throw FileError(language::escape(b) +
+                        ": is written twice by this command; give each output a file of its own");
+}
+
+}  // namespace packtrace::cli

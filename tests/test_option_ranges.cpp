@@ -1,0 +1,117 @@
+#include <cmath>
+#include <functional>
+#include <stdexcept>
+#include <string>
+
+#include "catch.hpp"
+
+#include <packtrace/certainty.hpp>
+#include <packtrace/compare.hpp>
+#include <packtrace/image.hpp>
+#include <packtrace/profile.hpp>
+#include <packtrace/render.hpp>
+#include <packtrace/report.hpp>
+
+using namespace packtrace;
+
+namespace {
+
+Scene one_ball()
+{
+    Scene scene;
+    scene.width = scene.height = 8;
+    Object ball;
+    ball.surface = Sphere{{0, 0, 5}, 1};
+    scene.objects.push_back(ball);
+    return scene;
+}
+
+/// What a call says that refuses an option.
+std::string refusal(const std::function<void()>& call)
+{
+    try {
+        call();
+    } catch (const std::invalid_argument& error) {
+        return error.what();
+    }
+    return "";
+}
+
+std::string of_render(int threads, Kernel kernel = Kernel::packet)
+{
+    RenderOptions options;
+    options.threads = threads;
+    options.kernel = kernel;
+    return refusal([&] { (void)render<float>(one_ball(), options); });
+}
+
+std::string of_report(const std::function<void(ReportOptions&)>& change)
+{
+    ReportOptions options;
+    options.repetitions = 1;
+    change(options);
+    return refusal([&] { (void)report({"ball", one_ball()}, options); });
+}
+
+std::string of_profile(const std::function<void(ProfileOptions&)>& change)
+{
+    ProfileOptions options;
+    options.repetitions = 1;
+    change(options);
+    return refusal([&] { (void)profile<float>("", one_ball(), options); });
+}
+
+}  // namespace
+
+TEST_CASE("numbers of threads are from 1 to 1024, or 0 for all", "[option_ranges]")
+{
+    for (const Kernel kernel : {Kernel::packet, Kernel::scalar})
+        for (const int threads : {-3, 1025, 100000}) {
+            INFO(threads);
+            CHECK(of_render(threads, kernel) ==
+                  "threads: " + std::to_string(threads) + "; choose from 0 to 1024");
+        }
+    CHECK(of_render(1024).empty());
+    RenderOptions many;
+    many.threads = 1025;
+    CHECK(refusal([&] { (void)find_certainty(one_ball(), many); }) ==
+          "threads: 1025; choose from 0 to 1024");
+    CHECK(of_profile([](ProfileOptions& options) { options.threads = 0; }) ==
+          "threads: 0; choose from 1 to 1024");
+    CHECK(of_report([](ReportOptions& options) {
+              options.threads = {1, -1};
+          }) == "threads: -1; choose from 1 to 1024");
+}
+
+TEST_CASE("reports and profiles refuse what they can't measure by", "[option_ranges]")
+{
+    for (const int repetitions : {0, -1, 1001}) {
+        const std::string wanted =
+            "repetitions: " + std::to_string(repetitions) + "; choose from 1 to 1000";
+        CHECK(of_report([&](ReportOptions& options) { options.repetitions = repetitions; }) ==
+              wanted);
+        CHECK(of_profile([&](ProfileOptions& options) { options.repetitions = repetitions; }) ==
+              wanted);
+    }
+    CHECK(of_report([](ReportOptions& options) {
+              options.isas = {"foo"};
+          }).find("unknown instruction set 'foo'") != std::string::npos);
+    CHECK(of_report([](ReportOptions& options) { options.truth_samples = 1000000000; }) ==
+          "truth_samples: 1000000000; choose from 2 to 1024");
+    CHECK(of_report([](ReportOptions& options) { options.classified = -1; }) ==
+          "classified: -1; choose from 0 to 2147483647");
+    CHECK(of_report([](ReportOptions& options) { options.threshold = std::nan(""); }) ==
+          "threshold: nan; choose a finite number >= 0");
+}
+
+TEST_CASE("pictures are refused sides below 0, times that are not theirs, and odd thresholds",
+          "[option_ranges]")
+{
+    CHECK(refusal([] { (void)Image<float>(-1, 5); }) ==
+          "image: -1 x 5 pixels; sides are 0 or above");
+    CHECK(refusal([] { (void)cost_picture({}, 5, 5); }) ==
+          "cost_picture: 0 times for a picture of 5 x 5 pixels; give each pixel one");
+    const Image<float> image(2, 2);
+    CHECK(refusal([&] { (void)compare(image, image, {.threshold = -1.0}); }) ==
+          "threshold: -1.000000; choose a finite number >= 0");
+}
