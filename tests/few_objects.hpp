@@ -127,7 +127,7 @@ private:
         const double high = low + random_.between(0.1, 3);
         if (whole.kind == QuadricKind::ellipsoid && chance(0.7))
             return whole;
-        if (chance(0.2) && whole.kind != QuadricKind::ellipsoid)
+        if (chance(0.05) && whole.kind != QuadricKind::ellipsoid)
             return whole;
         return chance(0.5) && whole.kind != QuadricKind::saddle ? clip_and_cap(whole, low, high)
                                                                 : clip(whole, low, high);

@@ -110,26 +110,18 @@ TEST_CASE("several samples a pixel go through registers, too", "[fused]")
     CHECK(same_bits(registers, render<float>(scene, options)));
 }
 
-TEST_CASE("quadrics without an end are in the way of paths in registers, too", "[fused]")
-{
-    Scene scene = note_scene();
-    set_size(scene, 70, 45);
-    scene.lights.push_back(directional_light({1, 2, -1}, Rgb(0.3)));
-    scene.objects.push_back(make_object(clip(cylinder(), -1, 1)));
-    scene.objects.push_back(make_object(cylinder()));
-    for (const std::string& isa : supported_isas()) {
-        CAPTURE(isa);
-        CHECK(in_registers(scene, isa));
-        CHECK(
-            same_bits(render_tiles(scene, isa, false).image, render_tiles(scene, isa, true).image));
-    }
-}
-
 TEST_CASE("what registers have no room for goes through streams", "[fused]")
 {
     const std::string isa = choose_isa().name;
     Scene scene = note_scene();
     CHECK(in_registers(scene, isa));
+    SECTION("a quadric without an end")
+    {
+        scene.objects.push_back(make_object(clip(cylinder(), -1, 1)));
+        CHECK(in_registers(scene, isa));
+        scene.objects.push_back(make_object(cylinder()));
+        CHECK_FALSE(in_registers(scene, isa));
+    }
     SECTION("many objects")
     {
         for (int i = 0; i < 40; ++i)

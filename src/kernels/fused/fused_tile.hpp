@@ -12,11 +12,20 @@
 namespace packtrace::PACKTRACE_ISA {
 namespace {
 
+/// Whether a ball tells of each object that has its own test alone.
+inline bool are_bounded(const abi::GeometryView<float>& scene)
+{
+    bool bounded = true;
+    for_each_other(scene,
+                   [&](const auto& record) { bounded &= record.bound_radius < __builtin_inff(); });
+    return bounded;
+}
+
 template <abi::Features F>
 inline bool can_fuse(const abi::SceneView<float>& scene)
 {
-    return scene.wide != nullptr && has_few_objects(scene) && !scene.lighting.flat &&
-           scene.rules.start_error > 0 && !(scene.rules.min_weight > 0);
+    return scene.wide != nullptr && has_few_objects(scene) && are_bounded(scene) &&
+           !scene.lighting.flat && scene.rules.start_error > 0 && !(scene.rules.min_weight > 0);
 }
 
 template <abi::Features F>

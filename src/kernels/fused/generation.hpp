@@ -147,19 +147,14 @@ inline std::uint32_t lit_lanes(const FusedTile<F>& tile, int number, const LitHi
                      ? shadow_towards(tests, hits.at, packet.to_light, length2,
                                       length2 * packet.inverse_length, wanted)
                      : shadow_along(tests, hits.at, packet.to_light, wanted);
-    std::uint32_t clear = wanted & ~shadow.open & ~shadow.blocked;
-    const bool may_be_blocked = F.quadrics && tests.has_unbounded && clear != 0;
-    if (shadow.open == 0 && !may_be_blocked)
-        return clear;
-    const SurfacePacket<float> surface = lit_surface(hits, dir, tile.scene.rules.start_error);
-    const LightPacket<float> copy = packet;
-    if (may_be_blocked)
-        clear = trace_to_light(tile, number, tile.plan.unbounded, surface, copy, clear);
+    const std::uint32_t clear = wanted & ~shadow.open & ~shadow.blocked;
     if (shadow.open == 0)
         return clear;
     const LightObjects<F, float>* occluders = tile.plan.occluders;
     if (hits.is_far)
         occluders = occluders_from_far(tile, number, Vec3v<float>(hits.at.point), hits.at.lanes);
+    const SurfacePacket<float> surface = lit_surface(hits, dir, tile.scene.rules.start_error);
+    const LightPacket<float> copy = packet;
     return clear | trace_to_light(tile, number, occluders, surface, copy, shadow.open);
 }
 

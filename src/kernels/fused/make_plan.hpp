@@ -139,7 +139,7 @@ inline void add_cone(ClearTests& tests, ConeSphere* spheres, const RoundedBall& 
 }
 
 /// Calls `add(ball, fills)` for the balls of what may be in a light's way; `fills` is true of
-/// spheres.
+/// spheres. What has no ball leaves the tests incomplete.
 template <class Add>
 inline void add_balls(ClearTests& tests, const abi::SceneView<float>& casters, const Add& add)
 {
@@ -150,7 +150,7 @@ inline void add_balls(ClearTests& tests, const abi::SceneView<float>& casters, c
         if (ball.radius < __builtin_inff())
             add(ball, false);
         else
-            tests.has_unbounded = true;
+            tests.complete = false;
     });
 }
 
@@ -357,46 +357,6 @@ inline void find_met_again(FramePlan<F>& plan, const abi::SceneView<float>& scen
     });
 }
 
-/// Leaves of some objects those that no ball holds.
-template <bool Shared>
-inline void keep_unbounded(FilteredObjects<Shared>& objects)
-{
-    auto& quadrics = list_of<Quadric>(objects);
-    int kept = 0;
-    for (int i = 0; i < quadrics.count; ++i)
-        if (!(quadrics.data[i].ball.outer2 < __builtin_inff()))
-            quadrics.data[kept++] = quadrics.data[i];
-    for_each_kind<abi::Features{.quadrics = true}>([&](auto kind) {
-        list_of<decltype(kind)>(objects).count = 0;
-        return true;
-    });
-    quadrics.count = objects.count = kept;
-    if (kept > 0)
-        objects.one = body_of(object_at(quadrics, 0));
-}
-
-/// Finds what may be in a light's way, of that what its tests don't know in another list.
-template <abi::Features F>
-inline void find_occluders(FramePlan<F>& plan, const abi::SceneView<float>& scene, int number)
-{
-    const abi::SceneView<float>& casters = casters_of(scene);
-    const abi::LightRecord<float>& light = scene.lighting.lights.data[number];
-    const auto find = [&](LightObjects<F, float>& objects) {
-        if (light.kind == abi::LightKind::point)
-            find_from_point<F, float>(objects.from_point, light.vector, casters);
-        else
-            find_objects<F>(objects.along, plan.origins, casters);
-    };
-    find(plan.occluders[number]);
-    if (!F.quadrics || !plan.clear[number].has_unbounded)
-        return;
-    find(plan.unbounded[number]);
-    if (light.kind == abi::LightKind::point)
-        keep_unbounded(plan.unbounded[number].from_point);
-    else
-        keep_unbounded(plan.unbounded[number].along);
-}
-
 /// Fills a plan whose arrays have room.
 template <abi::Features F>
 inline void fill_plan(FramePlan<F>& plan, const abi::SceneView<float>& scene,
@@ -408,12 +368,17 @@ inline void fill_plan(FramePlan<F>& plan, const abi::SceneView<float>& scene,
     fill_common(plan.common, scene, plan.origins, camera.origin);
     fill_materials(plan, scene);
     find_met_again(plan, scene);
+    const abi::SceneView<float>& casters = casters_of(scene);
     for (int i = 0; i < scene.lighting.lights.count; ++i) {
         const abi::LightRecord<float>& light = scene.lighting.lights.data[i];
         make_clear_tests(plan.clear[i], scene, light, plan.origins);
         find_all_needed<F>(plan.clear[i], scene, light);
-        if (light.casts_shadow)
-            find_occluders(plan, scene, i);
+        if (!light.casts_shadow)
+            continue;
+        if (light.kind == abi::LightKind::point)
+            find_from_point<F, float>(plan.occluders[i].from_point, light.vector, casters);
+        else
+            find_objects<F>(plan.occluders[i].along, plan.origins, casters);
     }
 }
 

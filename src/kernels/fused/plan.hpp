@@ -64,8 +64,7 @@ struct ClearTests {
     float inverse_length = 0;
     float least_distance2 = 0;  ///< points nearer to a point light than its root are not told of
     NeededTests* needed = nullptr;  ///< by surface; [-1] for points on any
-    bool complete = false;          ///< these tests know all objects that may be in the way …
-    bool has_unbounded = false;     ///< … but for those that no ball holds
+    bool complete = false;          ///< these tests know all objects that may be in the way
 };
 
 /// A material in all lanes.
@@ -90,7 +89,6 @@ struct FramePlan {
     FilteredObjects<false> from_near;  ///< from `origins`
     Origins origins;
     LightObjects<F, float>* occluders = nullptr;  ///< by light; of directional ones from `origins`
-    LightObjects<F, float>* unbounded = nullptr;  ///< of these what `clear` doesn't know
     ClearTests* clear = nullptr;                  ///< by light
     CommonObjects common;                         ///< likewise from `origins`
     PlanMaterial* materials = nullptr;            ///< by number
@@ -113,13 +111,11 @@ struct FramePlan {
         if (memory != nullptr)
             ++met_again;
         occluders = arena.take<LightObjects<F, float>>(static_cast<std::size_t>(lights));
-        unbounded = arena.take<LightObjects<F, float>>(static_cast<std::size_t>(lights));
         clear = arena.take<ClearTests>(static_cast<std::size_t>(lights));
         LightObjects<F, float> measured;
         for (int i = 0; i < lights; ++i) {
-            for (LightObjects<F, float>* objects : {occluders, unbounded})
-                take_occluders<F, float>(arena, memory != nullptr ? objects[i] : measured, scene,
-                                         scene.lighting.lights.data[i]);
+            take_occluders<F, float>(arena, memory != nullptr ? occluders[i] : measured, scene,
+                                     scene.lighting.lights.data[i]);
             take_clear(arena, memory != nullptr ? clear + i : nullptr, casters, scene);
         }
         bytes = arena.used();
