@@ -16,6 +16,7 @@ DOCS = pathlib.Path(__file__).resolve().parent
 HEAD = """# Commands
 
 All commands of `packtrace` with their options, as `--help` of each prints them. `docs/write_commands.py` writes this page.
+`packtrace completion bash` (or `zsh`, `fish`), which `--help` does not list, prints the completions of that shell.
 """
 # Descriptions begin at this column; what names an option, left of the other.
 COLUMN = 30

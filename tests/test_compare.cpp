@@ -283,8 +283,8 @@ TEST_CASE("packtrace compare says which picture it can't read", "[compare]")
     write_image(folder / "a.png", Image<float>(3, 2));
     const ProgramResult result = run_packtrace({"compare", folder / "a.png", folder / "none.pfm"});
     CHECK(result.exit_code == 1);
-    CHECK(result.err ==
-          (folder / "none.pfm").string() + ": can't read: No such file or directory\n");
+    CHECK(result.err == (folder / "none.pfm").string() +
+                            ": can't read: No such file or directory; check its name\n");
 }
 
 }  // namespace packtrace

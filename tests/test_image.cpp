@@ -327,9 +327,11 @@ TEST_CASE("a file that can't be opened names itself and the reason", "[image]")
 {
     const TempFolder folder;
     CHECK(error_of_reading(folder / "none.png") ==
-          (folder / "none.png").string() + ": can't read: No such file or directory");
+          (folder / "none.png").string() +
+              ": can't read: No such file or directory; check its name");
     CHECK(error_of_writing(folder / "no/a.png") ==
-          (folder / "no/a.png").string() + ": can't write: No such file or directory");
+          (folder / "no/a.png").string() +
+              ": can't write: No such file or directory; make its folder first");
     write_text(folder / "file", "");
     CHECK_THAT(error_of_writing(folder / "file/a.png"), ContainsSubstring(": Not a directory"));
     std::filesystem::create_directory(folder / "folder.png");

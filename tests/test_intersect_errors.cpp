@@ -159,7 +159,7 @@ TEST_CASE("files that can't be used are named", "[intersect_errors]")
     const std::string scene = (folder / "hand.scene").string();
     const std::string missing = (folder / "none.csv").string();
     CHECK(run_packtrace({"intersect", scene, missing}).err ==
-          missing + ": can't read: No such file or directory\n");
+          missing + ": can't read: No such file or directory; check its name\n");
     CHECK(run_packtrace({"intersect", scene, (folder / "").string()}).exit_code == 1);
     CHECK(run_packtrace({"intersect", missing, "-"}).exit_code == 1);
     CHECK(intersect("", {"-o", (folder / "no/hits.csv").string()}).exit_code == 1);

@@ -11,6 +11,7 @@
 #include "catch.hpp"
 #include "feature_scenes.hpp"
 #include "packet_scenes.hpp"
+#include "packet_ways.hpp"
 #include "render_scene.hpp"
 #include "run_program.hpp"
 #include "scene_files.hpp"
@@ -45,12 +46,6 @@ RenderOptions scalar_options()
     RenderOptions options;
     options.kernel = Kernel::scalar;
     return options;
-}
-
-template <class Real>
-double largest_difference(const Image<Real>& a, const Image<Real>& b)
-{
-    return compare(convert<double>(a), convert<double>(b)).max_abs;
 }
 
 /// Every note's model, mirrors and glass of every kind, and light without the usual bounds.
@@ -91,7 +86,7 @@ void check_bound(const NamedScene& named, const RenderOptions& options)
     for (const double weight : {0.25, 0.03, 0.004}) {
         const CutPicture<Real> picture = render_cut<Real>(named.scene, weight, options);
         CAPTURE(named.name, weight, picture.cut.rays, picture.cut.bound);
-        const double difference = largest_difference(picture.image, whole);
+        const double difference = largest_difference(picture.image, convert<double>(whole));
         CHECK(difference <= picture.cut.bound * (1.0 + rounding<Real>)+rounding<Real>);
         if (picture.cut.rays > 0)
             continue;

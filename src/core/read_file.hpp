@@ -16,8 +16,17 @@ struct FileError : std::runtime_error {
     using std::runtime_error::runtime_error;
     FileError(const std::filesystem::path& file, const std::string& what, int error_number)
         : std::runtime_error(file.string() + ": " + what + ": " +
-                             std::generic_category().message(error_number))
+                             std::generic_category().message(error_number) +
+                             advice(what, error_number))
     {
+    }
+
+private:
+    static const char* advice(const std::string& what, int error_number)
+    {
+        if (error_number != ENOENT)
+            return "";
+        return what == "can't write" ? "; make its folder first" : "; check its name";
     }
 };
 

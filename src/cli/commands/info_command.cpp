@@ -254,10 +254,12 @@ void add_info(CLI::App& app)
     CLI::App* command =
         app.add_subcommand("info", "Show what this machine can run, and what a scene holds");
     const auto arguments = std::make_shared<InfoArguments>();
-    command->add_option("SCENE", arguments->scene, "Scene file to look into; - is standard input")
-        ->type_name("");
+    CLI::Option* const scene =
+        command
+            ->add_option("SCENE", arguments->scene, "Scene file to look into; - is standard input")
+            ->type_name("");
     add_isa_options(*command, arguments->isa);
-    command->add_flag("--json", arguments->json, "Print JSON");
+    CLI::Option* const json = command->add_flag("--json", arguments->json, "Print JSON");
     const auto tables = language::key_table_names();
     std::vector<std::string> names(tables.begin(), tables.end());
     names.emplace_back(all_tables);
@@ -265,6 +267,8 @@ void add_info(CLI::App& app)
         ->add_option("--keys", arguments->keys,
                      "Print the scene language's keys instead, in Markdown: a table of "
                      "docs/scene.md or all")
+        ->excludes(scene)
+        ->excludes(json)
         ->check(one_of(names));
     command->callback([arguments] { run_info(*arguments); });
 }

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <filesystem>
 #include <iostream>
 #include <stdexcept>
 
@@ -140,6 +141,17 @@ void add_animation_options(CLI::App& command, AnimationArguments& arguments)
         ->type_name("N");
 }
 
+namespace {
+
+/// Whether its ending is that of a picture's format.
+bool is_picture_name(const std::string& file)
+{
+    const std::string ending = std::filesystem::path(file).extension().string();
+    return ending == ".png" || ending == ".pfm" || ending == ".hdr";
+}
+
+}  // namespace
+
 void check_animation_options(const RenderArguments& arguments)
 {
     const AnimationArguments& animation = arguments.animation;
@@ -152,6 +164,9 @@ void check_animation_options(const RenderArguments& arguments)
         throw CLI::ValidationError("--overwrite: only --frames into picture files skips any");
     if (animation.shard && (!animation.frames || animation.y4m))
         throw CLI::ValidationError("--shard: cuts --frames into picture files only");
+    if (animation.y4m && is_picture_name(arguments.output))
+        throw CLI::ValidationError("--y4m: '" + arguments.output +
+                                   "' is the name of a picture; give a video's, such as film.y4m");
     if (animation.frames)
         (void)checked("--frames", [&] { return parse_frame_range(*animation.frames); });
     if (animation.frames && !animation.y4m)

@@ -114,7 +114,7 @@ int check_random(const SoakArguments& arguments)
         options.seconds = 60.0 * arguments.minutes.value_or(1.0);
     const lab::SoakCounts counts = lab::run_soak(
         options, [&](const lab::SoakReport& report) { print_report(arguments, report); });
-    std::cout << counts.scenes << " scenes, " << counts.refused
+    std::cout << counts.scenes << (counts.scenes == 1 ? " scene, " : " scenes, ") << counts.refused
               << " of them refused by the scene language, " << counts.findings
               << (counts.findings == 1 ? " finding\n" : " findings\n");
     return counts.findings;
