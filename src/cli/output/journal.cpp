@@ -108,7 +108,7 @@ void Journal::open(const std::string& head,
 /// A journal without pieces; it appears whole.
 void Journal::begin(const std::string& head)
 {
-    // A run that ends in time removes both, and one that is killed leaves both.
+    // No run of this program leaves it without a journal.
     if (std::filesystem::exists(part_name_))
         throw FileError(part_name_.string() +
                         ": is in the way of --resume, and no journal tells what it is; move it "
@@ -185,8 +185,9 @@ void Journal::truncate(std::uint64_t length)
 void Journal::remove()
 {
     std::error_code ignored;
-    std::filesystem::remove(journal_name_, ignored);
+    // In this order: a part file without a journal is taken for somebody else's.
     std::filesystem::remove(part_name_, ignored);
+    std::filesystem::remove(journal_name_, ignored);
 }
 
 void Journal::rename_part()
