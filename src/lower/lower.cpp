@@ -9,9 +9,9 @@
 
 #include <tbb/parallel_for.h>
 
-#include "lower/prune.hpp"
 #include "lower/lower_shading.hpp"
 #include "lower/lowered_scene.hpp"
+#include "lower/prune.hpp"
 
 // Runs of objects are lowered in parallel, and joined in their order.
 namespace packtrace {

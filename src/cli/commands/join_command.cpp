@@ -113,8 +113,7 @@ void join_hits(const std::vector<HitPart>& parts, TextOutput& output)
 
 void run_join(const JoinArguments& arguments)
 {
-    for (const std::string& part : arguments.parts)
-        check_not_read(arguments.output, {part});
+    check_not_read(arguments.output, arguments.parts);
     const bool json = first_byte(arguments.parts.front()) == '{';
     if (json) {
         const std::string joined = join_stress(arguments.parts);

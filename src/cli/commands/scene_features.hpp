@@ -8,8 +8,8 @@
 #include <packtrace/scene.hpp>
 
 #include "dispatch/kernels.hpp"
-#include "lower/prune.hpp"
 #include "lower/packed_scene.hpp"
+#include "lower/prune.hpp"
 
 namespace packtrace::cli {
 

@@ -1,8 +1,8 @@
 #pragma once
 
 #include <filesystem>
-#include <initializer_list>
 #include <string>
+#include <vector>
 
 #include "core/read_file.hpp"
 #include "scene/quote.hpp"
@@ -23,7 +23,7 @@ namespace packtrace::cli {
 
 /// Throws FileError where a file to be written is one that the command reads; `inputs` and `output`
 /// may be empty or - for standard streams. What is no regular file is not replaced.
-inline void check_not_read(const std::string& output, std::initializer_list<std::string> inputs)
+inline void check_not_read(const std::string& output, const std::vector<std::string>& inputs)
 {
     std::error_code error;
     if (!std::filesystem::is_regular_file(output, error))

@@ -14,6 +14,7 @@
 #include "cli/study/bench_file.hpp"
 #include "cli/study/bench_programs.hpp"
 #include "core/atomic_file.hpp"
+#include "core/check_number.hpp"
 #include "lab/bench/paired_bench.hpp"
 #include "lab/bench/slowdown.hpp"
 #include "scene/quote.hpp"
@@ -222,7 +223,7 @@ void end_with_verdict(const BenchResult& result)
 std::string picture_text(const PictureArguments& picture)
 {
     const auto given = [](const auto& value) {
-        return value ? brief(static_cast<double>(*value)) : std::string("the scene's");
+        return value ? language::to_text(static_cast<double>(*value)) : "the scene's";
     };
     return *picture.size + ", depth " + given(picture.depth) + ", min_weight " +
            given(picture.min_weight);
@@ -327,7 +328,7 @@ void add_bench(CLI::App& app)
         ->add_option(
             "--repetitions", arguments->repetitions,
             "Measurements of each line (default 9; fewer may be too few to detect a slowdown)")
-        ->check(whole_number(1, 1000))
+        ->check(whole_number(1, most_repetitions))
         ->type_name("N");
     command
         ->add_option("-o,--output", arguments->output,

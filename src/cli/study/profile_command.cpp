@@ -14,6 +14,7 @@
 #include "cli/output/text_output.hpp"
 #include "cli/study/profile_print.hpp"
 #include "core/atomic_file.hpp"
+#include "core/check_number.hpp"
 #include "core/json_text.hpp"
 
 namespace packtrace::cli {
@@ -114,7 +115,7 @@ void add_profile(CLI::App& app)
         ->check(whole_number(1, 1024))
         ->type_name("N");
     command->add_option("--repetitions", arguments->repetitions, "Frames of each kind (default 9)")
-        ->check(whole_number(1, 1000))
+        ->check(whole_number(1, most_repetitions))
         ->type_name("N");
     command
         ->add_option("--heatmap", arguments->heatmap, "Write a picture of the cost of each pixel")

@@ -19,9 +19,11 @@
 #include "cli/options/validators.hpp"
 #include "cli/output/progress_bar.hpp"
 #include "core/atomic_file.hpp"
+#include "core/check_number.hpp"
 #include "lab/harness/machine.hpp"
 #include "lab/report/plot.hpp"
 #include "lab/report/report_text.hpp"
+#include "render/check_options.hpp"
 
 namespace packtrace::cli {
 namespace {
@@ -39,12 +41,12 @@ void add_measure_options(CLI::App& command, ReportArguments& arguments)
 {
     command
         .add_option("--repetitions", arguments.repetitions, "Frames timed for each run (default 9)")
-        ->check(whole_number(1, 1000))
+        ->check(whole_number(1, most_repetitions))
         ->type_name("N");
     command
         .add_option("--truth-spp", arguments.truth_samples,
                     "Samples a pixel of the truth where samples are studied (default 256)")
-        ->check(whole_number(2, 1024))
+        ->check(whole_number(2, most_samples))
         ->type_name("N");
     command
         .add_option("--threshold", arguments.options.threshold,
@@ -52,7 +54,7 @@ void add_measure_options(CLI::App& command, ReportArguments& arguments)
         ->check(non_negative_number())
         ->type_name("T");
     command.add_option("--threads", arguments.options.threads, "Numbers of threads (default 1,2)")
-        ->check(whole_number(1, 1024))
+        ->check(whole_number(1, most_threads))
         ->delimiter(',')
         ->allow_extra_args(false)
         ->type_name("N[,N…]");
