@@ -87,6 +87,64 @@ TEST_CASE("The near side is hit of what is so thin that both its roots round to 
     }
 }
 
+namespace {
+
+/// A thin lens cut from a ball of radius 10^6 by the plane z = base, where it is 1 wide.
+Scene lens_of_a_large_ball(const std::string& base)
+{
+    return parse_scene(
+        "quadric { coefficients = (1, 1, 1, 0, 0, 0, 0, 0, -2e6, -1)  "
+        "z_range = (0, 1)  capped = yes  translate = (0, 0, " +
+            base + ") }",
+        "lens", {});
+}
+
+/// Rays that nearly run in the plane z = base and cross it within the lens: the largest error of t,
+/// in the last digits of `Real`; infinite where one misses.
+template <class Real>
+double cap_error(const RayScene<Real>& traced, double base)
+{
+    SceneRandom random(11);
+    double worst = 0.0;
+    for (int i = 0; i < 500; ++i) {
+        const double climb = std::pow(10.0, random.between(-6, -3));
+        Ray<Real> ray;
+        ray.org[0] = static_cast<Real>(random.between(-2.4, -1.6));
+        ray.org[1] = static_cast<Real>(random.between(-0.5, 0.5));
+        ray.org[2] = static_cast<Real>(base - 2 * climb);
+        ray.dir[0] = 1;
+        ray.dir[1] = static_cast<Real>(random.between(-0.01, 0.01));
+        ray.dir[2] = static_cast<Real>(climb);
+        // The difference of numbers so near to each other is exact.
+        const double t = (base - static_cast<double>(ray.org[2])) / static_cast<double>(ray.dir[2]);
+        const Vec3 met = Vec3(ray.org[0], ray.org[1], 0) + t * Vec3(ray.dir[0], ray.dir[1], 0);
+        if (t <= 0 || met.x * met.x + met.y * met.y > 0.9)
+            continue;
+        const SurfaceHit<Real> hit = traced.closest_hit(ray);
+        if (hit.object != 0)
+            return std::numeric_limits<double>::infinity();
+        const double digit = t * static_cast<double>(std::numeric_limits<Real>::epsilon());
+        worst = std::max(worst, std::abs(static_cast<double>(hit.t) - t) / digit);
+    }
+    return worst;
+}
+
+}  // namespace
+
+TEST_CASE("A cap is met at its own plane, however far the quadric's centre is from it",
+          "[coincidences]")
+{
+    for (const char* base : {"0", "1000.1", "-77.3"}) {
+        const Scene scene = lens_of_a_large_ball(base);
+        CAPTURE(base);
+        for (const RenderOptions& options : packet_ways()) {
+            INFO(options.isa);
+            CHECK(cap_error(RayScene<float>(scene, options), std::stod(base)) <= 1.0);
+            CHECK(cap_error(RayScene<double>(scene, options), std::stod(base)) <= 8.0);
+        }
+    }
+}
+
 TEST_CASE("Rays along planes meet them nowhere, however the planes are turned", "[coincidences]")
 {
     struct Turned {

@@ -10,6 +10,7 @@
 
 #include "catch.hpp"
 #include "lower/packed_scene.hpp"
+#include "lower/prune.hpp"
 #include "scenes.hpp"
 
 // Large scenes are lowered in runs of objects, several at once.
@@ -253,6 +254,23 @@ TEST_CASE("a large sphere is anchored where its surface passes near the origin f
         CHECK(glm::length(sphere.anchor - sphere.center) == Approx(sphere.radius));
         CHECK(glm::length(sphere.anchor) < sphere.radius / 64.0);
     }
+}
+
+TEST_CASE("one surface that is clipped at two places is no surface twice", "[lowering]")
+{
+    // One unit sphere, whose own space begins at its centre, or below it; clipped to another part.
+    Quadric around_center;
+    around_center.coefficients = {1, 1, 1, 0, 0, 0, 0, 0, 0, -1};
+    around_center.z_range = ZRange{0.0, 0.5};
+    Quadric from_below = around_center;
+    from_below.coefficients = {1, 1, 1, 0, 0, 0, 0, 0, -2, 0};
+    Scene scene;
+    for (const Quadric& quadric : {around_center, from_below, around_center})
+        scene.objects.emplace_back().surface = quadric;
+    scene.objects[1].transform[3] = {0.0, 0.0, -1.0, 1.0};
+    LoweredScene lowered = lower(scene);
+    CHECK(remove_duplicates(lowered) == 1);
+    CHECK(lowered.quadrics.size() == 2);
 }
 
 /// Which objects of a scene are anchored spheres.

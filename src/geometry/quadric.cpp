@@ -196,9 +196,9 @@ LoweredQuadric lower_quadric(const Object& object, const Quadric& quadric, std::
     lowered.square = form.square;
     lowered.linear = form.linear;
     lowered.constant = form.constant;
-    lowered.clip = Vec3(0.0, 0.0, 1.0) * own_from_world;
-    lowered.clip_offset = form.center.z;
     if (quadric.z_range) {
+        lowered.clip = Vec3(0.0, 0.0, 1.0) * own_from_world;
+        lowered.clip_base = Vec3(object.transform[3]);
         lowered.clip_low = quadric.z_range->low;
         lowered.clip_high = quadric.z_range->high;
     }
@@ -228,7 +228,7 @@ Exit exit_of(const LoweredQuadric& quadric, const Vec3& eye, const Vec3& forward
     const Vec3 v = quadric.inverse * forward;
     const double value =
         glm::dot(quadric.square * p, p) + 2.0 * quadric.linear * p.z + quadric.constant;
-    const double height = glm::dot(quadric.clip, eye - quadric.center) + quadric.clip_offset;
+    const double height = glm::dot(quadric.clip, eye - quadric.clip_base);
     if (!(value < 0.0 && height > quadric.clip_low && height < quadric.clip_high))
         return std::nullopt;
     double first =
@@ -246,7 +246,7 @@ bool is_certifiable(const LoweredQuadric& quadric)
     for (int row = 0; row < 3; ++row)
         if (!is_certifiable(Vec3(0.0), glm::length(glm::row(quadric.inverse, row))))
             return false;
-    return is_certifiable(quadric.center, 1.0) &&
+    return is_certifiable(quadric.center, 1.0) && is_certifiable(quadric.clip_base, 1.0) &&
            (!std::isfinite(quadric.bound_radius) ||
             is_certifiable(quadric.bound, quadric.bound_radius));
 }
@@ -269,7 +269,8 @@ abi::QuadricRecord<Real> pack(const LoweredQuadric& quadric)
     packed.linear = static_cast<Real>(quadric.linear);
     packed.constant = static_cast<Real>(quadric.constant);
     round_to(packed.clip, quadric.clip);
-    packed.clip_offset = static_cast<Real>(quadric.clip_offset);
+    round_to(packed.clip_base, quadric.clip_base);
+    round_to(packed.clip_base_low, quadric.clip_base - widen(packed.clip_base));
     packed.clip_low = static_cast<Real>(quadric.clip_low);
     packed.clip_high = static_cast<Real>(quadric.clip_high);
     round_to(packed.bound, quadric.bound);

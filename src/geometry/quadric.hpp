@@ -22,9 +22,9 @@ struct LoweredQuadric {
     Vec3 square{0.0};
     double linear = 0.0;
     double constant = 0.0;
-    /// Height in the quadric's own space: clip·(P - center) + clip_offset.
+    /// Height in the quadric's own space, which begins at clip_base: clip·(P - clip_base).
     Vec3 clip{0.0};
-    double clip_offset = 0.0;
+    Vec3 clip_base{0.0};
     double clip_low = -std::numeric_limits<double>::infinity();
     double clip_high = std::numeric_limits<double>::infinity();
     bool capped = false;
@@ -60,7 +60,7 @@ int lower_kind(const Object& object, const Quadric& quadric, std::int32_t surfac
 {
     return std::tuple_cat(key_of(quadric.center), key_of(quadric.inverse[0]),
                           key_of(quadric.inverse[1]), key_of(quadric.inverse[2]),
-                          key_of(quadric.square),
+                          key_of(quadric.square), key_of(quadric.clip), key_of(quadric.clip_base),
                           std::tuple(quadric.linear, quadric.constant, quadric.clip_low,
                                      quadric.clip_high, quadric.capped));
 }

@@ -55,7 +55,7 @@ struct PlaneRecord {
 
 /// A quadric under an affine map. With w = (P - center) - center_low and p = inverse w its
 /// equation is s0 x² + s1 y² + s2 z² + 2 linear z + constant = 0, negative inside. Its height in
-/// its own space, which clipping goes by, is clip·w + clip_offset.
+/// its own space, which clipping goes by, is clip·((P - clip_base) - clip_base_low).
 template <class Real>
 struct QuadricRecord {
     Real center[3];
@@ -65,8 +65,9 @@ struct QuadricRecord {
     Real linear;
     Real constant;
     Real clip[3];
-    Real clip_offset;
-    Real clip_low;  ///< -infinity where nothing is clipped
+    Real clip_base[3];      ///< where its own space begins: a centre may be far from the clipping
+    Real clip_base_low[3];  ///< what rounding left of that
+    Real clip_low;          ///< -infinity where nothing is clipped
     Real clip_high;
     Real bound[3];      ///< centre of a ball around the clipped surface
     Real bound_radius;  ///< infinite for an unbounded one

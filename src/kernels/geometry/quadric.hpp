@@ -38,16 +38,24 @@ inline Vec3v<Real> apply_inverse_as(const abi::QuadricRecord<double>& quadric, c
             dot(broadcast_as<Real>(quadric.inverse[2]), v)};
 }
 
-/// The centre is subtracted in two parts, so that a quadric far from the origin keeps its digits.
+/// A place of a record is subtracted in two parts, so that what is far from the origin keeps its
+/// digits. In double it has one.
+template <class Real>
+inline Vec3v<Real> from_place(const Vec3v<Real>& org, const Real (&place)[3],
+                              const Real (&place_low)[3])
+{
+    const Vec3v<Real> w = org - broadcast(place);
+    return std::is_same_v<Real, double> ? w : w - broadcast(place_low);
+}
+
 template <class Real>
 inline QuadricOrigin<Real> quadric_origin(const abi::QuadricRecord<Real>& quadric,
                                           const Vec3v<Real>& org)
 {
-    const Vec3v<Real> w = (org - broadcast(quadric.center)) - broadcast(quadric.center_low);
-    const Vec3v<Real> p = apply_inverse(quadric, w);
     QuadricOrigin<Real> origin;
-    origin.p = p;
-    origin.height = dot(broadcast(quadric.clip), w) + vreal<Real>(quadric.clip_offset);
+    origin.p = apply_inverse(quadric, from_place(org, quadric.center, quadric.center_low));
+    origin.height =
+        dot(broadcast(quadric.clip), from_place(org, quadric.clip_base, quadric.clip_base_low));
     return origin;
 }
 

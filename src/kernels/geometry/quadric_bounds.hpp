@@ -40,6 +40,12 @@ inline float product_error(float x, float dx, float y, float dy)
 /// Bounds below this may have lost terms to underflow, and say nothing.
 inline constexpr float smallest_error = 0x1p-90f;
 
+/// The distance from any origin to a place, at most.
+inline float reach_of(const Origins& origins, double distance)
+{
+    return (static_cast<float>(distance) + origins.radius) * inflation;
+}
+
 /// Lengths that enter the bounds.
 struct QuadricLengths {
     float row[3];   ///< of the rows of the inverse
@@ -53,7 +59,8 @@ inline float dir_error(const QuadricLengths& lengths, int axis)
     return roundoffs(4.2f) * lengths.row[axis];
 }
 
-inline QuadricLengths lengths_of(const QuadricFilter& filter, double to_center, float radius)
+inline QuadricLengths lengths_of(const QuadricFilter& filter, const Origins& origins,
+                                 double to_center)
 {
     QuadricLengths lengths{};
     double to_bound2 = 0;
@@ -62,7 +69,7 @@ inline QuadricLengths lengths_of(const QuadricFilter& filter, double to_center, 
         const double to_bound = filter.wide->bound[axis] - filter.wide->center[axis];
         to_bound2 += to_bound * to_bound;
     }
-    lengths.reach = (static_cast<float>(to_center) + radius) * inflation;
+    lengths.reach = reach_of(origins, to_center);
     const float near_ball = filter.ball.reach + roundoffs(4.0f) * lengths.reach +
                             static_cast<float>(__builtin_sqrt(to_bound2)) * inflation;
     lengths.passing = min(lengths.reach, near_ball);
@@ -118,14 +125,13 @@ inline void set_range_errors(QuadricFilter& filter, const QuadricLengths& length
     filter.bend_error = bend * inflation;
 }
 
-/// Those of heights.
-inline void set_clip_errors(QuadricFilter& filter, const QuadricLengths& lengths)
+/// Those of heights, `reach` being from where they begin to any origin, at most.
+inline void set_clip_errors(QuadricFilter& filter, float reach)
 {
     const abi::QuadricRecord<float>& quadric = *filter.record;
     const float clip = row_length(quadric.clip);
     filter.climb_error = roundoffs(7.0f) * clip;
-    const float height =
-        roundoffs(10.0f) * clip * lengths.reach + roundoffs(5.0f) * magnitude(quadric.clip_offset);
+    const float height = roundoffs(10.0f) * clip * reach;
     const auto moved = [&](float plane, float by) {
         return plane + by * (height + roundoffs(4.0f) * magnitude(plane));
     };
@@ -146,23 +152,26 @@ template <bool Shared>
     filter.record = &record;
     filter.wide = &wide;
     filter.ball = ball_filter<Shared>(wide.bound, record.bound_radius, origins);
-    double distance2 = 0;
-    double height = wide.clip_offset;
     double w[3];
+    double distance2 = 0;
+    double height = 0;
+    double above_base2 = 0;
     for (int axis = 0; axis < 3; ++axis) {
-        w[axis] = double{origins.center[axis]} - wide.center[axis] - wide.center_low[axis];
+        w[axis] = double{origins.center[axis]} - wide.center[axis];
         distance2 += w[axis] * w[axis];
-        height += wide.clip[axis] * w[axis];
+        const double above_base = double{origins.center[axis]} - wide.clip_base[axis];
+        height += wide.clip[axis] * above_base;
+        above_base2 += above_base * above_base;
     }
     for (int axis = 0; Shared && axis < 3; ++axis)
         filter.p[axis] =
             static_cast<float>(wide.inverse[axis][0] * w[0] + wide.inverse[axis][1] * w[1] +
                                wide.inverse[axis][2] * w[2]);
     filter.height = static_cast<float>(height);
-    const QuadricLengths lengths = lengths_of(filter, __builtin_sqrt(distance2), origins.radius);
+    const QuadricLengths lengths = lengths_of(filter, origins, __builtin_sqrt(distance2));
     filter.discriminant_error = discriminant_error(record, lengths);
     set_range_errors(filter, lengths);
-    set_clip_errors(filter, lengths);
+    set_clip_errors(filter, reach_of(origins, __builtin_sqrt(above_base2)));
     return filter;
 }
 

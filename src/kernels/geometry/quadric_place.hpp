@@ -54,9 +54,8 @@ template <class Real>
 inline Vec3v<Real> side_gradient_at(const abi::QuadricRecord<double>& quadric,
                                     const Vec3v<Real>& point)
 {
-    const Vec3v<Real> w =
-        (point - broadcast_as<Real>(quadric.center)) - broadcast_as<Real>(quadric.center_low);
-    return side_gradient<Real>(quadric, apply_inverse_as<Real>(quadric, w));
+    return side_gradient<Real>(
+        quadric, apply_inverse_as<Real>(quadric, point - broadcast_as<Real>(quadric.center)));
 }
 
 template <class Real>
@@ -159,17 +158,16 @@ inline WideResidual residual(const QuadricForm& form, const Vec3v<double>& org,
                              const Vec3v<double>& dir, const vreal<double>& t)
 {
     const abi::QuadricRecord<double>& quadric = form.quadric;
-    const Vec3v<double> w =
-        from_base(org, dir, t, broadcast(quadric.center)) - broadcast(quadric.center_low);
     if (form.piece != 0) {
         const bool high = form.piece == 2;
-        const double sign = high ? 1.0 : -1.0;
-        const double offset = quadric.clip_offset - (high ? quadric.clip_high : quadric.clip_low);
+        const double offset = high ? -quadric.clip_high : quadric.clip_low;
         const Vec3v<double> gradient = cap_gradient<double>(quadric, high);
-        const vreal<double> value = dot(gradient, w) + vreal<double>(sign * offset);
+        const Vec3v<double> w = from_base(org, dir, t, broadcast(quadric.clip_base));
+        const vreal<double> value = dot(gradient, w) + vreal<double>(offset);
         return {value + value, dot(gradient, dir), gradient};
     }
-    const Vec3v<double> p = apply_inverse(quadric, w);
+    const Vec3v<double> p =
+        apply_inverse(quadric, from_base(org, dir, t, broadcast(quadric.center)));
     const Vec3v<double> gradient = side_gradient<double>(quadric, p);
     return {quadric_value<double>(quadric, p), dot(gradient, dir), gradient};
 }
