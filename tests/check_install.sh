@@ -120,7 +120,7 @@ pkg_config() {
     runs "$folder/shared" 1
     # shellcheck disable=SC2046
     quietly "$cxx" "$consumer/main.cpp" -o "$folder/static" $(pkg-config --cflags packtrace) \
-        "$libraries/libpacktrace.a" $(pkg-config --static --libs packtrace)
+        "$libraries/libpacktrace.a" -Wl,--as-needed $(pkg-config --static --libs packtrace)
     runs "$folder/static" 0
     # The first program of the documentation prints what stands there.
     sed -n '/^```cpp/,/^```$/{p;/^```$/q}' "$source/docs/library.md" | grep -v '^```' >"$folder/first.cpp"

@@ -1,3 +1,4 @@
+#include <packtrace/compare.hpp>
 #include <packtrace/image_io.hpp>
 
 #include <sys/resource.h>
@@ -415,6 +416,20 @@ TEST_CASE("wider values are rounded once, to what the file holds", "[image]")
     CHECK(read_text(folder / "a.hdr") == read_text(folder / "b.hdr"));
 }
 
+TEST_CASE("a picture without three values a pixel is refused", "[image]")
+{
+    const TempFolder folder;
+    for (const std::size_t values : {std::size_t{0}, std::size_t{35}, std::size_t{37}}) {
+        Image<float> image(4, 3);
+        image.rgb.resize(values);
+        for (const std::string name : {"a.png", "a.pfm", "a.hdr"})
+            CHECK_THROWS_WITH(write_image(folder / name, image),
+                              ContainsSubstring("give three a pixel"));
+        CHECK_THROWS_AS(compare(image, image), std::invalid_argument);
+        CHECK_THROWS_AS(heatmap(image, Image<float>(4, 3)), std::invalid_argument);
+    }
+}
+
 TEST_CASE("a picture keeps the recipe it was written with", "[image]")
 {
     for (const std::string name : {"a.png", "a.pfm", "a.hdr"}) {
@@ -429,6 +444,14 @@ TEST_CASE("a picture keeps the recipe it was written with", "[image]")
         CHECK((read_image(folder / name).rgb == plain.rgb));
         write_image(folder / name, gradient(5, 4), {.recipe = std::string(2000, 'x')});
         CHECK(read_recipe(folder / name) == std::string(2000, 'x'));
+        // Nor has one that was damaged since.
+        const std::string whole = read_text(folder / name);
+        std::string changed = whole;
+        changed[whole.size() - 20] ^= 1;
+        for (const std::string& damaged : {whole.substr(0, whole.size() - 1), changed}) {
+            write_text(folder / name, damaged);
+            CHECK(read_recipe(folder / name).empty());
+        }
         // Another picture in its place has none.
         write_image(folder / name, gradient(4, 5));
         CHECK(read_recipe(folder / name).empty());

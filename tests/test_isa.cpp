@@ -43,7 +43,8 @@ constexpr const char* variable = "PACKTRACE_ISA";
 
 }  // namespace
 
-TEST_CASE("instruction sets are listed narrowest first, doubles with half the lanes, but one", "[isa]")
+TEST_CASE("instruction sets are listed narrowest first, doubles with half the lanes, but one",
+          "[isa]")
 {
     const std::vector<IsaInfo> isas = list_isas();
     REQUIRE_FALSE(isas.empty());
@@ -111,6 +112,8 @@ TEST_CASE("an unknown instruction set is refused with what there is", "[isa]")
           "isa: unknown instruction set 'mmx'; choose auto or one of:" + supported_text());
     CHECK(refusal("", 0) ==
           "isa: unknown instruction set ''; choose auto or one of:" + supported_text());
+    CHECK(refusal("a\nb", 0) ==
+          "isa: unknown instruction set 'a\\x0ab'; choose auto or one of:" + supported_text());
     const ScopedVariable set(variable, "AVX2");
     CHECK(refusal("auto", 0) ==
           "PACKTRACE_ISA: unknown instruction set 'AVX2'; choose auto or "

@@ -75,8 +75,7 @@ TEST_CASE("a profile tells what the first frame of a process pays", "[profile]")
     // A picture of 3 MB that nobody has touched before.
     ProfileOptions once;
     once.repetitions = 1;
-    const Profile cold =
-        profile<float>(read_text(four_spheres_file), four_spheres(512, 512), once);
+    const Profile cold = profile<float>(read_text(four_spheres_file), four_spheres(512, 512), once);
     CHECK(cold.first_frame[2].page_faults > cold.first_frame[3].page_faults);
 }
 
@@ -183,6 +182,20 @@ TEST_CASE("lanes are filled by all rays of whole tiles, and by fewer after each 
         CHECK(generation.lanes_filled.value_or(1.0) > 0.0);
         CHECK(generation.lanes_filled.value_or(1.0) <= 1.0);
     }
+}
+
+TEST_CASE("a profile of adaptive sampling has no generations, and all else", "[profile]")
+{
+    const Scene scene = four_spheres(24, 24);
+    ProfileOptions options;
+    options.repetitions = 1;
+    options.samples = 4;
+    options.adaptive = 0.1;
+    const Profile result = profile<float>(read_text(four_spheres_file), scene, options);
+    CHECK(result.generations.empty());
+    REQUIRE(!result.what_if.empty());
+    CHECK(result.what_if.front().name == "without highlights");
+    CHECK(result.rays.camera >= 24 * 24);
 }
 
 TEST_CASE("what a part takes is the median of pairs, and never negative", "[profile]")

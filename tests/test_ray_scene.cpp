@@ -11,6 +11,7 @@
 #include <packtrace/explain.hpp>
 #include <packtrace/generate.hpp>
 #include <packtrace/isa.hpp>
+#include <packtrace/read_scene.hpp>
 #include <packtrace/render.hpp>
 
 #include <glm/gtc/matrix_transform.hpp>
@@ -348,6 +349,39 @@ TEST_CASE("segments that end at surfaces are blocked as in double precision", "[
             CHECK(blocked_segments<float>(scene, options) == expected);
         }
     }
+}
+
+TEMPLATE_TEST_CASE("numbers of objects and surfaces that are not there are refused", "[ray_scene]",
+                   float, double)
+{
+    const RayScene<TestType> scene(parse_scene(R"(
+        light { type = point  intensity = 1  position = (0, 9, 0) }
+        sphere { center = (0, 0, 5)  radius = 1 }
+    )",
+                                               "one", {}));
+    const Ray<TestType> ray{{0, 0, 0}, {0, 0, 1}};
+    for (const std::int32_t object : {-2, 1, std::numeric_limits<std::int32_t>::max()}) {
+        CHECK_THROWS_AS(scene.bound_closest_hit(ray, object), std::invalid_argument);
+        const SurfaceHit<TestType> hit{4, object, {}};
+        CHECK_THROWS_AS(scene.bound_all_hits(ray, std::span(&hit, 1)), std::invalid_argument);
+    }
+    const TestType zero[] = {0, 0};
+    const TestType one[] = {1, 1};
+    const TestType nine[] = {9, 9};
+    const RaysView<TestType> rays{zero, zero, zero, zero, zero, one, zero, nine, 2};
+    TestType t[2];
+    std::int32_t found[2];
+    const HitsView<TestType> hits{t, found};
+    std::uint8_t mask[2];
+    const auto leave = [&](std::int32_t surface) {
+        const std::int32_t surfaces[] = {0, surface};
+        scene.closest_hits(rays, {{zero, zero, nine}, surfaces}, hits);
+        scene.lit({{zero, zero, nine}, surfaces, 2}, 0, mask);
+    };
+    for (const std::int32_t surface : {1, -3, 1'000'000})
+        CHECK_THROWS_WITH(leave(surface), ContainsSubstring("surface " + std::to_string(surface)));
+    for (const std::int32_t surface : {0, -1, no_start})
+        CHECK_NOTHROW(leave(surface));
 }
 
 TEST_CASE("a ray with a NaN hits nothing", "[ray_scene]")

@@ -316,6 +316,10 @@ TEST_CASE("quoting keeps whole characters and escapes what is none", "[read_erro
     CHECK(quote("\xc3") == "'\\xc3'");
     CHECK(quote("\xc2\x9b") == "'\\xc2\\x9b'");
     CHECK(quote("\xff\x80") == "'\\xff\\x80'");
+    // What nobody sees: a no-break space, a byte order mark, a mark of direction.
+    CHECK(quote("\xc2\xa0") == "'\\xc2\\xa0'");
+    CHECK(quote("\xef\xbb\xbf") == "'\\xef\\xbb\\xbf'");
+    CHECK(quote("\xe2\x80\xae") == "'\\xe2\\x80\\xae'");
     CHECK(quote(std::string(39, 'a') + "\xc3\xa4") == "'" + std::string(39, 'a') + "...'");
     CHECK(quote(std::string(40, 'a')) == "'" + std::string(40, 'a') + "'");
 }

@@ -141,6 +141,33 @@ TEST_CASE("parts that do not belong together are not joined", "[shard]")
     }
 }
 
+TEST_CASE("parts that are cut or changed are not joined", "[shard]")
+{
+    const Bench bench(500);
+    for (const std::string i : {"0", "1"})
+        REQUIRE(bench.intersect("p" + i, {"--shard", i + "/2"}).exit_code == 0);
+    const std::string whole = read_text(bench.folder / "p1");
+    std::string changed = whole;
+    changed[whole.size() / 2] ^= 1;
+    const std::size_t row = whole.find("\n1,");
+    const std::string without_row = whole.substr(0, row) + whole.substr(whole.find('\n', row + 1));
+    const std::string wrongs[] = {whole.substr(0, whole.size() / 2),
+                                  whole.substr(0, whole.size() - 1),
+                                  whole.substr(0, whole.find('\n') + 1),
+                                  whole + "0,,,,,\n",
+                                  changed,
+                                  without_row};
+    for (const std::string& wrong : wrongs) {
+        CAPTURE(wrong.size());
+        write_text(bench.folder / "wrong", wrong);
+        const ProgramResult result = bench.join({"p0", "wrong"}, "joined.csv");
+        CHECK(result.exit_code == 1);
+        CHECK_THAT(result.err, ContainsSubstring("is not all of what packtrace wrote there"));
+        CHECK_FALSE(std::filesystem::exists(bench.folder / "joined.csv"));
+    }
+    CHECK(bench.join({"p0", "p1"}, "joined.csv").exit_code == 0);
+}
+
 TEST_CASE("a shard is one of its number", "[shard]")
 {
     const Bench bench(5);

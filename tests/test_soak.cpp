@@ -14,6 +14,7 @@
 #include "lab/stress/evaluate.hpp"
 #include "lab/stress/stress_family.hpp"
 #include "run_program.hpp"
+#include "temp_folder.hpp"
 
 namespace packtrace::test {
 namespace {
@@ -294,6 +295,11 @@ TEST_CASE("soak checks scenes of a file, and random ones", "[soak]")
     const ProgramResult file = run_packtrace({"soak", four_spheres_file});
     CHECK(file.exit_code == 0);
     CHECK_THAT(file.out, ContainsSubstring("as it should be"));
+    const TempFolder folder;
+    write_text(folder / "empty.scene", "background = (1, 0, 0)\n");
+    const ProgramResult empty = run_packtrace({"soak", folder / "empty.scene"});
+    CHECK(empty.exit_code == 0);
+    CHECK_THAT(empty.out, ContainsSubstring("as it should be"));
     const ProgramResult few = run_packtrace({"soak", "--scenes", "2", "--seed", "5"});
     CHECK(few.exit_code == 0);
     CHECK_THAT(few.out, ContainsSubstring("2 scenes") && ContainsSubstring("0 findings"));

@@ -39,6 +39,17 @@ struct Image {
         return image;
     }
 
+    /// Throws std::invalid_argument where `rgb` has not three values a pixel.
+    void check() const
+    {
+        if (width < 0 || height < 0 ||
+            rgb.size() / 3 != static_cast<std::size_t>(width) * static_cast<std::size_t>(height) ||
+            rgb.size() % 3 != 0)
+            throw std::invalid_argument("image: " + std::to_string(rgb.size()) +
+                                        " values in `rgb` for " + std::to_string(width) + " x " +
+                                        std::to_string(height) + " pixels; give three a pixel");
+    }
+
     [[nodiscard]] Real* pixel(int x, int y)
     {
         return rgb.data() + 3 * (static_cast<std::size_t>(y) * static_cast<std::size_t>(width) +

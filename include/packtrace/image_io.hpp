@@ -27,13 +27,16 @@ struct ImageWriteOptions {
 /// Writes `image` by the file's extension: `.png` (8 bits, clamped and rounded), `.pfm`
 /// (32-bit float) or `.hdr` (Radiance RGBE). Values are rounded once, from `Real` (float, double or
 /// long double) to what the file holds; a Radiance file is made from floats. Writes to a temporary
-/// name beside `file` and renames it when complete. Throws ImageError.
+/// name beside `file` and renames it when complete. Throws ImageError, and std::invalid_argument
+/// for a gamma that is not positive and finite, a recipe that is no such text, and an `image` whose
+/// `rgb` has not three values a pixel.
 template <class Real>
 PACKTRACE_API void write_image(const std::filesystem::path& file, const Image<Real>& image,
                                const ImageWriteOptions& options = {});
 
 /// The recipe that a picture was written with; empty when there is none, when the picture is not
-/// the one that was written with it, or when there is no picture.
+/// the one that was written with it, or when there is no picture. Throws ImageError where the
+/// extension is unknown.
 [[nodiscard]] PACKTRACE_API std::string read_recipe(const std::filesystem::path& file);
 
 /// Throws the ImageError that `write_image` would throw for `file` whatever the picture: its

@@ -60,7 +60,8 @@ public:
                                     const QueryWatch& watch = {}) const;
 
     /// The same of rays that leave earlier hits, from HitsView's outer_start or inner_start. With
-    /// SelfHits::note, and the scalar kernel, `starts` changes nothing.
+    /// SelfHits::note, and the scalar kernel, `starts` changes nothing. Throws
+    /// std::invalid_argument for a number that no surface has.
     PACKTRACE_API void closest_hits(const RaysView<Real>& rays, const StartsView<Real>& starts,
                                     const HitsView<Real>& hits, const QueryWatch& watch = {}) const;
 
@@ -68,16 +69,16 @@ public:
     PACKTRACE_API void occluded(const RaysView<Real>& rays, std::uint8_t* mask,
                                 const QueryWatch& watch = {}) const;
 
-    /// mask[i] becomes 1 where the light of number `light` in Scene::lights reaches point i, else 0:
-    /// nothing that casts a shadow is in the way, transparent or not. Points on surfaces are taken
-    /// as pictures take them: whether their own object keeps the light from them follows from its
-    /// equation, and they are no occluders of themselves. In a hierarchy of spheres, in single
+    /// mask[i] becomes 1 where the light of number `light` in Scene::lights reaches point i, else
+    /// 0: nothing that casts a shadow is in the way, transparent or not. Points on surfaces are
+    /// taken as pictures take them: whether their own object keeps the light from them follows from
+    /// its equation, and they are no occluders of themselves. In a hierarchy of spheres, in single
     /// precision with Accuracy::exact, a light asked for often gets a light buffer (Haines and
     /// Greenberg 1986): then this is quicker than occluded() with rays to the light, with the same
     /// answers. A point with a NaN is not lit. Works on the calling thread, but for what a first
     /// call prepares. With SelfHits::note, and the scalar kernel, all points are from elsewhere.
     /// Throws std::invalid_argument where there is no such light, or it is ambient and has no way
-    /// that something could be in.
+    /// that something could be in, and for a number that no surface has.
     PACKTRACE_API void lit(const PointsView<Real>& points, std::size_t light, std::uint8_t* mask,
                            const QueryWatch& watch = {}) const;
 
@@ -93,13 +94,15 @@ public:
     /// not looked at, and no kernel takes part. "First hits" means what infinite precision makes of
     /// the ray's numbers as given in `Real` and of the doubles in Scene::objects. Bounds are rarely
     /// more than a last place of double apart, but where the ray only touches the object, or
-    /// hits it at its rim, up to all of its range. Takes some 10 µs a ray.
+    /// hits it at its rim, up to all of its range. Takes some 10 µs a ray. Throws
+    /// std::invalid_argument for a number that no object has.
     PACKTRACE_API void bound_closest_hits(const RaysView<Real>& rays, const std::int32_t* object,
                                           HitBounds* bounds, const QueryWatch& watch = {}) const;
 
     /// The same of all hits of ray number `ray`, which all_hits() gave: bounds[i] is that of
     /// hits[i]. Where single precision or double does not tell two hits of an object apart, they
-    /// are taken in order. `bounds` is as long as `hits`.
+    /// are taken in order. `bounds` is as long as `hits`; std::invalid_argument else, and for a
+    /// number that no object has.
     PACKTRACE_API void bound_all_hits(const RaysView<Real>& rays, std::size_t ray,
                                       std::span<const SurfaceHit<Real>> hits,
                                       std::span<HitBounds> bounds) const;

@@ -136,6 +136,7 @@ struct Profile {
     /// Cold only in the first profile of a process that has rendered nothing before.
     std::vector<FirstFrameStep> first_frame;
     std::vector<ProfileStage> stages;
+    /// None with adaptive sampling: frames that end earlier refine other pixels.
     std::vector<ProfileGeneration> generations;
     std::vector<ProfileWhatIf> what_if;
     KernelProfile kernels;

@@ -13,7 +13,9 @@ namespace packtrace {
 
 /// Rays as arrays of their components, `count` elements each; nothing is copied or kept. A hit
 /// counts where t_min < t < t_max; t_min >= 0. Directions need not be unit, t counts in their
-/// lengths. A ray with a NaN anywhere hits nothing.
+/// lengths. A ray with a NaN anywhere hits nothing. Origins are within ±1e150 (±1e18 in single
+/// precision with Accuracy::fast), the largest component of a direction between 1e-100 and 1e100
+/// (1e-12 and 1e12 in single precision); answers to other rays mean nothing.
 template <class Real>
 struct RaysView {
     const Real* org_x = nullptr;
@@ -48,7 +50,8 @@ struct HitsView {
 /// What rays that leave earlier hits start on, `count` elements each: with SelfHits::exact they
 /// meet that surface again only where they truly do, however shallow below it they go. `point` and
 /// `surface` are what HitsView got; for rays that leave on the inner side of the surface, the
-/// complement ~surface. `no_start` is a ray from elsewhere; other numbers must not be given.
+/// complement ~surface. `no_start` is a ray from elsewhere. Numbers that no surface of the scene
+/// has are refused; those of another scene's surfaces are not told from its own.
 template <class Real>
 struct StartsView {
     const Real* point[3] = {};

@@ -24,9 +24,9 @@ struct ReportConditions {
 
 /// Writes report.md, report.csv, report.json and report.html into `folder`, which is made, and for
 /// each scene a folder of pictures, heat maps and plots, called as the scene is. Files appear whole
-/// or not at all. Plots are drawn by gnuplot. Throws FileError and ImageError, PlotError for a
-/// gnuplot that can't be run, and std::invalid_argument for two scenes of one name or a name that
-/// is not what report_folder_name() makes of it.
+/// or not at all. Plots are drawn by gnuplot. Throws ImageError for a picture, std::runtime_error
+/// for another file, or a gnuplot that can't be run, and std::invalid_argument for two scenes of
+/// one name or a name that is not what report_folder_name() makes of it.
 PACKTRACE_API void write_report(const std::vector<SceneReport>& scenes,
                                 const ReportOptions& options, const ReportConditions& conditions,
                                 const std::filesystem::path& folder);

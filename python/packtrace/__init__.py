@@ -11,7 +11,6 @@ scene units, angles in degrees, colours linear with 1.0 for full.
 
 from __future__ import annotations
 
-import os
 from typing import Dict, List, Union
 
 from ._packtrace import ImageError, SceneError, __version__
@@ -22,7 +21,7 @@ from .rays import AllHits, Hits, RayScene, SceneUpdate, Starts
 from .report import report
 from .scene import (Animation, Camera, CameraKey, Checker, GeneralMaterial, Light, Material, Object,
                     Orbit, Plane, Polygon, Quadric, Scene, ScratchMaterial, ShaderMaterial,
-                    SketchMaterial, Sphere, WhittedMaterial)
+                    Path, SketchMaterial, Sphere, WhittedMaterial, file_name)
 
 __all__ = [
     "AllHits", "Animation", "Camera", "CameraKey", "Checker", "Comparison", "GeneralMaterial", "Hits",
@@ -34,10 +33,10 @@ __all__ = [
 ]
 
 
-def read_scene(file: Union[str, "os.PathLike[str]"]) -> Scene:
+def read_scene(file: Path) -> Scene:
     """Reads a scene file (docs/scene.md). Raises SceneError: "file:line:column: what, why, what to
     do". What the reader had to mend becomes a Python warning."""
-    return _packtrace.read_scene(os.fspath(file))
+    return _packtrace.read_scene(file_name(file))
 
 
 def isas() -> List[Dict[str, Union[str, int, bool]]]:

@@ -2,16 +2,13 @@
 
 from __future__ import annotations
 
-import os
 from dataclasses import dataclass
 from typing import Any, Callable, List, Literal, Optional, Tuple, Union
 
 import numpy as np
 
 from . import _packtrace
-from .scene import Array, Scene
-
-Path = Union[str, "os.PathLike[str]"]
+from .scene import Array, Path, Scene, file_name
 
 
 @dataclass
@@ -111,13 +108,13 @@ def heatmap(a: Array, b: Array) -> Picture:
 def read_image(file: Path) -> Picture:
     """The picture in a .png, .pfm or .hdr file, float32; 8-bit values v become v / 255. Raises
     ImageError."""
-    return _packtrace.read_image(os.fspath(file)).view(Picture)
+    return _packtrace.read_image(file_name(file)).view(Picture)
 
 
 def write_image(file: Path, picture: Array, *, gamma: float = 1.0) -> None:
     """Writes a picture (height, width, 3) by the file's extension: .png (8 bits, raised to 1 / gamma),
     .pfm (float32) or .hdr. The file appears whole or not at all. Raises ImageError."""
-    _packtrace.write_image(os.fspath(file), _picture(picture, "picture"), gamma)
+    _packtrace.write_image(file_name(file), _picture(picture, "picture"), gamma)
 
 
 def to_png(picture: Array, *, gamma: float = 1.0) -> bytes:

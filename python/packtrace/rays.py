@@ -59,6 +59,9 @@ class Hits:
                 self.outer_start is None or self.inner_start is None):
             raise ValueError('these hits have no starts; ask for them: closest(..., detail="start")')
         directions = np.asarray(directions, self.t.dtype)
+        if directions.shape not in (self.normal.shape, (3,)):
+            raise ValueError(f"directions have shape {directions.shape}; these hits need "
+                             f"{self.normal.shape}")
         inward = np.einsum("...i,...i", directions, self.normal) < 0
         hit = self.hit
         origin = np.where(inward[..., None], self.inner_start, self.outer_start)
@@ -141,7 +144,7 @@ class RayScene:
         if not np.array_equal(matrices[:, 3], np.broadcast_to((0, 0, 0, 1), (len(matrices), 4))):
             raise ValueError("a transform's last row is not (0, 0, 0, 1); the rows of "
                              "transforms[i] are those of Object.transform")
-        return SceneUpdate(*self._native.transform(np.ascontiguousarray(numbers, np.int32),
+        return SceneUpdate(*self._native.transform(_as_int32(numbers, "objects"),
                                                    np.ascontiguousarray(matrices)))
 
     def closest(self, origins: Any, directions: Any, t_min: Any = 0.0, t_max: Any = np.inf, *,
@@ -192,6 +195,9 @@ class RayScene:
             raise ValueError(f"points has shape {places.shape}; use (..., 3), such as (n, 3)")
         mask = np.empty(places.shape[:-1], np.bool_)
         surface = None if hits is None or hits.surface is None else hits.surface.reshape(-1)
+        if hits is not None and surface is not None and surface.size != mask.size:
+            raise ValueError(f"hits.surface has {surface.size} elements and hits.point "
+                             f"{mask.size} points; give both as closest gave them")
         number = operator.index(light)
         if number < 0:
             raise ValueError(f"light {number}; lights count from 0, as in Scene.lights")
@@ -215,7 +221,7 @@ class RayScene:
             raise ValueError(f"object is {numbers.dtype} of shape {numbers.shape}; use whole numbers "
                              f"of the rays' shape {rays.shape}")
         result = np.empty((*rays.shape, 2), np.float64)
-        self._native.bounds(*rays.columns, numbers.reshape(-1).astype(np.int32, copy=False),
+        self._native.bounds(*rays.columns, _as_int32(numbers.reshape(-1), "object"),
                             result.reshape(-1, 2))
         return result
 
@@ -253,6 +259,8 @@ class _Rays:
             array = t
         else:
             try:
+                if t is None:  # which NumPy takes for a NaN
+                    raise TypeError
                 array = np.asarray(t, self.dtype)
             except (TypeError, ValueError):
                 raise ValueError(f"{name} is {t!r}; use a number or an array of numbers") from None
@@ -289,6 +297,14 @@ def _common_shape(vectors: Dict[str, Array]) -> Tuple[int, ...]:
                      "the same shape, or one of them (3,)")
 
 
+def _as_int32(numbers: Array, name: str) -> Array:
+    limits = np.iinfo(np.int32)
+    if numbers.size > 0 and not limits.min <= int(numbers.min()) <= int(numbers.max()) <= limits.max:
+        raise ValueError(f"{name} has numbers from {numbers.min()} to {numbers.max()}; use those of "
+                         "Scene.objects")
+    return np.ascontiguousarray(numbers, np.int32)
+
+
 def _spread(array: Array, shape: Tuple[int, ...]) -> Array:
     return array if array.shape == shape else np.broadcast_to(array, shape)
 
@@ -313,6 +329,8 @@ def _new_hits(rays: _Rays, detail: Detail) -> Hits:
 
 
 def _checked_hits(hits: Hits, rays: _Rays, detail: Detail) -> Hits:
+    if not isinstance(hits, Hits):
+        raise ValueError(f"out is a {type(hits).__name__}; use hits of an earlier call")
     wanted = _new_hits(rays, detail)
     for name, array in vars(wanted).items():
         given = getattr(hits, name)
@@ -321,9 +339,14 @@ def _checked_hits(hits: Hits, rays: _Rays, detail: Detail) -> Hits:
         if array is None or given is None:
             raise ValueError(f"out.{name} is {'' if given is None else 'not '}None; use hits of an "
                              f"earlier call with detail={detail!r}")
-        if (given.shape, given.dtype, given.strides) != (array.shape, array.dtype, array.strides):
+        if not isinstance(given, np.ndarray):
+            raise ValueError(f"out.{name} is a {type(given).__name__}; use hits of an earlier call")
+        if (given.shape, given.dtype) != (array.shape, array.dtype):
             raise ValueError(f"out.{name} is {given.dtype} of shape {given.shape}; these rays need "
                              f"{array.dtype} of shape {array.shape}, as an earlier call gave it")
+        if given.strides != array.strides:
+            raise ValueError(f"out.{name} has strides {given.strides}; hits are written with strides "
+                             f"{array.strides}, as an earlier call gave them")
     return hits
 
 

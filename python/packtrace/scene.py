@@ -7,6 +7,7 @@ scene and raise `SceneError`, which names the object.
 
 from __future__ import annotations
 
+import os
 from dataclasses import dataclass, field, replace
 from typing import Any, Dict, List, Literal, Optional, Sequence, Tuple, Union
 
@@ -15,6 +16,16 @@ from numpy.typing import NDArray
 from . import _packtrace
 
 Array = NDArray[Any]
+Path = Union[str, "os.PathLike[str]"]
+
+
+def file_name(file: Path) -> str:
+    """A file's name as text. Raises ValueError where it has a zero byte, which ends names for a
+    system."""
+    name = os.fspath(file)
+    if "\0" in name:
+        raise ValueError(f"the file name {name!r} has a zero byte; use a name without")
+    return name
 #: Three numbers, of any sequence or array.
 Vector = Union[Sequence[float], Array]
 #: Rows of numbers, of sequences or an array.

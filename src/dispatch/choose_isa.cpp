@@ -4,6 +4,7 @@
 #include <stdexcept>
 
 #include "dispatch/kernels.hpp"
+#include "scene/quote.hpp"
 
 namespace packtrace {
 namespace {
@@ -24,16 +25,18 @@ IsaInfo forced(const std::string& name, const char* source, int width,
         if (isa.name != name)
             continue;
         if (!isa.supported)
-            throw std::invalid_argument(std::string(source) + ": this machine cannot run '" + name +
-                                        "'; it can run:" + supported_names(isas));
+            throw std::invalid_argument(std::string(source) + ": this machine cannot run " +
+                                        language::quote(name) +
+                                        "; it can run:" + supported_names(isas));
         if (width != 0 && width != isa.lanes_single)
             throw std::invalid_argument(std::string(source) + ": '" + name + "' has " +
                                         std::to_string(isa.lanes_single) + " lanes, not " +
                                         std::to_string(width) + "; leave out one of the two");
         return isa;
     }
-    throw std::invalid_argument(std::string(source) + ": unknown instruction set '" + name +
-                                "'; choose auto or one of:" + supported_names(isas));
+    throw std::invalid_argument(std::string(source) + ": unknown instruction set " +
+                                language::quote(name) +
+                                "; choose auto or one of:" + supported_names(isas));
 }
 
 IsaInfo widest(int width, const std::vector<IsaInfo>& isas)

@@ -68,10 +68,22 @@ void check_same_size(int a_width, int a_height, int b_width, int b_height)
                                 size(b_width, b_height));
 }
 
+namespace {
+
+template <class Real>
+void check_alike(const Image<Real>& a, const Image<Real>& b)
+{
+    check_same_size(a.width, a.height, b.width, b.height);
+    a.check();
+    b.check();
+}
+
+}  // namespace
+
 template <class Real>
 Comparison compare(const Image<Real>& a, const Image<Real>& b, const CompareOptions& options)
 {
-    check_same_size(a.width, a.height, b.width, b.height);
+    check_alike(a, b);
     check_not_negative("threshold", options.threshold);
     Comparison result;
     result.pixels = a.rgb.size() / 3;
@@ -108,7 +120,7 @@ template Comparison compare(const Image<long double>&, const Image<long double>&
 template <class Real>
 Image<float> heatmap(const Image<Real>& a, const Image<Real>& b)
 {
-    check_same_size(a.width, a.height, b.width, b.height);
+    check_alike(a, b);
     std::vector<double> errors(a.rgb.size() / 3);
     double largest = 0.0;
     for (std::size_t i = 0; i < errors.size(); ++i) {

@@ -37,7 +37,7 @@ template <class Real>
 /// The file of samples that are rounded already, 3 bytes a pixel, compressed as a whole.
 [[nodiscard]] Bytes encode_png_samples(const Bytes& samples, int width, int height);
 
-/// The recipe in the first bytes of a PNG file, as many as there are at hand; empty for none.
+/// The recipe in a PNG file; empty for none, and where the file is damaged.
 [[nodiscard]] std::string png_recipe(std::span<const std::uint8_t> file);
 
 /// The picture in a PNG file; alpha is dropped, grey spread. Throws ImageError without a name.

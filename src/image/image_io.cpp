@@ -9,8 +9,6 @@
 #include <libdeflate.h>
 
 #include <algorithm>
-#include <array>
-#include <fstream>
 #include <span>
 #include <stdexcept>
 #include <string>
@@ -35,11 +33,13 @@ std::string mark_of(const void* bytes, std::size_t size)
 
 std::string recipe_in_png(const std::filesystem::path& picture)
 {
-    std::array<char, longest_recipe + 100> head{};
-    std::ifstream in(picture, std::ios::binary);
-    in.read(head.data(), head.size());
-    return png_recipe({reinterpret_cast<const std::uint8_t*>(head.data()),
-                       static_cast<std::size_t>(in.gcount())});
+    try {
+        const std::string bytes = read_file(picture);
+        return png_recipe({reinterpret_cast<const std::uint8_t*>(bytes.data()), bytes.size()});
+    } catch (const FileError&) {
+        // Not there, or not to be read.
+        return {};
+    }
 }
 
 /// Writes the file beside `picture`, which has these bytes. Throws FileError.
@@ -138,6 +138,7 @@ void write_image(const std::filesystem::path& file, const Image<Real>& image,
     check_recipe(options.recipe);
     if (image.width < 1 || image.height < 1)
         throw ImageError(file.string() + ": can't write a picture without pixels");
+    image.check();
     try {
         AtomicFile output(file);
         const Bytes bytes = encode(format, image, options);

@@ -66,6 +66,32 @@ void insert_recipe(Bytes& file, std::string_view recipe)
     file.insert(file.begin() + recipe_at, chunk.begin(), chunk.end());
 }
 
+std::size_t number_at(std::span<const std::uint8_t> file, std::size_t at)
+{
+    std::size_t number = 0;
+    for (std::size_t i = 0; i < 4; ++i)
+        number = number << 8 | file[at + i];
+    return number;
+}
+
+/// Whether a PNG file has all of its chunks, with the checksums that they were written with.
+bool is_whole(std::span<const std::uint8_t> file)
+{
+    constexpr std::size_t around = 12;  // length, type and checksum
+    for (std::size_t at = 8; at + around <= file.size();) {
+        const std::size_t length = number_at(file, at);
+        if (length > file.size() - at - around)
+            return false;
+        const std::size_t end = at + around + length;
+        if (libdeflate_crc32(0, file.data() + at + 4, length + 4) != number_at(file, end - 4))
+            return false;
+        if (std::string_view(reinterpret_cast<const char*>(file.data()) + at + 4, 4) == "IEND")
+            return end == file.size();
+        at = end;
+    }
+    return false;
+}
+
 }  // namespace
 
 Bytes encode_png_samples(const Bytes& samples, int width, int height)
@@ -84,7 +110,9 @@ template <class Real>
 Bytes encode_png(const Image<Real>& image, const PngSettings& settings)
 {
     if (!(settings.gamma > 0.0) || std::isinf(settings.gamma))
-        throw std::invalid_argument("gamma must be positive and finite");
+        throw std::invalid_argument(
+            "gamma is " + std::to_string(settings.gamma) +
+            "; give a positive number, such as 2.2, or 1 for linear values");
     const auto round = [&](int y, int rows, std::uint8_t* to) {
         const std::size_t count =
             3 * static_cast<std::size_t>(image.width) * static_cast<std::size_t>(rows);
@@ -111,13 +139,9 @@ template Bytes encode_png(const Image<long double>&, const PngSettings&);
 std::string png_recipe(std::span<const std::uint8_t> file)
 {
     constexpr std::size_t text_at = recipe_at + 8;
-    if (file.size() < text_at)
+    if (file.size() < text_at || !is_whole(file))
         return {};
-    std::size_t length = 0;
-    for (std::size_t i = 0; i < 4; ++i)
-        length = length << 8 | file[recipe_at + i];
-    if (length > file.size() - text_at)
-        return {};
+    const std::size_t length = number_at(file, recipe_at);
     const std::string_view type(reinterpret_cast<const char*>(file.data()) + recipe_at + 4, 4);
     const std::string_view text(reinterpret_cast<const char*>(file.data()) + text_at, length);
     if (type != "tEXt" || !text.starts_with(recipe_keyword))

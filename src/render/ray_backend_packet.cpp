@@ -1,6 +1,9 @@
 #include <algorithm>
 #include <memory>
 #include <optional>
+#include <span>
+#include <stdexcept>
+#include <string>
 #include <tuple>
 #include <utility>
 #include <vector>
@@ -85,6 +88,19 @@ void add_starts(abi::RaysView<Real>& piece, const StartsView<Real>& starts, std:
     piece.start_surface = starts.surface + first;
 }
 
+/// Throws where a number is of no surface of `count`, nor the complement of one.
+void check_surfaces(std::span<const std::int32_t> numbers, std::int32_t count)
+{
+    const auto is_surface = [&](std::int32_t number) {
+        return number == no_start || (number < 0 ? ~number : number) < count;
+    };
+    const auto wrong = std::find_if_not(numbers.begin(), numbers.end(), is_surface);
+    if (wrong != numbers.end())
+        throw std::invalid_argument("surface " + std::to_string(*wrong) + " of " +
+                                    std::to_string(count) +
+                                    "; give the numbers that hits of this scene have");
+}
+
 /// A hit as it is sorted: by its t before rounding.
 template <class Real>
 struct FoundHit {
@@ -131,8 +147,11 @@ public:
     {
         for (std::size_t first = 0; first < rays.count; first += longest_stream) {
             auto piece = piece_of(rays, first, longest_stream);
-            if (starts != nullptr)
+            if (starts != nullptr) {
                 add_starts(piece, *starts, first);
+                check_surfaces({piece.start_surface, static_cast<std::size_t>(piece.count)},
+                               surfaces_);
+            }
             kernels_.closest_hits(packed_->view(), piece, piece_of(hits, first),
                                   scratch_.local().data());
         }
@@ -149,7 +168,10 @@ public:
     {
         for (std::size_t first = 0; first < points.count; first += longest_stream) {
             const auto count = static_cast<int>(std::min(points.count - first, longest_stream));
-            lit_->lit(piece_of(points, first, count), light, mask + first);
+            const auto piece = piece_of(points, first, count);
+            if (piece.surface != nullptr)
+                check_surfaces({piece.surface, static_cast<std::size_t>(count)}, surfaces_);
+            lit_->lit(piece, light, mask + first);
         }
     }
 
@@ -200,6 +222,7 @@ private:
         casts_shadow.swap(lowered.casts_shadow);
         lit_ = std::make_unique<LitScene<Real>>(lowered, *packed, traversal_, kernels_);
         packed_ = std::move(packed);
+        surfaces_ = static_cast<std::int32_t>(lowered.material_index.size());
         scratch_bytes_ = kernels_.stream_scratch_bytes(packed_->view());
         scratch_.clear();
         if (keep != nullptr)
@@ -244,6 +267,7 @@ private:
     std::unique_ptr<LitScene<Real>> lit_;
     std::unique_ptr<Kept> kept_;  ///< from the first update on, where there is a hierarchy
     std::size_t scratch_bytes_ = 0;
+    std::int32_t surfaces_ = 0;  ///< how many numbers they have
     mutable tbb::enumerable_thread_specific<AlignedArray<std::byte>> scratch_;
 };
 

@@ -164,6 +164,14 @@ bounds::Range range_of(const RaysView<Real>& rays, std::size_t i)
     return {rays.t_min[i], rays.t_max[i]};
 }
 
+void check_object(std::int32_t object, std::int32_t least, std::size_t count)
+{
+    if (object < least || object >= static_cast<std::int64_t>(count))
+        throw std::invalid_argument("object " + std::to_string(object) + " of " +
+                                    std::to_string(count) +
+                                    "; objects count from 0, as in Scene::objects");
+}
+
 }  // namespace
 
 template <class Real>
@@ -171,10 +179,12 @@ void RayScene<Real>::bound_closest_hits(const RaysView<Real>& rays, const std::i
                                         HitBounds* bounds, const QueryWatch& watch) const
 {
     for_watched_pieces(rays.count, watch, [&](std::size_t first, std::size_t count) {
-        for (std::size_t i = first; i < first + count; ++i)
+        for (std::size_t i = first; i < first + count; ++i) {
+            check_object(object[i], -1, state_->bounded.object_count());
             bounds[i] = object[i] < 0 ? HitBounds{}
                                       : state_->bounded.first_hit(object[i], line_of(rays, i),
                                                                   range_of(rays, i));
+        }
     });
 }
 
@@ -183,6 +193,7 @@ void RayScene<Real>::bound_all_hits(const RaysView<Real>& rays, std::size_t ray,
                                     std::span<const SurfaceHit<Real>> hits,
                                     std::span<HitBounds> bounds) const
 {
+    detail::check_length("bounds", bounds.size(), hits.size());
     // All hits of one object after the other.
     std::vector<std::size_t> order(hits.size());
     std::iota(order.begin(), order.end(), std::size_t{0});
@@ -192,6 +203,7 @@ void RayScene<Real>::bound_all_hits(const RaysView<Real>& rays, std::size_t ray,
     std::vector<HitBounds> found;
     for (std::size_t first = 0; first < order.size(); first += t.size()) {
         const std::int32_t object = hits[order[first]].object;
+        check_object(object, 0, state_->bounded.object_count());
         t.clear();
         while (first + t.size() < order.size() && hits[order[first + t.size()]].object == object)
             t.push_back(hits[order[first + t.size()]].t);

@@ -15,6 +15,20 @@ bool is_continuation(std::string_view text, std::size_t i)
     return i < text.size() && (static_cast<unsigned char>(text[i]) & 0xC0u) == 0x80u;
 }
 
+/// Characters of several bytes that nobody sees in a message: controls, spaces such as the no-break
+/// space, marks of byte order and direction.
+bool is_invisible(std::string_view letter)
+{
+    const auto byte = [&](std::size_t i) { return static_cast<unsigned char>(letter[i]); };
+    if (letter.size() == 2)
+        return byte(0) == 0xC2u && (byte(1) <= 0xA0u || byte(1) == 0xADu);
+    if (letter.size() != 3)
+        return false;
+    const bool general = byte(0) == 0xE2u && byte(1) == 0x80u &&
+                         (byte(2) <= 0x8Fu || (byte(2) >= 0xA8u && byte(2) <= 0xAFu));
+    return general || letter == "\xE3\x80\x80" || letter == "\xEF\xBB\xBF";
+}
+
 /// Bytes of the printable character that `text` starts with, 0 when it starts with none.
 /// Over-long forms and surrogates pass: they are no danger to a terminal.
 std::size_t printable_length(std::string_view text)
@@ -28,9 +42,7 @@ std::size_t printable_length(std::string_view text)
     for (std::size_t i = 1; i < length; ++i)
         if (!is_continuation(text, i))
             return 0;
-    // U+0080 to U+009F are control characters too.
-    const bool control = first == 0xC2u && static_cast<unsigned char>(text[1]) < 0xA0u;
-    return control ? 0 : length;
+    return is_invisible(text.substr(0, length)) ? 0 : length;
 }
 
 std::string hex_escape(char byte)

@@ -7,8 +7,8 @@
 // How messages show what a user wrote, and what may have been meant.
 namespace packtrace::language {
 
-/// `text` fit for one line of a terminal: control characters and bytes that are not UTF-8
-/// become \xNN.
+/// `text` fit for one line of a terminal: control characters, characters that nobody sees and bytes
+/// that are not UTF-8 become \xNN.
 [[nodiscard]] std::string escape(std::string_view text);
 
 /// `text` in single quotes for a message: escaped, and cut after a few dozen bytes.

@@ -186,6 +186,47 @@ class TestArrays(unittest.TestCase):
             back = self.rays.closest(origins[::-1], directions[::-1])
             np.testing.assert_array_equal(back.object[::-1], expected.object)
 
+    def test_numbers_of_other_scenes_are_refused(self):
+        origins, directions = random_rays(10)
+        hits = self.rays.closest(origins, directions, detail="start")
+        starts = hits.leave(directions)
+        starts.surface[3] = 10**6
+        with self.assertRaisesRegex(ValueError, "surface 1000000 of"):
+            self.rays.closest(starts, directions)
+        hits.surface[3] = 10**6
+        lit = pt.RayScene(pt.Scene(objects=[pt.Object(pt.Sphere((0, 0, 5), 1))],
+                                   lights=[pt.Light("point", 1, (0, 5, 0))]))
+        with self.assertRaisesRegex(ValueError, "surface [0-9]+ of 1;"):
+            lit.lit(hits, 0)
+        hits.surface = hits.surface[:5]
+        with self.assertRaisesRegex(ValueError, "5 elements"):
+            lit.lit(hits, 0)
+        for number in (2**32, -2**32, 2**31):
+            with self.assertRaisesRegex(ValueError, str(number)):
+                self.rays.bounds((0, 0, 0), (0, 0, 1), np.int64(number))
+            with self.assertRaisesRegex(ValueError, str(number)):
+                self.rays.transform(np.array([number]), np.eye(4)[None])
+
+    def test_what_is_no_number_or_array_is_refused(self):
+        for ends in ((None, 9), (0, None)):
+            with self.assertRaisesRegex(ValueError, "None; use a number"):
+                self.rays.closest((0, 0, 0), (0, 0, 1), *ends)
+        origins, directions = random_rays(10)
+        hits = self.rays.closest(origins, directions, detail="normal")
+        with self.assertRaisesRegex(ValueError, "out is a int"):
+            self.rays.closest(origins, directions, out=3)
+        hits.normal = np.ascontiguousarray(hits.normal)
+        with self.assertRaisesRegex(ValueError, "out.normal has strides"):
+            self.rays.closest(origins, directions, detail="normal", out=hits)
+        hits.normal = hits.normal.tolist()
+        with self.assertRaisesRegex(ValueError, "out.normal is a list"):
+            self.rays.closest(origins, directions, detail="normal", out=hits)
+        starts = self.rays.closest(origins, directions, detail="start")
+        with self.assertRaisesRegex(ValueError, "these hits need"):
+            starts.leave(directions[:5])
+        with self.assertRaisesRegex(ValueError, "zero byte"):
+            pt.read_scene("a\0b")
+
     def test_answers_have_the_shape_and_dtype_of_the_rays(self):
         for dtype in DTYPES:
             for shape in ((), (0,), (4,), (2, 3), (2, 3, 4)):

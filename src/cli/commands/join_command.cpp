@@ -1,4 +1,6 @@
+#include <algorithm>
 #include <cerrno>
+#include <cstdint>
 #include <cstdio>
 #include <memory>
 #include <stdexcept>
@@ -10,6 +12,7 @@
 #include "cli/output/distinct_files.hpp"
 #include "cli/output/text_output.hpp"
 #include "cli/study/study.hpp"
+#include "core/checksum.hpp"
 #include "scene/quote.hpp"
 
 namespace packtrace::cli {
@@ -32,6 +35,7 @@ struct HitPart {
     std::string name;
     PartHead head;
     std::unique_ptr<std::FILE, Closer> file;
+    std::uint64_t left = 0;  ///< bytes, without the last line
 };
 
 std::string read_line(std::FILE* file)
@@ -42,9 +46,48 @@ std::string read_line(std::FILE* file)
     return line;
 }
 
+/// Calls `take(bytes)` with the next `count` bytes, or with as many as there are, piece by piece.
+template <class Take>
+void read_bytes(const HitPart& part, std::uint64_t count, const Take& take)
+{
+    std::vector<char> block(std::size_t{1} << 20);
+    for (std::size_t got = 1; count > 0 && got > 0; count -= got) {
+        got = std::fread(block.data(), 1, std::min<std::uint64_t>(count, block.size()),
+                         part.file.get());
+        take(std::string_view(block.data(), got));
+    }
+    if (std::ferror(part.file.get()))
+        throw FileError(part.name, "can't read", errno);
+}
+
+/// How many bytes stand before the last line, which says so. Throws where they are not those that
+/// were written.
+std::uint64_t bytes_of_whole(const HitPart& part)
+{
+    std::FILE* const file = part.file.get();
+    std::fseek(file, 0, SEEK_END);
+    const auto size = static_cast<std::uint64_t>(std::max(0L, std::ftell(file)));
+    const std::uint64_t searched = std::min<std::uint64_t>(size, PartEnd::longest);
+    std::fseek(file, static_cast<long>(size - searched), SEEK_SET);
+    std::string end;
+    read_bytes(part, searched, [&](std::string_view bytes) { end += bytes; });
+    const std::size_t begin = std::min(end.rfind(PartEnd::begin), end.size());
+    const std::uint64_t before = size - (end.size() - begin);
+    PartEnd whole{before, 0};
+    std::rewind(file);
+    read_bytes(part, before, [&](std::string_view bytes) {
+        whole.checksum = checksum(
+            {reinterpret_cast<const std::uint8_t*>(bytes.data()), bytes.size()}, whole.checksum);
+    });
+    if (!end.ends_with(whole.line()))
+        throw FileError(part.name +
+                        ": is not all of what packtrace wrote there; make this part again");
+    return before;
+}
+
 HitPart open_part(const std::string& name)
 {
-    HitPart part{language::escape(name), {}, {}};
+    HitPart part{language::escape(name), {}, {}, 0};
     part.file.reset(std::fopen(name.c_str(), "rb"));
     if (!part.file)
         throw FileError(part.name, "can't read", errno);
@@ -53,6 +96,8 @@ HitPart open_part(const std::string& name)
         throw FileError(part.name +
                         ": is not a part that packtrace intersect --shard or stress --shard wrote");
     part.head = *head;
+    part.left = bytes_of_whole(part) - head->line().size();
+    std::fseek(part.file.get(), static_cast<long>(head->line().size()), SEEK_SET);
     return part;
 }
 
@@ -91,23 +136,15 @@ std::vector<HitPart> open_parts(const std::vector<std::string>& names)
     return parts;
 }
 
-void copy_rest(const HitPart& part, TextOutput& output)
-{
-    std::vector<char> block(std::size_t{1} << 20);
-    for (std::size_t got; (got = std::fread(block.data(), 1, block.size(), part.file.get())) > 0;)
-        output.write({block.data(), got});
-    if (std::ferror(part.file.get()))
-        throw FileError(part.name, "can't read", errno);
-}
-
 void join_hits(const std::vector<HitPart>& parts, TextOutput& output)
 {
     std::string header;
     for (const HitPart& part : parts) {
-        const std::string own = read_line(part.file.get());
+        const std::string own = read_line(part.file.get()) + "\n";
         if (header.empty())
-            output.write((header = own) + "\n");
-        copy_rest(part, output);
+            output.write(header = own);
+        read_bytes(part, part.left - own.size(),
+                   [&](std::string_view rows) { output.write(rows); });
     }
 }
 

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "cli/interrupts.hpp"
+#include "cli/options/shard.hpp"
 #include "cli/render/frame_recipe.hpp"
 #include "core/checksum.hpp"
 #include "image/bytes.hpp"
@@ -38,6 +39,8 @@ HitOutput::HitOutput(const IntersectArguments& arguments, const std::string& rec
     if (!arguments.resume) {
         text_ = std::make_unique<TextOutput>(arguments.output);
         text_->write(header);
+        done_.bytes = header.size();
+        done_.rows = checksum(bytes_of(header));
         return;
     }
     journal_ = std::make_unique<Journal>(arguments.output, recipe, recipe_difference);
@@ -81,13 +84,25 @@ void HitOutput::skip_finished(const std::function<std::string()>& next)
 void HitOutput::take(std::string_view block, std::string_view rows)
 {
     if (text_)
-        return text_->write(rows);
-    journal_->write(done_.bytes, bytes_of(rows));
+        text_->write(rows);
+    else
+        journal_->write(done_.bytes, bytes_of(rows));
     done_ = {done_.blocks + 1, checksum(bytes_of(block), done_.rays), done_.bytes + rows.size(),
              checksum(bytes_of(rows), done_.rows)};
+    if (text_)
+        return;
     journal_->add({done_.blocks, done_.rays, done_.bytes, done_.rows});
     set_interrupt_line("packtrace: interrupted; the same command goes on after the " +
                        std::to_string(done_.blocks) + " finished blocks of rays of " + name_);
+}
+
+void HitOutput::end_part()
+{
+    const std::string line = PartEnd{done_.bytes, done_.rows}.line();
+    if (text_)
+        text_->write(line);
+    else
+        journal_->write(done_.bytes, bytes_of(line));
 }
 
 void HitOutput::finish()

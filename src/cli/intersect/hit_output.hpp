@@ -33,11 +33,14 @@ public:
     /// Rows of the next block of rays, which has this text. Throws FileError.
     void take(std::string_view block, std::string_view rows);
 
+    /// After the last rows of a part: the line that says that it is whole.
+    void end_part();
+
     /// After the last rows.
     void finish();
 
 private:
-    /// How much of input and output is finished.
+    /// How much of input and output is finished, the header included.
     struct Progress {
         std::uint64_t blocks = 0;
         std::uint32_t rays = 0;  ///< checksum

@@ -38,6 +38,8 @@ void run(const IntersectArguments& arguments, const Scene& scene, const RenderOp
     intersect_rays<Real>(tracer, rays, [&](const RayBlock& block, std::string_view rows) {
         output.take(block.text, rows);
     });
+    if (arguments.shard)
+        output.end_part();
     output.finish();
 }
 

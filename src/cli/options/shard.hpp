@@ -1,6 +1,8 @@
 #pragma once
 
 #include <charconv>
+#include <cstddef>
+#include <cstdint>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -73,6 +75,21 @@ struct PartHead {
         if (!shard || end == std::string_view::npos)
             return std::nullopt;
         return PartHead{*shard, std::string(line.substr(end + 4))};
+    }
+};
+
+/// The last line of such a part, so that one that was cut or changed is not joined.
+struct PartEnd {
+    std::uint64_t bytes = 0;     ///< of the part, before this line
+    std::uint32_t checksum = 0;  ///< of these
+
+    static constexpr std::string_view begin = "# packtrace part ends after ";
+    static constexpr std::size_t longest = 100;
+
+    [[nodiscard]] std::string line() const
+    {
+        return std::string(begin) + std::to_string(bytes) + " bytes of checksum " +
+               std::to_string(checksum) + "\n";
     }
 };
 

@@ -103,8 +103,10 @@ void print_profile(std::ostream& to, const std::string& scene, const Profile& pr
     to << '\n';
     print_first_frame(to, profile);
     to << '\n';
-    print_generations(to, profile);
-    to << '\n';
+    if (!profile.generations.empty()) {
+        print_generations(to, profile);
+        to << '\n';
+    }
     print_kernels(to, profile);
     to << '\n';
     print_what_if(to, profile);

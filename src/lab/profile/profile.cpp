@@ -141,13 +141,15 @@ Profile profile(const std::string& text, const Scene& scene, const ProfileOption
     result.rays = runs.front().rays;
     result.frame = median_of(runs.front().seconds);
     result.frame_spread = relative_spread(runs.front().seconds);
-    add_generations(runs, scene.max_depth, result);
+    if (!options.adaptive)
+        add_generations(runs, scene.max_depth, result);
     const ObservedKernels observed = observe_kernels<Real>(scene, options);
     result.kernels = observed.profile;
     for (ProfileGeneration& generation : result.generations)
         generation.lanes_filled =
             lanes_filled(observed.counts[static_cast<std::size_t>(generation.depth)], result.lanes);
-    for (std::size_t i = static_cast<std::size_t>(scene.max_depth) + 1; i < runs.size(); ++i)
+    const auto first = static_cast<std::size_t>(generations_apart(scene, options)) + 1;
+    for (std::size_t i = first; i < runs.size(); ++i)
         add_what_if(runs.front(), runs[i], result);
     measure_stages<Real>(text, scene, options, result);
     result.too_busy = busy_lines(result);

@@ -42,6 +42,10 @@ struct TimeDifference {
 /// Renders all in turns, once more than asked: first frames pay for memory.
 void take_times(std::vector<ProfileRun>& runs, const ProfileOptions& options);
 
+/// How many of the runs behind the first end at a depth that is not the scene's, each one deeper
+/// than the one before. With adaptive sampling they would refine other pixels.
+[[nodiscard]] int generations_apart(const Scene& scene, const ProfileOptions& options);
+
 /// The frame, then it ended after each depth but the last, then without one thing each. Names
 /// are "frame", "depth 0" …, "without shadows" ….
 template <class Real>

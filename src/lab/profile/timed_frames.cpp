@@ -176,6 +176,11 @@ TimeDifference time_difference(const std::vector<double>& whole, const std::vect
     return {std::max(0.0, median_of(each)), middle_half(each)};
 }
 
+int generations_apart(const Scene& scene, const ProfileOptions& options)
+{
+    return options.adaptive ? 0 : scene.max_depth;
+}
+
 void take_times(std::vector<ProfileRun>& runs, const ProfileOptions& options)
 {
     const auto time = [&](std::size_t i) {
@@ -198,7 +203,7 @@ std::vector<ProfileRun> profile_runs(const Scene& scene, const ProfileOptions& o
         runs.push_back(frame_run<Real>(name, scene, changed, table, sampling));
     };
     add("frame", lowered);
-    for (int depth = 0; depth < scene.max_depth; ++depth)
+    for (int depth = 0; depth < generations_apart(scene, options); ++depth)
         add("depth " + std::to_string(depth), ended_at(lowered, depth));
     add("without highlights", without_highlights(lowered));
     add("without shadows", without_shadows(lowered));

@@ -93,9 +93,12 @@ std::string adaptive_line(const StudyReport& study)
     if (adaptive == nullptr)
         return {};
     const bool decided = surely_faster(*adaptive, *uniform) || surely_faster(*uniform, *adaptive);
+    const double of_rmse = adaptive->error.rmse / uniform->error.rmse;
     return "Adaptive sampling against 16 samples everywhere: " + adaptive->variant.name +
-           " reaches " + brief(adaptive->error.rmse / uniform->error.rmse) + " of its RMSE in " +
-           brief(adaptive->median / uniform->median) + " of its time" +
+           (uniform->error.rmse > 0.0
+                ? " reaches " + brief(of_rmse) + " of its RMSE"
+                : " has an RMSE of " + brief(adaptive->error.rmse) + ", where that has 0,") +
+           " in " + brief(adaptive->median / uniform->median) + " of its time" +
            (decided ? "." : ", though the spreads of their times overlap.");
 }
 

@@ -74,6 +74,7 @@ void write_report(const std::vector<SceneReport>& scenes, const ReportOptions& o
                   const ReportConditions& conditions, const std::filesystem::path& folder)
 {
     check_names(scenes);
+    make_folders(folder);
     for (const SceneReport& scene : scenes) {
         make_folders(folder / scene.name);
         for (const StudyReport& study : scene.studies) {

@@ -24,6 +24,8 @@ constexpr std::size_t many_objects = 30;
 StressRay any_ray(StressRandom& random, const Scene& scene, double step)
 {
     const auto any_point = [&] {
+        if (scene.objects.empty())
+            return random.unit();
         const int count = static_cast<int>(scene.objects.size());
         return point_near(random, scene.objects[static_cast<std::size_t>(random.below(count))]);
     };
