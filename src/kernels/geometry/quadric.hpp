@@ -85,6 +85,43 @@ inline vreal<Real> quadric_discriminant(const abi::QuadricRecord<Real>& quadric,
     return madd(l + l, turn, msub(lifted, lifted, madd(vreal<Real>(quadric.constant), a, squares)));
 }
 
+/// Whether a quadric has two straight lines through each of its points, as saddles and hyperboloids
+/// of one sheet do: the determinant of its equation is positive.
+template <class Real>
+inline bool is_doubly_ruled(const abi::QuadricRecord<Real>& quadric)
+{
+    const Real(&s)[3] = quadric.square;
+    return quadric.linear != 0 ? s[0] * s[1] < 0 : s[0] * s[1] * s[2] * quadric.constant > 0;
+}
+
+/// The discriminant of lines that nearly run along the surface is far below the terms that cancel
+/// in what the moment gives, and of these their rounding would be left. But all of a, b and c are
+/// small there: b² - a c is off by far less. It is taken where that is so by the sizes of what
+/// cancels in each.
+template <class Real>
+inline vreal<Real> ruled_discriminant(const abi::QuadricRecord<Real>& quadric,
+                                      const Quadratic<Real>& q, const Vec3v<Real>& p,
+                                      const Vec3v<Real>& v, const Vec3v<Real>& m)
+{
+    const Vec3v<Real> s = broadcast(quadric.square);
+    const Vec3v<Real> scaled = s * v;
+    const vreal<Real> linear(quadric.linear);
+    const vreal<Real> constant = abs(vreal<Real>(quadric.constant));
+    const vreal<Real> climb = abs(linear * v.z);
+    const vreal<Real> two(Real(2));
+    const vreal<Real> a_size = magnitude_dot(scaled, v);
+    const vreal<Real> b_size = magnitude_dot(scaled, p) + climb;
+    const vreal<Real> c_size = madd(two, abs(linear * p.z), magnitude_dot(s * p, p) + constant);
+    const vreal<Real> straight =
+        madd(two * abs(q.b), b_size, madd(abs(q.a), c_size, abs(q.c) * a_size));
+    const Vec3v<Real> others{s.y * s.z, s.z * s.x, s.x * s.y};
+    const vreal<Real> turn = madd(abs(scaled.y), abs(m.x), abs(scaled.x) * abs(m.y));
+    const vreal<Real> moment = madd(constant, a_size, magnitude_dot(others * m, m)) +
+                               madd(two * abs(linear), turn, climb * climb);
+    return select(vreal<Real>(Real(4)) * straight < moment, msub(q.b, q.b, q.a * q.c),
+                  q.discriminant);
+}
+
 /// The coefficient of t² along v in canonical space, `scaled` being v times the squares. What is no
 /// more than its own rounding is 0: the ray runs along a generator or an asymptote.
 template <class Real>
@@ -128,7 +165,10 @@ inline SideQuadratic<Real> side_quadratic(const abi::QuadricRecord<Real>& quadri
     q.a = bend_along<Real>(scaled, v);
     q.b = madd(vreal<Real>(quadric.linear), v.z, dot(scaled, near));
     q.c = quadric_value<Real>(quadric, near);
-    q.discriminant = quadric_discriminant<Real>(quadric, cross(near, v), v, q.a);
+    const Vec3v<Real> moment = cross(near, v);
+    q.discriminant = quadric_discriminant<Real>(quadric, moment, v, q.a);
+    if (is_doubly_ruled(quadric))
+        q.discriminant = ruled_discriminant<Real>(quadric, q, near, v, moment);
     return {q, start};
 }
 

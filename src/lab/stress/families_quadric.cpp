@@ -1,5 +1,6 @@
 #include "lab/stress/placed_quadric.hpp"
 
+#include <cmath>
 #include <utility>
 
 #include <glm/geometric.hpp>
@@ -105,6 +106,42 @@ StressCase mirrored(StressRandom& random)
     return shot_at(random, every_kind, transform * shear);
 }
 
+/// One of the two straight lines through a point of the side: the point and a way along it.
+struct StraightLine {
+    Vec3 point;
+    Vec3 way;
+};
+
+StraightLine straight_line(StressRandom& random, QuadricKind kind)
+{
+    const double other = random.sign();
+    if (kind == QuadricKind::saddle) {
+        const double x = random.between(-1.5, 1.5);
+        const double y = random.between(-1.5, 1.5);
+        return {{x, y, x * x - y * y}, {1.0, other, 2.0 * (x - other * y)}};
+    }
+    const double turn = random.between(0.0, 6.2831853);
+    const double c = std::cos(turn);
+    const double s = std::sin(turn);
+    return {{c, s, 0.0}, {-s, c, other}};
+}
+
+/// Rays that nearly run along those: a, b and c are all but 0.
+StressCase along_straight_lines(StressRandom& random)
+{
+    const QuadricKind kind = random.below(2) == 0 ? QuadricKind::saddle : QuadricKind::hyperboloid;
+    const Mat4 transform = random.below(2) == 0
+                               ? Mat4(1.0)
+                               : any_placement(random, any_stretch(random, 0.5), random.box(3.0));
+    return placed(quadric_of(kind), transform, [=](StressRandom& r) {
+        const StraightLine line = straight_line(r, kind);
+        const double off = r.below(4) == 0 ? 0.0 : r.power(1e-9, 1e-4);
+        const Vec3 org = line.point + r.between(-3.0, 3.0) * line.way + off * r.unit();
+        const Vec3 way = r.between(0.5, 3.0) * line.way + off * r.unit();
+        return ray_towards(org, org + way);
+    });
+}
+
 StressFamily shot_family(const char* name, const char* what, const Kinds& kinds,
                          const Vec3& stretch, double far)
 {
@@ -142,6 +179,8 @@ std::vector<StressFamily> quadric_families()
                      axis, 1e-8),
         along_family("cylinder-axis", "along the axis of cylinders", QuadricKind::cylinder, axis,
                      1e-7),
+        {"straight-lines", "along the straight lines of saddles and hyperboloids, off by 0 to 1e-4",
+         along_straight_lines},
         {"cond-1e4", "half axes from 1 to 1e-4", ill_conditioned},
         {"mirrored", "sheared and mirrored", mirrored},
         shot_family("far-quadric", "every kind, with its rays at 1e5 from the origin", every_kind,

@@ -97,18 +97,70 @@ template <class Real>
     return {a, dot(quadric.half_gradient(p), v), std::abs(a) <= roundoffs * size};
 }
 
+/// A sum, and how large the terms are that may cancel in it.
+template <class Real>
+struct Cancelling {
+    Real sum = 0;
+    Real size = 0;
+
+    void add(Real term)
+    {
+        sum += term;
+        size += std::abs(term);
+    }
+    void add(const Vec3<Real>& terms)
+    {
+        add(terms.x);
+        add(terms.y);
+        add(terms.z);
+    }
+};
+
 /// b² - a c of a line through p, by its moment m = p x v: terms that cancel for far origins are
 /// not there, and crossing planes leave a square alone.
 template <class Real>
-[[nodiscard]] Real discriminant_of(const QuadricBody<Real>& quadric, const Vec3<Real>& p,
-                                   const Vec3<Real>& v, Real a)
+[[nodiscard]] Cancelling<Real> discriminant_by_moment(const QuadricBody<Real>& quadric,
+                                                      const Vec3<Real>& p, const Vec3<Real>& v)
 {
     const auto& [axes, center, s, linear, constant] = quadric.form;
     const Vec3<Real> m = cross(p, v);
+    Cancelling<Real> result;
     const Vec3<Real> others(s.y * s.z, s.z * s.x, s.x * s.y);
-    const Real climb = linear * v.z;
-    return 2 * linear * (s.y * v.y * m.x - s.x * v.x * m.y) + climb * climb - constant * a -
-           dot(others * m, m);
+    result.add(-constant * (s * v * v));
+    result.add(-(others * m * m));
+    result.add(2 * linear * s.y * v.y * m.x);
+    result.add(-2 * linear * s.x * v.x * m.y);
+    result.add(linear * linear * v.z * v.z);
+    return result;
+}
+
+/// The same by a, b and c themselves, which are small where a line nearly runs along the surface.
+template <class Real>
+[[nodiscard]] Cancelling<Real> discriminant_by_terms(const QuadricBody<Real>& quadric,
+                                                     const Vec3<Real>& p, const Vec3<Real>& v)
+{
+    const auto& [axes, center, s, linear, constant] = quadric.form;
+    Cancelling<Real> a;
+    Cancelling<Real> b;
+    Cancelling<Real> c;
+    a.add(s * v * v);
+    b.add(s * p * v);
+    c.add(s * p * p);
+    b.add(linear * v.z);
+    c.add(2 * linear * p.z);
+    c.add(constant);
+    return {b.sum * b.sum - a.sum * c.sum,
+            2 * std::abs(b.sum) * b.size + std::abs(a.sum) * c.size + std::abs(c.sum) * a.size};
+}
+
+/// The one of the two in which less cancels, by a clear margin where it is not the first.
+template <class Real>
+[[nodiscard]] Real discriminant_of(const QuadricBody<Real>& quadric, const Vec3<Real>& p,
+                                   const Vec3<Real>& v)
+{
+    const Cancelling<Real> by_moment = discriminant_by_moment(quadric, p, v);
+    const Cancelling<Real> by_terms = discriminant_by_terms(quadric, p, v);
+    return 4 * by_terms.size < by_moment.size ? by_terms.sum : by_moment.sum;
 }
 
 /// The t at which a line is nearest to the centre in the measure of the surface's own curvature: a
@@ -135,9 +187,9 @@ template <class Real>
     const Vec3<Real> p = org + start * v;
     const auto [a, b, parallel] = line_of(quadric, p, v);
     const Real c = quadric.value(p);
-    Interior<Real> interior =
-        parallel ? interior_of_line(b, c)
-                 : interior_of_parabola(a, b, c, discriminant_of(quadric, p, v, a));
+    Interior<Real> interior = parallel
+                                  ? interior_of_line(b, c)
+                                  : interior_of_parabola(a, b, c, discriminant_of(quadric, p, v));
     interior.first += start;
     interior.last += start;
     return interior;
