@@ -145,6 +145,62 @@ TEST_CASE("A cap is met at its own plane, however far the quadric's centre is fr
     }
 }
 
+TEST_CASE("A ray along an asymptote of a turned quadric meets it once, wherever its axes lie",
+          "[coincidences]")
+{
+    // xy + xz = z is linear along rays of one x; its axes lie in between those of the world.
+    const Scene scene =
+        parse_scene("quadric { coefficients = (0, 0, 0, 1, 1, 0, 0, 0, -1, 0) }", "turned", {});
+    SceneRandom random(21);
+    for (const RenderOptions& options : packet_ways()) {
+        INFO(options.isa);
+        const RayScene<double> wide(scene, options);
+        const RayScene<float> single(scene, options);
+        int wrong = 0;
+        for (int i = 0; i < 300; ++i) {
+            // In quarters, so that all products are exact; the rays stay in a plane of one x.
+            const auto quarters = [&] { return std::floor(random.between(-8, 9)) / 4; };
+            const double x = quarters();
+            const double y = quarters();
+            const double z = quarters();
+            const double dy = quarters();
+            const double dz = quarters();
+            const double value = x * y + x * z - z;
+            const double slope = x * dy + x * dz - dz;
+            if ((dy == 0 && dz == 0) || slope == 0 || value == 0)
+                continue;
+            const bool hits = -value / slope > 0;
+            const Ray<double> ray{{x, y, z}, {0, dy, dz}};
+            Ray<float> narrow;
+            for (int axis = 0; axis < 3; ++axis) {
+                narrow.org[axis] = static_cast<float>(ray.org[axis]);
+                narrow.dir[axis] = static_cast<float>(ray.dir[axis]);
+            }
+            wrong += wide.occluded(ray) != hits || single.occluded(narrow) != hits ? 1 : 0;
+            wrong += wide.all_hits(ray).size() != (hits ? 1u : 0u) ? 1 : 0;
+            wrong += (single.closest_hit(narrow).object == 0) != hits ? 1 : 0;
+        }
+        CHECK(wrong == 0);
+    }
+}
+
+TEST_CASE("Rays of the smallest directions are not blocked by what they pass", "[coincidences]")
+{
+    // The line passes the sphere at 1.0074 of its radius; squares of single precision underflow.
+    const Scene scene = parse_scene(
+        "sphere { center = (5.8765989623179028e-11, -3.0423624523883822e-10, "
+        "9.0241271561315684e-11)  radius = 1e-10 }",
+        "small", {});
+    const Ray<float> ray{{-3.11396547e-10f, -6.42711606e-10f, -2.18380133e-10f},
+                         {1.35559316e-12f, 8.55627309e-13f, 1.19593853e-12f}};
+    for (const RenderOptions& options : packet_ways()) {
+        INFO(options.isa);
+        const RayScene<float> traced(scene, options);
+        CHECK_FALSE(traced.occluded(ray));
+        CHECK(traced.closest_hit(ray).object == -1);
+    }
+}
+
 TEST_CASE("Rays along planes meet them nowhere, however the planes are turned", "[coincidences]")
 {
     struct Turned {

@@ -257,6 +257,48 @@ bool fits_tree(const LoweredQuadric& quadric)
            within_tree(box_of(quadric));
 }
 
+namespace {
+
+/// As saddles and hyperboloids of one sheet are: the determinant of the equation is positive.
+bool is_doubly_ruled(const LoweredQuadric& quadric)
+{
+    const Vec3& s = quadric.square;
+    return quadric.linear != 0.0 ? s.x * s.y < 0.0 : s.x * s.y * s.z * quadric.constant > 0.0;
+}
+
+/// Whether a ray's second coefficient is a difference in which no axis of the world counts alone.
+bool has_turned_axes(const LoweredQuadric& quadric)
+{
+    const Vec3& s = quadric.square;
+    if (std::min({s.x, s.y, s.z}) >= 0.0 || std::max({s.x, s.y, s.z}) <= 0.0)
+        return false;
+    for (int row = 0; row < 3; ++row) {
+        const Vec3 axis = glm::row(quadric.inverse, row);
+        if ((axis.x != 0.0) + (axis.y != 0.0) + (axis.z != 0.0) > 1)
+            return true;
+    }
+    return false;
+}
+
+template <class Real>
+void set_sizes(abi::QuadricRecord<Real>& packed, const LoweredQuadric& quadric)
+{
+    const Vec3 s = glm::abs(quadric.square);
+    Vec3 rows2;
+    for (int row = 0; row < 3; ++row)
+        rows2[row] = glm::dot(glm::row(quadric.inverse, row), glm::row(quadric.inverse, row));
+    const Vec3 bend = s * rows2;
+    const double lift = std::abs(quadric.linear) * std::sqrt(rows2.z);
+    packed.bound_distance = static_cast<Real>(glm::distance(quadric.bound, quadric.center));
+    packed.bend_size = static_cast<Real>(bend.x + bend.y + bend.z);
+    packed.moment_size = static_cast<Real>(bend.y * bend.z + bend.z * bend.x + bend.x * bend.y);
+    packed.turn_size = static_cast<Real>(2.0 * lift * (bend.x + bend.y));
+    packed.lift_size = static_cast<Real>(lift);
+    packed.clip_size = static_cast<Real>(glm::length(quadric.clip));
+}
+
+}  // namespace
+
 template <class Real>
 abi::QuadricRecord<Real> pack(const LoweredQuadric& quadric)
 {
@@ -275,8 +317,12 @@ abi::QuadricRecord<Real> pack(const LoweredQuadric& quadric)
     packed.clip_high = static_cast<Real>(quadric.clip_high);
     round_to(packed.bound, quadric.bound);
     packed.bound_radius = static_cast<Real>(quadric.bound_radius);
+    set_sizes(packed, quadric);
     packed.clipped = quadric.clipped() ? 1 : 0;
     packed.capped = quadric.capped ? 1 : 0;
+    packed.ruled = is_doubly_ruled(quadric) ? 1 : 0;
+    // Single precision alone, in `fast`, would lose too much.
+    packed.turned = sizeof(Real) == sizeof(double) && has_turned_axes(quadric) ? 1 : 0;
     packed.surface = quadric.surface;
     return packed;
 }

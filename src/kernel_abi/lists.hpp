@@ -71,8 +71,17 @@ struct QuadricRecord {
     Real clip_high;
     Real bound[3];      ///< centre of a ball around the clipped surface
     Real bound_radius;  ///< infinite for an unbounded one
+    // What error bounds are made of; R_i is the length of row i of the inverse.
+    Real bound_distance;  ///< from the centre to that of the ball
+    Real bend_size;       ///< Σ |s_i| R_i²
+    Real moment_size;     ///< Σ |s_j s_k| R_j² R_k²
+    Real turn_size;       ///< 2 |linear| R_2 (|s_0| R_0² + |s_1| R_1²)
+    Real lift_size;       ///< |linear| R_2
+    Real clip_size;       ///< |clip|
     std::int32_t clipped;
     std::int32_t capped;
+    std::int32_t ruled;    ///< two straight lines of the side go through each of its points
+    std::int32_t turned;   ///< squares of two signs along axes that are not the world's
     std::int32_t surface;  ///< its number; with caps the next is the low one's, then the high's
 };
 

@@ -85,65 +85,65 @@ inline vreal<Real> quadric_discriminant(const abi::QuadricRecord<Real>& quadric,
     return madd(l + l, turn, msub(lifted, lifted, madd(vreal<Real>(quadric.constant), a, squares)));
 }
 
-/// Whether a quadric has two straight lines through each of its points, as saddles and hyperboloids
-/// of one sheet do: the determinant of its equation is positive.
+/// How large the terms are that cancel in the left side of the equation at p.
 template <class Real>
-inline bool is_doubly_ruled(const abi::QuadricRecord<Real>& quadric)
+inline vreal<Real> value_size(const abi::QuadricRecord<Real>& quadric, const Vec3v<Real>& p)
 {
-    const Real(&s)[3] = quadric.square;
-    return quadric.linear != 0 ? s[0] * s[1] < 0 : s[0] * s[1] * s[2] * quadric.constant > 0;
+    const vreal<Real> lift = vreal<Real>(quadric.linear) * p.z;
+    return madd(vreal<Real>(Real(2)), abs(lift), magnitude_dot(broadcast(quadric.square) * p, p)) +
+           abs(vreal<Real>(quadric.constant));
 }
 
 /// The discriminant of lines that nearly run along the surface is far below the terms that cancel
 /// in what the moment gives, and of these their rounding would be left. But all of a, b and c are
 /// small there: b² - a c is off by far less. It is taken where that is so by the sizes of what
-/// cancels in each.
+/// cancels in each. Of vectors in registers, and not inlined, so that other rays don't pay for it.
 template <class Real>
-inline vreal<Real> ruled_discriminant(const abi::QuadricRecord<Real>& quadric,
-                                      const Quadratic<Real>& q, const Vec3v<Real>& p,
-                                      const Vec3v<Real>& v, const Vec3v<Real>& m)
+[[gnu::noinline]] vreal<Real> ruled_discriminant(const abi::QuadricRecord<Real>& quadric,
+                                                 vreal<Real> px, vreal<Real> py, vreal<Real> pz,
+                                                 vreal<Real> vx, vreal<Real> vy, vreal<Real> vz)
 {
+    const Vec3v<Real> p{px, py, pz};
+    const Vec3v<Real> v{vx, vy, vz};
+    const Vec3v<Real> m = cross(p, v);
     const Vec3v<Real> s = broadcast(quadric.square);
     const Vec3v<Real> scaled = s * v;
+    const Vec3v<Real> others{s.y * s.z, s.z * s.x, s.x * s.y};
+    const vreal<Real> two(Real(2));
     const vreal<Real> linear(quadric.linear);
     const vreal<Real> constant = abs(vreal<Real>(quadric.constant));
-    const vreal<Real> climb = abs(linear * v.z);
-    const vreal<Real> two(Real(2));
+    const vreal<Real> climb = linear * v.z;
+    const vreal<Real> a = dot(scaled, v);
+    const vreal<Real> b = climb + dot(scaled, p);
+    const vreal<Real> c = quadric_value<Real>(quadric, p);
     const vreal<Real> a_size = magnitude_dot(scaled, v);
-    const vreal<Real> b_size = magnitude_dot(scaled, p) + climb;
-    const vreal<Real> c_size = madd(two, abs(linear * p.z), magnitude_dot(s * p, p) + constant);
-    const vreal<Real> straight =
-        madd(two * abs(q.b), b_size, madd(abs(q.a), c_size, abs(q.c) * a_size));
-    const Vec3v<Real> others{s.y * s.z, s.z * s.x, s.x * s.y};
+    const vreal<Real> b_size = abs(climb) + magnitude_dot(scaled, p);
+    const vreal<Real> c_size = value_size<Real>(quadric, p);
+    const vreal<Real> straight = madd(two * abs(b), b_size, madd(abs(a), c_size, abs(c) * a_size));
     const vreal<Real> turn = madd(abs(scaled.y), abs(m.x), abs(scaled.x) * abs(m.y));
     const vreal<Real> moment = madd(constant, a_size, magnitude_dot(others * m, m)) +
                                madd(two * abs(linear), turn, climb * climb);
-    return select(vreal<Real>(Real(4)) * straight < moment, msub(q.b, q.b, q.a * q.c),
-                  q.discriminant);
+    return select(vreal<Real>(Real(4)) * straight < moment, msub(b, b, a * c),
+                  quadric_discriminant<Real>(quadric, m, v, a));
 }
 
 /// The coefficient of t² along v in canonical space, `scaled` being v times the squares. What is no
-/// more than its own rounding is 0: the ray runs along a generator or an asymptote.
+/// more than its own rounding, or than what v is off by where the axes are turned, is 0: the ray
+/// runs along a generator or an asymptote.
 template <class Real>
-inline vreal<Real> bend_along(const Vec3v<Real>& scaled, const Vec3v<Real>& v)
+inline vreal<Real> bend_along(const abi::QuadricRecord<Real>& quadric, const Vec3v<Real>& scaled,
+                              const Vec3v<Real>& v, const Vec3v<Real>& dir)
 {
     const vreal<Real> bend = dot(scaled, v);
     constexpr Real rounding = sizeof(Real) == sizeof(float) ? Real(0x1p-22) : Real(0x1p-51);
-    const auto none = abs(bend) <= vreal<Real>(rounding) * magnitude_dot(scaled, v);
-    return select(none, vreal<Real>(Real(0)), bend);
-}
-
-/// The largest Σ |s_i| v_i² of any direction, per d·d.
-inline double largest_bend(const abi::QuadricRecord<double>& quadric)
-{
-    double sum = 0;
-    for (int axis = 0; axis < 3; ++axis) {
-        const double(&row)[3] = quadric.inverse[axis];
-        const double square = quadric.square[axis];
-        sum +=
-            (square < 0 ? -square : square) * (row[0] * row[0] + row[1] * row[1] + row[2] * row[2]);
+    vreal<Real> slack = vreal<Real>(rounding) * magnitude_dot(scaled, v);
+    if (quadric.turned) {
+        const Vec3v<Real> size{magnitude_dot(broadcast(quadric.inverse[0]), dir),
+                               magnitude_dot(broadcast(quadric.inverse[1]), dir),
+                               magnitude_dot(broadcast(quadric.inverse[2]), dir)};
+        slack = max(slack, vreal<Real>(8 * rounding) * magnitude_dot(scaled, size));
     }
-    return sum;
+    return select(abs(bend) <= slack, vreal<Real>(Real(0)), bend);
 }
 
 /// The ray p + t v in canonical space against the unclipped side, from the ray's point nearest to
@@ -156,19 +156,27 @@ struct SideQuadratic {
 
 template <class Real>
 inline SideQuadratic<Real> side_quadratic(const abi::QuadricRecord<Real>& quadric,
-                                          const Vec3v<Real>& p, const Vec3v<Real>& v)
+                                          const Vec3v<Real>& p, const Vec3v<Real>& v,
+                                          const Vec3v<Real>& dir)
 {
     const Vec3v<Real> scaled = broadcast(quadric.square) * v;
     const vreal<Real> start = negated(dot(p, v)) / dot(v, v);
     const Vec3v<Real> near = madd<Real>(start, v, p);
     Quadratic<Real> q;
-    q.a = bend_along<Real>(scaled, v);
+    q.a = bend_along<Real>(quadric, scaled, v, dir);
     q.b = madd(vreal<Real>(quadric.linear), v.z, dot(scaled, near));
     q.c = quadric_value<Real>(quadric, near);
-    const Vec3v<Real> moment = cross(near, v);
-    q.discriminant = quadric_discriminant<Real>(quadric, moment, v, q.a);
-    if (is_doubly_ruled(quadric))
-        q.discriminant = ruled_discriminant<Real>(quadric, q, near, v, moment);
+    q.discriminant = quadric_discriminant<Real>(quadric, cross(near, v), v, q.a);
+    if (quadric.ruled) {
+        const vreal<Real> sixteen(Real(16));
+        auto along = sixteen * abs(q.a) < magnitude_dot(scaled, v);
+        if (!none(along))
+            along = along & (sixteen * abs(q.c) < value_size<Real>(quadric, near));
+        if (!none(along))
+            q.discriminant = select(
+                along, ruled_discriminant<Real>(quadric, near.x, near.y, near.z, v.x, v.y, v.z),
+                q.discriminant);
+    }
     return {q, start};
 }
 
@@ -224,7 +232,7 @@ inline void visit_crossings(const abi::QuadricRecord<Real>& quadric,
                             const Visit& visit)
 {
     const Vec3v<Real> v = apply_inverse(quadric, rays.dir);
-    const auto [quadratic, start] = side_quadratic<Real>(quadric, origin.p, v);
+    const auto [quadratic, start] = side_quadratic<Real>(quadric, origin.p, v, rays.dir);
     const vreal<Real> zero(Real(0));
     const vreal<Real> root = sqrt(max(quadratic.discriminant, zero));
     const vreal<Real> minus_q = quadratic.b + with_sign_of(root, quadratic.b);

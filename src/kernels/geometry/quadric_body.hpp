@@ -50,7 +50,7 @@ inline OwnCrossing crossing_from_side(const abi::QuadricRecord<double>& quadric,
     const Vec3v<double> v = apply_inverse(quadric, dir);
     const Vec3v<double> scaled = broadcast(quadric.square) * v;
     const SurfaceLine line{madd(vreal<double>(quadric.linear), v.z, dot(scaled, p)),
-                           bend_along<double>(scaled, v)};
+                           bend_along<double>(quadric, scaled, v, dir)};
     if (!quadric.clipped)
         return only_crossing(line, t_min, outside);
     const ClipCrossings<double> clip = clip_crossings<double>(quadric, height, dir);
@@ -80,7 +80,7 @@ inline OwnCrossing crossing_from_cap(const abi::QuadricRecord<double>& quadric, 
                               abs(dot(broadcast(quadric.clip), dir));
     const vreal<double> across = select(far < never, far, never);
     const auto [side, start] = side_quadratic<double>(
-        quadric, quadric_origin<double>(quadric, point).p, apply_inverse(quadric, dir));
+        quadric, quadric_origin<double>(quadric, point).p, apply_inverse(quadric, dir), dir);
     const vreal<double> root = sqrt(max(side.discriminant, zero));
     const vreal<double> minus_q = side.b + with_sign_of(root, side.b);
     const auto at_start = minus_q == zero;
@@ -119,7 +119,7 @@ inline std::uint32_t bends_away(const abi::QuadricRecord<double>& quadric, const
     constexpr double rounding = sizeof(Real) == sizeof(float) ? 0x1p-24 : 0x1p-53;
     const Vec3v<Real> v = apply_inverse_as<Real>(quadric, dir);
     const vreal<Real> bend = dot(broadcast_as<Real>(quadric.square) * v, v);
-    const vreal<Real> slack(static_cast<Real>(64 * rounding * largest_bend(quadric)));
+    const vreal<Real> slack(static_cast<Real>(64 * rounding * quadric.bend_size));
     const vreal<Real> smallest(Real(0x1p-90));
     return bits(bend > max(slack * dot(dir, dir), smallest));
 }

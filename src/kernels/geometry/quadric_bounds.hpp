@@ -23,11 +23,6 @@ struct QuadricFilter {
     float inner_low, inner_high;
 };
 
-inline float row_length(const float (&row)[3])
-{
-    return __builtin_sqrtf(row[0] * row[0] + row[1] * row[1] + row[2] * row[2]) * inflation;
-}
-
 inline float square_error(float x, float dx)
 {
     return (2 * x + dx) * dx + roundoffs(9.0f) * x * x;
@@ -48,90 +43,53 @@ inline float reach_of(const Origins& origins, double distance)
 
 /// Lengths that enter the bounds.
 struct QuadricLengths {
-    float row[3];   ///< of the rows of the inverse
     float reach;    ///< from the centre to any origin, at most
     float passing;  ///< from the centre to any ray that comes near the ball, at most
 };
 
-/// What v is off by, per |d|.
-inline float dir_error(const QuadricLengths& lengths, int axis)
-{
-    return roundoffs(4.2f) * lengths.row[axis];
-}
-
 inline QuadricLengths lengths_of(const QuadricFilter& filter, const Origins& origins,
                                  double to_center)
 {
-    QuadricLengths lengths{};
-    double to_bound2 = 0;
-    for (int axis = 0; axis < 3; ++axis) {
-        lengths.row[axis] = row_length(filter.record->inverse[axis]);
-        const double to_bound = filter.wide->bound[axis] - filter.wide->center[axis];
-        to_bound2 += to_bound * to_bound;
-    }
-    lengths.reach = reach_of(origins, to_center);
-    const float near_ball = filter.ball.reach + roundoffs(4.0f) * lengths.reach +
-                            static_cast<float>(__builtin_sqrt(to_bound2)) * inflation;
-    lengths.passing = min(lengths.reach, near_ball);
-    return lengths;
+    const float reach = reach_of(origins, to_center);
+    const float near_ball =
+        filter.ball.reach + roundoffs(4.0f) * reach + filter.record->bound_distance * inflation;
+    return {reach, min(reach, near_ball)};
 }
+
+/// What v is off by, per |d| and length of a row.
+inline constexpr float dir_error = roundoffs(4.2f);
 
 /// By the largest |v| and |m| = |p × v| there are.
 inline float discriminant_error(const abi::QuadricRecord<float>& quadric,
                                 const QuadricLengths& lengths)
 {
-    float size[3];
-    float moment[3];
-    float moment_error[3];
-    for (int axis = 0; axis < 3; ++axis) {
-        const float rows = lengths.row[(axis + 1) % 3] * lengths.row[(axis + 2) % 3];
-        size[axis] = magnitude(quadric.square[axis]);
-        moment[axis] = rows * lengths.passing;
-        moment_error[axis] = roundoffs(26.0f) * rows * lengths.reach;
-    }
-    float error = 0;
-    for (int axis = 0; axis < 3; ++axis) {
-        error += size[(axis + 1) % 3] * size[(axis + 2) % 3] *
-                 square_error(moment[axis], moment_error[axis]);
-        error += magnitude(quadric.constant) * size[axis] *
-                 square_error(lengths.row[axis], dir_error(lengths, axis));
-    }
-    const float linear = magnitude(quadric.linear);
-    if (linear > 0) {
-        for (int axis = 0; axis < 2; ++axis)
-            error += 2 * linear * size[1 - axis] *
-                     product_error(lengths.row[1 - axis], dir_error(lengths, 1 - axis),
-                                   moment[axis], moment_error[axis]);
-        error += linear * linear * square_error(lengths.row[2], dir_error(lengths, 2));
-    }
-    return error * inflation;
+    const float moment_error = roundoffs(26.0f) * lengths.reach;
+    const float bend =
+        magnitude(quadric.constant) * quadric.bend_size + quadric.lift_size * quadric.lift_size;
+    return (quadric.moment_size * square_error(lengths.passing, moment_error) +
+            bend * square_error(1.0f, dir_error) +
+            quadric.turn_size * product_error(1.0f, dir_error, lengths.passing, moment_error)) *
+           inflation;
 }
 
 /// The errors of what tells where along a ray the unclipped side is, at most.
 inline void set_range_errors(QuadricFilter& filter, const QuadricLengths& lengths)
 {
     const abi::QuadricRecord<float>& quadric = *filter.record;
-    float slope =
-        magnitude(quadric.linear) * (dir_error(lengths, 2) + roundoffs(9.0f) * lengths.row[2]);
-    float bend = 0;
-    for (int axis = 0; axis < 3; ++axis) {
-        const float size = magnitude(quadric.square[axis]);
-        const float place = lengths.row[axis] * lengths.reach;
-        slope += size * product_error(place, roundoffs(6.2f) * place, lengths.row[axis],
-                                      dir_error(lengths, axis));
-        bend += size * square_error(lengths.row[axis], dir_error(lengths, axis));
-    }
+    const float slope =
+        quadric.lift_size * (dir_error + roundoffs(9.0f)) +
+        quadric.bend_size *
+            product_error(lengths.reach, roundoffs(6.2f) * lengths.reach, 1.0f, dir_error);
     filter.slope_error = slope > smallest_error ? slope * inflation : __builtin_inff();
-    filter.bend_error = bend * inflation;
+    filter.bend_error = quadric.bend_size * square_error(1.0f, dir_error) * inflation;
 }
 
 /// Those of heights, `reach` being from where they begin to any origin, at most.
 inline void set_clip_errors(QuadricFilter& filter, float reach)
 {
     const abi::QuadricRecord<float>& quadric = *filter.record;
-    const float clip = row_length(quadric.clip);
-    filter.climb_error = roundoffs(7.0f) * clip;
-    const float height = roundoffs(10.0f) * clip * reach;
+    filter.climb_error = roundoffs(7.0f) * quadric.clip_size;
+    const float height = roundoffs(10.0f) * quadric.clip_size * reach;
     const auto moved = [&](float plane, float by) {
         return plane + by * (height + roundoffs(4.0f) * magnitude(plane));
     };

@@ -190,7 +190,7 @@ inline Residual residual(const QuadricForm& form, const WideRays& rays, const vr
 inline vmask<float> turns_little(const QuadricForm& form, const Vec3v<float>& gradient,
                                  const RayPacket<float>& rays, const vreal<float>& dt)
 {
-    const auto bend = static_cast<float>(8.0 * largest_bend(form.quadric));
+    const auto bend = static_cast<float>(8.0 * form.quadric.bend_size);
     const vreal<float> turn = vreal<float>(bend) * dt;
     return turn * turn * rays.dir2 <= dot(gradient, gradient);
 }

@@ -32,10 +32,13 @@ struct OwnSurface {
         return is_on(body, common);
     }
 
-    /// Lanes whose rays start elsewhere than on the body of `pieces` surfaces from `first` on.
+    /// Lanes whose rays start elsewhere than on the body of `pieces` surfaces from `first` on, of
+    /// which all_on() is not true.
     template <class Real>
     std::uint32_t lanes_on_others(std::int32_t first, int pieces = 1) const
     {
+        if (common >= 0)
+            return all_lanes<Real>;
         return ~lanes_on_body<Real>(surface, first, pieces) & all_lanes<Real>;
     }
 };

@@ -84,11 +84,11 @@ private:
         const SphereApproach near = approach(test.w, test.bounds.outer2, rays);
         if (near.near == 0)
             return {};
-        const vint<float> own = load(bundle_.own + first);
+        const OwnSurface<vint<float>> own = own_of(bundle_, first);
         const Occlusion occlusion =
             occludes(test, near, rays, scale_of(bundle_, first, rays), load(bundle_.t + first));
-        return decided_alone(but_own<float>(occlusion.blocked, own, surface),
-                             but_own<float>(occlusion.unsure, own, surface), surface, first);
+        return decided_alone(but_own<float>(occlusion.blocked, own, {surface, 1}),
+                             but_own<float>(occlusion.unsure, own, {surface, 1}), surface, first);
     }
 
     Occlusion rounded_sphere_occludes(const SphereLeaf<Real>& leaf, int slot, int first) const
@@ -96,7 +96,7 @@ private:
         const RayPacket<Real> rays = load_rays(bundle_, first);
         const RayEnd<Real> end{load(bundle_.t + first), closed_};
         return {but_own<Real>(bits(end.blocked_by(quadratic_of(leaf.block, slot, rays), rays)),
-                              load(bundle_.own + first), leaf.surface_of(slot)),
+                              own_of(bundle_, first), {leaf.surface_of(slot), 1}),
                 0};
     }
 
@@ -128,7 +128,7 @@ private:
             for (std::uint32_t left = cells; left != 0; left &= left - 1)
                 object(kind, __builtin_ctz(left), surface, [&](int first) {
                     return object_occludes<F>(tree_, number, bundle_, load_rays(bundle_, first),
-                                              load(bundle_.t + first), load(bundle_.own + first),
+                                              load(bundle_.t + first), own_of(bundle_, first),
                                               closed_);
                 });
         }
@@ -282,15 +282,36 @@ template <abi::Features F, class Objects, class Real>
     return left != 0;
 }
 
-/// Something of a magnitude that no bounds hold for may be in the way of some rays of a bundle.
-struct DoubtWays {
-    RayBundle<float>& bundle;
+/// Rays of a bundle that no search in single precision may say anything of: of a magnitude that no
+/// bounds hold for. They are unsure, and set aside until that search is over.
+class RaysAside {
+public:
+    explicit RaysAside(RayBundle<float>& bundle) : bundle_(bundle)
+    {
+    }
+    ~RaysAside()
+    {
+        for (int cell = 0; any_ && cell < bundle_cells; ++cell)
+            bundle_.active[cell] |= aside_[cell];
+    }
+    RaysAside(const RaysAside&) = delete;
+    RaysAside& operator=(const RaysAside&) = delete;
 
-    void operator()(int first, std::uint32_t doubted) const
+    void operator()(int first, std::uint32_t doubted)
     {
         note_in_the_way(doubted, abi::Cause::magnitude);
-        doubt_lanes(bundle, first, doubted);
+        doubt_lanes(bundle_, first, doubted);
+        for (int cell = 0; !any_ && cell < bundle_cells; ++cell)
+            aside_[cell] = 0;
+        any_ = true;
+        aside_[first / cell_rays] |= static_cast<std::uint16_t>(doubted << first % cell_rays);
+        finish_lanes(bundle_, first, doubted);
     }
+
+private:
+    RayBundle<float>& bundle_;
+    bool any_ = false;
+    std::uint16_t aside_[bundle_cells];
 };
 
 /// The same among all objects of a scene, lists first.
@@ -305,14 +326,16 @@ inline void visit_occluders_of_bundle(const abi::GeometryView<Real>& scene, cons
             ? !visit_listed_occluders<features>(lists, bundle, closed, occluder)
             : active_cells(bundle) == 0)
         return;
-    if (scene.tree.empty()) {
-        if constexpr (F.exact)
-            doubt_uncertifiable(bundle, lists.certifiable, DoubtWays{bundle});
-        return;
+    if constexpr (F.exact) {
+        RaysAside aside(bundle);
+        if (scene.tree.empty())
+            return doubt_uncertifiable(bundle, lists.certifiable, aside);
+        bound_origins(bundle, scene, aside);
+        if (active_cells(bundle) != 0)
+            visit_occluders_in_tree<features>(scene.tree, buffer, bundle, closed, occluder);
+    } else if (!scene.tree.empty()) {
+        visit_occluders_in_tree<features>(scene.tree, buffer, bundle, closed, occluder);
     }
-    if constexpr (F.exact)
-        bound_origins(bundle, scene, DoubtWays{bundle});
-    visit_occluders_in_tree<features>(scene.tree, buffer, bundle, closed, occluder);
 }
 
 }  // namespace

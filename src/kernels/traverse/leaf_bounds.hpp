@@ -17,7 +17,7 @@ inline std::uint32_t uncertifiable(const RayPacket<float>& rays, std::uint32_t a
 /// them where the origins' are not certifiable.
 template <class Doubt>
 inline void doubt_uncertifiable(const RayBundle<float>& bundle, bool certifiable_origins,
-                                const Doubt& doubt)
+                                Doubt&& doubt)
 {
     for (int first = 0; first < bundle_rays; first += lanes<float>) {
         const std::uint32_t active = active_lanes(bundle, first);
@@ -34,7 +34,7 @@ inline void doubt_uncertifiable(const RayBundle<float>& bundle, bool certifiable
 /// doubt_uncertifiable() does.
 template <class Doubt>
 inline void bound_origins(RayBundle<float>& bundle, const abi::GeometryView<float>& scene,
-                          const Doubt& doubt)
+                          Doubt&& doubt)
 {
     const abi::BvhView<float>& tree = scene.tree;
     // Of rays that are not active, too: they are like their neighbours.

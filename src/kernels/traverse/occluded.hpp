@@ -11,21 +11,21 @@ namespace {
 /// `blocked` without the lanes whose own body is what blocks them: whether that is in the way is
 /// known without looking (leave_surface.hpp).
 template <class Real>
-inline std::uint32_t but_own(std::uint32_t blocked, const vint<Real>& own, std::int32_t first,
-                             int pieces = 1)
+inline std::uint32_t but_own(std::uint32_t blocked, const OwnSurface<vint<Real>>& own,
+                             const Body& body)
 {
-    return blocked == 0 ? 0 : blocked & ~lanes_on_body<Real>(own, first, pieces);
+    return blocked == 0 ? 0 : blocked & own.template lanes_on_others<Real>(body.first, body.pieces);
 }
 
 /// The lanes of `certain` that do not start on a body, for tests that take long.
 struct CertainOthers {
-    const vint<float>& own;
+    const OwnSurface<vint<float>>& own;
     std::uint32_t certain;
 
     template <class Real>
     std::uint32_t lanes_on_others(std::int32_t first, int pieces = 1) const
     {
-        return but_own<float>(certain, own, first, pieces);
+        return but_own<float>(certain, own, {first, pieces});
     }
 };
 
@@ -46,7 +46,7 @@ inline void visit_occluders(const RayEnd<Real>& end, const Objects& objects,
                 continue;
             at.test(kind.primitive);
             const std::uint32_t blocked = occluding_lanes(end, object, rays);
-            if (!occluder(body.first, but_own<Real>(blocked, own.surface, body.first, body.pieces)))
+            if (!occluder(body.first, but_own<Real>(blocked, own, body)))
                 return false;
         }
         return true;
@@ -68,11 +68,10 @@ inline std::uint32_t visit_occluders(const vreal<float>& t_end,
     // Whether to go on.
     const auto take = [&](const Body& body, const Occlusion& occlusion) {
         const std::uint32_t blocked = occlusion.blocked & certain;
-        unsure |= but_own<float>(occlusion.unsure, own.surface, body.first, body.pieces);
-        return blocked == 0 ||
-               occluder(body.first, but_own<float>(blocked, own.surface, body.first, body.pieces));
+        unsure |= but_own<float>(occlusion.unsure, own, body);
+        return blocked == 0 || occluder(body.first, but_own<float>(blocked, own, body));
     };
-    const CertainOthers others{own.surface, certain};
+    const CertainOthers others{own, certain};
     const TestScope at;
     for_each_kind<F>([&](auto kind) {
         const auto& list = objects_of<decltype(kind)>(objects);

@@ -48,7 +48,8 @@ inline bool goes_behind(RayBundle<Real>& bundle, int ray, std::int32_t surface,
 template <abi::Features F, class Real>
 inline Occlusion object_occludes(const abi::BvhView<Real>& tree, int number,
                                  const RayBundle<Real>& bundle, const RayPacket<Real>& rays,
-                                 const vreal<Real>& t_end, const vint<Real>& own, bool closed)
+                                 const vreal<Real>& t_end, const OwnSurface<vint<Real>>& own,
+                                 bool closed)
 {
     return with_object_of_run(tree, number, [&](const auto& record, const auto& shape) {
         if constexpr (F.exact) {
@@ -58,7 +59,7 @@ inline Occlusion object_occludes(const abi::BvhView<Real>& tree, int number,
             const Body body = body_of(record);
             return Occlusion{
                 but_own<Real>(occluding_lanes(RayEnd<Real>{t_end, closed}, record, rays), own,
-                              body.first, body.pieces),
+                              body),
                 0};
         }
     });
@@ -73,7 +74,7 @@ template <abi::Features F, class Real>
     const PartScope part(part_of(kind));
     tell_live(1);
     const RayPacket<Real> rays = broadcast_ray(bundle, ray);
-    const vint<Real> own(bundle.own[ray]);
+    const OwnSurface<vint<Real>> own{vint<Real>(bundle.own[ray])};
     for (int i = 0; i < abi::run_count(child); ++i) {
         const int number = abi::first_of_run(child) + i;
         count_tests(kind, 1);
