@@ -77,6 +77,25 @@ std::string refusal_of_region(const Region& region, Kernel kernel)
 
 }  // namespace
 
+TEST_CASE("a region of glass has the bits of the whole picture with adaptive sampling, too",
+          "[region]")
+{
+    Scene scene = read_scene(PACKTRACE_SOURCE_DIR "/scenes/nested_glass.scene");
+    set_size(scene, 96, 72);
+    scene.max_depth = 5;
+    RenderOptions options;
+    options.samples = 16;
+    options.adaptive = 0.02;
+    const Image<float> whole = render<float>(scene, options);
+    for (const Region& region :
+         {Region{40, 20, 20, 20}, Region{17, 0, 10, 16}, Region{33, 33, 30, 20}}) {
+        CAPTURE(region.x, region.y);
+        RenderOptions part = options;
+        part.region = region;
+        CHECK((render<float>(scene, part).rgb == cut_out(whole, region).rgb));
+    }
+}
+
 TEST_CASE("a region has the pixels of the whole picture, bit for bit", "[region]")
 {
     for (const Kernel kernel : {Kernel::packet, Kernel::scalar})

@@ -88,7 +88,7 @@ FrameCounts FrameRenderer<Real>::render_region(const Region& region, Image<Real>
 {
     const Region tiles = whole_tiles(region);
     const Region held =
-        options_.adaptive ? whole_tiles(with_neighbours(region, width_, height_)) : tiles;
+        options_.adaptive ? whole_tiles(with_neighbours(tiles, width_, height_)) : tiles;
     Image<Real> larger;
     if (held != region)
         larger = Image<Real>::unset(held.width, held.height);
