@@ -20,8 +20,8 @@ from .picture import (Comparison, Picture, PixelError, compare, heatmap, read_im
 from .rays import AllHits, Hits, RayScene, SceneUpdate, Starts
 from .report import report
 from .scene import (Animation, Camera, CameraKey, Checker, GeneralMaterial, Light, Material, Object,
-                    Orbit, Plane, Polygon, Quadric, Scene, ScratchMaterial, ShaderMaterial,
-                    Path, SketchMaterial, Sphere, WhittedMaterial, file_name)
+                    Orbit, Path, Plane, Polygon, Quadric, Scene, ScratchMaterial, ShaderMaterial,
+                    SketchMaterial, Sphere, WhittedMaterial, file_name)
 
 __all__ = [
     "AllHits", "Animation", "Camera", "CameraKey", "Checker", "Comparison", "GeneralMaterial", "Hits",

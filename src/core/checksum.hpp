@@ -7,6 +7,11 @@
 // Numbers that tell whether bytes or texts are the same.
 namespace packtrace {
 
+[[nodiscard]] inline std::span<const std::uint8_t> bytes_of(std::string_view text)
+{
+    return {reinterpret_cast<const std::uint8_t*>(text.data()), text.size()};
+}
+
 /// The CRC-32 of bytes that follow those of the checksum `before`.
 [[nodiscard]] std::uint32_t checksum(std::span<const std::uint8_t> bytes, std::uint32_t before = 0);
 

@@ -266,7 +266,7 @@ bool is_doubly_ruled(const LoweredQuadric& quadric)
     return quadric.linear != 0.0 ? s.x * s.y < 0.0 : s.x * s.y * s.z * quadric.constant > 0.0;
 }
 
-/// Whether a ray's second coefficient is a difference in which no axis of the world counts alone.
+/// Whether a in a ray's a t² + 2 b t + c is a difference of squares along axes not all the world's.
 bool has_turned_axes(const LoweredQuadric& quadric)
 {
     const Vec3& s = quadric.square;

@@ -8,6 +8,7 @@
 #include <filesystem>
 #include <functional>
 #include <memory>
+#include <optional>
 #include <span>
 #include <string>
 
@@ -16,8 +17,10 @@ namespace packtrace {
 
 enum class ImageFormat { png, pfm, hdr };
 
-/// The format a picture file's extension stands for, in either case. Throws ImageError that
-/// lists the known ones.
+/// The format a picture file's extension stands for, in either case, if any.
+[[nodiscard]] std::optional<ImageFormat> find_image_format(const std::filesystem::path& file);
+
+/// The same. Throws ImageError that lists the known ones.
 [[nodiscard]] ImageFormat image_format(const std::filesystem::path& file);
 
 // PNG

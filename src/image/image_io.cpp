@@ -3,12 +3,12 @@
 #include <packtrace/image_io.hpp>
 
 #include "core/atomic_file.hpp"
+#include "core/checksum.hpp"
 #include "core/read_file.hpp"
 #include "image/formats.hpp"
 
-#include <libdeflate.h>
-
 #include <algorithm>
+#include <optional>
 #include <span>
 #include <stdexcept>
 #include <string>
@@ -25,17 +25,15 @@ std::filesystem::path beside(std::filesystem::path picture)
 }
 
 /// Tells a picture from one that has since been put into its place.
-std::string mark_of(const void* bytes, std::size_t size)
+std::string mark_of(std::span<const std::uint8_t> bytes)
 {
-    return std::to_string(size) + " bytes, checksum " +
-           std::to_string(libdeflate_crc32(0, bytes, size));
+    return std::to_string(bytes.size()) + " bytes, checksum " + std::to_string(checksum(bytes));
 }
 
 std::string recipe_in_png(const std::filesystem::path& picture)
 {
     try {
-        const std::string bytes = read_file(picture);
-        return png_recipe({reinterpret_cast<const std::uint8_t*>(bytes.data()), bytes.size()});
+        return png_recipe(bytes_of(read_file(picture)));
     } catch (const FileError&) {
         // Not there, or not to be read.
         return {};
@@ -47,7 +45,7 @@ void write_recipe_beside(const std::filesystem::path& picture, std::span<const s
                          const std::string& recipe)
 {
     AtomicFile output(beside(picture));
-    output.write(recipe + "\n" + mark_of(bytes.data(), bytes.size()) + "\n");
+    output.write(recipe + "\n" + mark_of(bytes) + "\n");
     output.commit();
 }
 
@@ -57,7 +55,7 @@ std::string read_recipe_beside(const std::filesystem::path& picture)
     try {
         const std::string text = read_file(beside(picture));
         const std::string bytes = read_file(picture);
-        const std::string mark = "\n" + mark_of(bytes.data(), bytes.size()) + "\n";
+        const std::string mark = "\n" + mark_of(bytes_of(bytes)) + "\n";
         if (text.ends_with(mark))
             return text.substr(0, text.size() - mark.size());
     } catch (const FileError&) {
@@ -113,7 +111,7 @@ Image<float> decode(ImageFormat format, std::span<const std::uint8_t> bytes)
 
 }  // namespace
 
-ImageFormat image_format(const std::filesystem::path& file)
+std::optional<ImageFormat> find_image_format(const std::filesystem::path& file)
 {
     const std::string extension = file.extension().string();
     std::string lower = extension;
@@ -125,6 +123,14 @@ ImageFormat image_format(const std::filesystem::path& file)
         return ImageFormat::pfm;
     if (lower == ".hdr")
         return ImageFormat::hdr;
+    return std::nullopt;
+}
+
+ImageFormat image_format(const std::filesystem::path& file)
+{
+    if (const auto format = find_image_format(file))
+        return *format;
+    const std::string extension = file.extension().string();
     const std::string what = extension.empty() ? "no extension tells the picture format"
                                                : "unknown picture format '" + extension + "'";
     throw ImageError(file.string() + ": " + what + "; use .png, .pfm or .hdr");
@@ -175,7 +181,7 @@ Image<float> read_image(const std::filesystem::path& file)
     const ImageFormat format = image_format(file);
     try {
         const std::string bytes = read_file(file);
-        return decode(format, {reinterpret_cast<const std::uint8_t*>(bytes.data()), bytes.size()});
+        return decode(format, bytes_of(bytes));
     } catch (const FileError& error) {
         throw ImageError(error.what());
     } catch (const ImageError& error) {

@@ -1,5 +1,6 @@
 // Pictures as PNG: stb_image_write with libdeflate behind it, one filter and one level, chosen in
 // results/png.json.
+#include "core/checksum.hpp"
 #include "image/bytes.hpp"
 #include "image/formats.hpp"
 
@@ -61,8 +62,8 @@ std::string big_endian(std::size_t number)
 void insert_recipe(Bytes& file, std::string_view recipe)
 {
     const std::string typed = std::string("tEXt").append(recipe_keyword).append(recipe);
-    const std::string chunk = big_endian(typed.size() - 4) + typed +
-                              big_endian(libdeflate_crc32(0, typed.data(), typed.size()));
+    const std::string chunk =
+        big_endian(typed.size() - 4) + typed + big_endian(checksum(bytes_of(typed)));
     file.insert(file.begin() + recipe_at, chunk.begin(), chunk.end());
 }
 
@@ -83,7 +84,7 @@ bool is_whole(std::span<const std::uint8_t> file)
         if (length > file.size() - at - around)
             return false;
         const std::size_t end = at + around + length;
-        if (libdeflate_crc32(0, file.data() + at + 4, length + 4) != number_at(file, end - 4))
+        if (checksum(file.subspan(at + 4, length + 4)) != number_at(file, end - 4))
             return false;
         if (std::string_view(reinterpret_cast<const char*>(file.data()) + at + 4, 4) == "IEND")
             return end == file.size();

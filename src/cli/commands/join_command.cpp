@@ -76,8 +76,7 @@ std::uint64_t bytes_of_whole(const HitPart& part)
     PartEnd whole{before, 0};
     std::rewind(file);
     read_bytes(part, before, [&](std::string_view bytes) {
-        whole.checksum = checksum(
-            {reinterpret_cast<const std::uint8_t*>(bytes.data()), bytes.size()}, whole.checksum);
+        whole.checksum = checksum(bytes_of(bytes), whole.checksum);
     });
     if (!end.ends_with(whole.line()))
         throw FileError(part.name +

@@ -11,11 +11,6 @@
 namespace packtrace::cli {
 namespace {
 
-std::span<const std::uint8_t> bytes_of(std::string_view text)
-{
-    return {reinterpret_cast<const std::uint8_t*>(text.data()), text.size()};
-}
-
 /// Adds the bytes of the part file from `begin` to `end` to a checksum.
 std::uint32_t checksum_of(const Journal& journal, std::uint64_t begin, std::uint64_t end,
                           std::uint32_t before)
@@ -38,9 +33,7 @@ HitOutput::HitOutput(const IntersectArguments& arguments, const std::string& rec
 {
     if (!arguments.resume) {
         text_ = std::make_unique<TextOutput>(arguments.output);
-        text_->write(header);
-        done_.bytes = header.size();
-        done_.rows = checksum(bytes_of(header));
+        append(header);
         return;
     }
     journal_ = std::make_unique<Journal>(arguments.output, recipe, recipe_difference);
@@ -83,14 +76,11 @@ void HitOutput::skip_finished(const std::function<std::string()>& next)
 
 void HitOutput::take(std::string_view block, std::string_view rows)
 {
-    if (text_)
-        text_->write(rows);
-    else
-        journal_->write(done_.bytes, bytes_of(rows));
-    done_ = {done_.blocks + 1, checksum(bytes_of(block), done_.rays), done_.bytes + rows.size(),
-             checksum(bytes_of(rows), done_.rows)};
+    append(rows);
     if (text_)
         return;
+    ++done_.blocks;
+    done_.rays = checksum(bytes_of(block), done_.rays);
     journal_->add({done_.blocks, done_.rays, done_.bytes, done_.rows});
     set_interrupt_line("packtrace: interrupted; the same command goes on after the " +
                        std::to_string(done_.blocks) + " finished blocks of rays of " + name_);
@@ -98,11 +88,17 @@ void HitOutput::take(std::string_view block, std::string_view rows)
 
 void HitOutput::end_part()
 {
-    const std::string line = PartEnd{done_.bytes, done_.rows}.line();
+    append(PartEnd{done_.bytes, done_.rows}.line());
+}
+
+void HitOutput::append(std::string_view text)
+{
     if (text_)
-        text_->write(line);
+        text_->write(text);
     else
-        journal_->write(done_.bytes, bytes_of(line));
+        journal_->write(done_.bytes, bytes_of(text));
+    done_.bytes += text.size();
+    done_.rows = checksum(bytes_of(text), done_.rows);
 }
 
 void HitOutput::finish()

@@ -48,6 +48,9 @@ private:
         std::uint32_t rows = 0;  ///< checksum
     };
 
+    /// Behind all that is finished, which it is part of then.
+    void append(std::string_view text);
+
     [[nodiscard]] Progress find_finished(std::string_view header) const;
 
     std::string name_;

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <chrono>
-#include <filesystem>
 #include <iostream>
 #include <stdexcept>
 
@@ -15,6 +14,7 @@
 #include "cli/render/render_picture.hpp"
 #include "core/job_queue.hpp"
 #include "core/seconds_since.hpp"
+#include "image/formats.hpp"
 #include "render/frame_numbers.hpp"
 #include "scene/quote.hpp"
 
@@ -141,17 +141,6 @@ void add_animation_options(CLI::App& command, AnimationArguments& arguments)
         ->type_name("N");
 }
 
-namespace {
-
-/// Whether its ending is that of a picture's format.
-bool is_picture_name(const std::string& file)
-{
-    const std::string ending = std::filesystem::path(file).extension().string();
-    return ending == ".png" || ending == ".pfm" || ending == ".hdr";
-}
-
-}  // namespace
-
 void check_animation_options(const RenderArguments& arguments)
 {
     const AnimationArguments& animation = arguments.animation;
@@ -164,7 +153,7 @@ void check_animation_options(const RenderArguments& arguments)
         throw CLI::ValidationError("--overwrite: only --frames into picture files skips any");
     if (animation.shard && (!animation.frames || animation.y4m))
         throw CLI::ValidationError("--shard: cuts --frames into picture files only");
-    if (animation.y4m && is_picture_name(arguments.output))
+    if (animation.y4m && find_image_format(arguments.output))
         throw CLI::ValidationError("--y4m: '" + arguments.output +
                                    "' is the name of a picture; give a video's, such as film.y4m");
     if (animation.frames)

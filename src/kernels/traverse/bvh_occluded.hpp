@@ -291,7 +291,7 @@ public:
     }
     ~RaysAside()
     {
-        for (int cell = 0; any_ && cell < bundle_cells; ++cell)
+        for (int cell = 0; cell < bundle_cells; ++cell)
             bundle_.active[cell] |= aside_[cell];
     }
     RaysAside(const RaysAside&) = delete;
@@ -301,17 +301,13 @@ public:
     {
         note_in_the_way(doubted, abi::Cause::magnitude);
         doubt_lanes(bundle_, first, doubted);
-        for (int cell = 0; !any_ && cell < bundle_cells; ++cell)
-            aside_[cell] = 0;
-        any_ = true;
         aside_[first / cell_rays] |= static_cast<std::uint16_t>(doubted << first % cell_rays);
         finish_lanes(bundle_, first, doubted);
     }
 
 private:
     RayBundle<float>& bundle_;
-    bool any_ = false;
-    std::uint16_t aside_[bundle_cells];
+    std::uint16_t aside_[bundle_cells] = {};
 };
 
 /// The same among all objects of a scene, lists first.
