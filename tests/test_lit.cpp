@@ -273,6 +273,24 @@ TEST_CASE("lights reach what infinite precision lets them reach among spheres", 
     }
 }
 
+TEST_CASE("lights however far reach what infinite precision lets them reach", "[lit]")
+{
+    for (const double distance : {1e3, 1e5, 1e7, 5e8}) {
+        CAPTURE(distance);
+        for (const int count : {4, 300}) {
+            Scene scene = crowd(count);
+            scene.lights.clear();
+            for (const Vec3& to : {Vec3(0.5, 0.8, -0.3), Vec3(-0.9, 0.3, -0.2)})
+                scene.lights.push_back({LightType::point, Rgb(0.6), distance * to});
+            for (const RenderOptions& options : packet_ways()) {
+                const RayScene<float> rays(scene, options);
+                check_spheres(scene, options, look(rays, 12000, {0, 1, -6}, 2, {0, -1, 6}, 4),
+                              rays);
+            }
+        }
+    }
+}
+
 TEST_CASE("lights' own views change no answer, in as many calls as it takes", "[lit]")
 {
     const Scene scene = crowd(300);

@@ -1,13 +1,18 @@
 // What rays of the caller's own hit hangs on the objects in their way alone: not on where the
 // camera and the lights are, nor on what else is in the scene.
 #include <array>
+#include <cmath>
 #include <limits>
+#include <optional>
 
 #include <packtrace/intersect.hpp>
+#include <packtrace/read_scene.hpp>
+#include <packtrace/render.hpp>
 
 #include "catch.hpp"
 #include "lab/stress/placed_quadric.hpp"
 #include "lab/stress/stress_subject.hpp"
+#include "packet_ways.hpp"
 #include "render_scene.hpp"
 
 namespace packtrace::test {
@@ -147,7 +152,65 @@ void check_no_cliff(const RenderOptions& options)
     }
 }
 
+/// A floor, what stands on it, and one light `distance` away.
+Scene lit_from(double distance)
+{
+    Scene scene = parse_scene(R"(
+        image_size = 96 x 72
+        camera { position = (0, 2.5, -7)  look_at = (0, 0.6, 0) }
+        plane { point = (0, 0, 0)  normal = (0, 1, 0) }
+        sphere { center = (-1.5, 1, 0)  radius = 1 }
+        sphere { center = (0.3, 0.3, -1.5)  radius = 0.3  reflective = 0.4 }
+        cylinder { z_range = (-0.5, 0.5)  capped = true  rotate = (1, 0, 0, 90)
+                   translate = (1.5, 0.5, 0) }
+        polygon { vertices = (-1, 1.8, 1), (1, 1.8, 1), (0, 2.6, 1.4) }
+        light { type = ambient  intensity = 0.2 }
+    )",
+                              "lit", {});
+    Light light;
+    light.type = LightType::point;
+    light.intensity = Rgb(0.7);
+    light.vector = distance * Vec3(-0.48, 0.8, -0.36);
+    scene.lights.push_back(light);
+    return scene;
+}
+
+/// Pixels that are off by more than 2 / 255, of which a shadow's edge in a picture so small has
+/// none or some.
+int pixels_off(const Image<float>& image, const Image<double>& truth)
+{
+    int off = 0;
+    for (std::size_t i = 0; i < truth.rgb.size(); i += 3) {
+        bool differs = false;
+        for (std::size_t c = i; c < i + 3; ++c)
+            differs |= std::abs(static_cast<double>(image.rgb[c]) - truth.rgb[c]) > 2.0 / 255.0;
+        off += differs ? 1 : 0;
+    }
+    return off;
+}
+
 }  // namespace
+
+TEST_CASE("shadows stay where they are however far a light is", "[no_cliff]")
+{
+    for (const double distance : {10.0, 1e4, 1e6, 1e7, 1e8, 5e8}) {
+        const Scene scene = lit_from(distance);
+        const Image<double> truth = render_scalar<double>(scene);
+        std::optional<Image<float>> fused;
+        for (RenderOptions options : packet_ways())
+            for (const bool force_general : {false, true}) {
+                CAPTURE(distance, options.isa, options.traversal, force_general);
+                options.force_general = force_general;
+                const Image<float> image = render<float>(scene, options);
+                CHECK(pixels_off(image, truth) <= 1);
+                if (options.isa == "sse42")
+                    continue;
+                if (!fused)
+                    fused = image;
+                CHECK((fused->rgb == image.rgb));
+            }
+    }
+}
 
 TEST_CASE("camera, lights and objects elsewhere change no digit of a hit", "[no_cliff]")
 {

@@ -50,6 +50,7 @@ struct LightRecord {
     Real vector[3];  ///< position, or direction towards the light
     LightKind kind;
     bool casts_shadow;
+    bool sends_rays;  ///< its shadow rays start at it; else at the points that it may light
 };
 
 }  // namespace packtrace::abi

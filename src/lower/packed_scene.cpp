@@ -7,6 +7,7 @@
 #include <tbb/parallel_for.h>
 
 #include "geometry/object_rules.hpp"
+#include "lower/far_lights.hpp"
 #include "lower/in_parallel.hpp"
 
 namespace packtrace {
@@ -155,6 +156,7 @@ void PackedScene<Real>::refit(const LoweredScene& lowered, const Bvh& bvh)
         return;
     wide_.tree = tree_.wide_view(shapes_.view());
     view_.certifiable = certifiable(lowered);
+    choose_light_ends(lowered);
 }
 
 template <class Real>
@@ -232,7 +234,20 @@ void PackedScene<Real>::pack_lights(const LoweredScene& lowered)
             light.type == LightType::point ? abi::LightKind::point : abi::LightKind::directional;
         lights_[i].casts_shadow = lowered.shadows && light.casts_shadow;
     }
+    choose_light_ends(lowered);
     view_.lighting.lights = {lights_.data(), static_cast<int>(lowered.lights.size())};
+}
+
+template <class Real>
+void PackedScene<Real>::choose_light_ends(const LoweredScene& lowered)
+{
+    for (std::size_t i = 0; i < lowered.lights.size(); ++i) {
+        abi::LightRecord<Real>& light = lights_[i];
+        const bool exact = view_.wide != nullptr;
+        light.sends_rays =
+            light.kind == abi::LightKind::point &&
+            !(exact && light.casts_shadow && is_far(lowered.lights[i].vector, lowered));
+    }
 }
 
 template <class Real>
@@ -268,9 +283,9 @@ template <class Real>
 PackedLightBuffer PackedScene<Real>::light_buffer(const abi::LightRecord<Real>& light) const
 {
     if constexpr (sizeof(Real) == sizeof(float))
-        return {light, view_.tree, tree_.block_count()};
-    else
-        return {};
+        if (light.kind == abi::LightKind::directional || light.sends_rays)
+            return {light, view_.tree, tree_.block_count()};
+    return {};
 }
 
 template <class Real>

@@ -77,6 +77,7 @@ private:
     void pack_ior(const LoweredScene& lowered);
     void pack_min_weight(const LoweredScene& lowered);
     void pack_lights(const LoweredScene& lowered);
+    void choose_light_ends(const LoweredScene& lowered);
     void pack_casters(const LoweredScene& lowered);
     [[nodiscard]] std::size_t light_buffer_bytes() const;
 

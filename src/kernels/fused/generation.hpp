@@ -21,14 +21,15 @@ template <abi::Features F>
     return objects;
 }
 
-/// What may be in the way of a light, by light, for hits there. A point light sees what it sees.
+/// What may be in the way of a light, by light, for hits there. A light that sends rays sees what
+/// it sees.
 template <abi::Features F>
 [[gnu::noinline]] const LightObjects<F, float>* occluders_from_far(const FusedTile<F>& tile,
                                                                    int light,
                                                                    const Vec3v<float>& place,
                                                                    std::uint32_t active)
 {
-    if (tile.scene.lighting.lights.data[light].kind == abi::LightKind::point)
+    if (tile.scene.lighting.lights.data[light].sends_rays)
         return tile.plan.occluders;
     LightObjects<F, float>* const occluders = tile.memory.occluders;
     find_objects<F>(occluders[light].along, origins_of_lanes(place, active),

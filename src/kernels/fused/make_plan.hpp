@@ -375,7 +375,7 @@ inline void fill_plan(FramePlan<F>& plan, const abi::SceneView<float>& scene,
         find_all_needed<F>(plan.clear[i], scene, light);
         if (!light.casts_shadow)
             continue;
-        if (light.kind == abi::LightKind::point)
+        if (light.sends_rays)
             find_from_point<F, float>(plan.occluders[i].from_point, light.vector, casters);
         else
             find_objects<F>(plan.occluders[i].along, plan.origins, casters);

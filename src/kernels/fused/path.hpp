@@ -92,7 +92,7 @@ struct FusedMemory {
     std::uint8_t* visible_balls = nullptr;    ///< likewise
     FilteredObjects<true> visible;            ///< likewise, where tests are dear
     FilteredObjects<false> from_far;          ///< for mirrored rays beyond the plan's origins
-    LightObjects<F, float>* occluders = nullptr;  ///< likewise, by light; of directional ones
+    LightObjects<F, float>* occluders = nullptr;  ///< likewise, by light that sends no rays
     std::size_t bytes = 0;
 
     /// With no `scratch`, only `bytes` is of use.
@@ -121,7 +121,7 @@ private:
     static void take_along(Arena& arena, LightObjects<F, float>* objects,
                            const abi::SceneView<float>& scene, const abi::LightRecord<float>& light)
     {
-        if (!light.casts_shadow || light.kind == abi::LightKind::point)
+        if (!light.casts_shadow || light.sends_rays)
             return;
         LightObjects<F, float> measured;
         take_objects<F>(arena, objects != nullptr ? objects->along : measured.along,

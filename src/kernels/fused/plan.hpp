@@ -88,7 +88,7 @@ struct FramePlan {
     FilteredObjects<true> from_camera;
     FilteredObjects<false> from_near;  ///< from `origins`
     Origins origins;
-    LightObjects<F, float>* occluders = nullptr;  ///< by light; of directional ones from `origins`
+    LightObjects<F, float>* occluders = nullptr;  ///< by light; if it sends no rays from `origins`
     ClearTests* clear = nullptr;                  ///< by light
     CommonObjects common;                         ///< likewise from `origins`
     PlanMaterial* materials = nullptr;            ///< by number

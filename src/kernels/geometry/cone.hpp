@@ -275,5 +275,19 @@ inline Cone<Real> segment_cone(const Real (&light)[3], const Box<Real>& box)
     return cone;
 }
 
+/// From everything in `box` to a point: one outside the ball that holds the box, or not bounded.
+template <class Real>
+inline Cone<Real> cone_to(const Real (&point)[3], const Box<Real>& box)
+{
+    const Ball<Real> ball = ball_around(box);
+    Cone<Real> cone = segment_cone(point, box);
+    for (int axis = 0; axis < 3; ++axis) {
+        cone.base[axis] = ball.center[axis];
+        cone.axis[axis] = -cone.axis[axis];
+    }
+    cone.radius = ball.radius;
+    return cone;
+}
+
 }  // namespace
 }  // namespace packtrace::PACKTRACE_ISA

@@ -8,7 +8,8 @@
 #include "kernels/traverse/retrace_occluded.hpp"
 
 // Shadow rays of a packet. Those of a point light are traced from it, where they share their
-// origin: t there is 1 - t of the notes' ray from the point.
+// origin: t there is 1 - t of the notes' ray from the point. Those of a light from a direction, or
+// of one so far that its rays would be off at the point, start there.
 namespace packtrace::PACKTRACE_ISA {
 namespace {
 
@@ -64,6 +65,13 @@ inline OwnSurface<vint<Real>> common_own_of(const abi::SceneView<Real>& scene,
     return own_with_common<Real>(surface.number, distinct.value(), active);
 }
 
+/// Where the way from a point to a light ends.
+template <class Real>
+inline Real way_end(const abi::LightRecord<Real>& light)
+{
+    return light.kind == abi::LightKind::directional ? static_cast<Real>(__builtin_inf()) : Real(1);
+}
+
 /// Lanes of `wanted` that their own body keeps from a light, by SelfHits::exact.
 template <class Real>
 inline std::uint32_t own_shadow(const abi::SceneView<Real>& scene,
@@ -78,19 +86,33 @@ inline std::uint32_t own_shadow(const abi::SceneView<Real>& scene,
         second_hit<Real>(casters_of(scene).shapes, surface.number, surface.point, packet.to_light,
                          vreal<Real>(Real(0)), outside, wanted)
             .t;
-    const Real end =
-        light.kind == abi::LightKind::directional ? static_cast<Real>(__builtin_inf()) : Real(1);
-    return bits(again < vreal<Real>(end)) & wanted;
+    return bits(again < vreal<Real>(way_end(light))) & wanted;
 }
 
-/// Where the way from a point to a directional light begins: behind the point itself, so that what
-/// is met exactly there is not in the way, also where rules let rays start at 0. The least normal
-/// number, as products with it keep the sign that decides (root_between).
+/// Where the way from a point to a light begins that sends no rays: behind the point itself, so
+/// that what is met exactly there is not in the way, also where rules let rays start at 0. The
+/// least normal number, as products with it keep the sign that decides (root_between).
 template <class Real>
 inline Real way_begin(const abi::SceneView<Real>& scene)
 {
     constexpr Real least = std::numeric_limits<Real>::min();
     return scene.rules.secondary_t_min > least ? scene.rules.secondary_t_min : least;
+}
+
+/// The rays from points to a light that sends none.
+template <class Real>
+inline RayPacket<Real> rays_to_light(const abi::SceneView<Real>& scene,
+                                     const abi::LightRecord<Real>& light,
+                                     const LightPacket<Real>& packet,
+                                     const SurfacePacket<Real>& surface)
+{
+    RayPacket<Real> rays = make_rays<Real>(lit_point(scene, surface, packet.to_light, false),
+                                           packet.to_light, way_begin(scene));
+    // The note's epsilon counts in space, or in lengths of the way to a point.
+    if (light.kind == abi::LightKind::point && scene.rules.units == abi::RayUnits::unit)
+        rays.t_min =
+            max(rays.t_min * packet.inverse_length, vreal<Real>(std::numeric_limits<Real>::min()));
+    return rays;
 }
 
 /// Calls `trace(t_end, rays)` for the shadow rays of one light; those along a directional one
@@ -100,23 +122,18 @@ inline auto with_shadow_ray(const abi::SceneView<Real>& scene, const abi::LightR
                             const LightPacket<Real>& packet, const SurfacePacket<Real>& surface,
                             const Trace& trace)
 {
-    const bool along = light.kind == abi::LightKind::directional;
-    vreal<Real> t_end(static_cast<Real>(__builtin_inf()));
-    Vec3v<Real> org = lit_point(scene, surface, packet.to_light, !along);
-    Vec3v<Real> dir = packet.to_light;
-    if (!along) {
-        t_end = segment_end(scene, packet);
-        dir = org - broadcast(light.vector);
-        org = broadcast(light.vector);
-    }
-    return trace(t_end, make_rays<Real>(org, dir, along ? way_begin(scene) : Real(0)));
+    if (!light.sends_rays)
+        return trace(vreal<Real>(way_end(light)), rays_to_light(scene, light, packet, surface));
+    const Vec3v<Real> from = broadcast(light.vector);
+    const Vec3v<Real> way = lit_point(scene, surface, packet.to_light, true) - from;
+    return trace(segment_end(scene, packet), make_rays<Real>(from, way, Real(0)));
 }
 
 /// Whether the reach of shadow rays is closed (occluded.hpp).
 template <class Real>
 inline bool has_closed_reach(const abi::SceneView<Real>& scene, const abi::LightRecord<Real>& light)
 {
-    return light.kind == abi::LightKind::directional || !(scene.rules.start_error > 0);
+    return !light.sends_rays || !(scene.rules.start_error > 0);
 }
 
 /// Calls `visit(objects)` with what may be in the way of a light.
@@ -124,7 +141,7 @@ template <abi::Features F, class Real, class Visit>
 inline auto with_light_objects(const ShadeContext<F, Real>& context, int light, const Visit& visit)
 {
     const LightObjects<F, Real>& objects = context.occluders[light];
-    if (context.scene->lighting.lights.data[light].kind == abi::LightKind::point)
+    if (context.scene->lighting.lights.data[light].sends_rays)
         return visit(objects.from_point);
     if constexpr (F.exact)
         return visit(objects.along);

@@ -36,11 +36,14 @@ inline void find_occluders(const TileRun<F, Real>& run)
         run.counts.stages |= abi::stage_blockers;
         LightObjects<F, Real>& occluders = run.work.occluders[i];
         const abi::SceneView<Real>& casters = casters_of(scene);
-        if (light.kind == abi::LightKind::point)
+        if (light.sends_rays)
             find_objects<F>(occluders.from_point, segment_cone(light.vector, box), casters);
         else if constexpr (F.exact)
             filter_objects<F, false>(occluders.along, origins_in(box.low, box.high),
-                                     parallel_cone(light.vector, box), casters);
+                                     light.kind == abi::LightKind::point
+                                         ? cone_to(light.vector, box)
+                                         : parallel_cone(light.vector, box),
+                                     casters);
         else
             find_parallel_candidates(list_of<Sphere>(occluders.from_point),
                                      parallel_cone(light.vector, box), casters.spheres);

@@ -144,13 +144,12 @@ inline void lit_points(const abi::SceneView<Real>& scene, const abi::PointsView<
     LitWork<F, Real> work(scratch, casters);
     RayBundle<Real>& bundle = *work.bundle;
     const bool closed = has_closed_reach(scene, light);
-    const bool from_point = light.kind == abi::LightKind::point;
-    if (from_point)
+    if (light.sends_rays)
         find_from_point<F>(work.from_light, light.vector, casters);
     for (int begin = 0; begin < view.count; begin += bundle_rays) {
         const int count = view.count - begin < bundle_rays ? view.count - begin : bundle_rays;
         gather_ways<F>(scene, view, light, begin, count, bundle);
-        if (from_point) {
+        if (light.sends_rays) {
             block_ways<F>(casters, work.from_light, bundle, closed, buffer);
         } else {
             find_from_points(work, casters, count);

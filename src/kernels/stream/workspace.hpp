@@ -63,10 +63,9 @@ inline void take_occluders(Arena& arena, LightObjects<F, Real>& objects,
 {
     if (!light.casts_shadow)
         return;
-    const bool is_point = light.kind == abi::LightKind::point;
-    if (is_point || !F.exact)
+    if (light.sends_rays || !F.exact)
         take_objects<F>(arena, objects.from_point, casters_of(scene));
-    if (!is_point || !F.exact)
+    if (!light.sends_rays || !F.exact)
         take_objects<F>(arena, objects.along, casters_of(scene));
 }
 
