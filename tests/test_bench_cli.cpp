@@ -157,6 +157,21 @@ TEST_CASE("bench refuses a baseline that is none", "[bench_cli]")
         failure(
             R"({"packtrace_bench": 1, "lines": [{"name": "a", "milliseconds": 1, "ratios": [1]}]})"),
         ContainsSubstring("no line of what was measured"));
+    // Another scene of the same name, by itself and beside it.
+    write_text(folder / "four_spheres.scene", "sphere { center = (0, 0, 3)  radius = 1 }");
+    const std::string kept = (folder / "kept.json").string();
+    REQUIRE(run_bench({"-o", kept}, "2").exit_code == 0);
+    const std::string own = (folder / "four_spheres.scene").string();
+    const ProgramResult other =
+        run_packtrace({"bench", own, "--size", "64x64", "--repetitions", "2", "--baseline", kept});
+    CHECK(other.exit_code == 1);
+    CHECK_THAT(other.err, ContainsSubstring("its four_spheres is another scene"));
+    const std::string both = (folder / "both.json").string();
+    REQUIRE(run_bench({own, "-o", both}, "2").exit_code == 0);
+    const json lines = json::parse(read_text(both))["lines"];
+    CHECK(std::any_of(lines.begin(), lines.end(), [](const json& line) {
+        return line["name"].get<std::string>().starts_with("four_spheres_2, ");
+    }));
     const ProgramResult missing = run_bench({"--baseline", (folder / "c.json").string()});
     CHECK(missing.exit_code == 1);
     CHECK_THAT(missing.err, ContainsSubstring("c.json"));

@@ -156,6 +156,21 @@ TEMPLATE_TEST_CASE("total internal reflection begins within 1e-6 of the critical
         }
 }
 
+TEMPLATE_TEST_CASE("what does not bend light lets even a grazing ray go straight on",
+                   "[glass_physics]", float, double)
+{
+    // Down by 1 on 10000, into the black floor half a unit below the sheet.
+    Scene scene = one_ray({0, 0, 0.1}, {1, 0, -1e-4});
+    scene.background = Rgb(1);
+    scene.objects = {plane({0, 0, 0}, {0, 0, 1}, clear(1.0)),
+                     plane({0, 0, -0.5}, {0, 0, 1}, black())};
+    for (const std::string& isa : supported_isas())
+        CHECK(seen<TestType>(scene, isa) == 0.0);
+    RenderOptions scalar;
+    scalar.kernel = Kernel::scalar;
+    CHECK(render<TestType>(scene, scalar).rgb[0] == 0);
+}
+
 TEMPLATE_TEST_CASE("a slab shifts a ray by the analytic amount", "[glass_physics]", float, double)
 {
     const double margin = std::is_same_v<TestType, float> ? 2e-5 : 1e-12;

@@ -426,6 +426,7 @@ TEST_CASE("a picture without three values a pixel is refused", "[image]")
             CHECK_THROWS_WITH(write_image(folder / name, image),
                               ContainsSubstring("give three a pixel"));
         CHECK_THROWS_AS(compare(image, image), std::invalid_argument);
+        CHECK_THROWS_AS(convert<double>(image), std::invalid_argument);
         CHECK_THROWS_AS(heatmap(image, Image<float>(4, 3)), std::invalid_argument);
     }
 }

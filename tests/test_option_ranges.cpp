@@ -8,6 +8,7 @@
 #include <packtrace/certainty.hpp>
 #include <packtrace/compare.hpp>
 #include <packtrace/image.hpp>
+#include <packtrace/intersect.hpp>
 #include <packtrace/profile.hpp>
 #include <packtrace/render.hpp>
 #include <packtrace/report.hpp>
@@ -81,6 +82,24 @@ TEST_CASE("numbers of threads are from 1 to 1024, or 0 for all", "[option_ranges
     CHECK(of_report([](ReportOptions& options) {
               options.threads = {1, -1};
           }) == "threads: -1; choose from 1 to 1024");
+}
+
+TEST_CASE("values that an enumeration lacks are refused", "[option_ranges]")
+{
+    const auto refused = [](const auto& change, const std::string& wanted) {
+        RenderOptions options;
+        change(options);
+        CHECK(refusal([&] { (void)render<float>(one_ball(), options); }) == wanted);
+        CHECK(refusal([&] { RayScene<double>(one_ball(), options); }) == wanted);
+    };
+    refused([](RenderOptions& options) { options.kernel = static_cast<Kernel>(5); },
+            "kernel: 5; choose from 0 to 1");
+    refused([](RenderOptions& options) { options.accuracy = static_cast<Accuracy>(7); },
+            "accuracy: 7; choose from 0 to 1");
+    refused([](RenderOptions& options) { options.self_hits = static_cast<SelfHits>(-1); },
+            "self_hits: -1; choose from 0 to 1");
+    refused([](RenderOptions& options) { options.traversal = static_cast<Traversal>(9); },
+            "traversal: 9; choose from 0 to 2");
 }
 
 TEST_CASE("reports and profiles refuse what they can't measure by", "[option_ranges]")

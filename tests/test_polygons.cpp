@@ -7,6 +7,7 @@
 #include <limits>
 #include <random>
 
+#include <glm/common.hpp>
 #include <glm/geometric.hpp>
 #include <glm/gtc/matrix_transform.hpp>
 #include <packtrace/compare.hpp>
@@ -23,6 +24,7 @@
 #include "lab/truth/wide_truth.hpp"
 #include "lower/packed_lists.hpp"
 #include "lower/prune.hpp"
+#include "packet_ways.hpp"
 #include "reference/surfaces/hits.hpp"
 #include "reference/surfaces/inside.hpp"
 #include "reference/surfaces/own_roots.hpp"
@@ -154,6 +156,32 @@ double distance_to(const Vec3& org, const Vec3& dir, double t, double radius)
 }
 
 const std::string triangle = "polygon { vertices = (0, 0, 3), (1, 0, 3), (0, 1, 3)";
+
+bool is_valid(const Scene& scene)
+{
+    try {
+        validate(scene);
+        return true;
+    } catch (const SceneError&) {
+        return false;
+    }
+}
+
+/// Of a point in its plane.
+double distance_to_triangle(const Vec3& point, const std::vector<Vec3>& corners)
+{
+    const Vec3 normal = glm::cross(corners[1] - corners[0], corners[2] - corners[0]);
+    double nearest = std::numeric_limits<double>::infinity();
+    bool inside = true;
+    for (std::size_t i = 0; i < 3; ++i) {
+        const Vec3 edge = corners[(i + 1) % 3] - corners[i];
+        const Vec3 off = point - corners[i];
+        inside = inside && glm::dot(glm::cross(edge, off), normal) >= 0;
+        const double share = glm::clamp(glm::dot(off, edge) / glm::dot(edge, edge), 0.0, 1.0);
+        nearest = std::min(nearest, glm::length(off - share * edge));
+    }
+    return inside ? 0.0 : nearest;
+}
 
 }  // namespace
 
@@ -464,6 +492,80 @@ TEST_CASE("bounds of a hit with a polygon hold the true t", "[polygons]")
         }
     }
     CHECK(proven > 400);
+}
+
+TEST_CASE("slivers are hit where they are", "[polygons]")
+{
+    Random random(61);
+    RenderOptions scalar;
+    scalar.kernel = Kernel::scalar;
+    for (const double thickness : {1e-3, 1e-5, 1e-7, 1e-9})
+        for (int i = 0; i < 40; ++i) {
+            const Vec3 along = glm::normalize(random.box(1.0));
+            const Vec3 across = glm::normalize(glm::cross(along, random.box(1.0)));
+            const Vec3 from = random.box(1.0);
+            const Scene scene = scene_of(
+                {polygon({{from, from + along, from + 0.5 * along + thickness * across}})});
+            const RayScene<double> bounds(scene, scalar);
+            const RayScene<double> packets(scene);
+            for (int ray = 0; ray < 20; ++ray) {
+                const Vec3 target = from + 0.5 * along + thickness * (0.25 + 0.01 * ray) * across;
+                const Vec3 org = target + 3.0 * random.box(1.0);
+                const Vec3 dir = target - org;
+                const double t_min = 0.0, t_max = 1e9;
+                const RaysView<double> view{&org.x, &org.y, &org.z, &dir.x, &dir.y,
+                                            &dir.z, &t_min, &t_max, 1};
+                const std::int32_t first = 0;
+                HitBounds proven;
+                bounds.bound_closest_hits(view, &first, &proven);
+                if (proven.empty())
+                    continue;
+                const Ray<double> one{{org.x, org.y, org.z}, {dir.x, dir.y, dir.z}};
+                const double slope = std::abs(
+                    glm::dot(glm::normalize(dir), glm::normalize(glm::cross(along, across))));
+                for (const RayScene<double>* rays : {&bounds, &packets}) {
+                    const SurfaceHit<double> hit = rays->closest_hit(one);
+                    if (hit.object < 0)
+                        continue;
+                    CAPTURE(thickness, slope);
+                    CHECK(std::abs(hit.t - proven.low) < 1e-14 / slope);
+                }
+            }
+        }
+}
+
+TEST_CASE("a ray in a polygon's plane meets it within its outline or not at all", "[polygons]")
+{
+    Random random(67);
+    std::vector<RenderOptions> ways = packet_ways();
+    ways.push_back({.kernel = Kernel::scalar});
+    int hits = 0;
+    for (int i = 0; i < 400; ++i) {
+        // Whole numbers in z = 3x - y, which single precision holds exactly.
+        const auto in_plane = [&](double size) {
+            const Vec3 any = random.box(size);
+            const double x = std::round(any.x);
+            const double y = std::round(any.y);
+            return Vec3(x, y, 3 * x - y);
+        };
+        const Scene scene = scene_of({polygon({{in_plane(9), in_plane(9), in_plane(9)}})});
+        if (!is_valid(scene))
+            continue;
+        const auto& corners = std::get<Polygon>(scene.objects[0].surface).contours[0];
+        for (const RenderOptions& options : ways) {
+            const RayScene<double> rays(scene, options);
+            for (int ray = 0; ray < 60; ++ray) {
+                const Vec3 org = in_plane(15);
+                const Vec3 dir = in_plane(5);
+                for (const SurfaceHit<double>& hit :
+                     rays.all_hits(Ray<double>{{org.x, org.y, org.z}, {dir.x, dir.y, dir.z}})) {
+                    ++hits;
+                    CHECK(distance_to_triangle(org + hit.t * dir, corners) < 1e-9);
+                }
+            }
+        }
+    }
+    CHECK(hits > 10);
 }
 
 TEST_CASE("polygons are packed by their corners in the world", "[polygons]")

@@ -280,6 +280,17 @@ TEST_CASE("a light's keys belong to its type", "[read_errors]")
           "x.scene:2:16: unknown type 'spot'; use one of: ambient, point, directional");
 }
 
+TEST_CASE("a carriage return ends no line by itself", "[read_errors]")
+{
+    CHECK_NOTHROW(parse_scene("# c\r\nsphere { center = (0, 0, 3)  radius = 1 }\r\n", "t", {}));
+    try {
+        (void)parse_scene("# c\rsphere { }\rsphere { center = (0, 0, 5) }\r", "t", {});
+        FAIL("read");
+    } catch (const SceneError& error) {
+        CHECK_THAT(error.what(), Catch::Matchers::StartsWith("t:1:4: a carriage return"));
+    }
+}
+
 TEST_CASE("a binary file is refused at its first strange byte", "[read_errors]")
 {
     const std::string cure = " does not belong in text; is this a binary file? give a scene file";

@@ -51,6 +51,20 @@ TEST_CASE("f is r0 + r1 Id + r2 Is^r3 times colour and light", "[reference_004]"
     check_color(seen(scene), Rgb(0.41, 0.41, 0));
 }
 
+TEST_CASE("nothing shines where R turns from V, whatever the exponent, in packets too",
+          "[reference_004]")
+{
+    // The light behind the viewer's shoulder: Is = 0 for half of what it lights.
+    Scene scene = shader_scene({sphere({0, 0, 4}, 1, reflecting(0, 0, 1, 0))},
+                               {directional({1, 0, 0.2}, 0.5)});
+    scene.width = scene.height = 16;
+    RenderOptions scalar;
+    scalar.kernel = Kernel::scalar;
+    const Image<double> image = render<double>(scene, scalar);
+    CHECK(render<double>(scene).rgb == image.rgb);
+    CHECK(std::count(image.rgb.begin(), image.rgb.end(), 0.5) > 30);
+}
+
 TEST_CASE("several lights add up, an ambient one gives r0", "[reference_004]")
 {
     // Directional (3, 4, 0): Id = 0.8, R = (-0.6, 0.8, 0) = V, Is = 1.

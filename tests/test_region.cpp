@@ -118,6 +118,22 @@ TEST_CASE("a renderer fits its image to the region, and counts its tiles' rays",
     CHECK(counts.camera == 16 * 16);
 }
 
+TEST_CASE("a renderer fits an image whose pixels were moved away", "[region]")
+{
+    const Renderer<float> renderer(quadrics_of_size(40, 30), {});
+    std::vector<Image<float>> frames;
+    Image<float> image;
+    for (int i = 0; i < 3; ++i) {
+        (void)renderer.render(image);
+        frames.push_back(std::move(image));
+    }
+    CHECK(frames[0].rgb == frames[2].rgb);
+    // NOLINTNEXTLINE(bugprone-use-after-move): it keeps its sides, which is what is tested.
+    image.rgb.resize(5);
+    (void)renderer.render(image);
+    CHECK(image.rgb == frames[0].rgb);
+}
+
 TEST_CASE("a region outside the picture is refused", "[region]")
 {
     for (const Kernel kernel : {Kernel::packet, Kernel::scalar}) {

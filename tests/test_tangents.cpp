@@ -3,9 +3,12 @@
 #include <array>
 #include <cmath>
 #include <cstdint>
+#include <limits>
+#include <random>
 #include <string>
 #include <vector>
 
+#include <glm/geometric.hpp>
 #include <packtrace/intersect.hpp>
 #include <packtrace/read_scene.hpp>
 
@@ -127,6 +130,51 @@ TEST_CASE("A ray that touches a body meets it where it does, or nowhere", "[tang
     }
     check_all<float>({.kernel = Kernel::scalar}, of_single);
     check_all<double>({.kernel = Kernel::scalar});
+}
+
+TEST_CASE("The first hit is the first of all hits, however near to touching", "[tangents]")
+{
+    std::mt19937_64 random(3);
+    std::uniform_real_distribution<double> any(-1.0, 1.0);
+    for (const char* text : {"ellipsoid { }", "sphere { center = (0, 0, 0)  radius = 1 }",
+                             "ellipsoid { scale = (3, 1, 0.2) }", "cylinder { }"})
+        for (const RenderOptions& options : packet_ways()) {
+            const RayScene<double> scene(parse_scene(text, "body", {}), options);
+            int hits = 0;
+            for (int i = 0; i < 4000; ++i) {
+                // Along a tangent of the unit sphere, or of what it is scaled to.
+                const Vec3 up = glm::normalize(Vec3(any(random), any(random), any(random)));
+                const Vec3 along = glm::cross(up, Vec3(any(random), any(random), any(random)));
+                const double off = 1.0 - std::pow(10.0, -12.0 - 4.0 * std::abs(any(random)));
+                const Vec3 org = off * up - along;
+                const Ray<double> ray{{org.x, org.y, org.z}, {along.x, along.y, along.z}};
+                const SurfaceHit<double> first = scene.closest_hit(ray);
+                const std::vector<SurfaceHit<double>> all = scene.all_hits(ray);
+                REQUIRE((first.object >= 0) == !all.empty());
+                if (all.empty())
+                    continue;
+                ++hits;
+                CHECK(first.t == all[0].t);
+            }
+            CHECK(hits > 100);
+        }
+}
+
+TEST_CASE("A hit so far that single precision has no number for it is none", "[tangents]")
+{
+    const Scene scene = parse_scene(
+        "cylinder { name = c }\n"
+        "plane { point = (0, 0, 1)  normal = (0, 0, 1)  name = p }\n",
+        "far", {});
+    for (const RenderOptions& options : packet_ways()) {
+        const RayScene<float> rays(scene, options);
+        for (const Ray<float>& ray :
+             {Ray<float>{{0, 0, 2}, {1e-40f, 0, 1}}, Ray<float>{{2, 0, 0}, {1, 0, 1e-40f}}}) {
+            CHECK(rays.closest_hit(ray).object == -1);
+            CHECK_FALSE(rays.occluded(ray));
+            CHECK(rays.all_hits(ray).empty());
+        }
+    }
 }
 
 }  // namespace packtrace::test

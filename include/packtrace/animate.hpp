@@ -15,8 +15,9 @@ namespace packtrace {
 /// it passes through every key, its speed changes nowhere by a jump, and two keys give a
 /// straight line. Before the first key and after the last the camera rests.
 ///
-/// Throws std::invalid_argument when the scene has no animation or `frame` is not one of
-/// its frames, and when keys lead the camera through its own look_at or straight along its up.
+/// Throws SceneError where validate() would for the animation, and std::invalid_argument when the
+/// scene has no animation or `frame` is not one of its frames, and when keys lead the camera
+/// through its own look_at or straight along its up.
 [[nodiscard]] PACKTRACE_API Camera camera_at(const Scene& scene, int frame);
 
 }  // namespace packtrace

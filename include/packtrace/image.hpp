@@ -39,12 +39,17 @@ struct Image {
         return image;
     }
 
-    /// Throws std::invalid_argument where `rgb` has not three values a pixel.
+    /// Whether `rgb` has three values a pixel.
+    [[nodiscard]] bool is_whole() const
+    {
+        return width >= 0 && height >= 0 && rgb.size() % 3 == 0 &&
+               rgb.size() / 3 == static_cast<std::size_t>(width) * static_cast<std::size_t>(height);
+    }
+
+    /// Throws std::invalid_argument where it has not.
     void check() const
     {
-        if (width < 0 || height < 0 ||
-            rgb.size() / 3 != static_cast<std::size_t>(width) * static_cast<std::size_t>(height) ||
-            rgb.size() % 3 != 0)
+        if (!is_whole())
             throw std::invalid_argument("image: " + std::to_string(rgb.size()) +
                                         " values in `rgb` for " + std::to_string(width) + " x " +
                                         std::to_string(height) + " pixels; give three a pixel");
@@ -61,10 +66,11 @@ struct Image {
     }
 };
 
-/// The same picture in another precision.
+/// The same picture in another precision. Throws as Image::check() does.
 template <class To, class From>
 [[nodiscard]] Image<To> convert(const Image<From>& from)
 {
+    from.check();
     auto to = Image<To>::unset(from.width, from.height);
     for (std::size_t i = 0; i < from.rgb.size(); ++i)
         to.rgb[i] = static_cast<To>(from.rgb[i]);

@@ -41,9 +41,10 @@ public:
         return scene_.objects.size();
     }
 
-    /// While it lives, no object moves.
+    /// While it lives, no object moves. Not to be held twice by one thread.
     [[nodiscard]] std::shared_lock<std::shared_mutex> hold()
     {
+        const std::lock_guard turn(turn_);
         return std::shared_lock(moving_);
     }
 
@@ -61,7 +62,7 @@ public:
     /// Objects are where they are in `scene`.
     SceneUpdate update(Scene scene)
     {
-        const std::unique_lock lock(moving_);
+        const auto lock = hold_alone();
         const SceneUpdate done = update_made([&](auto& made) { return made.update(scene); }, scene);
         scene_ = std::move(scene);
         return done;
@@ -70,7 +71,7 @@ public:
     /// Objects, by their numbers, get these transforms. Where that throws, all stays as it was.
     SceneUpdate transform(std::span<const std::int32_t> objects, std::vector<Mat4> transforms)
     {
-        const std::unique_lock lock(moving_);
+        const auto lock = hold_alone();
         for (std::size_t i = 0; i < objects.size(); ++i)
             std::swap(transform_of(objects[i]), transforms[i]);
         try {
@@ -83,6 +84,13 @@ public:
     }
 
 private:
+    /// Waits for those that hold it, and has those that come later wait in their turn.
+    [[nodiscard]] std::unique_lock<std::shared_mutex> hold_alone()
+    {
+        const std::lock_guard turn(turn_);
+        return std::unique_lock(moving_);
+    }
+
     /// Updates what is made, and else checks the scene alone.
     template <class Update>
     SceneUpdate update_made(const Update& update, const Scene& scene)
@@ -111,6 +119,7 @@ private:
     Scene scene_;
     RenderOptions options_;
     std::mutex making_;
+    std::mutex turn_;  ///< a shared mutex by itself lets those who share it go on before others
     std::shared_mutex moving_;
     std::tuple<std::unique_ptr<RayScene<float>>, std::unique_ptr<RayScene<double>>> made_;
 };

@@ -8,6 +8,7 @@ scene and raise `SceneError`, which names the object.
 from __future__ import annotations
 
 import os
+import threading
 from dataclasses import dataclass, field, replace
 from typing import Any, Dict, List, Literal, Optional, Sequence, Tuple, Union
 
@@ -16,16 +17,7 @@ from numpy.typing import NDArray
 from . import _packtrace
 
 Array = NDArray[Any]
-Path = Union[str, "os.PathLike[str]"]
-
-
-def file_name(file: Path) -> str:
-    """A file's name as text. Raises ValueError where it has a zero byte, which ends names for a
-    system."""
-    name = os.fspath(file)
-    if "\0" in name:
-        raise ValueError(f"the file name {name!r} has a zero byte; use a name without")
-    return name
+Path = Union[str, bytes, "os.PathLike[str]", "os.PathLike[bytes]"]
 #: Three numbers, of any sequence or array.
 Vector = Union[Sequence[float], Array]
 #: Rows of numbers, of sequences or an array.
@@ -38,6 +30,18 @@ QuadricKind = Literal["ellipsoid", "cylinder", "cone", "paraboloid", "hyperboloi
                       "saddle", "general"]
 
 IDENTITY = ((1.0, 0.0, 0.0, 0.0), (0.0, 1.0, 0.0, 0.0), (0.0, 0.0, 1.0, 0.0), (0.0, 0.0, 0.0, 1.0))
+
+#: Held while objects of a file become Python's own.
+_TAKING = threading.RLock()
+
+
+def file_name(file: Path) -> str:
+    """A file's name as text. Raises ValueError where it has a zero byte, which ends names for a
+    system."""
+    name = os.fsdecode(file)
+    if "\0" in name:
+        raise ValueError(f"the file name {name!r} has a zero byte; use a name without")
+    return name
 
 
 @dataclass
@@ -286,10 +290,14 @@ class Scene:
 
     # Objects of a file become Python's own only when they are asked for: there may be millions.
     def __getattr__(self, name: str) -> Any:
-        if name == "objects" and "_native_objects" in self.__dict__:
-            self.objects = self.__dict__["_native_objects"].take()
-            del self.__dict__["_native_objects"]
-            return self.objects
+        if name == "objects":
+            with _TAKING:
+                # Another thread may have had them in the meantime.
+                if "_native_objects" in self.__dict__:
+                    self.objects = self.__dict__["_native_objects"].take()
+                    del self.__dict__["_native_objects"]
+            if "objects" in self.__dict__:
+                return self.__dict__["objects"]
         raise AttributeError(f"a Scene has no '{name}'")
 
     def __getstate__(self) -> Dict[str, Any]:

@@ -107,18 +107,22 @@ void remove_left_over(const std::filesystem::path& target)
     }
 }
 
-/// The file that a chain of links leads to, whether it is there or not.
+/// The file that a chain of links leads to, whether it is there or not; a link to a pipe without a
+/// name, such as /dev/stdout may be, stays itself.
 std::filesystem::path followed(std::filesystem::path target)
 {
     constexpr int longest_chain = 40;
     std::error_code error;
+    const std::filesystem::path given = target;
     for (int i = 0; i < longest_chain && std::filesystem::is_symlink(target, error); ++i) {
         const std::filesystem::path next = std::filesystem::read_symlink(target, error);
         if (error)
             break;
         target = next.is_absolute() ? next : target.parent_path() / next;
     }
-    return target;
+    return std::filesystem::exists(given, error) && !std::filesystem::exists(target, error)
+               ? given
+               : target;
 }
 
 /// The names of the temporary files that live. A handler of signals reads them: a name is complete

@@ -21,7 +21,8 @@ template <class Real>
 {
     const Real eta = n1 / n2;
     const Real cos_i = -dot(N, D);
-    const Real cos_r_squared = 1 - eta * eta * (1 - cos_i * cos_i);
+    // 1 - eta² (1 - cos²), in which a small cosine keeps its digits.
+    const Real cos_r_squared = (1 - eta) * (1 + eta) + (eta * cos_i) * (eta * cos_i);
     if (cos_r_squared < 0)
         return std::nullopt;
     return eta * D + (eta * cos_i - std::sqrt(cos_r_squared)) * N;

@@ -7,10 +7,13 @@
 #include <stdexcept>
 #include <string>
 
+#include <packtrace/validate.hpp>
+
 #include <glm/ext/matrix_transform.hpp>
 #include <glm/geometric.hpp>
 #include <glm/trigonometric.hpp>
 
+#include "scene/scene_faults.hpp"
 #include "scene/unit_vector.hpp"
 
 namespace packtrace {
@@ -113,6 +116,8 @@ Camera camera_at(const Scene& scene, int frame)
     if (!scene.animation)
         throw std::invalid_argument("the scene has no animation");
     const Animation& animation = *scene.animation;
+    if (const auto fault = language::fault_of_movement(scene))
+        throw SceneError(fault->text());
     if (frame < 0 || frame >= animation.frames)
         throw std::invalid_argument("frame " + std::to_string(frame) +
                                     " is none of the animation's, 0.." +

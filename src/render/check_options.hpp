@@ -12,10 +12,25 @@ namespace packtrace {
 /// Most samples a pixel.
 inline constexpr int most_samples = 1024;
 
-/// Returns the options. Throws std::invalid_argument with one line for threads or samples that are
-/// impossible.
+/// Throws std::invalid_argument for a value that an enumeration up to `last` does not have.
+template <class Enumeration>
+inline void check_enumeration(const std::string& option, Enumeration value, Enumeration last)
+{
+    check_number(option, static_cast<int>(value), 0, static_cast<int>(last));
+}
+
+inline void check_enumerations(const RenderOptions& options)
+{
+    check_enumeration("kernel", options.kernel, Kernel::scalar);
+    check_enumeration("accuracy", options.accuracy, Accuracy::exact);
+    check_enumeration("self_hits", options.self_hits, SelfHits::exact);
+    check_enumeration("traversal", options.traversal, Traversal::tree);
+}
+
+/// Returns the options. Throws std::invalid_argument with one line for those that are impossible.
 inline const RenderOptions& checked_options(const RenderOptions& options)
 {
+    check_enumerations(options);
     check_number("threads", options.threads, 0, most_threads);
     check_number("samples", options.samples, 1, most_samples);
     if (!options.adaptive)

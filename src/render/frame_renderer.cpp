@@ -104,7 +104,8 @@ FrameCounts FrameRenderer<Real>::render_region(const Region& region, Image<Real>
 template <class Real>
 FrameCounts FrameRenderer<Real>::render(Image<Real>& image) const
 {
-    if (image.width != region_.width || image.height != region_.height)
+    // One whose pixels were moved away keeps its sides.
+    if (image.width != region_.width || image.height != region_.height || !image.is_whole())
         image = Image<Real>::unset(region_.width, region_.height);
     return run_on_threads(options_.threads, [&] { return render_region(region_, image); });
 }

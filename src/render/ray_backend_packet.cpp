@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <limits>
 #include <memory>
 #include <optional>
 #include <span>
@@ -125,6 +126,9 @@ using HitsByRay = std::vector<std::vector<FoundHit<Real>>>;
 template <class Real>
 void gather(void* by_ray, int ray, double t, std::int32_t object, const Real (&normal)[3])
 {
+    // What Real has no number for is no hit.
+    if (t > double{std::numeric_limits<Real>::max()})
+        return;
     auto& hits = (*static_cast<HitsByRay<Real>*>(by_ray))[static_cast<std::size_t>(ray)];
     hits.push_back({t, object, {static_cast<Real>(t), object, {normal[0], normal[1], normal[2]}}});
 }

@@ -9,6 +9,7 @@
 #include <packtrace/validate.hpp>
 
 #include "bounds/bounded_scene.hpp"
+#include "render/check_options.hpp"
 #include "render/moved_objects.hpp"
 #include "render/ray_backend.hpp"
 #include "render/ray_pieces.hpp"
@@ -40,6 +41,7 @@ template <class Real>
 RayScene<Real>::RayScene(const Scene& scene, const RenderOptions& options)
     : state_(std::make_unique<State>(scene))
 {
+    check_enumerations(options);
     if (options.kernel == Kernel::scalar) {
         validate(scene);
         state_->backend = scalar_backend<Real>(scene);

@@ -210,6 +210,8 @@ std::optional<SceneFault> fault_of_lights(const Scene& scene)
     return std::nullopt;
 }
 
+}  // namespace
+
 std::optional<SceneFault> fault_of_movement(const Scene& scene)
 {
     if (!scene.animation)
@@ -231,6 +233,8 @@ std::optional<SceneFault> fault_of_movement(const Scene& scene)
         return SceneFault{"animation", fault->message};
     return std::nullopt;
 }
+
+namespace {
 
 bool can_look(const Vec3& position, const Vec3& target, const Vec3& up)
 {

@@ -48,6 +48,9 @@ struct SceneFault {
     }
 };
 
+/// The first fault of a scene's animation, if it has one.
+[[nodiscard]] std::optional<SceneFault> fault_of_movement(const Scene& scene);
+
 /// The first fault of a scene, in the order in which it is read: its own keys, camera, objects,
 /// lights, animation; then what needs all of them.
 [[nodiscard]] std::optional<SceneFault> fault_of_scene(const Scene& scene);

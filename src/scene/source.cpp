@@ -54,6 +54,11 @@ void check_line(const Source& source, std::size_t number, std::string_view line)
         fail(source, Position::of(number, longest_line + 1),
              "the line has more than " + std::to_string(longest_line) +
                  " bytes; break it into several");
+    const std::size_t mark = line.find('\r');
+    if (mark < line.size() - 1)
+        fail(source, Position::of(number, mark + 1),
+             "a carriage return that no line feed follows ends no line; end lines with a line "
+             "feed, or with both");
     const auto odd = std::find_if_not(line.begin(), line.end(), is_text);
     if (odd != line.end())
         fail(source, Position::of(number, static_cast<std::size_t>(odd - line.begin()) + 1),

@@ -8,6 +8,8 @@
 #include <glm/geometric.hpp>
 #include <packtrace/surface.hpp>
 
+#include "core/quad.hpp"
+
 // The axes of a plane, and the plane of a polygon.
 namespace packtrace {
 namespace {
@@ -28,12 +30,37 @@ double largest_component(const Vec3& v)
 
 /// The sum of the edges' cross products, twice the area long. From the first corner on, so that a
 /// far polygon keeps its digits.
+template <class Real>
+Vec3 newell_sum(const Contour& contour)
+{
+    Real sum[3] = {};
+    const auto to = [&](std::size_t corner, int axis) {
+        return Real{contour[corner][axis]} - Real{contour[0][axis]};
+    };
+    for (std::size_t i = 1; i + 1 < contour.size(); ++i)
+        for (int axis = 0; axis < 3; ++axis) {
+            const int y = (axis + 1) % 3;
+            const int z = (axis + 2) % 3;
+            sum[axis] += to(i, y) * to(i + 1, z) - to(i, z) * to(i + 1, y);
+        }
+    return {static_cast<double>(sum[0]), static_cast<double>(sum[1]), static_cast<double>(sum[2])};
+}
+
+/// The products of the edges' lengths, of which that sum is what is left.
+double newell_size(const Contour& contour)
+{
+    double size = 0.0;
+    for (std::size_t i = 1; i + 1 < contour.size(); ++i)
+        size += glm::length(contour[i] - contour[0]) * glm::length(contour[i + 1] - contour[0]);
+    return size;
+}
+
+/// newell_sum() in double, or, of slivers and of what crosses itself, in more digits.
 Vec3 newell_normal(const Contour& contour)
 {
-    Vec3 sum(0.0);
-    for (std::size_t i = 1; i + 1 < contour.size(); ++i)
-        sum += glm::cross(contour[i] - contour[0], contour[i + 1] - contour[0]);
-    return sum;
+    constexpr double certain = 1.0 / 64.0;
+    const Vec3 sum = newell_sum<double>(contour);
+    return glm::length(sum) > certain * newell_size(contour) ? sum : newell_sum<Quad>(contour);
 }
 
 double size_of(const Polygon& polygon)

@@ -343,6 +343,30 @@ class TestMoving(unittest.TestCase):
             self.assert_like_new(rays)
         self.assertFalse(done.rebuilt)
 
+    def test_updates_get_their_turn_while_others_ask(self):
+        rays = pt.RayScene(self.scene, threads=1)
+        asked = random_rays(100_000)
+        stop = threading.Event()
+        counts = [0] * 3
+
+        def ask(number):
+            while not stop.is_set():
+                rays.closest(*asked)
+                counts[number] += 1
+
+        workers = [threading.Thread(target=ask, args=(number,)) for number in range(3)]
+        for worker in workers:
+            worker.start()
+        try:
+            for _ in range(20):
+                rays.update(self.scene)
+        finally:
+            stop.set()
+            for worker in workers:
+                worker.join()
+        # Each update waits for the queries at work, not for all that come later.
+        self.assertLess(sum(counts), 1000)
+
     def test_wrong_moves_change_nothing(self):
         rays = pt.RayScene(self.scene)
         self.assert_like_new(rays)

@@ -2,6 +2,7 @@
 
 import copy
 import pickle
+import threading
 import unittest
 import warnings
 from dataclasses import replace
@@ -21,6 +22,29 @@ class TestText(unittest.TestCase):
                 self.assertGreater(len(scene.objects), 0)
                 self.assertEqual(scene.to_text(), text, "objects changed when Python took them")
                 self.assertEqual(pt.Scene.from_text(text), scene)
+
+    def test_threads_get_the_same_objects(self):
+        text = "".join(f"sphere {{ center = ({i}, 0, 9)  radius = 1 }}\n" for i in range(2000))
+        for _ in range(10):
+            scene = pt.Scene.from_text(text)
+            start = threading.Barrier(4)
+            got = []
+
+            def take():
+                start.wait()
+                got.append(scene.objects)
+
+            workers = [threading.Thread(target=take) for _ in range(4)]
+            for worker in workers:
+                worker.start()
+            for worker in workers:
+                worker.join()
+            self.assertEqual(len(got), 4)
+            self.assertTrue(all(objects is scene.objects for objects in got))
+
+    def test_file_names_may_be_bytes(self):
+        file = SCENES / "four_spheres.scene"
+        self.assertEqual(pt.read_scene(str(file).encode()), pt.read_scene(file))
 
     def test_wrong_text_is_refused_with_its_place(self):
         with self.assertRaisesRegex(pt.SceneError, r"^mine:1:10: unknown key 'raduis'"):

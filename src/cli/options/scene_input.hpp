@@ -2,6 +2,7 @@
 
 #include <filesystem>
 #include <iostream>
+#include <set>
 #include <string>
 
 #include <packtrace/read_scene.hpp>
@@ -20,6 +21,16 @@ struct SceneInput {
     std::string text;
     Scene scene;
 };
+
+/// A scene's name among results that have those `taken`, to which it is added.
+[[nodiscard]] inline std::string free_scene_name(const std::string& stem,
+                                                 std::set<std::string>& taken)
+{
+    std::string name = stem;
+    for (int number = 2; !taken.insert(name).second; ++number)
+        name = stem + "_" + std::to_string(number);
+    return name;
+}
 
 /// Adds the positional SCENE, which is required.
 inline CLI::Option* add_scene_option(CLI::App& command, std::string& file)

@@ -2,7 +2,10 @@
 #include <iostream>
 #include <memory>
 #include <optional>
+#include <set>
 #include <utility>
+
+#include <packtrace/write_scene.hpp>
 
 #include "cli/command.hpp"
 #include "cli/options/common_options.hpp"
@@ -15,6 +18,7 @@
 #include "cli/study/bench_programs.hpp"
 #include "core/atomic_file.hpp"
 #include "core/check_number.hpp"
+#include "core/checksum.hpp"
 #include "lab/bench/paired_bench.hpp"
 #include "lab/bench/slowdown.hpp"
 #include "scene/quote.hpp"
@@ -238,6 +242,17 @@ void check_same_picture(const BenchFigures& now, const BenchFigures& before,
                                  now.picture + "; give the same options");
 }
 
+// Earlier versions did not write it.
+void check_same_scenes(const BenchFigures& now, const BenchFigures& before,
+                       const std::string& baseline)
+{
+    for (const auto& [name, checksum] : now.scenes)
+        if (const auto other = before.scenes.find(name);
+            other != before.scenes.end() && other->second != checksum)
+            throw std::runtime_error(baseline + ": its " + name +
+                                     " is another scene; measure this one's baseline");
+}
+
 // Every run of a program reads the scenes anew.
 void check_files(const BenchArguments& arguments)
 {
@@ -267,11 +282,15 @@ void run_bench_command(const BenchArguments& arguments)
         check_same_picture(result.figures.now, result.figures.before, arguments.baseline);
     }
     std::vector<ReportScene> scenes;
+    std::set<std::string> names;
     for (const std::string& file : arguments.scenes) {
         SceneInput input = read_scene_input(file);
-        scenes.push_back({language::escape(input.stem), std::move(input.scene)});
+        const std::string name = free_scene_name(language::escape(input.stem), names);
+        result.figures.now.scenes[name] = std::to_string(text_hash(scene_text(input.scene)));
+        scenes.push_back({name, std::move(input.scene)});
         apply(arguments.picture, scenes.back().scene);
     }
+    check_same_scenes(result.figures.now, result.figures.before, arguments.baseline);
     if (arguments.against.empty())
         measure_alone(scenes, arguments, result);
     else

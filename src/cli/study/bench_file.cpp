@@ -97,6 +97,7 @@ std::string bench_text(const BenchFigures& figures)
                 {"load_before", load_at_start()},
                 {"load_after", load_now()}}},
               {"picture", figures.picture},
+              {"scenes", figures.scenes},
               {"references", Json::array()},
               {"lines", Json::array()}};
     for (const BenchLine& reference : figures.references)
@@ -114,9 +115,13 @@ BenchFigures read_bench_file(const std::filesystem::path& file)
     if (!is_bench(json))
         throw std::runtime_error(file.string() + ": not a file that packtrace bench -o writes");
     BenchFigures figures;
-    // Earlier versions wrote none, nor references.
+    // Earlier versions wrote none, nor scenes, nor references.
     if (const Json picture = json.value("picture", Json()); picture.is_string())
         figures.picture = picture;
+    const Json scenes = json.value("scenes", Json::object());
+    for (const auto& [name, checksum] : scenes.items())
+        if (checksum.is_string())
+            figures.scenes.emplace(name, checksum);
     for (const Json& line : json["lines"])
         figures.lines.push_back(bench_line_of(line));
     for (const Json& reference : json.value("references", Json::array()))

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <filesystem>
+#include <map>
 #include <string>
 #include <vector>
 
@@ -11,8 +12,9 @@ namespace packtrace::cli {
 /// What `bench` measured: the lines of all scenes, and what they are compared to.
 struct BenchFigures {
     std::vector<BenchLine> lines;
-    std::vector<BenchLine> references;  ///< one a scene
-    std::string picture;                ///< its options; empty where a file has none
+    std::vector<BenchLine> references;          ///< one a scene
+    std::string picture;                        ///< its options; empty where a file has none
+    std::map<std::string, std::string> scenes;  ///< by name, a checksum; empty likewise
 
     /// The samples of a line; null when there is no line of that name.
     [[nodiscard]] const BenchLine* find(const std::string& name) const;

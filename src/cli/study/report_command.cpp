@@ -92,20 +92,33 @@ void add_report_options(CLI::App& command, ReportArguments& arguments)
     command.add_flag("-q,--quiet", arguments.quiet, "No progress bar");
 }
 
+// A word of a command line as a shell reads it.
+std::string quoted(const std::string& word)
+{
+    constexpr std::string_view plain =
+        "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789-_./,:=+%@";
+    if (!word.empty() && word.find_first_not_of(plain) == std::string::npos)
+        return word;
+    std::string text = "'";
+    for (const char letter : word)
+        text += letter == '\'' ? std::string("'\\''") : std::string(1, letter);
+    return text + "'";
+}
+
 std::string report_command(const std::string& program, const CLI::App& command,
                            const ReportArguments& arguments)
 {
     std::string typed = program + " " + command.get_name();
     for (const std::string& scene : arguments.scenes)
-        typed += " " + scene;
-    typed += " -o " + arguments.folder.string();
+        typed += " " + quoted(scene);
+    typed += " -o " + quoted(arguments.folder.string());
     for (const CLI::Option* option : command.get_options())
         if (option->count() > 0 && !option->get_lnames().empty() &&
             option->get_lnames().front() != "output") {
             typed += " --" + option->get_lnames().front();
             if (option->get_items_expected_max() > 0)
                 for (const std::string& word : option->results())
-                    typed += " " + word;
+                    typed += " " + quoted(word);
         }
     return typed;
 }
@@ -126,14 +139,6 @@ ReportOptions report_options(const ReportArguments& arguments)
     options.cache = arguments.cache ? std::filesystem::path(*arguments.cache) : default_cache();
     options.max_time = 1e-3 * arguments.max_time_ms;
     return options;
-}
-
-std::string free_scene_name(const std::string& stem, std::set<std::string>& taken)
-{
-    std::string name = stem;
-    for (int number = 2; !taken.insert(name).second; ++number)
-        name = stem + "_" + std::to_string(number);
-    return name;
 }
 
 void check_report_target(const ReportArguments& arguments)

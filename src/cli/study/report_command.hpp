@@ -2,7 +2,6 @@
 
 #include <filesystem>
 #include <optional>
-#include <set>
 #include <string>
 #include <vector>
 
@@ -35,9 +34,6 @@ void add_report_options(CLI::App& command, ReportArguments& arguments);
                                          const ReportArguments& arguments);
 
 [[nodiscard]] ReportOptions report_options(const ReportArguments& arguments);
-
-/// A scene's name in a report that has those `taken`, to which it is added.
-[[nodiscard]] std::string free_scene_name(const std::string& stem, std::set<std::string>& taken);
 
 /// What a report can't be written without: gnuplot, and its folder, which is made. Throws.
 void check_report_target(const ReportArguments& arguments);

@@ -113,7 +113,7 @@ void take_shard(const StressArguments& arguments, lab::StressOptions& options)
 void run_stress_command(const StressArguments& arguments)
 {
     if (arguments.list)
-        return print_stress_families();
+        return print_stress_families(arguments.json);
     lab::StressOptions options = stress_options(arguments);
     if (arguments.shard)
         take_shard(arguments, options);

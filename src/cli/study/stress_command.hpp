@@ -30,7 +30,7 @@ void add_stress_options(CLI::App& command, StressArguments& arguments);
 /// that are none.
 [[nodiscard]] lab::StressOptions stress_options(const StressArguments& arguments);
 
-void print_stress_families();
+void print_stress_families(bool as_json);
 
 /// Prints the rows of a stress test and its verdict, or JSON, and writes the cases that are asked
 /// for. Throws FileError.

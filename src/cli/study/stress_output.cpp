@@ -166,8 +166,15 @@ void write_cases(const std::filesystem::path& folder, const std::vector<StressRo
 
 }  // namespace
 
-void print_stress_families()
+void print_stress_families(bool as_json)
 {
+    if (as_json) {
+        auto json = nlohmann::ordered_json::array();
+        for (const auto& family : lab::list_stress_families())
+            json.push_back({{"family", family.name}, {"rays", family.what}});
+        std::cout << json_text(json);
+        return;
+    }
     TextTable table(2, {"family", "rays"});
     for (const auto& family : lab::list_stress_families())
         table.add({family.name, family.what});

@@ -44,9 +44,10 @@ inline Vec3v<double> point_at(const RayPacket<double>& rays, const vreal<double>
 /// The first root beyond t_min. A ray that only grazes the surface in double touches it.
 inline vreal<double> first_root(const Quadratic<double>& quadratic, const vreal<double>& t_min)
 {
-    const vreal<double> root = sqrt(max(quadratic.discriminant, vreal<double>(0.0)));
-    const vreal<double> minus_q = quadratic.b + with_sign_of(root, quadratic.b);
-    const vreal<double> first = lesser_root(quadratic, minus_q, all_lanes<double>);
+    const vreal<double> root =
+        with_sign_of(sqrt(max(quadratic.discriminant, vreal<double>(0.0))), quadratic.b);
+    const vreal<double> minus_q = quadratic.b + root;
+    const vreal<double> first = lesser_root(quadratic, root, minus_q, all_lanes<double>);
     // For t_min >= 0 this is the first root that can count.
     const auto counts = first > t_min;
     if (all(counts))

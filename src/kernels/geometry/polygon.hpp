@@ -71,6 +71,71 @@ template <class Real>
     return inside;
 }
 
+/// Where along their rays points are that lie `w` from the origins, seen along them.
+template <class Real>
+inline vreal<Real> depth(const Vec3v<Real>& w, const Vec3v<Real>& dir)
+{
+    const Vec3v<Real> size{abs(dir.x), abs(dir.y), abs(dir.z)};
+    const auto z_longest = (size.z >= size.x) & (size.z >= size.y);
+    const auto x_longest = size.x >= size.y;
+    const auto by_longest = [&](const Vec3v<Real>& v) {
+        return select(z_longest, v.z, select(x_longest, v.x, v.y));
+    };
+    return by_longest(w) / by_longest(dir);
+}
+
+/// `t`, but no further along the rays than the edges that passes_through() finds to cross: those on
+/// either side of a ray that passes through have their crossings before and behind its own.
+template <class Real>
+[[gnu::noinline]] vreal<Real> between_edges(const abi::PolygonRecord<Real>& polygon,
+                                            const RayPacket<Real>& rays, const vreal<Real>& t)
+{
+    const vreal<Real> zero(Real(0));
+    const AcrossRay<Real> axes = across<Real>(rays.dir);
+    vreal<Real> first(static_cast<Real>(__builtin_inf()));
+    vreal<Real> last(static_cast<Real>(-__builtin_inf()));
+    vreal<Real> from_v = zero;
+    vreal<Real> from_depth = zero;
+    for (std::int32_t i = 0; i < polygon.corner_count; ++i) {
+        const abi::PolygonCorner<Real>& corner = polygon.corners[i];
+        const Vec3v<Real> w = broadcast(corner.position) - rays.org;
+        const vreal<Real> v = dot(axes.v, w);
+        const vreal<Real> at = depth(w, rays.dir);
+        const auto crosses = from_bits<Real>(
+            corner.starts_contour != 0 ? 0 : bits(v >= zero) ^ bits(from_v >= zero));
+        const vreal<Real> here = from_depth + (at - from_depth) * (from_v / (from_v - v));
+        first = select(crosses, min(first, here), first);
+        last = select(crosses, max(last, here), last);
+        from_v = v;
+        from_depth = at;
+    }
+    return select(t > first, min(t, last), first);
+}
+
+/// Below this share of what their sum is made of, rounding decides about slopes to a plane.
+template <class Real>
+inline constexpr Real edge_on = sizeof(Real) == 4 ? Real(0x1p-16) : Real(0x1p-44);
+
+/// Where rays cross the polygon's plane; of rays that see it from its edge, where they can be
+/// inside, as rounding may have them pass through.
+template <class Real>
+inline vreal<Real> polygon_t(const abi::PolygonRecord<Real>& polygon, const RayPacket<Real>& rays)
+{
+    const Vec3v<Real> normal = broadcast(polygon.normal);
+    const vreal<Real> slope = dot_across<Real>(normal, rays.dir);
+    const vreal<Real> t = plane_height<Real>(polygon, rays.org) / slope;
+    const auto tells =
+        abs(slope) > vreal<Real>(edge_on<Real>) * magnitude_dot<Real>(normal, rays.dir);
+    return bits(tells) == all_lanes<Real> ? t : select(tells, t, between_edges(polygon, rays, t));
+}
+
+inline RefinedHalf refine(const abi::PolygonRecord<double>& polygon, unsigned,
+                          const RayPacket<double>& rays)
+{
+    const vreal<double> t = polygon_t(polygon, rays);
+    return {t, point_at(rays, t), broadcast(polygon.normal)};
+}
+
 /// Rays from one point see it as others do.
 template <class Real>
 inline abi::PolygonRecord<Real> share_origin(const abi::PolygonRecord<Real>& polygon,
@@ -91,7 +156,7 @@ template <class Real, class Own>
 inline void keep_closest(HitPacket<Real>& hit, const abi::PolygonRecord<Real>& polygon,
                          const RayPacket<Real>& rays, const Own& own)
 {
-    const vreal<Real> t = plane_t(polygon, rays);
+    const vreal<Real> t = polygon_t(polygon, rays);
     const std::uint32_t ahead =
         bits((t > rays.t_min) & (t <= hit.t)) & own.template lanes_on_others<Real>(polygon.surface);
     if (ahead != 0)
@@ -105,7 +170,7 @@ inline std::uint32_t occluding_lanes(const RayEnd<Real>& end,
                                      const abi::PolygonRecord<Real>& polygon,
                                      const RayPacket<Real>& rays)
 {
-    const std::uint32_t ahead = bits(end.blocked_at(plane_t(polygon, rays), rays));
+    const std::uint32_t ahead = bits(end.blocked_at(polygon_t(polygon, rays), rays));
     return ahead == 0 ? 0 : ahead & passes_through(polygon, rays);
 }
 
@@ -113,7 +178,7 @@ template <class Real, class Visit>
 inline void visit_crossings(const abi::PolygonRecord<Real>& polygon, const RayPacket<Real>& rays,
                             const Visit& visit)
 {
-    visit(from_bits<Real>(passes_through(polygon, rays)), plane_t(polygon, rays), 0);
+    visit(from_bits<Real>(passes_through(polygon, rays)), polygon_t(polygon, rays), 0);
 }
 
 /// A polygon for the origins of one group of rays in single precision.
@@ -146,7 +211,7 @@ inline HalfPolygonCrossings half_crossings(const abi::PolygonRecord<double>& pol
                                            const RayPacket<double>& rays)
 {
     HalfPolygonCrossings half;
-    half.t = plane_t(polygon, rays);
+    half.t = polygon_t(polygon, rays);
     const std::uint32_t ahead =
         bits((half.t > rays.t_min) & (half.t < vreal<double>(__builtin_inf())));
     half.valid = ahead == 0 ? 0 : ahead & passes_through(polygon, rays);

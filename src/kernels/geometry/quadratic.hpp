@@ -1,5 +1,7 @@
 #pragma once
 
+#include <limits>
+
 #include "kernels/geometry/packet.hpp"
 
 // The quadratic a t² + 2 b t + c = 0 with a > 0 that every curved surface comes down to, and
@@ -13,23 +15,29 @@ struct Quadratic {
     vreal<Real> discriminant;
 };
 
-/// By how much rounding may have the lesser root be the larger.
+/// From this share of q² on, rounding could have the lesser root be the larger.
 template <class Real>
-inline constexpr Real lesser_slack = Real(1) + Real(0x1p-20);
+inline constexpr Real near_square = Real(1) - Real(8) * std::numeric_limits<Real>::epsilon();
 
-/// The root of lesser size, -c / minus_q, of the lanes of `crosses`. By size the other, -minus_q/a,
-/// is no less; where it seems so, the line all but touches the surface where its equation starts,
-/// and of c nothing but rounding is left, of which a quotient could be anything.
+/// The root of lesser size, -c / minus_q, of the lanes of `crosses`; minus_q is b plus
+/// `signed_root`. By size the other, -minus_q/a, is no less; where it seems so, the line all but
+/// touches the surface where its equation starts, and of c nothing but rounding is left, of which a
+/// quotient could be anything. Where the two are one but for rounding the first is the first.
 template <class Real>
-inline vreal<Real> lesser_root(const Quadratic<Real>& quadratic, const vreal<Real>& minus_q,
-                               std::uint32_t crosses)
+inline vreal<Real> lesser_root(const Quadratic<Real>& quadratic, const vreal<Real>& signed_root,
+                               const vreal<Real>& minus_q, std::uint32_t crosses)
 {
     const vreal<Real> root = negated(quadratic.c) / minus_q;
-    const auto rounding =
-        abs(quadratic.a * quadratic.c) > vreal<Real>(lesser_slack<Real>) * (minus_q * minus_q);
-    if ((bits(rounding) & crosses) == 0)
+    const vreal<Real> square = minus_q * minus_q;
+    const vreal<Real> product = quadratic.a * quadratic.c;
+    const auto near = abs(product) > vreal<Real>(near_square<Real>) * square;
+    if ((bits(near) & crosses) == 0)
         return root;
-    return select(rounding, (minus_q - (quadratic.b + quadratic.b)) / quadratic.a, root);
+    const vreal<Real> first = min(root, negated(minus_q) / quadratic.a);
+    const vreal<Real> sum = (signed_root - quadratic.b) / quadratic.a;
+    const vreal<Real> zero(Real(0));
+    const auto twins = near & (quadratic.b < zero) & (product > zero);
+    return select(abs(product) > square, sum, select(twins, first, root));
 }
 
 /// Lanes where a root may lie at t > 0: with b >= 0 and c >= 0 both roots are behind.
@@ -48,9 +56,9 @@ inline void keep_first_root(HitPacket<Real>& hit, const Quadratic<Real>& quadrat
                             vmask<Real> active, const vreal<Real>& t_min, std::int32_t surface)
 {
     // Lanes that miss may hold a NaN here; no comparison lets it through. -q is used for q.
-    const vreal<Real> root = sqrt(quadratic.discriminant);
-    const vreal<Real> minus_q = quadratic.b + with_sign_of(root, quadratic.b);
-    vreal<Real> t = lesser_root(quadratic, minus_q, bits(active));
+    const vreal<Real> root = with_sign_of(sqrt(quadratic.discriminant), quadratic.b);
+    const vreal<Real> minus_q = quadratic.b + root;
+    vreal<Real> t = lesser_root(quadratic, root, minus_q, bits(active));
     const auto in_front = t > t_min;
     const std::uint32_t too_near = bits(active) & ~bits(in_front);
     if ((too_near & bits(minus_q < vreal<Real>(Real(0)))) == 0) {
@@ -71,9 +79,9 @@ inline void visit_roots(const Quadratic<Real>& quadratic, const Visit& visit)
     const auto crosses = may_hit(quadratic);
     if (none(crosses))
         return;
-    const vreal<Real> root = sqrt(quadratic.discriminant);
-    const vreal<Real> minus_q = quadratic.b + with_sign_of(root, quadratic.b);
-    visit(crosses, lesser_root(quadratic, minus_q, bits(crosses)));
+    const vreal<Real> root = with_sign_of(sqrt(quadratic.discriminant), quadratic.b);
+    const vreal<Real> minus_q = quadratic.b + root;
+    visit(crosses, lesser_root(quadratic, root, minus_q, bits(crosses)));
     visit(crosses, negated(minus_q) / quadratic.a);
 }
 

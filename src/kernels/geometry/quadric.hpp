@@ -234,8 +234,8 @@ inline void visit_crossings(const abi::QuadricRecord<Real>& quadric,
     const Vec3v<Real> v = apply_inverse(quadric, rays.dir);
     const auto [quadratic, start] = side_quadratic<Real>(quadric, origin.p, v, rays.dir);
     const vreal<Real> zero(Real(0));
-    const vreal<Real> root = sqrt(max(quadratic.discriminant, zero));
-    const vreal<Real> minus_q = quadratic.b + with_sign_of(root, quadratic.b);
+    const vreal<Real> root = with_sign_of(sqrt(max(quadratic.discriminant, zero)), quadratic.b);
+    const vreal<Real> minus_q = quadratic.b + root;
     // A ray through a cone's apex meets it at the start itself; one along a cylinder's axis
     // nowhere.
     const auto at_start = minus_q == zero;
@@ -249,7 +249,7 @@ inline void visit_crossings(const abi::QuadricRecord<Real>& quadric,
     if ((crosses | never_crosses) == 0)
         return;
     const vreal<Real> first =
-        start + select(at_start, zero, lesser_root(quadratic, minus_q, crosses));
+        start + select(at_start, zero, lesser_root(quadratic, root, minus_q, crosses));
     const vreal<Real> second = start + negated(minus_q) / quadratic.a;
     if (!quadric.clipped) {
         visit(from_bits<Real>(crosses), first, 0);

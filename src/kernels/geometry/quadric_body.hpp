@@ -81,11 +81,11 @@ inline OwnCrossing crossing_from_cap(const abi::QuadricRecord<double>& quadric, 
     const vreal<double> across = select(far < never, far, never);
     const auto [side, start] = side_quadratic<double>(
         quadric, quadric_origin<double>(quadric, point).p, apply_inverse(quadric, dir), dir);
-    const vreal<double> root = sqrt(max(side.discriminant, zero));
-    const vreal<double> minus_q = side.b + with_sign_of(root, side.b);
+    const vreal<double> root = with_sign_of(sqrt(max(side.discriminant, zero)), side.b);
+    const vreal<double> minus_q = side.b + root;
     const auto at_start = minus_q == zero;
     const vreal<double> first =
-        start + select(at_start, zero, lesser_root(side, minus_q, all_lanes<double>));
+        start + select(at_start, zero, lesser_root(side, root, minus_q, all_lanes<double>));
     const vreal<double> second = select(at_start, first, start + negated(minus_q) / side.a);
     const LineInterval<double> between = ordered<double>(first, second);
     const std::uint32_t along = bits(at_start & (side.a == zero));

@@ -103,9 +103,10 @@ inline RefractedPacket<Real> refract(const abi::SceneView<Real>& scene,
     const vreal<Real> zero(Real(0));
     const vreal<Real> one(Real(1));
     const vreal<Real> eta = ior_before / ior_behind;
-    const vreal<Real> cos_in = negated(dot(surface.normal, surface.dir));
-    const vreal<Real> cos_out2 = nmadd(eta * eta, nmadd(cos_in, cos_in, one), one);
-    const vreal<Real> bend = msub(eta, cos_in, sqrt(max(cos_out2, zero)));
+    const vreal<Real> scaled_in = eta * negated(dot(surface.normal, surface.dir));
+    // 1 - eta² (1 - cos²), in which a small cosine keeps its digits.
+    const vreal<Real> cos_out2 = madd(scaled_in, scaled_in, (one - eta) * (one + eta));
+    const vreal<Real> bend = scaled_in - sqrt(max(cos_out2, zero));
     const Vec3v<Real> bent = madd<Real>(bend, surface.normal, scale<Real>(eta, surface.dir));
     result.total = bends & bits(cos_out2 < zero);
     result.dir = select(from_bits<Real>(bends), bent, surface.dir);

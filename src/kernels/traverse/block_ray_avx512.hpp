@@ -131,23 +131,33 @@ private:
                (_mm256_cmp_ps_mask(q.b, zero, _CMP_LT_OQ) |
                 _mm256_cmp_ps_mask(q.c, zero, _CMP_LT_OQ));
     }
-    static __m256 minus_q_of(const Eights& q)
+    static __m256 signed_root_of(const Eights& q)
     {
         const __m256 sign = _mm256_and_ps(q.b, _mm256_set1_ps(-0.0f));
-        return _mm256_add_ps(q.b, _mm256_or_ps(_mm256_sqrt_ps(q.discriminant), sign));
+        return _mm256_or_ps(_mm256_sqrt_ps(q.discriminant), sign);
+    }
+    static __m256 minus_q_of(const Eights& q)
+    {
+        return _mm256_add_ps(q.b, signed_root_of(q));
     }
 
     __m256 lesser_root(const Eights& q, __m256 minus_q, std::uint32_t crosses) const
     {
         const __m256 root = _mm256_div_ps(negated(q.c), minus_q);
-        const __m256 product = _mm256_andnot_ps(_mm256_set1_ps(-0.0f), _mm256_mul_ps(dir2_, q.c));
-        const __m256 most =
-            _mm256_mul_ps(_mm256_set1_ps(lesser_slack<float>), _mm256_mul_ps(minus_q, minus_q));
-        const __mmask8 rounding = _mm256_cmp_ps_mask(product, most, _CMP_GT_OQ);
-        if ((rounding & crosses) == 0)
+        const __m256 square = _mm256_mul_ps(minus_q, minus_q);
+        const __m256 product = _mm256_mul_ps(dir2_, q.c);
+        const __m256 size = _mm256_andnot_ps(_mm256_set1_ps(-0.0f), product);
+        const __mmask8 near = _mm256_cmp_ps_mask(
+            size, _mm256_mul_ps(_mm256_set1_ps(near_square<float>), square), _CMP_GT_OQ);
+        if ((near & crosses) == 0)
             return root;
-        return _mm256_mask_div_ps(root, rounding, _mm256_sub_ps(minus_q, _mm256_add_ps(q.b, q.b)),
-                                  dir2_);
+        const __m256 zero = _mm256_setzero_ps();
+        const __mmask8 twins = near & _mm256_cmp_ps_mask(q.b, zero, _CMP_LT_OQ) &
+                               _mm256_cmp_ps_mask(product, zero, _CMP_GT_OQ);
+        const __m256 first =
+            _mm256_mask_min_ps(root, twins, root, _mm256_div_ps(negated(minus_q), dir2_));
+        return _mm256_mask_div_ps(first, _mm256_cmp_ps_mask(size, square, _CMP_GT_OQ),
+                                  _mm256_sub_ps(signed_root_of(q), q.b), dir2_);
     }
 
     std::uint32_t any_root(const Eights& q, __m256 t_end) const

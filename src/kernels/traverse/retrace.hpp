@@ -1,5 +1,7 @@
 #pragma once
 
+#include <limits>
+
 #include "kernels/precision/leave_surface.hpp"
 #include "kernels/traverse/bundle.hpp"
 
@@ -38,7 +40,9 @@ struct WideBundle {
             rays.dir[axis][count] = dir[axis];
         }
         rays.t_min[count] = t_min;
-        rays.t[count] = t;
+        // What single precision has no number for is no hit.
+        constexpr float largest = std::numeric_limits<float>::max();
+        rays.t[count] = t < largest ? t : largest;
         rays.surface[count] = surface;
         rays.own[count] = own;
         rays.t_low[count] = rays.other[count] = __builtin_inf();

@@ -5,12 +5,20 @@
 namespace packtrace {
 namespace {
 
+/// A text as a cell of a table, in which a bar would end it.
+std::string cell(std::string text)
+{
+    for (std::size_t at = 0; (at = text.find('|', at)) != std::string::npos; at += 2)
+        text.insert(at, 1, '\\');
+    return text;
+}
+
 void write_conditions(std::ostream& to, const ReportOptions& options,
                       const ReportConditions& conditions)
 {
     to << "# Error against run time\n\n"
        << "| | |\n|---|---|\n"
-       << "| command | `" << conditions.command << "` |\n"
+       << "| command | `" << cell(conditions.command) << "` |\n"
        << "| commit | " << conditions.commit << " |\n"
        << "| processor | " << conditions.processor << ", " << conditions.processors << " in use |\n"
        << "| compiler | " << conditions.compiler << " |\n\n"
@@ -61,7 +69,7 @@ void write_study(std::ostream& to, const SceneReport& scene, const StudyReport& 
     to << '\n';
     for (const std::string& line : judgement(study, options))
         to << "- " << line << '\n';
-    to << "\n![error against time](" << plot_file(scene, study) << ")\n";
+    to << "\n![error against time](<" << plot_file(scene, study) << ">)\n";
 }
 
 void write_classes(std::ostream& to, const std::vector<SceneReport>& scenes)
@@ -83,7 +91,7 @@ std::string report_markdown(const std::vector<SceneReport>& scenes, const Report
     write_conditions(text, options, conditions);
     for (const SceneReport& scene : scenes) {
         text << "\n## " << scene.name << ", " << scene.width << " x " << scene.height << "\n\n"
-             << "![the truth](" << picture_file(scene, scene.studies.front(), 0) << ")\n";
+             << "![the truth](<" << picture_file(scene, scene.studies.front(), 0) << ">)\n";
         for (const StudyReport& study : scene.studies)
             write_study(text, scene, study, options);
     }

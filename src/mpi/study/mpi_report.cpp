@@ -10,6 +10,7 @@
 #include <packtrace/write_report.hpp>
 
 #include "cli/interrupts.hpp"
+#include "cli/options/scene_input.hpp"
 #include "cli/options/thread_limit.hpp"
 #include "cli/output/progress_bar.hpp"
 #include "cli/study/report_command.hpp"

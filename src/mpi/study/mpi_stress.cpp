@@ -61,7 +61,7 @@ void run_stress_on_ranks(const World& world, const cli::StressArguments& argumen
 {
     if (arguments.list) {
         if (world.is_first())
-            cli::print_stress_families();
+            cli::print_stress_families(arguments.json);
         return;
     }
     const auto start = std::chrono::steady_clock::now();

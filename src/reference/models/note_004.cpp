@@ -110,7 +110,7 @@ Color<Real> Note004<Real, Recorder>::shader(const Tuple& intersection, const Vec
                                                     ? shadowed_exactly(object, on, I, S, distance)
                                                     : shadowed(object, I, S, distance));
     if (!record_.blocked(light.number, blocked))
-        f = r[0] + r[1] * Id + r[2] * std::pow(Is, r[3]);
+        f = r[0] + r[1] * Id + r[2] * (Is > 0 ? std::pow(Is, r[3]) : Real(0));
     // r0 is ambient light, which nothing keeps off.
     (void)record_.adds((f - r[0]) * (c * Li));
     return f * (c * Li);

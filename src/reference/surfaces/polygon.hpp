@@ -96,31 +96,43 @@ template <class Real>
     return product_above(lower.x, upper.y, upper.x, lower.y);
 }
 
+/// Below this share of what their sum is made of, rounding decides about slopes to a plane.
+template <class Real>
+inline constexpr Real edge_on = 1024 * std::numeric_limits<Real>::epsilon();
+
 template <class Real>
 [[nodiscard]] Roots<Real> roots_of(const PolygonBody<Real>& polygon, const Vec3<Real>& O,
                                    const Vec3<Real>& D)
 {
     const LineSpace<Real> space(O, D);
     bool inside = false;
+    // Where the edges cross the x axis, seen along the line.
     Real nearest = std::numeric_limits<Real>::infinity();
     Real farthest = -nearest;
     for (const auto& contour : polygon.contours) {
         Vec3<Real> last = space(contour[0]);
         for (const Vec3<Real>& corner : contour) {
             const Vec3<Real> next = space(corner);
-            inside ^= crosses_positive_x(last, next);
-            nearest = std::min(nearest, next.z);
-            farthest = std::max(farthest, next.z);
+            if ((last.y > 0) != (next.y > 0)) {
+                inside ^= crosses_positive_x(last, next);
+                const Real z = last.z + (next.z - last.z) * (last.y / (last.y - next.y));
+                nearest = std::min(nearest, z);
+                farthest = std::max(farthest, z);
+            }
             last = next;
         }
     }
     Roots<Real> roots;
     if (!inside)
         return roots;
-    // A line along the plane may be sheared to the inside: its t is one of the corners' then.
     const Real slope = dot(polygon.normal, D);
-    const Real t = dot(polygon.normal, polygon.contours[0][0] - O) / slope;
-    roots.add(t > nearest ? std::min(t, farthest) : nearest, Part::side, slope > 0);
+    Real t = dot(polygon.normal, polygon.contours[0][0] - O) / slope;
+    // Rounding may have a line along the plane pass through: it is between edges then.
+    const Vec3<Real> parts = polygon.normal * D;
+    const Real size = std::abs(parts.x) + std::abs(parts.y) + std::abs(parts.z);
+    if (!(std::abs(slope) > edge_on<Real> * size))
+        t = t > nearest ? std::min(t, farthest) : nearest;
+    roots.add(t, Part::side, slope > 0);
     return roots;
 }
 
