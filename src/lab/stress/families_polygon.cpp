@@ -91,6 +91,48 @@ StressCase polygon_star(StressRandom& random)
     return result;
 }
 
+/// Any point of a triangle.
+Vec3 in_triangle(StressRandom& r, const Contour& corners)
+{
+    const double a = r.between(0.0, 1.0);
+    const double b = r.between(0.0, 1.0 - a);
+    return a * corners[0] + b * corners[1] + (1.0 - a - b) * corners[2];
+}
+
+/// Triangles of two long sides, so thin that their normals are what little is left of products.
+StressCase polygon_sliver(StressRandom& random)
+{
+    const Vec3 from = random.box(2.0);
+    const Vec3 along = random.between(0.5, 3.0) * random.unit();
+    const Vec3 across = random.power(1e-6, 1e-2) * glm::cross(along, random.unit());
+    const Contour corners = {from, from + along, from + random.between(0.1, 0.9) * along + across};
+    StressCase result;
+    result.scene.objects.push_back(polygon_object({corners}, Mat4(1.0)));
+    result.ray = [=](StressRandom& r) {
+        const Vec3 aim = in_triangle(r, corners);
+        return ray_towards(aim + r.between(0.5, 6.0) * r.unit(), aim);
+    };
+    return result;
+}
+
+/// A triangle, and rays that run so nearly in its plane that they see little but its edge.
+StressCase polygon_edge_on(StressRandom& random)
+{
+    const Mat4 transform = any_placement(random, any_stretch(random, 0.3), random.box(2.0));
+    const Contour corners = {{-1, -1, 0}, {1.5, -0.5, 0}, {0.2, 1.3, 0}};
+    StressCase result;
+    result.scene.objects.push_back(polygon_object({corners}, transform));
+    result.ray = [=](StressRandom& r) {
+        const Vec3 own = in_triangle(r, corners);
+        const double turn = r.between(0.0, 6.283185307);
+        const double up = r.power(1e-12, 1e-2);
+        const Vec3 way = r.between(2.0, 6.0) * Vec3(std::cos(turn), std::sin(turn), up);
+        const Vec3 aim(transform * glm::dvec4(own, 1.0));
+        return ray_towards(Vec3(transform * glm::dvec4(own + way, 1.0)), aim);
+    };
+    return result;
+}
+
 }  // namespace
 
 std::vector<StressFamily> polygon_families()
@@ -99,6 +141,8 @@ std::vector<StressFamily> polygon_families()
         {"polygon-edges", "at the edges and corners that the six polygons of a cube share",
          polygon_cube},
         {"polygon-star", "at the outline of a star and of the hole in it", polygon_star},
+        {"polygon-slivers", "triangles 1e-6 to 1e-2 of their length wide", polygon_sliver},
+        {"polygon-edge-on", "nearly in a triangle's plane, sine 1e-12 to 1e-2", polygon_edge_on},
     };
 }
 
