@@ -291,6 +291,28 @@ TEST_CASE("lights however far reach what infinite precision lets them reach", "[
     }
 }
 
+TEST_CASE("a moved scene's lights reach what a new one's do, far ones too", "[lit]")
+{
+    Scene scene = parse_scene(R"(
+        sphere { center = (0, 0, 3)  radius = 0.3 }
+        sphere { center = (2, 0, 3)  radius = 0.0001  casts_shadow = no }
+        polygon { vertices = (-2, 1, -2), (-2, 1, 5), (3, 1, 5), (3, 1, -2) }
+        light { type = point  position = (0.37, 0.9999999, 0.071)  intensity = 1 }
+        light { type = point  position = (3e3, -5e3, 1e3)  intensity = 1 }
+    )",
+                              "moved", {});
+    RenderOptions options;
+    options.traversal = Traversal::tree;
+    RayScene<float> moved(scene, options);
+    const auto seen = look(moved, 3000, {0, 0, 0}, 0.5, {0, 0.5, 3}, 1.5);
+    for (int i = 0; i < 3; ++i) {
+        (void)moved.update(scene, std::vector<std::int32_t>{0});
+        const RayScene<float> fresh(scene, options);
+        for (const std::size_t light : {std::size_t{0}, std::size_t{1}})
+            CHECK(lit(moved, seen.points(), light) == lit(fresh, seen.points(), light));
+    }
+}
+
 TEST_CASE("lights' own views change no answer, in as many calls as it takes", "[lit]")
 {
     const Scene scene = crowd(300);

@@ -212,6 +212,38 @@ TEST_CASE("shadows stay where they are however far a light is", "[no_cliff]")
     }
 }
 
+TEST_CASE("a light near one body and far from another keeps the near one's shadow", "[no_cliff]")
+{
+    const char* const scenes[] = {// A ball's shadow on a wall, with and without a speck beside.
+                                  R"(image_size = 64 x 64  illumination = whitted
+           camera { position = (0.123, 0.217, 0.0731)  look_at = (0.123, 0.217, 10)  fov = 60 }
+           plane { point = (0, 0, 1e5)  normal = (0, 0, -1)  diffuse = 1 }
+           sphere { center = (0.123, 0.217, 1.0731)  radius = 0.3  diffuse = 1 }
+           sphere { center = (5, 0, 0)  radius = 0.0001  diffuse = 1 }
+           light { type = point  position = (0.123, 0.517, 0.0731)  intensity = 1 })",
+                                  R"(image_size = 64 x 64  illumination = whitted
+           camera { position = (0.123, 0.217, 0.0731)  look_at = (0.123, 0.217, 10)  fov = 60 }
+           plane { point = (0, 0, 1e6)  normal = (0, 0, -1)  diffuse = 1 }
+           cylinder { scale = 0.1  rotate = (1, 0, 0, 90)  translate = (0.123, 0.217, 1.0731)
+                      diffuse = 1 }
+           light { type = point  position = (0.323, 0.217, 0.0731)  intensity = 1 })",
+                                  // A lamp just below a ceiling, and a speck on the floor.
+                                  R"(image_size = 64 x 64  illumination = whitted
+           camera { position = (0.3, 0.1, -3)  look_at = (0.2, -0.5, 0)  fov = 70 }
+           plane { point = (0, -1, 0)  normal = (0, 1, 0)  diffuse = 1 }
+           plane { point = (0, 1.3, 0)  normal = (0, -1, 0)  diffuse = 0 }
+           sphere { center = (0.5, -0.99995, 0.2)  radius = 0.00005  diffuse = 1 }
+           light { type = point  position = (0.3, 1.2999999, 0.7)  intensity = 1 })"};
+    for (const char* const text : scenes) {
+        const Scene scene = parse_scene(text, "near", {});
+        const Image<double> truth = render_scalar<double>(scene);
+        for (const RenderOptions& options : packet_ways()) {
+            CAPTURE(text, options.isa, options.traversal);
+            CHECK(pixels_off(render<float>(scene, options), truth) <= 4);
+        }
+    }
+}
+
 TEST_CASE("camera, lights and objects elsewhere change no digit of a hit", "[no_cliff]")
 {
     for (const std::string& isa : supported_isas())

@@ -554,6 +554,7 @@ TEST_CASE("a ray in a polygon's plane meets it within its outline or not at all"
         const auto& corners = std::get<Polygon>(scene.objects[0].surface).contours[0];
         for (const RenderOptions& options : ways) {
             const RayScene<double> rays(scene, options);
+            const RayScene<float> narrow(scene, options);
             for (int ray = 0; ray < 60; ++ray) {
                 const Vec3 org = in_plane(15);
                 const Vec3 dir = in_plane(5);
@@ -562,6 +563,14 @@ TEST_CASE("a ray in a polygon's plane meets it within its outline or not at all"
                     ++hits;
                     CHECK(distance_to_triangle(org + hit.t * dir, corners) < 1e-9);
                 }
+                if (options.kernel == Kernel::scalar)
+                    continue;
+                const glm::vec3 o(org);
+                const glm::vec3 d(dir);
+                const Ray<float> single{{o.x, o.y, o.z}, {d.x, d.y, d.z}};
+                const SurfaceHit<float> first = narrow.closest_hit(single);
+                if (first.object >= 0)
+                    CHECK(distance_to_triangle(org + double{first.t} * dir, corners) < 1e-4);
             }
         }
     }

@@ -6,6 +6,8 @@
 
 #include <nlohmann/json.hpp>
 
+#include <packtrace/isa.hpp>
+
 #include "catch.hpp"
 #include "intersect_program.hpp"
 #include "killed_program.hpp"
@@ -119,6 +121,14 @@ TEST_CASE("parts that do not belong together are not joined", "[shard]")
     REQUIRE(bench.intersect("single", {"--shard", "1/3", "--precision", "single"}).exit_code == 0);
     REQUIRE(bench.intersect("half", {"--shard", "1/2"}).exit_code == 0);
     REQUIRE(bench.intersect("whole", {}).exit_code == 0);
+    // Other rays in a file of the same length.
+    const std::string rays = read_text(bench.folder / "rays.csv");
+    std::string others = rays;
+    const std::size_t digit = others.find_last_of("012345678");
+    ++others[digit];
+    write_text(bench.folder / "rays.csv", others);
+    REQUIRE(bench.intersect("other", {"--shard", "1/3"}).exit_code == 0);
+    write_text(bench.folder / "rays.csv", rays);
     struct Wrong {
         Words parts;
         const char* message;
@@ -128,6 +138,7 @@ TEST_CASE("parts that do not belong together are not joined", "[shard]")
         {{"p0", "p1", "p1", "p2"}, "give each part once"},
         {{"p0", "single", "p2"}, "is a part of other work"},
         {{"p0", "half", "p2"}, "is a part of other work"},
+        {{"p0", "other", "p2"}, "is a part of other work"},
         {{"whole"}, "is not a part"},
         {{"none"}, "can't read"},
     };
@@ -239,10 +250,26 @@ TEST_CASE("joined shards of a stress test have the rows and the verdict of the w
         }
     CHECK(whole["rows"].size() >= 4);
     CHECK(joined.dump() == whole.dump());
+
+    const auto refused = [&](const Words& parts, const std::string& why) {
+        const ProgramResult result = run_packtrace(parts);
+        CHECK(result.exit_code == 1);
+        CHECK_THAT(result.err, ContainsSubstring(why));
+    };
+    for (const Words& option : {Words{"--self-hits", "note"}, Words{"--traversal", "list"},
+                                Words{"--isa", choose_isa().name}, Words{"--family", "plane"}}) {
+        Words part = all;
+        part.insert(part.end(), option.begin(), option.end());
+        part.insert(part.end(), {"--shard", "1/3"});
+        write_text(folder / "other", run_packtrace(part).out);
+        refused({"join", folder / "0", folder / "other", folder / "2"}, "of other work");
+    }
+    std::string edited = read_text(folder / "1");
+    edited.replace(edited.find("\"wrong\": 0"), 10, "\"wrong\": 5");
+    write_text(folder / "edited", edited);
+    refused({"join", folder / "0", folder / "edited", folder / "2"}, "is cut or was changed");
     join.pop_back();
-    const ProgramResult missing = run_packtrace(join);
-    CHECK(missing.exit_code == 1);
-    CHECK_THAT(missing.err, ContainsSubstring("is missing"));
+    refused(join, "is missing");
 }
 
 TEST_CASE("hits are resumed from the last whole block", "[shard]")

@@ -6,6 +6,7 @@
 #include <filesystem>
 #include <functional>
 #include <optional>
+#include <stop_token>
 #include <string>
 #include <utility>
 #include <vector>
@@ -68,6 +69,8 @@ struct ReportOptions {
     std::filesystem::path cache;     ///< folder of truths; none where empty
     /// What is being done, and the share of it done, in [0, 1]. May be called from any thread.
     std::function<void(const std::string& what, double share)> progress;
+    /// When a stop is requested the report throws StopError, a frame later.
+    std::stop_token stop = {};
 };
 
 /// How many of the pixels looked at are off for one reason (lab/report/error_class.hpp).

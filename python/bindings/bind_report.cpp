@@ -83,11 +83,15 @@ py::list report_scene(py::handle value, py::handle name, py::handle threads, py:
     from_python(threshold, "threshold", options.threshold);
     Progress progress(call);
     options.progress = [&](const std::string& what, double share) { progress(what, share); };
+    options.stop = progress.stop();
     const ReportScene scene{value_of<std::string>(name, "name"), scene_of(value)};
     SceneReport made;
-    {
+    try {
         const py::gil_scoped_release release;
         made = report(scene, options);
+    } catch (const StopError&) {
+        progress.raise();
+        throw;
     }
     progress.raise();
     py::list rows;

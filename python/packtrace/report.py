@@ -24,7 +24,8 @@ def report(scenes: Union[Scene, Mapping[str, Scene]], *, threads: Sequence[int] 
     min_weights, samples, adaptive: Scene.min_weight, samples a pixel, and pairs of samples and
         contrast, to vary; None leaves them as `packtrace report` has them.
     repetitions: of each run, in turns. truth_samples: a pixel, of what sampling is held against.
-    progress: called with what is being done and the share of it done.
+    progress: called with what is being done and the share of it done. What it raises, and Ctrl-C,
+        end the report, a frame later.
 
     Columns are those of `packtrace report`'s report.csv (docs/report.md): scene, width, height
     (pixels), study, run, kernel, precision, isa, accuracy, lanes, threads, depth, min_weight, samples,

@@ -258,6 +258,9 @@ void PackedScene<Real>::pack_casters(const LoweredScene& lowered)
     // Without a hierarchy for the camera's rays there are no groups of shadow rays either.
     casters_ = std::make_unique<PackedScene>(
         shadow_casters(lowered), tree_.view().empty() ? Traversal::list : Traversal::automatic);
+    // Their own lights could be far from them, but not from all objects.
+    for (std::size_t i = 0; i < lights_.size(); ++i)
+        casters_->lights_[i].sends_rays = lights_[i].sends_rays;
     view_.casters = &casters_->view();
 }
 

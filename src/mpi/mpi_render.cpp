@@ -254,6 +254,9 @@ void add_render(CLI::App& app, const World& world)
     CLI::App* command = app.add_subcommand("render", "Render a scene to a picture on all ranks");
     const auto arguments = std::make_shared<RenderJobArguments>();
     cli::add_render_options(*command, *arguments);
+    // check_job() says why not.
+    for (const char* const refused : {"--certainty", "--y4m", "--fps", "--shard"})
+        command->get_option(refused)->group("");
     add_job_options(*command, arguments->job);
     command->callback([arguments, &world] { run_render(world, *arguments); });
 }

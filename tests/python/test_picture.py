@@ -201,6 +201,19 @@ class TestReport(unittest.TestCase):
             header = Path(folder, "report.csv").read_text().splitlines()[0]
         self.assertEqual(list(rows[0]), header.split(","))
 
+    def test_progress_ends_a_report(self):
+        calls = []
+
+        def stop(what, share):
+            calls.append(what)
+            if what == "comparing":
+                raise KeyError("enough")
+
+        with self.assertRaisesRegex(KeyError, "enough"):
+            pt.report(lit_scene(width=16, height=16), threads=[1], truth_samples=16, samples=[1], adaptive=[],
+                      progress=stop)
+        self.assertEqual(calls.count("comparing"), 1)
+
     def test_wrong_options_are_refused(self):
         with self.assertRaisesRegex(ValueError, "adaptive is .*use pairs"):
             pt.report(hand_scene(), adaptive=[(1, 2, 3)])

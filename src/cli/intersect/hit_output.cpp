@@ -50,8 +50,13 @@ HitOutput::Progress HitOutput::find_finished(std::string_view header) const
     done.rows = checksum(bytes_of(header));
     Bytes begun(header.size());
     journal_->read(0, begun);
-    if (checksum(begun) != done.rows)
+    if (checksum(begun) != done.rows) {
+        // The head of a part names its file of rays.
+        const std::string_view text(reinterpret_cast<const char*>(begun.data()), begun.size());
+        if (PartHead::parse(text.substr(0, text.find('\n'))))
+            fail_of_rays();
         return done;
+    }
     for (const Journal::Entry& entry : journal_->entries()) {
         if (entry.size() != 4 || entry[0] <= done.blocks || entry[2] < done.bytes)
             continue;
@@ -69,9 +74,14 @@ void HitOutput::skip_finished(const std::function<std::string()>& next)
     for (std::uint64_t i = 0; i < done_.blocks; ++i)
         sum = checksum(bytes_of(next()), sum);
     if (sum != done_.rays)
-        throw FileError(name_ +
-                        ".journal: was begun with other rays; use what it was begun with, or "
-                        "remove this file to begin again");
+        fail_of_rays();
+}
+
+void HitOutput::fail_of_rays() const
+{
+    throw FileError(name_ +
+                    ".journal: was begun with other rays; use what it was begun with, or remove "
+                    "this file to begin again");
 }
 
 void HitOutput::take(std::string_view block, std::string_view rows)

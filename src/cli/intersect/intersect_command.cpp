@@ -59,7 +59,8 @@ void run_intersect(const IntersectArguments& arguments)
         const Shard shard = *parse_shard(*arguments.shard);
         range = range_of(arguments.rays, shard);
         const PartHead head{shard, recipe + ", " + std::to_string(ray_file_size(arguments.rays)) +
-                                       " bytes of rays"};
+                                       " bytes of rays, checksum " +
+                                       std::to_string(ray_file_checksum(arguments.rays))};
         header = head.line() + header;
         recipe += ", shard " + shard.text();
     }

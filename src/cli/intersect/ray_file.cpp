@@ -5,12 +5,14 @@
 #include <cstdint>
 #include <cstdio>
 #include <filesystem>
+#include <fstream>
 #include <memory>
 #include <string_view>
 #include <utility>
 
 #include <sys/types.h>
 
+#include "core/checksum.hpp"
 #include "core/read_file.hpp"
 #include "scene/quote.hpp"
 
@@ -100,6 +102,28 @@ RayBlock RayBlocks::next()
     block.rays = ray_ - block.first_ray;
     block.format = format_;
     return block;
+}
+
+std::uint32_t ray_file_checksum(const std::string& file)
+{
+    constexpr std::uint64_t piece = std::uint64_t{1} << 16u;
+    constexpr std::uint64_t pieces = 1024;
+    const std::uint64_t size = ray_file_size(file);
+    std::ifstream input(file, std::ios::binary);
+    std::vector<char> bytes(piece);
+    std::uint32_t sum = 0;
+    const std::uint64_t count = std::min(pieces, (size + piece - 1) / piece);
+    for (std::uint64_t i = 0; i < count; ++i) {
+        const bool whole = size <= piece * pieces;
+        const std::uint64_t place = whole ? i * piece : (size - piece) / (pieces - 1) * i;
+        input.seekg(static_cast<std::streamoff>(place));
+        input.read(bytes.data(), static_cast<std::streamsize>(std::min(piece, size - place)));
+        if (!input)
+            throw FileError(language::escape(file), "can't read", errno);
+        const auto length = static_cast<std::size_t>(input.gcount());
+        sum = checksum(bytes_of(std::string_view(bytes.data(), length)), sum);
+    }
+    return sum;
 }
 
 std::uint64_t ray_file_size(const std::string& file)

@@ -92,6 +92,10 @@ struct RayCount {
 /// be cut into ranges.
 [[nodiscard]] std::uint64_t ray_file_size(const std::string& file);
 
+/// Of all of a file of rays up to 64 MiB, else of 1024 pieces of 64 KiB, spread evenly from its
+/// beginning to its end: parts of a large file are made without reading all of it.
+[[nodiscard]] std::uint32_t ray_file_checksum(const std::string& file);
+
 /// Part `index` of `count` parts of about the same length; numbers and format are not set.
 [[nodiscard]] RayRange cut_rays(const std::string& file, std::uint64_t index, std::uint64_t count);
 

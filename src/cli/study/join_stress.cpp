@@ -6,6 +6,7 @@
 #include <nlohmann/json.hpp>
 
 #include "cli/options/shard.hpp"
+#include "core/checksum.hpp"
 #include "core/json_text.hpp"
 #include "core/read_file.hpp"
 #include "lab/stress/stress.hpp"
@@ -38,7 +39,21 @@ Part read_part(const std::string& name)
     if (!shard)
         fail(name, "is no part that packtrace stress --json --shard wrote");
     part.shard = *shard;
+    const Json sum = part.json.value("checksum", Json());
+    part.json.erase("checksum");
+    if (sum != checksum(bytes_of(json_text(part.json))))
+        fail(name, "is cut or was changed; make this part again");
     return part;
+}
+
+/// The families that all parts together have to have.
+std::vector<std::string> families_of(const Json& recipe)
+{
+    std::vector<std::string> names = recipe.value("families", std::vector<std::string>());
+    if (names.empty())
+        for (const auto& family : lab::list_stress_families())
+            names.push_back(family.name);
+    return names;
 }
 
 /// In the order of their numbers.
@@ -51,7 +66,7 @@ std::vector<Part> read_parts(const std::vector<std::string>& names)
                      [](const Part& a, const Part& b) { return a.shard.index < b.shard.index; });
     for (std::size_t i = 0; i < parts.size(); ++i) {
         const Part& part = parts[i];
-        for (const char* const key : {"seed", "rays_per_family"})
+        for (const char* const key : {"seed", "rays_per_family", "recipe"})
             if (part.json[key] != parts.front().json[key] ||
                 part.shard.count != parts.front().shard.count)
                 fail(part.name,
@@ -118,6 +133,10 @@ std::string join_stress(const std::vector<std::string>& names)
         fail(parts.front().name,
              std::string("has a row that stress did not write: ") + error.what());
     }
+    for (const std::string& family : families_of(parts.front().json["recipe"]))
+        if (std::none_of(judged.begin(), judged.end(),
+                         [&](const lab::StressRow& row) { return row.family == family; }))
+            throw FileError("family " + family + " is in none of the parts; make them again");
     Json joined;
     joined["seed"] = parts.front().json["seed"];
     joined["rays_per_family"] = parts.front().json["rays_per_family"];

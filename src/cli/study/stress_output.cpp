@@ -2,11 +2,14 @@
 #include <iostream>
 #include <string>
 
+#include <packtrace/version.hpp>
+
 #include <nlohmann/json.hpp>
 
 #include "cli/output/text_table.hpp"
 #include "cli/study/stress_command.hpp"
 #include "core/atomic_file.hpp"
+#include "core/checksum.hpp"
 #include "core/json_text.hpp"
 #include "lab/stress/stress.hpp"
 
@@ -131,18 +134,36 @@ void print_faults(const std::vector<StressRow>& rows)
     }
 }
 
+/// What of a part has to be the same in all others.
+nlohmann::ordered_json recipe_json(const StressArguments& arguments)
+{
+    const lab::StressOptions& options = arguments.options;
+    return {{"version", PACKTRACE_VERSION_STRING},
+            {"families", options.families},
+            {"kernels", options.kernels},
+            {"modes", options.modes},
+            {"precisions", options.precisions},
+            {"isa", arguments.isa.value_or("all")},
+            {"traversal", arguments.traversal.value_or("auto")},
+            {"self_hits", options.self_hits == SelfHits::note ? "note" : "exact"}};
+}
+
 void print_json(const StressArguments& arguments, const std::vector<StressRow>& rows)
 {
     const lab::StressOptions& options = arguments.options;
     nlohmann::ordered_json json;
-    if (arguments.shard)
+    if (arguments.shard) {
         json["shard"] = *arguments.shard;
+        json["recipe"] = recipe_json(arguments);
+    }
     json["seed"] = options.seed;
     json["rays_per_family"] = options.rays;
     json["verdict"] = lab::stress_verdict(rows);
     json["rows"] = nlohmann::ordered_json::array();
     for (const StressRow& row : rows)
         json["rows"].push_back(row_json(row));
+    if (arguments.shard)
+        json["checksum"] = checksum(bytes_of(json_text(json)));
     std::cout << json_text(json);
 }
 

@@ -112,7 +112,7 @@ template <class Real>
     return select(t > first, min(t, last), first);
 }
 
-/// Below this share of what their sum is made of, rounding decides about slopes to a plane.
+/// Below this share of a direction's length rounding may decide about its slope to a plane.
 template <class Real>
 inline constexpr Real edge_on = sizeof(Real) == 4 ? Real(0x1p-16) : Real(0x1p-44);
 
@@ -124,9 +124,17 @@ inline vreal<Real> polygon_t(const abi::PolygonRecord<Real>& polygon, const RayP
     const Vec3v<Real> normal = broadcast(polygon.normal);
     const vreal<Real> slope = dot_across<Real>(normal, rays.dir);
     const vreal<Real> t = plane_height<Real>(polygon, rays.org) / slope;
-    const auto tells =
-        abs(slope) > vreal<Real>(edge_on<Real>) * magnitude_dot<Real>(normal, rays.dir);
+    const vreal<Real> length = abs(rays.dir.x) + abs(rays.dir.y) + abs(rays.dir.z);
+    const auto tells = abs(slope) > vreal<Real>(edge_on<Real>) * length;
     return bits(tells) == all_lanes<Real> ? t : select(tells, t, between_edges(polygon, rays, t));
+}
+
+/// Lanes whose rays are so far from running in the polygon's plane that their hit is the plane's.
+inline std::uint32_t steep_lanes(const abi::PolygonRecord<double>& polygon,
+                                 const RayPacket<float>& rays)
+{
+    const vreal<float> slope = dot(broadcast_as<float>(polygon.normal), rays.dir);
+    return bits(slope * slope > vreal<float>(0x1p-20f) * rays.dir2);
 }
 
 inline RefinedHalf refine(const abi::PolygonRecord<double>& polygon, unsigned,

@@ -122,7 +122,10 @@ inline std::uint32_t refine_by_newton(RefinedHits<float>& hits, const abi::Shape
                                       std::uint32_t same)
 {
     return with_shape(shapes, index, [&](const auto& shape, unsigned piece) -> std::uint32_t {
-        if constexpr (requires { form_of(shape); })
+        if constexpr (requires { steep_lanes(shape, rays); })
+            return refine_by_newton<R>(hits, form_of(shape), rays, wide,
+                                       same & steep_lanes(shape, rays));
+        else if constexpr (requires { form_of(shape); })
             return refine_by_newton<R>(hits, form_of(shape), rays, wide, same);
         else if constexpr (requires { form_of(shape, piece, found); })
             return has_form(shape, piece)

@@ -5,6 +5,8 @@
 #include <stdexcept>
 #include <utility>
 
+#include <packtrace/stop.hpp>
+
 #include "core/check_number.hpp"
 #include "lab/harness/statistics.hpp"
 #include "lab/harness/stopwatch.hpp"
@@ -51,11 +53,18 @@ void check_truth(const ReportOptions& options)
                                     std::to_string(most) + "; give it more");
 }
 
+void stop_if_asked(const ReportOptions& options)
+{
+    if (options.stop.stop_requested())
+        throw StopError("the report was stopped");
+}
+
 Truth truth_of(const Scene& scene, int samples, const ReportOptions& options)
 {
     TruthRequest request;
     request.samples = samples;
     request.cache = options.cache;
+    request.stop = options.stop;
     if (options.progress)
         request.progress = [&](double share) { options.progress("truth", share); };
     return find_truth(scene, request);
@@ -198,6 +207,7 @@ std::vector<std::vector<double>> times_of(const std::vector<Subject>& subjects,
         static_cast<double>(options.repetitions) * static_cast<double>(subjects.size());
     double done = 0.0;
     return time_in_turns(subjects.size(), options.repetitions, [&](std::size_t i) {
+        stop_if_asked(options);
         if (options.progress)
             options.progress("timing", done++ / total);
         return seconds_of(subjects[i].variant.threads, subjects[i].render);
@@ -222,6 +232,7 @@ StudyReport run_study(const Scene& scene_of_truth, Study study, const Truth& tru
     const StudyErrors errors(scene_of_truth, study, truth, options);
     // A first frame pays for the memory that later ones reuse, and gives the picture.
     for (std::size_t i = 0; i < subjects.size(); ++i) {
+        stop_if_asked(options);
         add_run(report, StudyErrors::render(subjects[i]),
                 [&](StudyLook& look) { errors.measure(subjects[i], look); });
         if (options.progress)

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cstdio>
 
+#include <packtrace/compare.hpp>
+
 #include "lab/report/report_study.hpp"
 
 namespace packtrace {
@@ -102,15 +104,25 @@ std::string adaptive_line(const StudyReport& study)
            (decided ? "." : ", though the spreads of their times overlap.");
 }
 
-/// What cutting rays did at most, beside what it can do at most.
+/// What cutting rays did at most to the picture of the same kernel with all rays, beside what it
+/// can do at most.
 std::string bounds_line(const StudyReport& study)
 {
+    const auto whole = std::find_if(study.runs.begin(), study.runs.end(), [](const ReportRun& run) {
+        return run.variant.min_weight == 0.0;
+    });
+    if (whole == study.runs.end())
+        return {};
+    const Image<double>& uncut = study.pictures[whole->picture].image;
     std::string text;
     for (const ReportRun& run : study.runs)
         if (run.cut.rays > 0)
-            text += (text.empty() ? "" : ", ") + run.variant.name + " " + brief(run.error.max_abs) +
-                    " of " + brief(run.cut.bound);
-    return text.empty() ? text : "Largest error of a pixel, of its proven bound: " + text + ".";
+            text += (text.empty() ? "" : ", ") + run.variant.name + " " +
+                    brief(compare(study.pictures[run.picture].image, uncut).max_abs) + " of " +
+                    brief(run.cut.bound);
+    return text.empty()
+               ? text
+               : "Largest change of a pixel by rays left out, of its proven bound: " + text + ".";
 }
 
 }  // namespace

@@ -102,6 +102,7 @@ Truth find_truth(const Scene& scene, const TruthRequest& request)
         return *kept;
     RenderOptions options;
     options.progress = request.progress;
+    options.stop = request.stop;
     Truth truth;
     truth.seconds = seconds_of(options.threads,
                                [&] { truth.image = trace_truth(scene, request.samples, options); });

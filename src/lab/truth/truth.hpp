@@ -3,6 +3,7 @@
 #include <filesystem>
 #include <functional>
 #include <optional>
+#include <stop_token>
 #include <string>
 
 #include <packtrace/image.hpp>
@@ -21,6 +22,7 @@ struct TruthRequest {
     int samples = 1;              ///< a pixel; one is the scene's own
     std::filesystem::path cache;  ///< folder; nothing is kept where empty
     std::function<void(double)> progress;
+    std::stop_token stop = {};  ///< as RenderOptions has it
 };
 
 /// The scalar reference's picture: in long double at one sample a pixel, in double at more. A file

@@ -96,7 +96,7 @@ template <class Real>
     return product_above(lower.x, upper.y, upper.x, lower.y);
 }
 
-/// Below this share of what their sum is made of, rounding decides about slopes to a plane.
+/// Below this share of a direction's length rounding may decide about its slope to a plane.
 template <class Real>
 inline constexpr Real edge_on = 1024 * std::numeric_limits<Real>::epsilon();
 
@@ -128,9 +128,8 @@ template <class Real>
     const Real slope = dot(polygon.normal, D);
     Real t = dot(polygon.normal, polygon.contours[0][0] - O) / slope;
     // Rounding may have a line along the plane pass through: it is between edges then.
-    const Vec3<Real> parts = polygon.normal * D;
-    const Real size = std::abs(parts.x) + std::abs(parts.y) + std::abs(parts.z);
-    if (!(std::abs(slope) > edge_on<Real> * size))
+    const Real length = std::abs(D.x) + std::abs(D.y) + std::abs(D.z);
+    if (!(std::abs(slope) > edge_on<Real> * length))
         t = t > nearest ? std::min(t, farthest) : nearest;
     roots.add(t, Part::side, slope > 0);
     return roots;
