@@ -284,8 +284,7 @@ TEST_CASE("lights however far reach what infinite precision lets them reach", "[
                 scene.lights.push_back({LightType::point, Rgb(0.6), distance * to});
             for (const RenderOptions& options : packet_ways()) {
                 const RayScene<float> rays(scene, options);
-                check_spheres(scene, options, look(rays, 12000, {0, 1, -6}, 2, {0, -1, 6}, 4),
-                              rays);
+                check_spheres(scene, options, look(rays, 3000, {0, 1, -6}, 2, {0, -1, 6}, 4), rays);
             }
         }
     }
