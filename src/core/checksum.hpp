@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <span>
+#include <string>
 #include <string_view>
 
 // Numbers that tell whether bytes or texts are the same.
@@ -23,5 +24,8 @@ namespace packtrace {
         hash = (hash ^ static_cast<std::uint8_t>(letter)) * 0x100000001b3u;
     return hash;
 }
+
+/// text_hash() as 16 hexadecimal digits.
+[[nodiscard]] std::string text_hash_digits(std::string_view text);
 
 }  // namespace packtrace

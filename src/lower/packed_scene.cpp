@@ -241,9 +241,9 @@ void PackedScene<Real>::pack_lights(const LoweredScene& lowered)
 template <class Real>
 void PackedScene<Real>::choose_light_ends(const LoweredScene& lowered)
 {
+    const bool exact = view_.wide != nullptr;
     for (std::size_t i = 0; i < lowered.lights.size(); ++i) {
         abi::LightRecord<Real>& light = lights_[i];
-        const bool exact = view_.wide != nullptr;
         light.sends_rays =
             light.kind == abi::LightKind::point &&
             !(exact && light.casts_shadow && is_far(lowered.lights[i].vector, lowered));

@@ -1,7 +1,6 @@
 #include "cli/render/frame_recipe.hpp"
 
 #include <charconv>
-#include <cstdio>
 
 #include <packtrace/version.hpp>
 #include <packtrace/write_scene.hpp>
@@ -13,10 +12,7 @@ namespace {
 
 std::string hash_of(const Scene& scene)
 {
-    char text[17];
-    std::snprintf(text, sizeof text, "%016llx",
-                  static_cast<unsigned long long>(text_hash(scene_text(scene))));
-    return text;
+    return text_hash_digits(scene_text(scene));
 }
 
 /// The shortest that reads back as the same number.

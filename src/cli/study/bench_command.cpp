@@ -286,7 +286,7 @@ void run_bench_command(const BenchArguments& arguments)
     for (const std::string& file : arguments.scenes) {
         SceneInput input = read_scene_input(file);
         const std::string name = free_scene_name(language::escape(input.stem), names);
-        result.figures.now.scenes[name] = std::to_string(text_hash(scene_text(input.scene)));
+        result.figures.now.scenes[name] = text_hash_digits(scene_text(input.scene));
         scenes.push_back({name, std::move(input.scene)});
         apply(arguments.picture, scenes.back().scene);
     }

@@ -14,10 +14,11 @@
 namespace packtrace::PACKTRACE_ISA {
 namespace {
 
-/// Two directions across a ray: e·(p - org) is where a point is seen along it.
+/// Two directions across a ray: e·(p - org) is where a point is seen along it; and the axis that it
+/// goes along the most.
 template <class Real>
 struct AcrossRay {
-    Vec3v<Real> u, v;
+    Vec3v<Real> u, v, longest;
 };
 
 /// Along two axes, moved by as much as the ray goes along the third, its longest.
@@ -35,7 +36,8 @@ inline AcrossRay<Real> across(const Vec3v<Real>& dir)
         return select(z_longest, z, select(x_longest, x, y));
     };
     return {{by_axis(one, back.y, one), by_axis(zero, one, back.x), by_axis(back.x, zero, zero)},
-            {by_axis(zero, back.z, zero), by_axis(one, zero, back.z), by_axis(back.y, one, one)}};
+            {by_axis(zero, back.z, zero), by_axis(one, zero, back.z), by_axis(back.y, one, one)},
+            {by_axis(zero, one, zero), by_axis(zero, zero, one), by_axis(one, zero, zero)}};
 }
 
 /// A corner as the rays see it.
@@ -71,19 +73,6 @@ template <class Real>
     return inside;
 }
 
-/// Where along their rays points are that lie `w` from the origins, seen along them.
-template <class Real>
-inline vreal<Real> depth(const Vec3v<Real>& w, const Vec3v<Real>& dir)
-{
-    const Vec3v<Real> size{abs(dir.x), abs(dir.y), abs(dir.z)};
-    const auto z_longest = (size.z >= size.x) & (size.z >= size.y);
-    const auto x_longest = size.x >= size.y;
-    const auto by_longest = [&](const Vec3v<Real>& v) {
-        return select(z_longest, v.z, select(x_longest, v.x, v.y));
-    };
-    return by_longest(w) / by_longest(dir);
-}
-
 /// `t`, but no further along the rays than the edges that passes_through() finds to cross: those on
 /// either side of a ray that passes through have their crossings before and behind its own.
 template <class Real>
@@ -94,13 +83,14 @@ template <class Real>
     const AcrossRay<Real> axes = across<Real>(rays.dir);
     vreal<Real> first(static_cast<Real>(__builtin_inf()));
     vreal<Real> last(static_cast<Real>(-__builtin_inf()));
+    const vreal<Real> length = dot(axes.longest, rays.dir);
     vreal<Real> from_v = zero;
     vreal<Real> from_depth = zero;
     for (std::int32_t i = 0; i < polygon.corner_count; ++i) {
         const abi::PolygonCorner<Real>& corner = polygon.corners[i];
         const Vec3v<Real> w = broadcast(corner.position) - rays.org;
         const vreal<Real> v = dot(axes.v, w);
-        const vreal<Real> at = depth(w, rays.dir);
+        const vreal<Real> at = dot(axes.longest, w) / length;
         const auto crosses = from_bits<Real>(
             corner.starts_contour != 0 ? 0 : bits(v >= zero) ^ bits(from_v >= zero));
         const vreal<Real> here = from_depth + (at - from_depth) * (from_v / (from_v - v));

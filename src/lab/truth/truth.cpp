@@ -16,10 +16,7 @@ constexpr int checked_pixels = 32;
 
 std::filesystem::path file_of(const std::string& key, const std::filesystem::path& cache)
 {
-    char name[32];
-    std::snprintf(name, sizeof name, "%016llx.truth",
-                  static_cast<unsigned long long>(text_hash(key)));
-    return cache / name;
+    return cache / (text_hash_digits(key) + ".truth");
 }
 
 reference::Color<double> color_now(const Scene& scene, int samples, int x, int y)
