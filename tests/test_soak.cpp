@@ -2,6 +2,7 @@
 #include "lab/soak/soak.hpp"
 
 #include <cmath>
+#include <filesystem>
 
 #include <packtrace/read_scene.hpp>
 
@@ -9,6 +10,7 @@
 #include <glm/geometric.hpp>
 
 #include "catch.hpp"
+#include "killed_program.hpp"
 #include "lab/soak/soak_scene.hpp"
 #include "lab/soak/soak_way.hpp"
 #include "lab/stress/evaluate.hpp"
@@ -305,6 +307,21 @@ TEST_CASE("soak checks scenes of a file, and random ones", "[soak]")
     CHECK_THAT(few.out, ContainsSubstring("2 scenes") && ContainsSubstring("0 findings"));
     CHECK(run_packtrace({"soak", "--scenes", "0"}).exit_code == 2);
     CHECK(run_packtrace({"soak", "--minutes", "nan"}).exit_code == 2);
+}
+
+TEST_CASE("an interrupted soak tells how far it came", "[soak]")
+{
+    const TempFolder folder;
+    const std::string command = "exec " + shell_quoted(PACKTRACE_CLI) + " soak --cases " +
+                                shell_quoted(folder / "cases") + " 2>" +
+                                shell_quoted(folder / "err");
+    int waits = 0;
+    const int status = kill_program({"sh", "-c", command}, SIGINT, [&] {
+        return std::filesystem::exists(folder / "cases") && ++waits > 500;
+    });
+    CHECK(WIFSIGNALED(status));
+    CHECK_THAT(read_text(folder / "err"),
+               ContainsSubstring("interrupted after ") && ContainsSubstring("0 findings"));
 }
 
 }  // namespace packtrace::test

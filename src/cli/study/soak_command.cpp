@@ -12,6 +12,7 @@
 #include <tbb/task_arena.h>
 
 #include "cli/command.hpp"
+#include "cli/interrupts.hpp"
 #include "cli/options/common_options.hpp"
 #include "cli/options/scene_input.hpp"
 #include "cli/options/thread_limit.hpp"
@@ -104,6 +105,13 @@ int check_files(const SoakArguments& arguments)
     return findings;
 }
 
+std::string text_of(const lab::SoakCounts& counts)
+{
+    return std::to_string(counts.scenes) + (counts.scenes == 1 ? " scene, " : " scenes, ") +
+           std::to_string(counts.refused) + " of them refused by the scene language, " +
+           std::to_string(counts.findings) + (counts.findings == 1 ? " finding" : " findings");
+}
+
 int check_random(const SoakArguments& arguments)
 {
     lab::SoakOptions options = arguments.options;
@@ -113,10 +121,12 @@ int check_random(const SoakArguments& arguments)
     if (arguments.minutes || !arguments.scenes)
         options.seconds = 60.0 * arguments.minutes.value_or(1.0);
     const lab::SoakCounts counts = lab::run_soak(
-        options, [&](const lab::SoakReport& report) { print_report(arguments, report); });
-    std::cout << counts.scenes << (counts.scenes == 1 ? " scene, " : " scenes, ") << counts.refused
-              << " of them refused by the scene language, " << counts.findings
-              << (counts.findings == 1 ? " finding\n" : " findings\n");
+        options, [&](const lab::SoakReport& report) { print_report(arguments, report); },
+        [](const lab::SoakCounts& so_far) {
+            set_interrupt_line("packtrace: interrupted after " + text_of(so_far));
+        });
+    set_interrupt_line("");
+    std::cout << text_of(counts) << '\n';
     return counts.findings;
 }
 

@@ -92,11 +92,14 @@ std::optional<SoakFinding> check_scene(const Scene& scene, SelfHits self_hits, s
     return check_rays(scene, seed, aligned);
 }
 
-SoakCounts run_soak(const SoakOptions& options, const std::function<void(const SoakReport&)>& take)
+SoakCounts run_soak(const SoakOptions& options, const std::function<void(const SoakReport&)>& take,
+                    const std::function<void(const SoakCounts&)>& tell)
 {
     SoakCounts counts;
     const Limit limit(options);
     while (const std::uint64_t count = limit.next(counts.scenes)) {
+        if (tell)
+            tell(counts);
         const std::uint64_t first = options.first + counts.scenes;
         std::vector<Outcome> outcomes(count);
         tbb::parallel_for(std::uint64_t{0}, count, [&](std::uint64_t i) {

@@ -71,9 +71,10 @@ struct SoakCounts {
     int findings = 0;
 };
 
-/// Traces random scenes in every way there is and hands what is not as promised to `take`. The
-/// scenes follow from seed and number alone.
+/// Traces random scenes in every way there is and hands what is not as promised to `take`, and how
+/// far it has come to `tell` now and then. The scenes follow from seed and number alone.
 [[nodiscard]] SoakCounts run_soak(const SoakOptions& options,
-                                  const std::function<void(const SoakReport&)>& take);
+                                  const std::function<void(const SoakReport&)>& take,
+                                  const std::function<void(const SoakCounts&)>& tell = {});
 
 }  // namespace packtrace::lab
