@@ -470,13 +470,13 @@ TEST_CASE("a verdict names the families that are wrong", "[stress]")
     fast.held = false;
     fast.faults.clear();
     CHECK(lab::stress_verdict({fast}) == "verdict: no rays were traced in an exact mode");
-    for (std::uint64_t StressRow::*count :
-         {&StressRow::false_hits, &StressRow::wrong_object, &StressRow::wrong_root,
-          &StressRow::occluded, &StressRow::order, &StressRow::not_closed,
-          &StressRow::beyond_own_band, &StressRow::not_finite, &StressRow::no_normal,
-          &StressRow::wrong_side, &StressRow::t_beyond, &StressRow::t_beyond_half,
-          &StressRow::self_hits, &StressRow::second_lost, &StressRow::second_inexact,
-          &StressRow::bounds_missed}) {
+    for (const auto count : std::initializer_list<std::uint64_t StressRow::*>{
+             &StressRow::false_hits, &StressRow::wrong_object, &StressRow::wrong_root,
+             &StressRow::occluded, &StressRow::order, &StressRow::not_closed,
+             &StressRow::beyond_own_band, &StressRow::not_finite, &StressRow::no_normal,
+             &StressRow::wrong_side, &StressRow::t_beyond, &StressRow::t_beyond_half,
+             &StressRow::self_hits, &StressRow::second_lost, &StressRow::second_inexact,
+             &StressRow::bounds_missed}) {
         StressRow row = good;
         row.*count = 1;
         CHECK(lab::faults_of(row).size() == 1);

@@ -47,19 +47,19 @@ Json measure_bands(const BandArguments& arguments)
     const RowSamples samples(arguments.output, scene.width, 1.0);
     const cli::Bands bands =
         cli::cut_into_bands(scene.width, scene.height, samples.format(), cli::band_pixels);
-    const auto source = cli::band_source(scene, "single", {}, samples);
+    const auto render = cli::band_renderer(scene, "single", {}, samples);
     const int count = std::min(arguments.bands, bands.count());
     const std::size_t band_bytes = samples.row_bytes() * static_cast<std::size_t>(bands.rows);
 
     // The first one pays for memory and threads.
     std::vector<Bytes> rendered(static_cast<std::size_t>(count), Bytes(band_bytes));
-    source->render(bands.band(0), rendered[0]);
+    render(bands.band(0), rendered[0]);
     Json work = Json::array();
     for (int i = 0; i < count; ++i) {
         const int number =
             static_cast<int>((std::int64_t{2} * i + 1) * bands.count() / (2 * count));
-        work.push_back(seconds_of(
-            [&] { source->render(bands.band(number), rendered[static_cast<std::size_t>(i)]); }));
+        work.push_back(
+            seconds_of([&] { render(bands.band(number), rendered[static_cast<std::size_t>(i)]); }));
     }
 
     constexpr std::size_t beyond_whole = std::size_t{144} << 20;

@@ -309,6 +309,13 @@ void make_folders(const std::filesystem::path& folder)
         throw FileError(folder, "can't make this folder", error.value());
 }
 
+void write_file(const std::filesystem::path& target, std::string_view text)
+{
+    AtomicFile file(target);
+    file.write(text);
+    file.commit();
+}
+
 void check_writable(const std::filesystem::path& target)
 {
     std::error_code ignored;

@@ -1,9 +1,7 @@
 #pragma once
 
 #include <cstddef>
-#include <cstdio>
 #include <filesystem>
-#include <memory>
 #include <span>
 #include <string_view>
 
@@ -29,13 +27,6 @@ public:
     void commit();
 
 private:
-    struct Closer {
-        void operator()(std::FILE* file) const
-        {
-            std::fclose(file);
-        }
-    };
-
     void open_directly();
     void open_temporary();
     bool create_temporary(int attempt);
@@ -44,8 +35,11 @@ private:
     std::filesystem::path target_;
     std::filesystem::path temporary_;  ///< empty where `target_` is written to directly
     int slot_ = -1;                    ///< where remove_all_temporaries() finds it
-    std::unique_ptr<std::FILE, Closer> file_;
+    OpenFile file_;
 };
+
+/// Writes all of a file, which appears complete or not at all. Throws FileError.
+void write_file(const std::filesystem::path& target, std::string_view text);
 
 /// Throws FileError, as an AtomicFile for `target` would: its folder is missing or can't be
 /// written to, or it is a folder itself. Leaves nothing behind.

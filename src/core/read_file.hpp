@@ -30,16 +30,21 @@ private:
     }
 };
 
+struct FileCloser {
+    void operator()(std::FILE* file) const
+    {
+        if (file != stdin)
+            std::fclose(file);
+    }
+};
+
+/// A file that is closed at its end, unless it is standard input.
+using OpenFile = std::unique_ptr<std::FILE, FileCloser>;
+
 /// The bytes of a file. Throws FileError.
 [[nodiscard]] inline std::string read_file(const std::filesystem::path& file)
 {
-    struct Close {
-        void operator()(std::FILE* opened) const
-        {
-            std::fclose(opened);
-        }
-    };
-    const std::unique_ptr<std::FILE, Close> input(std::fopen(file.c_str(), "rb"));
+    const OpenFile input(std::fopen(file.c_str(), "rb"));
     if (!input)
         throw FileError(file, "can't read", errno);
 

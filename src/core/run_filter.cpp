@@ -6,20 +6,13 @@
 #include <unistd.h>
 
 #include <cstdio>
-#include <memory>
+
+#include "core/read_file.hpp"
 
 extern char** environ;
 
 namespace packtrace {
 namespace {
-
-using File = std::unique_ptr<std::FILE, int (*)(std::FILE*)>;
-
-// Files rather than pipes: neither side waits for the other.
-File unnamed_file()
-{
-    return {std::tmpfile(), std::fclose};
-}
 
 std::string whole_text(std::FILE* file)
 {
@@ -35,8 +28,9 @@ std::string whole_text(std::FILE* file)
 
 FilterResult run_filter(const std::vector<std::string>& command, const std::string& input)
 {
-    const File in = unnamed_file();
-    const File out = unnamed_file();
+    // Files rather than pipes: neither side waits for the other.
+    const OpenFile in(std::tmpfile());
+    const OpenFile out(std::tmpfile());
     FilterResult result;
     if (!in || !out || std::fwrite(input.data(), 1, input.size(), in.get()) != input.size() ||
         std::fflush(in.get()) != 0)

@@ -4,10 +4,16 @@
 
 namespace packtrace {
 
+[[nodiscard]] inline double seconds_between(std::chrono::steady_clock::time_point from,
+                                            std::chrono::steady_clock::time_point to)
+{
+    return std::chrono::duration<double>(to - from).count();
+}
+
 /// Seconds of the clock since `start`.
 [[nodiscard]] inline double seconds_since(std::chrono::steady_clock::time_point start)
 {
-    return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+    return seconds_between(start, std::chrono::steady_clock::now());
 }
 
 }  // namespace packtrace

@@ -44,9 +44,7 @@ std::string recipe_in_png(const std::filesystem::path& picture)
 void write_recipe_beside(const std::filesystem::path& picture, std::span<const std::uint8_t> bytes,
                          const std::string& recipe)
 {
-    AtomicFile output(beside(picture));
-    output.write(recipe + "\n" + mark_of(bytes) + "\n");
-    output.commit();
+    write_file(beside(picture), recipe + "\n" + mark_of(bytes) + "\n");
 }
 
 /// The recipe beside `picture`; empty when there is none, or when the picture has other bytes now.

@@ -15,6 +15,7 @@
 #include "cli/command.hpp"
 #include "cli/usage_error.hpp"
 #include "core/json_text.hpp"
+#include "core/text.hpp"
 #include "scene/quote.hpp"
 #include "scene/source.hpp"
 
@@ -109,11 +110,8 @@ void check_same_isas(const World& world, std::vector<std::string> isas)
         for (const IsaInfo& isa : list_isas())
             if (isa.supported)
                 isas.push_back(isa.name);
-    std::string names;
-    for (const std::string& isa : isas)
-        names += (names.empty() ? "" : ", ") + isa;
     const std::vector<std::string> versions = world.gather(PACKTRACE_VERSION_STRING);
-    const std::vector<std::string> all = world.gather(names);
+    const std::vector<std::string> all = world.gather(joined(isas));
     world.together([&] {
         std::string why = why_not_together(versions, Mixing::allowed);
         if (why.empty())

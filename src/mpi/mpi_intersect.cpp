@@ -90,15 +90,7 @@ public:
     /// The same with numbers counted by this rank alone.
     [[nodiscard]] RayRange numbered(std::uint64_t i) const
     {
-        RayRange numbered = range(i);
-        if (numbered.begin > 0)
-            numbered.format = format_;
-        RayRange before;
-        before.end = numbered.begin;
-        const RayCount count = numbered.begin > 0 ? cli::count_rays(file_, before) : RayCount();
-        numbered.first_line = 1 + count.lines;
-        numbered.first_ray = count.rays;
-        return numbered;
+        return cli::numbered_rays(file_, i, count_);
     }
 
     /// Tells the text of a range from another.

@@ -130,10 +130,10 @@ void render_picture(const World& world, const RenderJobArguments& arguments, con
     world.broadcast(missing);
 
     std::optional<RowSamples> samples;
-    std::unique_ptr<cli::BandSource> source;
+    cli::RenderBand render;
     world.together([&] {
         samples.emplace(arguments.output, scene.width, arguments.write.gamma);
-        source = cli::band_source(scene, arguments.kernel.precision, options, *samples);
+        render = cli::band_renderer(scene, arguments.kernel.precision, options, *samples);
     });
     const Bands bands =
         cli::cut_into_bands(scene.width, scene.height, samples->format(), cli::band_pixels);
@@ -143,7 +143,7 @@ void render_picture(const World& world, const RenderJobArguments& arguments, con
         const Bands::Band band = bands.band(missing[static_cast<std::size_t>(number)]);
         Piece piece;
         piece.bytes.resize(samples->row_bytes() * static_cast<std::size_t>(band.rows));
-        const FrameCounts counts = source->render(band, piece.bytes);
+        const FrameCounts counts = render(band, piece.bytes);
         piece.cut_rays = counts.cut.rays;
         piece.cut_bound = counts.cut.bound;
         report.rays += counts.total();

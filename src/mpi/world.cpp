@@ -2,7 +2,6 @@
 
 #include <array>
 #include <chrono>
-#include <cstdint>
 #include <iostream>
 #include <new>
 #include <thread>
@@ -50,18 +49,6 @@ RanksOfNode ranks_of_node()
     MPI_Comm_size(node, &ranks.size);
     MPI_Comm_free(&node);
     return ranks;
-}
-
-/// A string or bytes.
-template <class Values>
-void broadcast_values(Values& values)
-{
-    std::uint64_t size = values.size();
-    MPI_Bcast(&size, 1, MPI_UINT64_T, 0, MPI_COMM_WORLD);
-    values.resize(size);
-    in_messages(size, [&](std::size_t at, int count) {
-        MPI_Bcast(values.data() + at, count, MPI_BYTE, 0, MPI_COMM_WORLD);
-    });
 }
 
 }  // namespace
@@ -128,24 +115,6 @@ void World::together(const std::function<void()>& step) const
     int code = failure.exit_code;
     MPI_Bcast(&code, 1, MPI_INT, first, MPI_COMM_WORLD);
     throw JobFailed{code};
-}
-
-void World::broadcast(std::string& text) const
-{
-    broadcast_values(text);
-}
-
-void World::broadcast(Bytes& bytes) const
-{
-    broadcast_values(bytes);
-}
-
-void World::broadcast(std::vector<int>& numbers) const
-{
-    int count = static_cast<int>(numbers.size());
-    MPI_Bcast(&count, 1, MPI_INT, 0, MPI_COMM_WORLD);
-    numbers.resize(static_cast<std::size_t>(count));
-    MPI_Bcast(numbers.data(), count, MPI_INT, 0, MPI_COMM_WORLD);
 }
 
 std::vector<std::string> World::gather(const std::string& text) const

@@ -2,14 +2,14 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <cstdint>
 #include <exception>
 #include <functional>
+#include <span>
 #include <string>
 #include <vector>
 
 #include <mpi.h>
-
-#include "image/bytes.hpp"
 
 namespace packtrace::mpi {
 
@@ -68,10 +68,18 @@ public:
     /// rank that failed says why in one line, and all throw JobFailed.
     void together(const std::function<void()>& step) const;
 
-    /// Rank 0's text or bytes, on every rank.
-    void broadcast(std::string& text) const;
-    void broadcast(Bytes& bytes) const;
-    void broadcast(std::vector<int>& numbers) const;
+    /// Rank 0's text, bytes or numbers, on every rank.
+    template <class Values>
+    void broadcast(Values& values) const
+    {
+        std::uint64_t count = values.size();
+        MPI_Bcast(&count, 1, MPI_UINT64_T, 0, MPI_COMM_WORLD);
+        values.resize(count);
+        const std::span<std::byte> bytes = std::as_writable_bytes(std::span(values));
+        in_messages(bytes.size(), [&](std::size_t at, int size) {
+            MPI_Bcast(bytes.data() + at, size, MPI_BYTE, 0, MPI_COMM_WORLD);
+        });
+    }
     /// Every rank's text, on every rank.
     [[nodiscard]] std::vector<std::string> gather(const std::string& text) const;
 

@@ -2,6 +2,7 @@
 #include <utility>
 #include <vector>
 
+#include "core/text.hpp"
 #include "scene/keys.hpp"
 
 namespace packtrace::language {
@@ -9,10 +10,7 @@ namespace {
 
 std::string code(std::string_view text)
 {
-    std::string result;
-    for (const char letter : text)
-        result.append(1, letter).append(letter == ',' ? " " : "");
-    return text.empty() ? result : '`' + result + '`';
+    return text.empty() ? std::string() : '`' + replaced(text, ',', ", ") + '`';
 }
 
 std::string line(const std::vector<std::string>& cells)
@@ -85,11 +83,8 @@ std::string object_table()
 {
     std::string result = head({"object", "its own keys", "surface"});
     for (const SurfaceWord& kind : surface_words()) {
-        std::string keys;
-        for (const std::string_view key :
-             std::visit([](const auto& blank) { return keys_of(blank); }, kind.blank))
-            keys += (keys.empty() ? "" : ", ") + code(key);
-        result += line({code(kind.word), keys, std::string(kind.equation)});
+        const auto keys = std::visit([](const auto& blank) { return keys_of(blank); }, kind.blank);
+        result += line({code(kind.word), joined(keys, ", ", code), std::string(kind.equation)});
     }
     return result;
 }

@@ -1,9 +1,9 @@
+#include "core/text.hpp"
 #include "scene/rows.hpp"
 #include "scene/unit_vector.hpp"
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 #include <limits>
 
 #include <glm/ext/matrix_transform.hpp>
@@ -209,10 +209,8 @@ Mat3 read_rotation(const Field& field)
         return rotation;
     if (!(distance <= taken_for_rotation))
         field.refuse(field.entry.key.at, not_a_rotation);
-    char rounded[16];
-    std::snprintf(rounded, sizeof rounded, "%.1g", distance);
     warn(field.source, field.entry.key.at,
-         std::string("'rotation' is a rotation only within ") + rounded +
+         std::string("'rotation' is a rotation only within ") + brief(distance, 1) +
              "; the nearest one is used; write its numbers with seven digits or use look_at");
     return nearest_rotation(rotation);
 }

@@ -5,6 +5,8 @@
 #include <numeric>
 #include <vector>
 
+#include "core/text.hpp"
+
 namespace packtrace::language {
 namespace {
 
@@ -129,10 +131,7 @@ std::string suggest(std::string_view word, std::span<const std::string_view> kno
 
 std::string join(std::span<const std::string_view> words)
 {
-    std::string result;
-    for (const std::string_view word : words)
-        result += (result.empty() ? "" : ", ") + escape(word);
-    return result;
+    return joined(words, ", ", escape);
 }
 
 }  // namespace packtrace::language

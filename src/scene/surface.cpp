@@ -1,7 +1,5 @@
 #include <algorithm>
-#include <array>
 #include <cmath>
-#include <cstdio>
 #include <limits>
 
 #include <glm/common.hpp>
@@ -9,6 +7,7 @@
 #include <packtrace/surface.hpp>
 
 #include "core/quad.hpp"
+#include "core/text.hpp"
 
 // The axes of a plane, and the plane of a polygon.
 namespace packtrace {
@@ -70,13 +69,6 @@ double size_of(const Polygon& polygon)
         for (const Vec3& corner : contour)
             size = std::max(size, glm::length(corner - polygon.contours[0][0]));
     return size;
-}
-
-std::string brief(double number)
-{
-    std::array<char, 32> text{};
-    (void)std::snprintf(text.data(), text.size(), "%.3g", number);
-    return text.data();
 }
 
 std::optional<std::string> fault_of_contours(const Polygon& polygon)

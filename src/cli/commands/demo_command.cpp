@@ -144,8 +144,8 @@ std::vector<std::string> table_row(const DemoEntry& entry, const std::vector<Dem
             fixed(1e3 * seconds, 2),
             fixed(1e-6 * static_cast<double>(entry.rays) / seconds, 1),
             fixed(median_of(scalar_of(entry, entries).seconds) / seconds, 2),
-            brief(error.max_abs),
-            brief(error.rmse),
+            brief(error.max_abs, 2),
+            brief(error.rmse, 2),
             std::to_string(error.pixels_off)};
 }
 

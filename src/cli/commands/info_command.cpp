@@ -107,14 +107,6 @@ void print_scene(const std::string& file, const Scene& scene, const SceneFeature
     print_memory(features.bytes, scene.objects.size());
 }
 
-std::string joined(const std::vector<std::string>& words)
-{
-    std::string text;
-    for (const std::string& word : words)
-        text += (text.empty() ? "" : ", ") + word;
-    return text.empty() ? "nothing" : text;
-}
-
 // The rays of a small picture that are unsure, by cause.
 void print_unsure(const UnsureSample& sample)
 {
@@ -141,8 +133,8 @@ void print_features(const SceneFeatures& features, const IsaInfo& isa,
                     const std::optional<UnsureSample>& unsure)
 {
     std::cout << "kernel   " << features.kernel << ", " << isa.name << ", " << isa.lanes_single
-              << " lanes\npaths    " << traced(features) << "\nuses     " << joined(features.uses)
-              << '\n';
+              << " lanes\npaths    " << traced(features) << "\nuses     "
+              << (features.uses.empty() ? "nothing" : joined(features.uses)) << '\n';
     if (unsure)
         print_unsure(*unsure);
     std::cout << '\n';

@@ -13,6 +13,7 @@
 #include "cli/output/text_output.hpp"
 #include "cli/study/study.hpp"
 #include "core/checksum.hpp"
+#include "core/read_file.hpp"
 #include "scene/quote.hpp"
 
 namespace packtrace::cli {
@@ -23,18 +24,11 @@ struct JoinArguments {
     std::string output;
 };
 
-struct Closer {
-    void operator()(std::FILE* file) const
-    {
-        std::fclose(file);
-    }
-};
-
 /// An open part of a file of hits, after its first line.
 struct HitPart {
     std::string name;
     PartHead head;
-    std::unique_ptr<std::FILE, Closer> file;
+    OpenFile file;
     std::uint64_t left = 0;  ///< bytes, without the last line
 };
 
@@ -102,7 +96,7 @@ HitPart open_part(const std::string& name)
 
 int first_byte(const std::string& name)
 {
-    const std::unique_ptr<std::FILE, Closer> file(std::fopen(name.c_str(), "rb"));
+    const OpenFile file(std::fopen(name.c_str(), "rb"));
     if (!file)
         throw FileError(language::escape(name), "can't read", errno);
     return std::fgetc(file.get());

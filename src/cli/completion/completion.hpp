@@ -3,6 +3,8 @@
 #include <string>
 #include <vector>
 
+#include "core/text.hpp"
+
 // What the scripts of all shells are made of.
 namespace packtrace::cli {
 
@@ -29,10 +31,6 @@ struct CommandWords {
     std::vector<CommandWords> commands;
     bool takes_paths = false;  ///< behind no option
 };
-
-/// With `between` between each two.
-[[nodiscard]] std::string join_words(const std::vector<std::string>& words,
-                                     const std::string& between = " ");
 
 /// The names of a command's own commands, joined.
 [[nodiscard]] std::string inner_names(const CommandWords& command);

@@ -59,9 +59,9 @@ void write_bash_options(std::ostream& out, const CommandWords& command, const st
     for (const OptionWords& option : command.options) {
         if (option.argument == Argument::none)
             continue;
-        out << "    '" << path << ':' << join_words(option.names, "' | '" + path + ':') << "') ";
+        out << "    '" << path << ':' << joined(option.names, "' | '" + path + ':') << "') ";
         if (option.argument == Argument::words)
-            out << "words='" << join_words(option.words) << "' ;;\n";
+            out << "words='" << joined(option.words, " ") << "' ;;\n";
         else
             out << (option.argument == Argument::path ? "paths=1 ;;\n" : ";;\n");
     }
@@ -73,7 +73,7 @@ void write_bash_arguments(std::ostream& out, const CommandWords& command, const 
 {
     std::string options;
     for (const OptionWords& option : command.options)
-        options += (options.empty() ? "" : " ") + join_words(option.names);
+        options += (options.empty() ? "" : " ") + joined(option.names, " ");
     out << "        '" << path << "')\n            options='" << options << "'\n            words='"
         << inner_names(command) << "' paths=" << (command.takes_paths ? "1" : "")
         << "\n            ;;\n";

@@ -82,20 +82,9 @@ void print_completion(const CLI::App& app, const std::string& shell)
 
 }  // namespace
 
-std::string join_words(const std::vector<std::string>& words, const std::string& between)
-{
-    std::string text;
-    for (const std::string& word : words)
-        text += (text.empty() ? "" : between) + word;
-    return text;
-}
-
 std::string inner_names(const CommandWords& command)
 {
-    std::vector<std::string> names;
-    for (const CommandWords& inner : command.commands)
-        names.push_back(inner.name);
-    return join_words(names);
+    return joined(command.commands, " ", [](const CommandWords& inner) { return inner.name; });
 }
 
 // For installation, and for those who don't install: hidden from the help.

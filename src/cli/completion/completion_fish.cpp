@@ -23,7 +23,7 @@ void write_fish_option(std::ostream& out, const OptionWords& option, const std::
     else if (option.argument == Argument::other)
         out << " -x";
     else if (option.argument == Argument::words)
-        out << " -x -a " << fish_quoted(join_words(option.words));
+        out << " -x -a " << fish_quoted(joined(option.words, " "));
     out << " -d " << fish_quoted(option.description) << '\n';
 }
 

@@ -30,7 +30,7 @@ std::string zsh_action(const OptionWords& option)
         case Argument::path:
             return ":file:_files";
         case Argument::words:
-            return ":word:(" + join_words(option.words) + ")";
+            return ":word:(" + joined(option.words, " ") + ")";
     }
     return {};
 }
@@ -38,7 +38,7 @@ std::string zsh_action(const OptionWords& option)
 /// Each name as a specification of its own; either name excludes the other.
 void write_zsh_option(std::ostream& out, const OptionWords& option)
 {
-    const std::string names = join_words(option.names);
+    const std::string names = joined(option.names, " ");
     for (const std::string& name : option.names) {
         const bool takes_equals = name.starts_with("--") && option.argument != Argument::none;
         out << " \\\n                '(" << names << ")" << name << (takes_equals ? "=" : "") << '['

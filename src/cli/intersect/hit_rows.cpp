@@ -3,6 +3,8 @@
 #include <charconv>
 #include <cstddef>
 
+#include "core/text.hpp"
+
 namespace packtrace::cli {
 namespace {
 
@@ -11,10 +13,7 @@ std::string csv_field(const std::string& text)
 {
     if (text.find_first_of(",\"\r\n") == std::string::npos)
         return text;
-    std::string quoted = "\"";
-    for (const char c : text)
-        quoted += c == '"' ? std::string("\"\"") : std::string(1, c);
-    return quoted + '"';
+    return '"' + replaced(text, '"', "\"\"") + '"';
 }
 
 void append_number(std::string& rows, double value)
@@ -26,16 +25,15 @@ void append_number(std::string& rows, double value)
     rows.append(digits, end.ptr);
 }
 
-/// Two more columns for the row that ends the text.
+/// Two more columns.
 void append_bounds(std::string& rows, const HitBounds& bounds)
 {
-    rows.back() = ',';
+    rows += ',';
     if (!bounds.empty())
         append_number(rows, bounds.low);
     rows += ',';
     if (!bounds.empty())
         append_number(rows, bounds.high);
-    rows += '\n';
 }
 
 }  // namespace
@@ -59,35 +57,15 @@ void HitRows::append_hit(std::string& rows, const SurfaceHit<Real>& hit) const
 }
 
 template <class Real>
-void HitRows::append_closest(std::string& rows, const SurfaceHit<Real>& hit) const
-{
-    if (hit.object < 0) {
-        rows += "0,,,,,\n";
-        return;
-    }
-    rows += "1,";
-    append_hit(rows, hit);
-    rows += '\n';
-}
-
-template <class Real>
 void HitRows::append_closest(std::string& rows, const SurfaceHit<Real>& hit,
-                             const HitBounds& bounds) const
+                             const HitBounds* bounds) const
 {
-    append_closest(rows, hit);
-    append_bounds(rows, bounds);
-}
-
-template <class Real>
-void HitRows::append_all(std::string& rows, std::uint64_t ray,
-                         std::span<const SurfaceHit<Real>> hits) const
-{
-    for (const SurfaceHit<Real>& hit : hits) {
-        rows += std::to_string(ray);
-        rows += ',';
+    rows += hit.object < 0 ? "0,,,,," : "1,";
+    if (hit.object >= 0)
         append_hit(rows, hit);
-        rows += '\n';
-    }
+    if (bounds != nullptr)
+        append_bounds(rows, *bounds);
+    rows += '\n';
 }
 
 template <class Real>
@@ -96,8 +74,12 @@ void HitRows::append_all(std::string& rows, std::uint64_t ray,
                          std::span<const HitBounds> bounds) const
 {
     for (std::size_t i = 0; i < hits.size(); ++i) {
-        append_all(rows, ray, hits.subspan(i, 1));
-        append_bounds(rows, bounds[i]);
+        rows += std::to_string(ray);
+        rows += ',';
+        append_hit(rows, hits[i]);
+        if (!bounds.empty())
+            append_bounds(rows, bounds[i]);
+        rows += '\n';
     }
 }
 
@@ -106,18 +88,12 @@ void HitRows::append_any(std::string& rows, std::uint8_t hit)
     rows += hit != 0 ? "1\n" : "0\n";
 }
 
-template void HitRows::append_closest(std::string&, const SurfaceHit<float>&) const;
 template void HitRows::append_closest(std::string&, const SurfaceHit<float>&,
-                                      const HitBounds&) const;
-template void HitRows::append_closest(std::string&, const SurfaceHit<double>&) const;
+                                      const HitBounds*) const;
 template void HitRows::append_closest(std::string&, const SurfaceHit<double>&,
-                                      const HitBounds&) const;
-template void HitRows::append_all(std::string&, std::uint64_t,
-                                  std::span<const SurfaceHit<float>>) const;
+                                      const HitBounds*) const;
 template void HitRows::append_all(std::string&, std::uint64_t, std::span<const SurfaceHit<float>>,
                                   std::span<const HitBounds>) const;
-template void HitRows::append_all(std::string&, std::uint64_t,
-                                  std::span<const SurfaceHit<double>>) const;
 template void HitRows::append_all(std::string&, std::uint64_t, std::span<const SurfaceHit<double>>,
                                   std::span<const HitBounds>) const;
 

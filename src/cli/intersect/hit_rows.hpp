@@ -29,19 +29,14 @@ public:
 
     explicit HitRows(const Scene& scene);
 
-    /// Appends a row of `closest_header`.
-    template <class Real>
-    void append_closest(std::string& rows, const SurfaceHit<Real>& hit) const;
-
-    /// Appends a row of `all_header` for each hit of the ray of that number.
-    template <class Real>
-    void append_all(std::string& rows, std::uint64_t ray,
-                    std::span<const SurfaceHit<Real>> hits) const;
-
-    // The same with bounds of t, which are left empty where they are, and for a miss.
+    /// Appends a row of `closest_header`, or of `bounded_closest_header` where there are bounds.
+    /// These are left empty where they are, and for a miss.
     template <class Real>
     void append_closest(std::string& rows, const SurfaceHit<Real>& hit,
-                        const HitBounds& bounds) const;
+                        const HitBounds* bounds) const;
+
+    /// Appends a row of `all_header` for each hit of the ray of that number, or of
+    /// `bounded_all_header` where there are bounds: none, or one a hit.
     template <class Real>
     void append_all(std::string& rows, std::uint64_t ray, std::span<const SurfaceHit<Real>> hits,
                     std::span<const HitBounds> bounds) const;

@@ -14,22 +14,6 @@
 namespace packtrace::cli {
 namespace {
 
-/// The rays of a shard, numbered as in the whole file.
-RayRange range_of(const std::string& rays, const Shard& shard)
-{
-    RayRange range = cut_rays(rays, static_cast<std::uint64_t>(shard.index),
-                              static_cast<std::uint64_t>(shard.count));
-    if (range.begin == 0)
-        return range;
-    RayRange before;
-    before.end = range.begin;
-    const RayCount count = count_rays(rays, before);
-    range.first_line += count.lines;
-    range.first_ray = count.rays;
-    range.format = format_of_rays(rays);
-    return range;
-}
-
 template <class Real>
 void run(const IntersectArguments& arguments, const Scene& scene, const RenderOptions& options,
          RayBlocks& rays, HitOutput& output)
@@ -57,7 +41,8 @@ void run_intersect(const IntersectArguments& arguments)
     std::string header(header_of(arguments.query(), arguments.ray_bounds()));
     if (arguments.shard) {
         const Shard shard = *parse_shard(*arguments.shard);
-        range = range_of(arguments.rays, shard);
+        range = numbered_rays(arguments.rays, static_cast<std::uint64_t>(shard.index),
+                              static_cast<std::uint64_t>(shard.count));
         const PartHead head{shard, recipe + ", " + std::to_string(ray_file_size(arguments.rays)) +
                                        " bytes of rays, checksum " +
                                        std::to_string(ray_file_checksum(arguments.rays))};

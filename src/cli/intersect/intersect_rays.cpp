@@ -55,10 +55,7 @@ void BlockTracer<Real>::append_closest(std::string& rows, Scratch& s) const
         hit.normal[0] = s.normal_x[i];
         hit.normal[1] = s.normal_y[i];
         hit.normal[2] = s.normal_z[i];
-        if (bounded)
-            rows_.append_closest(rows, hit, s.bounds[i]);
-        else
-            rows_.append_closest(rows, hit);
+        rows_.append_closest(rows, hit, bounded ? &s.bounds[i] : nullptr);
     }
 }
 
@@ -67,11 +64,10 @@ void BlockTracer<Real>::append_all(std::string& rows, std::uint64_t first_ray, S
 {
     const RaysView<Real> rays = s.rays.view();
     scene_.all_hits(rays, [&](std::size_t ray, std::span<const SurfaceHit<Real>> hits) {
-        if (bounds_ == RayBounds::none)
-            return rows_.append_all(rows, first_ray + ray, hits);
-        s.bounds.resize(hits.size());
-        scene_.bound_all_hits(rays, ray, hits, s.bounds);
-        rows_.append_all(rows, first_ray + ray, hits, std::span<const HitBounds>(s.bounds));
+        s.bounds.resize(bounds_ == RayBounds::proven ? hits.size() : 0);
+        if (!s.bounds.empty())
+            scene_.bound_all_hits(rays, ray, hits, s.bounds);
+        rows_.append_all(rows, first_ray + ray, hits, s.bounds);
     });
 }
 

@@ -6,7 +6,6 @@
 #include <cstdio>
 #include <filesystem>
 #include <fstream>
-#include <memory>
 #include <string_view>
 #include <utility>
 
@@ -28,8 +27,7 @@ std::uint64_t next_line(const std::string& file, std::uint64_t place)
     const std::uint64_t size = ray_file_size(file);
     if (place == 0 || place >= size)
         return place == 0 ? 0 : size;
-    const auto close = [](std::FILE* opened) { std::fclose(opened); };
-    const std::unique_ptr<std::FILE, decltype(close)> input(std::fopen(file.c_str(), "rb"), close);
+    const OpenFile input(std::fopen(file.c_str(), "rb"));
     if (!input || fseeko(input.get(), static_cast<off_t>(place - 1), SEEK_SET) != 0)
         throw FileError(language::escape(file), "can't read", errno);
     for (int c; place <= size; ++place)
@@ -146,6 +144,20 @@ RayRange cut_rays(const std::string& file, std::uint64_t index, std::uint64_t co
     RayRange range;
     range.begin = next_line(file, place(index));
     range.end = next_line(file, place(index + 1));
+    return range;
+}
+
+RayRange numbered_rays(const std::string& file, std::uint64_t index, std::uint64_t count)
+{
+    RayRange range = cut_rays(file, index, count);
+    if (range.begin == 0)
+        return range;
+    RayRange before;
+    before.end = range.begin;
+    const RayCount counted = count_rays(file, before);
+    range.first_line += counted.lines;
+    range.first_ray = counted.rays;
+    range.format = format_of_rays(file);
     return range;
 }
 

@@ -2,12 +2,11 @@
 
 #include <cstddef>
 #include <cstdint>
-#include <cstdio>
 #include <limits>
-#include <memory>
 #include <string>
 
 #include "cli/intersect/ray_csv.hpp"
+#include "core/read_file.hpp"
 
 // A file of rays, read block by block, and cut into ranges that machines or ranks share.
 namespace packtrace::cli {
@@ -42,16 +41,8 @@ public:
     }
 
 private:
-    struct Closer {
-        void operator()(std::FILE* file) const
-        {
-            if (file != stdin)
-                std::fclose(file);
-        }
-    };
-
     std::string name_;
-    std::unique_ptr<std::FILE, Closer> file_;
+    OpenFile file_;
     std::uint64_t left_;  // bytes of the range that have not been read yet
     std::string begun_;   // the start of a line whose end has not been read yet
     std::size_t lines_ = 0;
@@ -98,6 +89,10 @@ struct RayCount {
 
 /// Part `index` of `count` parts of about the same length; numbers and format are not set.
 [[nodiscard]] RayRange cut_rays(const std::string& file, std::uint64_t index, std::uint64_t count);
+
+/// The same with its numbers and format, for which what stands before it is read.
+[[nodiscard]] RayRange numbered_rays(const std::string& file, std::uint64_t index,
+                                     std::uint64_t count);
 
 /// What the file's first ray or header says of its format; without columns where there is none.
 [[nodiscard]] RayFormat format_of_rays(const std::string& file);

@@ -1,6 +1,6 @@
 #include "cli/options/common_options.hpp"
 
-#include <charconv>
+#include <array>
 #include <stdexcept>
 #include <utility>
 
@@ -18,25 +18,16 @@ constexpr int adaptive_samples = 16;
 // The two numbers of "640x480"; zeros when it is something else.
 std::pair<int, int> parse_size(const std::string& text)
 {
-    int width = 0;
-    int height = 0;
-    const char* end = text.data() + text.size();
-    const auto [x, first_error] = std::from_chars(text.data(), end, width);
-    if (first_error != std::errc{} || x == end || *x != 'x')
+    std::array<int, 2> numbers{};
+    if (!parse_numbers(text, 'x', numbers))
         return {};
-    const auto [stop, second_error] = std::from_chars(x + 1, end, height);
-    if (second_error != std::errc{} || stop != end)
-        return {};
-    return {width, height};
+    return {numbers[0], numbers[1]};
 }
 
-std::string check_size(const std::string& text)
+bool is_size(const std::string& text)
 {
     const auto [width, height] = parse_size(text);
-    if (width >= 1 && width <= largest_side && height >= 1 && height <= largest_side)
-        return {};
-    return "'" + text + "' is not a size such as 640x480, of sides from 1 to " +
-           std::to_string(largest_side);
+    return width >= 1 && width <= largest_side && height >= 1 && height <= largest_side;
 }
 
 Accuracy accuracy_of(const std::string& name)
@@ -99,7 +90,8 @@ void add_size_option(CLI::App& command, PictureArguments& arguments)
     command
         .add_option("--size", arguments.size,
                     "Size of the picture (default " + arguments.size.value_or("the scene's") + ")")
-        ->check(CLI::Validator(check_size, ""))
+        ->check(validator(
+            is_size, "a size such as 640x480, of sides from 1 to " + std::to_string(largest_side)))
         ->type_name("WxH");
 }
 

@@ -1,6 +1,6 @@
 #pragma once
 
-#include <charconv>
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <optional>
@@ -8,6 +8,8 @@
 #include <string_view>
 
 #include <CLI/CLI.hpp>
+
+#include "cli/options/validators.hpp"
 
 namespace packtrace::cli {
 
@@ -27,14 +29,11 @@ struct Shard {
 [[nodiscard]] inline std::optional<Shard> parse_shard(const std::string& text)
 {
     constexpr int most_shards = 1'000'000;
-    Shard shard;
-    const char* const end = text.data() + text.size();
-    const auto [slash, error] = std::from_chars(text.data(), end, shard.index);
-    if (error != std::errc() || slash == end || *slash != '/')
+    std::array<int, 2> numbers{};
+    if (!parse_numbers(text, '/', numbers))
         return std::nullopt;
-    const auto [stop, second_error] = std::from_chars(slash + 1, end, shard.count);
-    if (second_error != std::errc() || stop != end || shard.index < 0 ||
-        shard.index >= shard.count || shard.count > most_shards)
+    const Shard shard{numbers[0], numbers[1]};
+    if (shard.index < 0 || shard.index >= shard.count || shard.count > most_shards)
         return std::nullopt;
     return shard;
 }

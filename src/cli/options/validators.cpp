@@ -21,19 +21,31 @@ std::optional<Number> parse(const std::string& text)
     return value;
 }
 
-// `accepts` tells whether a text is good, `wanted` what it should be. The help shows no more
-// than the option's own words.
-template <class Accepts>
-CLI::Validator validator(Accepts accepts, std::string wanted)
+}  // namespace
+
+bool parse_numbers(std::string_view text, char separator, std::span<int> numbers)
+{
+    const char* at = text.data();
+    const char* const end = at + text.size();
+    for (std::size_t i = 0; i < numbers.size(); ++i) {
+        if (i > 0 && (at == end || *at++ != separator))
+            return false;
+        const auto [behind, error] = std::from_chars(at, end, numbers[i]);
+        if (error != std::errc())
+            return false;
+        at = behind;
+    }
+    return at == end;
+}
+
+CLI::Validator validator(std::function<bool(const std::string&)> accepts, std::string wanted)
 {
     return CLI::Validator(
-        [accepts, wanted = std::move(wanted)](std::string& text) -> std::string {
+        [accepts = std::move(accepts), wanted = std::move(wanted)](std::string& text) {
             return accepts(text) ? std::string() : "'" + text + "' is not " + wanted;
         },
         "");
 }
-
-}  // namespace
 
 CLI::Validator non_negative_number()
 {

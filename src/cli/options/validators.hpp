@@ -1,11 +1,22 @@
 #pragma once
 
+#include <functional>
+#include <span>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include <CLI/CLI.hpp>
 
 namespace packtrace::cli {
+
+/// Whether `text` is as many whole numbers as `numbers` has room for, with separators between.
+[[nodiscard]] bool parse_numbers(std::string_view text, char separator, std::span<int> numbers);
+
+/// `accepts` tells whether a text is good, `wanted` what it should be. The help shows no more than
+/// the option's own words.
+[[nodiscard]] CLI::Validator validator(std::function<bool(const std::string&)> accepts,
+                                       std::string wanted);
 
 // CLI11's own ranges let NaN pass and name their bounds with forty digits.
 

@@ -113,10 +113,7 @@ void Journal::begin(const std::string& head)
         throw FileError(part_name_.string() +
                         ": is in the way of --resume, and no journal tells what it is; move it "
                         "away or remove it");
-    AtomicFile file(journal_name_);
-    file.write(first_line);
-    file.write(head + "\n");
-    file.commit();
+    write_file(journal_name_, std::string(first_line) + head + "\n");
 }
 
 /// Returns the head.

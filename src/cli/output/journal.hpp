@@ -1,9 +1,7 @@
 #pragma once
 
 #include <cstdint>
-#include <cstdio>
 #include <filesystem>
-#include <memory>
 #include <span>
 #include <string>
 #include <vector>
@@ -47,13 +45,6 @@ public:
     void rename_part();
 
 private:
-    struct Closer {
-        void operator()(std::FILE* file) const
-        {
-            std::fclose(file);
-        }
-    };
-
     void open(const std::string& head,
               std::string (*differs)(const std::string&, const std::string&));
     void begin(const std::string& head);
@@ -62,8 +53,8 @@ private:
     std::filesystem::path output_;
     std::filesystem::path journal_name_;
     std::filesystem::path part_name_;
-    std::unique_ptr<std::FILE, Closer> journal_;
-    std::unique_ptr<std::FILE, Closer> part_;
+    OpenFile journal_;
+    OpenFile part_;
     std::vector<Entry> entries_;
 };
 

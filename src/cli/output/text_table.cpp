@@ -1,22 +1,10 @@
 #include "cli/output/text_table.hpp"
 
 #include <algorithm>
-#include <cstdio>
 #include <ostream>
 #include <utility>
 
 namespace packtrace::cli {
-namespace {
-
-std::string printed(const char* format, int digits, double value)
-{
-    char text[64];
-    std::snprintf(text, sizeof text, format, digits, value);
-    return text;
-}
-
-}  // namespace
-
 TextTable::TextTable(std::size_t left, std::vector<std::string> head) : left_(left)
 {
     rows_.push_back(std::move(head));
@@ -44,11 +32,6 @@ void TextTable::print(std::ostream& to) const
     }
 }
 
-std::string fixed(double value, int decimals)
-{
-    return printed("%.*f", decimals, value);
-}
-
 std::string milliseconds(double seconds)
 {
     return fixed(1e3 * seconds, 3);
@@ -57,11 +40,6 @@ std::string milliseconds(double seconds)
 std::string percent(double part, double whole)
 {
     return fixed(100.0 * part / whole, 1) + " %";
-}
-
-std::string brief(double value)
-{
-    return printed("%.*g", 2, value);
 }
 
 }  // namespace packtrace::cli

@@ -4,6 +4,8 @@
 #include <string>
 #include <vector>
 
+#include "core/text.hpp"
+
 namespace packtrace::cli {
 
 /// Rows of words, printed in columns: the first `left` columns from the left, the others to
@@ -21,12 +23,8 @@ private:
     std::vector<std::vector<std::string>> rows_;
 };
 
-/// A number with a fixed count of decimals.
-[[nodiscard]] std::string fixed(double value, int decimals);
 [[nodiscard]] std::string milliseconds(double seconds);
 /// The share of `part` in `whole`, with one decimal and its sign.
 [[nodiscard]] std::string percent(double part, double whole);
-/// A number with two digits and an exponent where it needs one.
-[[nodiscard]] std::string brief(double value);
 
 }  // namespace packtrace::cli

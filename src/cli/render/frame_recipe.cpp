@@ -1,11 +1,10 @@
 #include "cli/render/frame_recipe.hpp"
 
-#include <charconv>
-
 #include <packtrace/version.hpp>
 #include <packtrace/write_scene.hpp>
 
 #include "core/checksum.hpp"
+#include "scene/values.hpp"
 
 namespace packtrace::cli {
 namespace {
@@ -13,14 +12,6 @@ namespace {
 std::string hash_of(const Scene& scene)
 {
     return text_hash_digits(scene_text(scene));
-}
-
-/// The shortest that reads back as the same number.
-std::string exactly(double number)
-{
-    char text[32];
-    const auto end = std::to_chars(text, text + sizeof text, number).ptr;
-    return {text, end};
 }
 
 /// Width, threads, traversal and --force-general are not among them: no pixel depends on those.
@@ -36,10 +27,10 @@ std::string text_of(const RenderArguments& arguments, const RenderOptions& optio
     text += ", self hits " + std::to_string(static_cast<int>(options.self_hits));
     text += ", samples " + std::to_string(options.samples);
     if (options.adaptive)
-        text += ", adaptive " + exactly(*options.adaptive);
+        text += ", adaptive " + language::shortest(*options.adaptive);
     if (arguments.region)
         text += ", region " + *arguments.region;
-    return text + ", gamma " + exactly(arguments.write.gamma);
+    return text + ", gamma " + language::shortest(arguments.write.gamma);
 }
 
 /// The parts of a recipe that commas end: the program, the scene, the camera; then all else.

@@ -1,7 +1,6 @@
 #include "cli/render/render_arguments.hpp"
 
 #include <array>
-#include <charconv>
 #include <stdexcept>
 #include <string_view>
 
@@ -27,24 +26,9 @@ void check_gamma(const RenderArguments& arguments)
 std::optional<Region> parse_region(std::string_view text)
 {
     std::array<int, 4> numbers{};
-    const char* at = text.data();
-    const char* const end = at + text.size();
-    for (std::size_t i = 0; i < numbers.size(); ++i) {
-        const auto [behind, error] = std::from_chars(at, end, numbers[i]);
-        const bool is_last = i + 1 == numbers.size();
-        if (error != std::errc() || (is_last ? behind != end : behind == end || *behind != ','))
-            return std::nullopt;
-        at = behind + 1;
-    }
+    if (!parse_numbers(text, ',', numbers))
+        return std::nullopt;
     return Region{numbers[0], numbers[1], numbers[2], numbers[3]};
-}
-
-std::string check_region(const std::string& text)
-{
-    return parse_region(text) ? ""
-                              : "'" + text +
-                                    "' is not a region such as 100,50,320,240: column and row of "
-                                    "its first pixel, width and height";
 }
 
 }  // namespace
@@ -94,7 +78,9 @@ void add_region_option(CLI::App& command, RenderArguments& arguments)
         .add_option("--region", arguments.region,
                     "Render a part of the picture alone: column and row of its first pixel, from "
                     "the upper left, its width and height (default all of it)")
-        ->check(CLI::Validator(check_region, ""))
+        ->check(validator([](const std::string& text) { return parse_region(text).has_value(); },
+                          "a region such as 100,50,320,240: column and row of its first pixel, "
+                          "width and height"))
         ->type_name("X,Y,W,H");
 }
 

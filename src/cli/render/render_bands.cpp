@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <memory>
 #include <utility>
 
 #include "cli/interrupts.hpp"
@@ -16,28 +17,19 @@ namespace packtrace::cli {
 namespace {
 
 template <class Real>
-class RenderedBands final : public BandSource {
-public:
-    RenderedBands(const Scene& scene, const RenderOptions& options, const RowSamples& samples)
-        : renderer_(scene, options), samples_(samples), width_(scene.width)
-    {
-    }
-
-    FrameCounts render(const Bands::Band& band, std::span<std::uint8_t> samples) override
-    {
-        if (image_.height != band.rows)
-            image_ = Image<Real>::unset(width_, band.rows);
-        const FrameCounts counts = renderer_.render(band.first, image_);
-        samples_.encode(std::span<const Real>(image_.rgb), samples.data());
+RenderBand band_renderer(const Scene& scene, const RenderOptions& options,
+                         const RowSamples& samples)
+{
+    const auto renderer = std::make_shared<RowRenderer<Real>>(scene, options);
+    return [renderer, samples, width = scene.width, image = Image<Real>()](
+               const Bands::Band& band, std::span<std::uint8_t> bytes) mutable {
+        if (image.height != band.rows)
+            image = Image<Real>::unset(width, band.rows);
+        const FrameCounts counts = renderer->render(band.first, image);
+        samples.encode(std::span<const Real>(image.rgb), bytes.data());
         return counts;
-    }
-
-private:
-    RowRenderer<Real> renderer_;
-    RowSamples samples_;
-    int width_;
-    Image<Real> image_;
-};
+    };
+}
 
 /// Says what an interrupted run leaves.
 void note_progress(const RenderArguments& arguments, int done, int bands)
@@ -63,14 +55,14 @@ Bands cut_into_bands(int width, int height, ImageFormat format, std::int64_t pix
     return {width, height, static_cast<int>(tiles) * abi::tile_size, RowFile::begins_below(format)};
 }
 
-std::unique_ptr<BandSource> band_source(const Scene& scene, const std::string& precision,
-                                        const RenderOptions& options, const RowSamples& samples)
+RenderBand band_renderer(const Scene& scene, const std::string& precision,
+                         const RenderOptions& options, const RowSamples& samples)
 {
     if (precision == "double")
-        return std::make_unique<RenderedBands<double>>(scene, options, samples);
+        return band_renderer<double>(scene, options, samples);
     if (precision == "extended")
-        return std::make_unique<RenderedBands<long double>>(scene, options, samples);
-    return std::make_unique<RenderedBands<float>>(scene, options, samples);
+        return band_renderer<long double>(scene, options, samples);
+    return band_renderer<float>(scene, options, samples);
 }
 
 BandTally render_bands(const RenderArguments& arguments, const Scene& scene,
@@ -83,7 +75,8 @@ BandTally render_bands(const RenderArguments& arguments, const Scene& scene,
     int number = 0;
     RenderOptions options = given;
     options.progress = [&](double share) { bar.update((number + share) / tally.bands); };
-    const auto source = band_source(scene, arguments.kernel.precision, options, file.samples());
+    const RenderBand render =
+        band_renderer(scene, arguments.kernel.precision, options, file.samples());
 
     JobQueue writer;
     for (; number < tally.bands; ++number) {
@@ -95,7 +88,7 @@ BandTally render_bands(const RenderArguments& arguments, const Scene& scene,
         }
         FinishedBand band{Bytes(file.band_bytes(number)), {}};
         const auto start = std::chrono::steady_clock::now();
-        band.cut = source->render(file.bands().band(number), band.samples).cut;
+        band.cut = render(file.bands().band(number), band.samples).cut;
         add(tally.cut, band.cut);
         tally.rendering += seconds_since(start);
         writer.add([&, number, band = std::move(band)] {

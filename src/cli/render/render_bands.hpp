@@ -1,7 +1,7 @@
 #pragma once
 
 #include <cstdint>
-#include <memory>
+#include <functional>
 #include <span>
 #include <string>
 
@@ -47,21 +47,14 @@ inline constexpr std::int64_t band_pixels = std::int64_t{1} << 18;
 /// Pictures of more pixels are not held whole.
 inline constexpr std::int64_t most_whole_pixels = std::int64_t{1} << 24;
 
-/// Renders bands.
-class BandSource {
-public:
-    virtual ~BandSource() = default;
-
-    /// Fills `samples` with those of a band. Its rays are known of packets alone; what is cut of
-    /// all kernels.
-    virtual FrameCounts render(const Bands::Band& band, std::span<std::uint8_t> samples) = 0;
-};
+/// Fills `samples` with those of a band. Its rays are known of packets alone; what is cut of all
+/// kernels.
+using RenderBand =
+    std::function<FrameCounts(const Bands::Band& band, std::span<std::uint8_t> samples)>;
 
 /// Throws as render() does. `options.progress`, if any, is called with the share of a band.
-[[nodiscard]] std::unique_ptr<BandSource> band_source(const Scene& scene,
-                                                      const std::string& precision,
-                                                      const RenderOptions& options,
-                                                      const RowSamples& samples);
+[[nodiscard]] RenderBand band_renderer(const Scene& scene, const std::string& precision,
+                                       const RenderOptions& options, const RowSamples& samples);
 
 /// What a picture in bands took.
 struct BandTally {

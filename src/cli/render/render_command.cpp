@@ -16,16 +16,11 @@
 #include "cli/render/render_bands.hpp"
 #include "cli/render/render_picture.hpp"
 #include "cli/study/study.hpp"
+#include "core/seconds_since.hpp"
 #include "scene/quote.hpp"
 
 namespace packtrace::cli {
 namespace {
-
-double seconds_between(std::chrono::steady_clock::time_point from,
-                       std::chrono::steady_clock::time_point to)
-{
-    return std::chrono::duration<double>(to - from).count();
-}
 
 /// Says on standard error what a picture took, in seconds.
 void print_summary(const RenderArguments& arguments, const RenderOptions& options,

@@ -1,9 +1,9 @@
 #include "cli/render/render_picture.hpp"
 
 #include <cmath>
-#include <cstdio>
 #include <iostream>
 
+#include "core/text.hpp"
 #include "scene/quote.hpp"
 #include "scene/values.hpp"
 
@@ -16,9 +16,7 @@ std::string rounded_up(double number)
     if (number == 0.0)
         return "0";
     const double unit = std::pow(10.0, std::floor(std::log10(number)) - 2.0);
-    char text[32];
-    std::snprintf(text, sizeof text, "%.3g", unit * std::ceil(number / unit));
-    return text;
+    return brief(unit * std::ceil(number / unit));
 }
 
 }  // namespace

@@ -1,6 +1,6 @@
 #include <packtrace/explain.hpp>
 
-#include <charconv>
+#include <array>
 #include <iostream>
 #include <memory>
 #include <string>
@@ -29,24 +29,16 @@ struct ExplainArguments {
 // The two numbers of "320,240"; negative ones when it is something else.
 std::pair<int, int> parse_pixel(const std::string& text)
 {
-    int x = -1;
-    int y = -1;
-    const char* const end = text.data() + text.size();
-    const auto [comma, first_error] = std::from_chars(text.data(), end, x);
-    if (first_error != std::errc{} || comma == end || *comma != ',')
+    std::array<int, 2> numbers{};
+    if (!parse_numbers(text, ',', numbers))
         return {-1, -1};
-    const auto [stop, second_error] = std::from_chars(comma + 1, end, y);
-    if (second_error != std::errc{} || stop != end)
-        return {-1, -1};
-    return {x, y};
+    return {numbers[0], numbers[1]};
 }
 
-std::string check_pixel(const std::string& text)
+bool is_pixel(const std::string& text)
 {
     const auto [x, y] = parse_pixel(text);
-    if (x >= 0 && y >= 0)
-        return {};
-    return "'" + text + "' is not a pixel such as 320,240: column and row, counted from 0";
+    return x >= 0 && y >= 0;
 }
 
 void check_inside(const ExplainArguments& arguments, const Scene& scene)
@@ -110,7 +102,7 @@ void add_explain(CLI::App& app)
     add_scene_option(*command, arguments->scene);
     command->add_option("--pixel", arguments->pixel, "Column and row, from 0 at the top left")
         ->required()
-        ->check(CLI::Validator(check_pixel, ""))
+        ->check(validator(is_pixel, "a pixel such as 320,240: column and row, counted from 0"))
         ->type_name("X,Y");
     command
         ->add_option("--precision", arguments->precision,

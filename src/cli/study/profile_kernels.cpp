@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "cli/output/text_table.hpp"
+#include "lab/harness/statistics.hpp"
 
 namespace packtrace::cli {
 namespace {
@@ -47,14 +48,6 @@ std::vector<Row> with_deep_ones_joined(const std::vector<Row>& rows, const Same&
             add(*found, row);
     }
     return joined;
-}
-
-double sum_of(const std::vector<KernelStage>& stages)
-{
-    double sum = 0.0;
-    for (const KernelStage& stage : stages)
-        sum += stage.seconds;
-    return sum;
 }
 
 std::string ratio(std::uint64_t part, std::uint64_t whole)
@@ -112,7 +105,7 @@ void print_stages(std::ostream& to, const KernelProfile& kernels)
         row.resize(head.size());
         table.add(row);
     };
-    total("sum", sum_of(kernels.stages));
+    total("sum", sum_of_seconds(kernels.stages));
     total("frame", kernels.observed);
     table.print(to);
 }
@@ -236,7 +229,7 @@ nlohmann::ordered_json kernels_json(const KernelProfile& kernels)
     nlohmann::ordered_json json{{"plain_s", kernels.plain},
                                 {"observed_s", kernels.observed},
                                 {"clocked_s", kernels.clocked},
-                                {"stages_sum_s", sum_of(kernels.stages)},
+                                {"stages_sum_s", sum_of_seconds(kernels.stages)},
                                 {"stages", nlohmann::ordered_json::array()},
                                 {"rays", nlohmann::ordered_json::array()},
                                 {"lanes", nlohmann::ordered_json::array()},

@@ -3,6 +3,7 @@
 #include <ostream>
 
 #include "cli/output/text_table.hpp"
+#include "lab/harness/statistics.hpp"
 
 namespace packtrace::cli {
 namespace {
@@ -13,21 +14,13 @@ std::string nanoseconds_per_ray(double seconds, std::uint64_t rays)
     return rays > 0 ? fixed(1e9 * seconds / static_cast<double>(rays), 2) : "-";
 }
 
-double sum_of(const std::vector<ProfileStage>& stages)
-{
-    double sum = 0.0;
-    for (const ProfileStage& stage : stages)
-        sum += stage.seconds;
-    return sum;
-}
-
 void print_stages(std::ostream& to, const Profile& profile)
 {
     TextTable table(1, {"stage", "ms", "share"});
     for (const ProfileStage& stage : profile.stages)
         table.add({stage.name, milliseconds(stage.seconds), percent(stage.seconds, profile.whole)});
-    table.add({"sum", milliseconds(sum_of(profile.stages)),
-               percent(sum_of(profile.stages), profile.whole)});
+    table.add({"sum", milliseconds(sum_of_seconds(profile.stages)),
+               percent(sum_of_seconds(profile.stages), profile.whole)});
     table.add({"scene's text to file's bytes, at once", milliseconds(profile.whole), "100.0 %"});
     table.print(to);
 }

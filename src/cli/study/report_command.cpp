@@ -99,10 +99,7 @@ std::string quoted(const std::string& word)
         "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789-_./,:=+%@";
     if (!word.empty() && word.find_first_not_of(plain) == std::string::npos)
         return word;
-    std::string text = "'";
-    for (const char letter : word)
-        text += letter == '\'' ? std::string("'\\''") : std::string(1, letter);
-    return text + "'";
+    return "'" + replaced(word, '\'', "'\\''") + "'";
 }
 
 std::string report_command(const std::string& program, const CLI::App& command,

@@ -37,13 +37,6 @@ struct SoakArguments {
     int threads = 0;
 };
 
-void write_text(const std::filesystem::path& file, const std::string& text)
-{
-    AtomicFile out(file);
-    out.write(text);
-    out.commit();
-}
-
 /// The commands whose answers show what was found.
 void print_commands(const lab::SoakFinding& finding, const std::string& scene,
                     const std::string& rays)
@@ -69,9 +62,9 @@ void print_report(const SoakArguments& arguments, const lab::SoakReport& report)
         "soak-" + std::to_string(arguments.options.seed) + "-" + std::to_string(report.number);
     const std::filesystem::path scene = arguments.cases / (stem + ".scene");
     const std::filesystem::path rays = arguments.cases / (stem + ".csv");
-    write_text(scene, "# " + report.finding.what + "\n" + scene_text(report.scene));
+    write_file(scene, "# " + report.finding.what + "\n" + scene_text(report.scene));
     if (report.finding.ray)
-        write_text(rays,
+        write_file(rays,
                    "ox,oy,oz,dx,dy,dz,t_min,t_max\n" + lab::csv_of(*report.finding.ray) + "\n");
     std::cout << "scene " << report.number << ": " << report.finding.what << '\n';
     print_commands(report.finding, language::escape(scene.string()),

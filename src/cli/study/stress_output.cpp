@@ -48,14 +48,14 @@ void add_row(TextTable& table, const StressRow& row)
                count(row.self_hits),
                count(row.second_lost),
                row.held ? count(row.bounds_missed) : "",
-               brief(row.ulp.median),
-               brief(row.ulp.p99),
-               brief(row.ulp.max),
-               brief(row.normal.p99),
-               brief(row.normal.max),
+               brief(row.ulp.median, 2),
+               brief(row.ulp.p99, 2),
+               brief(row.ulp.max, 2),
+               brief(row.normal.p99, 2),
+               brief(row.normal.max, 2),
                count(row.wrong_side),
                count(row.no_normal + row.not_finite),
-               brief(row.second.p99),
+               brief(row.second.p99, 2),
                fixed(row.ns, 1),
                row.pareto ? "*" : ""});
 }
@@ -67,47 +67,33 @@ nlohmann::ordered_json spread_json(const lab::ErrorSpread& spread)
 
 nlohmann::ordered_json row_json(const StressRow& row)
 {
-    return {{"family", row.family},
-            {"precision", row.precision},
-            {"kernel", row.kernel},
-            {"mode", row.mode},
-            {"isa", row.isa},
-            {"held", row.held},
-            {"rays", row.rays},
-            {"hits", row.hits},
-            {"undecided", row.undecided},
-            {"wrong", row.wrong},
-            {"lost", row.lost},
-            {"false_hits", row.false_hits},
-            {"wrong_object", row.wrong_object},
-            {"wrong_root", row.wrong_root},
-            {"any_hit_wrong", row.occluded},
-            {"first_of_all_wrong", row.order},
-            {"not_closed", row.not_closed},
-            {"wrong_beyond_own_band", row.beyond_own_band},
-            {"not_finite", row.not_finite},
-            {"no_normal", row.no_normal},
-            {"wrong_side", row.wrong_side},
-            {"t_beyond_ulp", row.t_beyond},
-            {"t_beyond_half_ulp", row.t_beyond_half},
-            {"t_at_doubles_limit", row.t_at_limit},
-            {"ulp", spread_json(row.ulp)},
-            {"normal_error", spread_json(row.normal)},
-            {"normal_beyond_1e-6", row.normal_beyond},
-            {"rho", row.rho},
-            {"distance_roundoffs", row.distance},
-            {"second_rays", row.second_rays},
-            {"self_hits", row.self_hits},
-            {"second_lost", row.second_lost},
-            {"second_inexact", row.second_inexact},
-            {"second_error", spread_json(row.second)},
-            {"bounds", row.bounds},
-            {"bounds_missed", row.bounds_missed},
-            {"bounds_ulp", spread_json(row.bounds_ulp)},
-            {"ns_per_ray", row.ns},
-            {"pareto", row.pareto},
-            {"first_wrong", row.example},
-            {"faults", row.faults}};
+    nlohmann::ordered_json json{{"family", row.family}, {"precision", row.precision},
+                                {"kernel", row.kernel}, {"mode", row.mode},
+                                {"isa", row.isa},       {"held", row.held}};
+    for (const auto& [key, count] : lab::error_counts) {
+        if (count == &StressRow::lost)
+            json["wrong"] = row.wrong;
+        if (count == &StressRow::normal_beyond) {
+            json["ulp"] = spread_json(row.ulp);
+            json["normal_error"] = spread_json(row.normal);
+        }
+        json[key] = row.*count;
+    }
+    json.update({{"rho", row.rho},
+                 {"distance_roundoffs", row.distance},
+                 {"second_rays", row.second_rays},
+                 {"self_hits", row.self_hits},
+                 {"second_lost", row.second_lost},
+                 {"second_inexact", row.second_inexact},
+                 {"second_error", spread_json(row.second)},
+                 {"bounds", row.bounds},
+                 {"bounds_missed", row.bounds_missed},
+                 {"bounds_ulp", spread_json(row.bounds_ulp)},
+                 {"ns_per_ray", row.ns},
+                 {"pareto", row.pareto},
+                 {"first_wrong", row.example},
+                 {"faults", row.faults}});
+    return json;
 }
 
 void print_rows(const std::vector<StressRow>& rows)
@@ -125,10 +111,7 @@ void print_faults(const std::vector<StressRow>& rows)
         if (row.faults.empty())
             continue;
         std::cout << row.family << ", " << row.precision << ' ' << row.mode << " (" << row.isa
-                  << "): ";
-        for (std::size_t i = 0; i < row.faults.size(); ++i)
-            std::cout << (i == 0 ? "" : ", ") << row.faults[i];
-        std::cout << '\n';
+                  << "): " << joined(row.faults) << '\n';
         if (!row.example.empty())
             std::cout << "    " << row.example << '\n';
     }
@@ -176,12 +159,9 @@ void write_cases(const std::filesystem::path& folder, const std::vector<StressRo
         std::string name = row.family + "-" + row.precision + "-" + row.kernel;
         for (const std::string& part : {row.mode, row.isa.substr(0, row.isa.find(' '))})
             name += part.empty() ? "" : "-" + part;
-        AtomicFile scene(folder / (name + ".scene"));
-        scene.write("# " + row.example + "\n" + row.example_scene);
-        scene.commit();
-        AtomicFile rays(folder / (name + ".csv"));
-        rays.write("ox,oy,oz,dx,dy,dz,t_min,t_max\n" + row.example_ray + "\n");
-        rays.commit();
+        write_file(folder / (name + ".scene"), "# " + row.example + "\n" + row.example_scene);
+        write_file(folder / (name + ".csv"),
+                   "ox,oy,oz,dx,dy,dz,t_min,t_max\n" + row.example_ray + "\n");
     }
 }
 

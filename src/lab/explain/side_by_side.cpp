@@ -41,24 +41,6 @@ bool close(const Numbers& a, const Numbers& b, double tolerance)
     return std::isfinite(scale) && length(between) <= tolerance * scale;
 }
 
-const RayNode* child_of(const RayNode* parent, RayKind kind)
-{
-    if (parent != nullptr)
-        for (const RayNode& child : parent->children)
-            if (child.kind == kind)
-                return &child;
-    return nullptr;
-}
-
-const LightShare* light_of(const RayNode* ray, int light)
-{
-    if (ray != nullptr)
-        for (const LightShare& share : ray->lights)
-            if (share.light == light)
-                return &share;
-    return nullptr;
-}
-
 bool brings(const RayNode* ray)
 {
     return ray != nullptr && ray->brought != Rgb(0.0);

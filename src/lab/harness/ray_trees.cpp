@@ -14,6 +14,25 @@
 #include "render/camera_view.hpp"
 
 namespace packtrace {
+
+const RayNode* child_of(const RayNode* parent, RayKind kind)
+{
+    if (parent != nullptr)
+        for (const RayNode& child : parent->children)
+            if (child.kind == kind)
+                return &child;
+    return nullptr;
+}
+
+const LightShare* light_of(const RayNode* ray, int light)
+{
+    if (ray != nullptr)
+        for (const LightShare& share : ray->lights)
+            if (share.light == light)
+                return &share;
+    return nullptr;
+}
+
 namespace {
 
 template <class Real>

@@ -29,4 +29,10 @@ using TreesOfPixel = std::function<std::vector<RayNode>(int x, int y)>;
 [[nodiscard]] TreesOfPixel reference_sample_trees(const Scene& scene,
                                                   const std::vector<Vec2>& places);
 
+/// A ray's child of that kind; null where there is none, or no ray.
+[[nodiscard]] const RayNode* child_of(const RayNode* parent, RayKind kind);
+
+/// What the light of that number does where a ray hits; null where it is not known, or no ray.
+[[nodiscard]] const LightShare* light_of(const RayNode* ray, int light);
+
 }  // namespace packtrace

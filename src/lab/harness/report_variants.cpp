@@ -6,10 +6,10 @@
 #include <packtrace/isa.hpp>
 
 #include "core/check_number.hpp"
+#include "core/text.hpp"
 #include "dispatch/kernels.hpp"
 #include "kernel_abi/probe.hpp"
 #include "lab/harness/names.hpp"
-#include "lab/report/report_text.hpp"
 #include "render/frame_renderer.hpp"
 
 namespace packtrace {

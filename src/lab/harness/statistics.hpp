@@ -30,6 +30,16 @@ namespace packtrace {
     return middle_half(values) / median_of(values);
 }
 
+/// The seconds of all rows.
+template <class Row>
+[[nodiscard]] double sum_of_seconds(const std::vector<Row>& rows)
+{
+    double sum = 0.0;
+    for (const Row& row : rows)
+        sum += row.seconds;
+    return sum;
+}
+
 struct Interval {
     double low = 0.0;
     double high = 0.0;

@@ -1,7 +1,9 @@
 #include "lab/profile/profile_steps.hpp"
 
 #include <cmath>
-#include <cstdio>
+
+#include "core/text.hpp"
+#include "lab/harness/statistics.hpp"
 
 namespace packtrace {
 namespace {
@@ -12,9 +14,7 @@ constexpr double busy_tolerance = 0.1;
 
 std::string percent_text(double share)
 {
-    char text[32];
-    std::snprintf(text, sizeof text, "%.0f %%", 100.0 * share);
-    return text;
+    return fixed(100.0 * share, 0) + " %";
 }
 
 bool differs_from_whole(double part, double whole)
@@ -22,31 +22,17 @@ bool differs_from_whole(double part, double whole)
     return !(std::abs(part / whole - 1.0) <= busy_tolerance);
 }
 
-template <class Stage>
-double sum_of_stages(const std::vector<Stage>& stages)
-{
-    double sum = 0.0;
-    for (const Stage& stage : stages)
-        sum += stage.seconds;
-    return sum;
-}
-
-void append_name(std::string& names, const std::string& name)
-{
-    names += (names.empty() ? "" : ", ") + name;
-}
-
 // Generations and what-if rows whose differences vary too much.
 std::string doubtful_rows(const Profile& profile)
 {
-    std::string names;
+    std::vector<std::string> names;
     for (const ProfileGeneration& generation : profile.generations)
         if (generation.spread > busy_tolerance * profile.frame)
-            append_name(names, "depth " + std::to_string(generation.depth));
+            names.push_back("depth " + std::to_string(generation.depth));
     for (const ProfileWhatIf& row : profile.what_if)
         if (row.spread > busy_tolerance * profile.frame)
-            append_name(names, row.name);
-    return names;
+            names.push_back(row.name);
+    return joined(names);
 }
 
 }  // namespace
@@ -61,14 +47,14 @@ std::vector<std::string> busy_lines(const Profile& profile)
         lines.push_back("what these rows differ by: " + rows +
                         "; from turn to turn that varies by more than " +
                         percent_text(busy_tolerance) + " of a frame");
-    if (const double sum = sum_of_stages(profile.stages); differs_from_whole(sum, profile.whole))
+    if (const double sum = sum_of_seconds(profile.stages); differs_from_whole(sum, profile.whole))
         lines.push_back("the stages: they sum to " + percent_text(sum / profile.whole) +
                         " of the whole way");
     const KernelProfile& kernels = profile.kernels;
     if (differs_from_whole(kernels.clocked, kernels.observed))
         lines.push_back("what the clock adds: frames with it take " +
                         percent_text(kernels.clocked / kernels.observed) + " of those without");
-    if (const double sum = sum_of_stages(kernels.stages); differs_from_whole(sum, kernels.clocked))
+    if (const double sum = sum_of_seconds(kernels.stages); differs_from_whole(sum, kernels.clocked))
         lines.push_back("the stages in the kernels: they sum to " +
                         percent_text(sum / kernels.clocked) + " of the clocked frame");
     return lines;

@@ -5,6 +5,7 @@
 
 #include <packtrace/render.hpp>
 
+#include "core/seconds_since.hpp"
 #include "image/contrast.hpp"
 #include "kernel_abi/observation.hpp"
 #include "lab/harness/statistics.hpp"
@@ -50,8 +51,7 @@ public:
                 tiles_.observe(before(piece));
                 const auto start = std::chrono::steady_clock::now();
                 sum += render_piece(grid[i]);
-                const std::chrono::duration<double> time = std::chrono::steady_clock::now() - start;
-                after(piece, time.count());
+                after(piece, seconds_since(start));
             }
         };
         if (options_.adaptive) {

@@ -9,6 +9,8 @@
 #include <packtrace/profile.hpp>
 
 #include "core/arena.hpp"
+#include "core/seconds_since.hpp"
+#include "core/text.hpp"
 #include "dispatch/kernels.hpp"
 #include "image/color_ramp.hpp"
 #include "lab/harness/statistics.hpp"
@@ -24,11 +26,6 @@ using Clock = std::chrono::steady_clock;
 
 // Copies of a pixel that are traced together.
 constexpr int copies = 64;
-
-double seconds_between(Clock::time_point from, Clock::time_point to)
-{
-    return std::chrono::duration<double>(to - from).count();
-}
 
 // Numbers threads as they come.
 class ThreadNumbers {
@@ -48,9 +45,7 @@ private:
 
 std::string nanoseconds(double seconds)
 {
-    char text[32];
-    std::snprintf(text, sizeof text, "%.1fns", 1e9 * seconds);
-    return text;
+    return fixed(1e9 * seconds, 1) + "ns";
 }
 
 }  // namespace

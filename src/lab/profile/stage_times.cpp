@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <numeric>
 
+#include "core/seconds_since.hpp"
 #include "lab/harness/statistics.hpp"
 
 namespace packtrace {
@@ -49,8 +50,7 @@ abi::Observation* SpanTimes::begin()
 
 void SpanTimes::end(int piece)
 {
-    readings_.push_back(
-        {observation_.end, std::chrono::duration<double>(Clock::now() - start_).count()});
+    readings_.push_back({observation_.end, seconds_since(start_)});
     std::vector<SpanTicks> generations;
     for (const abi::SpanLaps& laps : laps_)
         generations.push_back(span_ticks(laps));

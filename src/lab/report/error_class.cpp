@@ -39,22 +39,6 @@ double largest(const Rgb& v)
     return std::max({std::abs(v.x), std::abs(v.y), std::abs(v.z)});
 }
 
-const RayNode* child_of(const RayNode& parent, RayKind kind)
-{
-    for (const RayNode& child : parent.children)
-        if (child.kind == kind)
-            return &child;
-    return nullptr;
-}
-
-const LightShare* light_of(const RayNode& ray, int light)
-{
-    for (const LightShare& share : ray.lights)
-        if (share.light == light)
-            return &share;
-    return nullptr;
-}
-
 // Too far from each other for rounding.
 bool is_other_crossing(double t, double other)
 {
@@ -115,8 +99,8 @@ struct ErrorClassifier::State {
         compare_lights(truth, tested, depth, worst);
         compare_rest(truth, tested, worst);
         for (const RayKind kind : {RayKind::mirrored, RayKind::refracted}) {
-            const RayNode* a = child_of(truth, kind);
-            const RayNode* b = child_of(tested, kind);
+            const RayNode* a = child_of(&truth, kind);
+            const RayNode* b = child_of(&tested, kind);
             if (a != nullptr && b != nullptr)
                 compare(*a, *b, depth + 1, worst);
             else if (a != nullptr || b != nullptr)
@@ -130,7 +114,7 @@ struct ErrorClassifier::State {
                         Finding& worst) const
     {
         for (const LightShare& light : tested.lights) {
-            const LightShare* other = light_of(truth, light.light);
+            const LightShare* other = light_of(&truth, light.light);
             if (other == nullptr)
                 continue;
             const double effect = largest(truth.weight * (other->color - light.color));
@@ -156,7 +140,7 @@ struct ErrorClassifier::State {
         Rgb rest = truth.local + truth.brought - tested.local - tested.brought;
         Rgb lights(0.0);
         for (const LightShare& light : tested.lights)
-            if (const LightShare* other = light_of(truth, light.light))
+            if (const LightShare* other = light_of(&truth, light.light))
                 lights += other->color - light.color;
         if (largest(rest) > largest(lights))
             worst.offer(largest(truth.weight * (rest - lights)),

@@ -4,10 +4,10 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
-#include <cstdio>
 #include <sstream>
 
 #include "core/run_filter.hpp"
+#include "core/text.hpp"
 #include "lab/report/plot_layout.hpp"
 #include "scene/quote.hpp"
 
@@ -25,17 +25,12 @@ constexpr double label_line = 14.0;
 // As a string of gnuplot's between single quotes. A line end would begin another command.
 std::string quoted(const std::string& text)
 {
-    std::string result = "'";
-    for (const char c : language::escape(text))
-        result += c == '\'' ? std::string("''") : std::string(1, c);
-    return result + "'";
+    return "'" + replaced(language::escape(text), '\'', "''") + "'";
 }
 
 std::string number_text(double value)
 {
-    char text[32];
-    std::snprintf(text, sizeof text, "%.9g", value);
-    return text;
+    return brief(value, 9);
 }
 
 struct Axes {

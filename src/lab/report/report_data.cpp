@@ -13,10 +13,7 @@ namespace {
 // A field between quotes, as some names have commas.
 std::string csv_text(const std::string& text)
 {
-    std::string result = "\"";
-    for (const char c : text)
-        result += c == '"' ? std::string("\"\"") : std::string(1, c);
-    return result + "\"";
+    return '"' + replaced(text, '"', "\"\"") + '"';
 }
 
 std::string exact(double value)

@@ -17,33 +17,14 @@ namespace {
 
 std::string escaped(const std::string& text)
 {
-    std::string result;
-    for (const char c : text)
-        switch (c) {
-            case '&':
-                result += "&amp;";
-                break;
-            case '<':
-                result += "&lt;";
-                break;
-            case '"':
-                result += "&quot;";
-                break;
-            default:
-                result += c;
-        }
-    return result;
+    return replaced(replaced(replaced(text, '&', "&amp;"), '<', "&lt;"), '"', "&quot;");
 }
 
 // JSON as a script element can hold it: what begins a tag there ends it, or the page.
 std::string json_in_page(const nlohmann::ordered_json& json)
 {
-    const std::string text =
-        json.dump(-1, ' ', false, nlohmann::ordered_json::error_handler_t::replace);
-    std::string result;
-    for (const char c : text)
-        result += c == '<' ? std::string("\\u003c") : std::string(1, c);
-    return result;
+    return replaced(json.dump(-1, ' ', false, nlohmann::ordered_json::error_handler_t::replace),
+                    '<', "\\u003c");
 }
 
 // Bytes in the alphabet of RFC 4648, padded.

@@ -6,11 +6,9 @@ namespace packtrace {
 namespace {
 
 /// A text as a cell of a table, in which a bar would end it.
-std::string cell(std::string text)
+std::string cell(const std::string& text)
 {
-    for (std::size_t at = 0; (at = text.find('|', at)) != std::string::npos; at += 2)
-        text.insert(at, 1, '\\');
-    return text;
+    return replaced(text, '|', "\\|");
 }
 
 void write_conditions(std::ostream& to, const ReportOptions& options,

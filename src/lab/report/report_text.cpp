@@ -1,7 +1,6 @@
 #include "lab/report/report_text.hpp"
 
 #include <algorithm>
-#include <cstdio>
 
 #include <packtrace/compare.hpp>
 
@@ -170,19 +169,11 @@ std::string plot_file(const SceneReport& scene, const StudyReport& study)
     return scene.name + "/" + name_of(study.study) + ".svg";
 }
 
-std::string brief(double value, int digits)
-{
-    char text[64];
-    std::snprintf(text, sizeof text, "%.*g", digits, value);
-    return text;
-}
-
 std::string shares_text(const ReportRun& run)
 {
-    std::string text;
-    for (const ErrorShare& share : run.shares)
-        text += (text.empty() ? "" : ", ") + share.kind + " " + std::to_string(share.pixels);
-    return text;
+    return joined(run.shares, ", ", [](const ErrorShare& share) {
+        return share.kind + " " + std::to_string(share.pixels);
+    });
 }
 
 std::string where_text(const ReportRun& run)
@@ -198,10 +189,8 @@ std::string mrays_text(const ReportRun& run)
 
 std::string spread_text(const ReportRun& run)
 {
-    char text[32];
     const double percent = 100.0 * run.spread;
-    std::snprintf(text, sizeof text, percent < 9.95 ? "%.1f %%" : "%.0f %%", percent);
-    return text;
+    return fixed(percent, percent < 9.95 ? 1 : 0) + " %";
 }
 
 std::vector<ErrorShare> classes_of(const std::vector<SceneReport>& scenes)

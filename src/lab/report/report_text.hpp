@@ -4,6 +4,8 @@
 
 #include <packtrace/write_report.hpp>
 
+#include "core/text.hpp"
+
 // The parts of a written report, each as the text of its file.
 namespace packtrace {
 
@@ -60,7 +62,5 @@ struct PlotGroup {
 
 /// What the classes of error in these reports mean, each once.
 [[nodiscard]] std::vector<ErrorShare> classes_of(const std::vector<SceneReport>& scenes);
-
-[[nodiscard]] std::string brief(double value, int digits = 3);
 
 }  // namespace packtrace

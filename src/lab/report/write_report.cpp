@@ -14,13 +14,6 @@
 namespace packtrace {
 namespace {
 
-void write_text(const std::filesystem::path& file, const std::string& text)
-{
-    AtomicFile output(file);
-    output.write(std::string_view(text));
-    output.commit();
-}
-
 void write_pictures(const SceneReport& scene, const StudyReport& study,
                     const std::filesystem::path& folder)
 {
@@ -79,13 +72,13 @@ void write_report(const std::vector<SceneReport>& scenes, const ReportOptions& o
         make_folders(folder / scene.name);
         for (const StudyReport& study : scene.studies) {
             write_pictures(scene, study, folder);
-            write_text(folder / plot_file(scene, study), report_plot(scene, study));
+            write_file(folder / plot_file(scene, study), report_plot(scene, study));
         }
     }
-    write_text(folder / csv_file, report_csv(scenes));
-    write_text(folder / json_file, report_json(scenes, options, conditions));
-    write_text(folder / html_file, report_html(scenes, options, conditions));
-    write_text(folder / markdown_file, report_markdown(scenes, options, conditions));
+    write_file(folder / csv_file, report_csv(scenes));
+    write_file(folder / json_file, report_json(scenes, options, conditions));
+    write_file(folder / html_file, report_html(scenes, options, conditions));
+    write_file(folder / markdown_file, report_markdown(scenes, options, conditions));
 }
 
 }  // namespace packtrace

@@ -9,6 +9,7 @@
 
 #include <tbb/parallel_for.h>
 
+#include "core/seconds_since.hpp"
 #include "lab/soak/soak_scene.hpp"
 #include "lab/stress/stress_family.hpp"
 
@@ -60,8 +61,7 @@ public:
     }
     [[nodiscard]] std::uint64_t next(std::uint64_t done) const
     {
-        const double seconds = std::chrono::duration<double>(Clock::now() - start_).count();
-        if (options_.seconds > 0.0 && seconds >= options_.seconds)
+        if (options_.seconds > 0.0 && seconds_since(start_) >= options_.seconds)
             return 0;
         return options_.scenes ? std::min(batch, *options_.scenes - done) : batch;
     }

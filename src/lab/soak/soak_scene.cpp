@@ -7,6 +7,7 @@
 #include <glm/gtc/matrix_transform.hpp>
 
 #include "lab/stress/placed_quadric.hpp"
+#include "scene/keys.hpp"
 
 namespace packtrace::lab {
 namespace {
@@ -84,23 +85,7 @@ void fill(StressRandom& random, GeneralMaterial& model)
 
 Material any_material(StressRandom& random, Illumination illumination)
 {
-    Material material;
-    switch (illumination) {
-        case Illumination::scratch:
-            material.model = ScratchMaterial{};
-            break;
-        case Illumination::sketch:
-            material.model = SketchMaterial{};
-            break;
-        case Illumination::whitted:
-            material.model = WhittedMaterial{};
-            break;
-        case Illumination::shader:
-            material.model = ShaderMaterial{};
-            break;
-        case Illumination::general:
-            material.model = GeneralMaterial{};
-    }
+    Material material = language::default_material(illumination);
     std::visit([&](auto& model) { fill(random, model); }, material.model);
     if (illumination != Illumination::general)
         material.color = random.box(0.5) + Vec3(0.5);

@@ -99,24 +99,8 @@ Verdict verdict_of(const Expected& expected, const Answer& answer, double band, 
 
 void Errors::add(const Errors& other)
 {
-    rays += other.rays;
-    hits += other.hits;
-    undecided += other.undecided;
-    lost += other.lost;
-    false_hits += other.false_hits;
-    wrong_object += other.wrong_object;
-    wrong_root += other.wrong_root;
-    occluded += other.occluded;
-    order += other.order;
-    not_closed += other.not_closed;
-    beyond_own_band += other.beyond_own_band;
-    not_finite += other.not_finite;
-    no_normal += other.no_normal;
-    wrong_side += other.wrong_side;
-    t_beyond += other.t_beyond;
-    t_beyond_half += other.t_beyond_half;
-    t_at_limit += other.t_at_limit;
-    normal_beyond += other.normal_beyond;
+    for (const auto& [key, count] : error_counts)
+        this->*count += other.*count;
     rho = std::max(rho, other.rho);
     distance = std::max(distance, other.distance);
     ulp.insert(ulp.end(), other.ulp.begin(), other.ulp.end());

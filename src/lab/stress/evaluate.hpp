@@ -25,29 +25,7 @@ enum class Verdict {
                                  double roundoff);
 
 /// How often, and how far, a kernel's answers are from the truth.
-struct Errors {
-    std::uint64_t rays = 0;
-    std::uint64_t hits = 0;
-    std::uint64_t undecided = 0;  ///< rays inside double's band
-    // Outside double's band.
-    std::uint64_t lost = 0;
-    std::uint64_t false_hits = 0;
-    std::uint64_t wrong_object = 0;
-    std::uint64_t wrong_root = 0;
-    std::uint64_t occluded = 0;    ///< what any-hit says, other than the truth
-    std::uint64_t order = 0;       ///< the first of all hits is another object than the closest hit
-    std::uint64_t not_closed = 0;  ///< closed bodies not left as often as they are entered
-
-    std::uint64_t beyond_own_band = 0;  ///< wrong outside the band of the precision itself
-    std::uint64_t not_finite = 0;       ///< hits with a t or a normal that is no number
-    std::uint64_t no_normal = 0;        ///< normals that are not of length 1
-    std::uint64_t wrong_side = 0;       ///< normals turned to the other side of the ray
-    std::uint64_t t_beyond = 0;  ///< t off by more than 1 ulp, and than inputs make it in double
-    std::uint64_t t_beyond_half = 0;  ///< the same for 0.51 ulp
-    std::uint64_t t_at_limit = 0;     ///< t off by more than 1 ulp, as inputs make it in double
-    std::uint64_t normal_beyond = 0;  ///< normals off by more than 1e-6
-    double rho = 0.0;                 ///< worst error of t over what the inputs' rounding makes
-    double distance = 0.0;      ///< of mirrored rays, worst distance of hit points, in roundoffs
+struct Errors : ErrorCounts {
     std::vector<float> ulp;     ///< errors of t in units of its last place
     std::vector<float> normal;  ///< largest errors of a component of a unit normal
 

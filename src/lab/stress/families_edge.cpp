@@ -20,9 +20,7 @@ Quadric crossing(const Vec3& square)
 /// Rays at the edge where x = ±z meet, turned any way; past it by 1e-12 to 1e-3, or through it.
 StressCase crossing_planes(StressRandom& random)
 {
-    const Mat4 transform = random.below(2) == 0
-                               ? Mat4(1.0)
-                               : any_placement(random, any_stretch(random, 0.3), random.box(2.0));
+    const Mat4 transform = sometimes_placed(random, 0.3, 2.0);
     return placed(crossing({1.0, 0.0, -1.0}), transform, [](StressRandom& r) {
         const Vec3 edge(0.0, r.between(-2.0, 2.0), 0.0);
         const double off = r.below(4) == 0 ? 0.0 : r.power(1e-12, 1e-3);
@@ -104,16 +102,10 @@ Vec3 inside_point(StressRandom& random, const Quadric& quadric)
     return {share * side.x, share * side.y, z};
 }
 
-Mat4 body_placement(StressRandom& random)
-{
-    return random.below(2) == 0 ? Mat4(1.0)
-                                : any_placement(random, any_stretch(random, 0.3), random.box(2.0));
-}
-
 StressCase rim_from_outside(StressRandom& random)
 {
     const Quadric quadric = any_capped(random);
-    return placed(quadric, body_placement(random), [=](StressRandom& r) {
+    return placed(quadric, sometimes_placed(random, 0.3, 2.0), [=](StressRandom& r) {
         const Vec3 rim = rim_point(r, quadric);
         const double off = r.below(8) == 0 ? 0.0 : r.power(1e-9, 1e-2);
         return ray_towards(r.between(3.0, 10.0) * r.unit(), rim + off * r.unit());
@@ -124,7 +116,7 @@ StressCase rim_from_outside(StressRandom& random)
 StressCase closed_body(StressRandom& random)
 {
     const Quadric quadric = any_capped(random);
-    return placed(quadric, body_placement(random), [=](StressRandom& r) {
+    return placed(quadric, sometimes_placed(random, 0.3, 2.0), [=](StressRandom& r) {
         const Vec3 org = inside_point(r, quadric);
         if (r.below(2) == 0)
             return ray_towards(org, org + r.unit());

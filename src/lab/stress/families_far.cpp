@@ -171,7 +171,7 @@ StressCase telephoto(StressRandom& random)
     }
     result.scene.camera.position = eye;
     result.ray = [=](StressRandom& r) {
-        const Vec3& center = centers[static_cast<std::size_t>(r.below(6))];
+        const Vec3& center = r.pick(centers);
         return ray_towards(eye, center + r.between(0.0, 1.2) * r.unit());
     };
     return result;
@@ -213,9 +213,7 @@ StressCase known_silhouette()
 /// Nearly along the axis: the second meeting is as far away as 1e18.
 StressCase far_paraboloid(StressRandom& random)
 {
-    const Mat4 transform = random.below(2) == 0
-                               ? Mat4(1.0)
-                               : any_placement(random, any_stretch(random, 0.5), random.box(2.0));
+    const Mat4 transform = sometimes_placed(random, 0.5, 2.0);
     return placed(quadric_of(QuadricKind::paraboloid), transform, [](StressRandom& r) {
         const Vec3 org = r.box(1.0) + Vec3(0.0, 0.0, 2.0);
         const Vec3 off = r.power(1e-9, 1e-5) * across(r, {0.0, 0.0, 1.0});

@@ -9,17 +9,6 @@
 namespace packtrace::lab {
 namespace {
 
-constexpr int kinds_of_all = 7;
-
-QuadricKind any_kind(StressRandom& random)
-{
-    static const QuadricKind every[kinds_of_all] = {
-        QuadricKind::ellipsoid,  QuadricKind::cylinder,    QuadricKind::cone,
-        QuadricKind::paraboloid, QuadricKind::hyperboloid, QuadricKind::hyperboloid2,
-        QuadricKind::saddle};
-    return every[random.below(kinds_of_all)];
-}
-
 /// A quadric of any kind, with a place of its surface that rays can aim at.
 struct AnyQuadric {
     Object object;
@@ -28,7 +17,7 @@ struct AnyQuadric {
 
 AnyQuadric any_quadric(StressRandom& random, double size, const Vec3& to)
 {
-    const QuadricKind kind = any_kind(random);
+    const QuadricKind kind = random.pick(every_kind);
     AnyQuadric result;
     Quadric quadric = quadric_of(kind);
     const int clipping = random.below(3);
@@ -115,7 +104,7 @@ StressCase far_details(StressRandom& random)
 /// Stretched by very different sizes along its axes.
 StressCase flat_axes(StressRandom& random)
 {
-    const QuadricKind kind = any_kind(random);
+    const QuadricKind kind = random.pick(every_kind);
     const Mat4 transform = any_placement(
         random, {1.0, random.power(1e-5, 1.0), random.power(1.0, 1e3)}, random.box(3.0));
     return placed(quadric_of(kind), transform, [kind](StressRandom& r) {
@@ -168,8 +157,7 @@ StressCase crowd(StressRandom& random)
     for (int i = 0; i < 3; ++i)
         result.scene.objects.push_back(plane_object(random.box(6.0), random.unit()));
     result.ray = [points](StressRandom& r) {
-        const Vec3 aim =
-            points[static_cast<std::size_t>(r.below(static_cast<int>(points.size())))](r);
+        const Vec3 aim = r.pick(points)(r);
         return ray_towards(aim + r.between(0.5, 12.0) * r.unit(), aim);
     };
     return result;

@@ -53,7 +53,7 @@ StressRay ray_at_edge(StressRandom& r, const Contour& contour, const Mat4& trans
 {
     const double off = r.below(4) == 0 ? 0.0 : r.power(1e-12, 1e-2);
     const Vec3 own = at_edge(r, contour) + off * r.unit();
-    const Vec3 aim(transform * glm::dvec4(own, 1.0));
+    const Vec3 aim = to_world(transform, own);
     return ray_towards(aim + r.between(2.0, 6.0) * r.unit(), aim);
 }
 
@@ -65,9 +65,7 @@ StressCase polygon_cube(StressRandom& random)
     StressCase result;
     for (const Contour& face : faces)
         result.scene.objects.push_back(polygon_object({face}, transform));
-    result.ray = [=](StressRandom& r) {
-        return ray_at_edge(r, faces[static_cast<std::size_t>(r.below(6))], transform);
-    };
+    result.ray = [=](StressRandom& r) { return ray_at_edge(r, r.pick(faces), transform); };
     return result;
 }
 
@@ -85,9 +83,7 @@ StressCase polygon_star(StressRandom& random)
         contours[1].emplace_back(0.4 * std::cos(2 * tenth * i), 0.4 * std::sin(2 * tenth * i), 0.0);
     StressCase result;
     result.scene.objects.push_back(polygon_object(contours, transform));
-    result.ray = [=](StressRandom& r) {
-        return ray_at_edge(r, contours[static_cast<std::size_t>(r.below(2))], transform);
-    };
+    result.ray = [=](StressRandom& r) { return ray_at_edge(r, r.pick(contours), transform); };
     return result;
 }
 
@@ -127,8 +123,7 @@ StressCase polygon_edge_on(StressRandom& random)
         const double turn = r.between(0.0, 6.283185307);
         const double up = r.power(1e-12, 1e-2);
         const Vec3 way = r.between(2.0, 6.0) * Vec3(std::cos(turn), std::sin(turn), up);
-        const Vec3 aim(transform * glm::dvec4(own, 1.0));
-        return ray_towards(Vec3(transform * glm::dvec4(own + way, 1.0)), aim);
+        return ray_towards(to_world(transform, own + way), to_world(transform, own));
     };
     return result;
 }

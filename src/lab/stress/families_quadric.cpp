@@ -10,16 +10,10 @@ namespace {
 
 using Kinds = std::vector<QuadricKind>;
 
-const Kinds every_kind = {QuadricKind::ellipsoid,   QuadricKind::cylinder,
-                          QuadricKind::cone,        QuadricKind::paraboloid,
-                          QuadricKind::hyperboloid, QuadricKind::hyperboloid2,
-                          QuadricKind::saddle};
-
 /// Rays from a world distance of a few units at the surface and past it.
 StressCase shot_at(StressRandom& random, const Kinds& kinds, const Mat4& transform)
 {
-    const QuadricKind kind =
-        kinds[static_cast<std::size_t>(random.below(static_cast<int>(kinds.size())))];
+    const QuadricKind kind = random.pick(kinds);
     StressCase result = placed(quadric_of(kind), transform, {});
     result.ray = [=](StressRandom& r) {
         const Vec3 aim = own_surface_point(r, kind) * r.between(0.7, 1.3);
@@ -130,9 +124,7 @@ StraightLine straight_line(StressRandom& random, QuadricKind kind)
 StressCase along_straight_lines(StressRandom& random)
 {
     const QuadricKind kind = random.below(2) == 0 ? QuadricKind::saddle : QuadricKind::hyperboloid;
-    const Mat4 transform = random.below(2) == 0
-                               ? Mat4(1.0)
-                               : any_placement(random, any_stretch(random, 0.5), random.box(3.0));
+    const Mat4 transform = sometimes_placed(random, 0.5, 3.0);
     return placed(quadric_of(kind), transform, [=](StressRandom& r) {
         const StraightLine line = straight_line(r, kind);
         const double off = r.below(4) == 0 ? 0.0 : r.power(1e-9, 1e-4);

@@ -2,6 +2,7 @@
 #include <cmath>
 #include <memory>
 
+#include "core/seconds_since.hpp"
 #include "dispatch/kernels.hpp"
 #include "lab/stress/stress_measure.hpp"
 #include "lab/stress/stress_random.hpp"
@@ -42,16 +43,14 @@ MeasureRun ask(const Powers<Real>& powers, const StressSubject& subject, const A
 {
     const auto& table = precision<Real>(kernels_of(subject.isa));
     std::vector<Real> y(powers.x.size());
-    std::chrono::duration<double> took{};
+    MeasureRun run;
     run_alone(alone, [&] {
         const auto start = std::chrono::steady_clock::now();
         table.highlight_power(powers.x.data(), powers.n.data(), y.data(),
                               static_cast<int>(y.size()));
-        took = std::chrono::steady_clock::now() - start;
+        run.seconds = seconds_since(start);
     });
 
-    MeasureRun run;
-    run.seconds = took.count();
     run.errors.rays = run.errors.hits = y.size();
     const double unit = std::numeric_limits<Real>::epsilon();
     for (std::size_t i = 0; i < y.size(); ++i) {

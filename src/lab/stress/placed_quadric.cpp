@@ -1,26 +1,12 @@
 #include "lab/stress/placed_quadric.hpp"
 
 #include <cmath>
-#include <stdexcept>
 #include <utility>
 
 #include <glm/geometric.hpp>
 #include <glm/gtc/matrix_transform.hpp>
 
-#include "scene/words.hpp"
-
 namespace packtrace::lab {
-
-Quadric quadric_of(QuadricKind kind)
-{
-    const QuadricKindInfo* const info = find_quadric_kind(kind);
-    if (info == nullptr)
-        throw std::invalid_argument("a general quadric has coefficients of its own");
-    Quadric quadric;
-    quadric.kind = kind;
-    quadric.coefficients = info->coefficients;
-    return quadric;
-}
 
 Vec3 own_surface_point(StressRandom& random, QuadricKind kind)
 {
@@ -58,6 +44,13 @@ Mat4 any_placement(StressRandom& random, const Vec3& stretch, const Vec3& to)
     const Mat4 after = any_turn(random);
     const Mat4 before = any_turn(random);
     return glm::translate(Mat4(1.0), to) * after * glm::scale(Mat4(1.0), stretch) * before;
+}
+
+Mat4 sometimes_placed(StressRandom& random, double least, double off)
+{
+    return random.below(2) == 0
+               ? Mat4(1.0)
+               : any_placement(random, any_stretch(random, least), random.box(off));
 }
 
 Vec3 to_world(const Mat4& m, const Vec3& own)

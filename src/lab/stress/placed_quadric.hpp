@@ -1,7 +1,9 @@
 #pragma once
 
 #include <functional>
+#include <vector>
 
+#include <packtrace/build.hpp>
 #include <packtrace/surface.hpp>
 
 #include "lab/stress/stress_family.hpp"
@@ -10,7 +12,16 @@
 namespace packtrace::lab {
 
 /// The quadric of a kind with its coefficients; not for `general`.
-[[nodiscard]] Quadric quadric_of(QuadricKind kind);
+[[nodiscard]] inline Quadric quadric_of(QuadricKind kind)
+{
+    return quadric(kind);
+}
+
+/// All but `general`.
+inline const std::vector<QuadricKind> every_kind = {
+    QuadricKind::ellipsoid,  QuadricKind::cylinder,    QuadricKind::cone,
+    QuadricKind::paraboloid, QuadricKind::hyperboloid, QuadricKind::hyperboloid2,
+    QuadricKind::saddle};
 
 /// A point of its surface in its own space, within a few units of its middle.
 [[nodiscard]] Vec3 own_surface_point(StressRandom& random, QuadricKind kind);
@@ -19,6 +30,10 @@ namespace packtrace::lab {
 
 /// Turned, stretched along its axes, turned again and moved.
 [[nodiscard]] Mat4 any_placement(StressRandom& random, const Vec3& stretch, const Vec3& to);
+
+/// The identity half of the time, else any_placement() with stretches from `least` to 1 and a move
+/// of up to `off` along each axis.
+[[nodiscard]] Mat4 sometimes_placed(StressRandom& random, double least, double off);
 
 [[nodiscard]] Vec3 any_stretch(StressRandom& random, double least);
 

@@ -31,6 +31,18 @@ ErrorSpread spread_of(std::vector<float>& errors)
     return {percentile(errors, 0.5), percentile(errors, 0.99), percentile(errors, 1.0)};
 }
 
+/// Of what `of(group)` gives, worked out in parallel and added in order.
+template <class Of>
+auto sum_of_groups(std::size_t groups, const Of& of)
+{
+    std::vector<decltype(of(groups))> by_group(groups);
+    tbb::parallel_for(std::size_t{0}, groups, [&](std::size_t g) { by_group[g] = of(g); });
+    decltype(of(groups)) sum;
+    for (const auto& some : by_group)
+        sum.add(some);
+    return sum;
+}
+
 template <class Real>
 constexpr double roundoff_of = std::numeric_limits<Real>::epsilon() / 2.0;
 
@@ -46,13 +58,8 @@ Errors evaluate_run(const StressGroup& group, const StressRun& run)
 template <class Real>
 Errors evaluate_runs(const std::vector<StressGroup>& groups, const std::vector<StressRun>& runs)
 {
-    std::vector<Errors> by_group(groups.size());
-    tbb::parallel_for(std::size_t{0}, groups.size(),
-                      [&](std::size_t g) { by_group[g] = evaluate_run<Real>(groups[g], runs[g]); });
-    Errors sum;
-    for (const Errors& errors : by_group)
-        sum.add(errors);
-    return sum;
+    return sum_of_groups(groups.size(),
+                         [&](std::size_t g) { return evaluate_run<Real>(groups[g], runs[g]); });
 }
 
 /// The first wrong answer: a wrong decision if there is one, else t, a normal or what else is off.
@@ -77,35 +84,16 @@ void add_example(StressRow& row, const std::vector<StressGroup>& groups,
 StressRow row_of(const StressSubject& subject, const char* precision, Errors errors, double seconds)
 {
     StressRow row;
+    static_cast<ErrorCounts&>(row) = errors;
     row.precision = precision;
     row.kernel = subject.kernel;
     row.isa = subject.isa;
     const bool doubles = row.precision == "double" && subject.kernel == "packet";
     row.mode = doubles ? "any" : subject.mode;
     row.held = doubles || subject.exact;
-    row.rays = errors.rays;
-    row.hits = errors.hits;
-    row.undecided = errors.undecided;
     row.wrong = errors.wrong();
-    row.lost = errors.lost;
-    row.false_hits = errors.false_hits;
-    row.wrong_object = errors.wrong_object;
-    row.wrong_root = errors.wrong_root;
-    row.occluded = errors.occluded;
-    row.order = errors.order;
-    row.not_closed = errors.not_closed;
-    row.beyond_own_band = errors.beyond_own_band;
-    row.not_finite = errors.not_finite;
-    row.no_normal = errors.no_normal;
-    row.wrong_side = errors.wrong_side;
-    row.t_beyond = errors.t_beyond;
-    row.t_beyond_half = errors.t_beyond_half;
-    row.t_at_limit = errors.t_at_limit;
-    row.normal_beyond = errors.normal_beyond;
     row.ulp = spread_of(errors.ulp);
     row.normal = spread_of(errors.normal);
-    row.rho = errors.rho;
-    row.distance = errors.distance;
     row.ns = seconds * 1e9 / static_cast<double>(std::max<std::uint64_t>(errors.rays, 1));
     return row;
 }
@@ -114,13 +102,9 @@ template <class Real>
 void add_second_hits(StressRow& row, const StressSubject& subject,
                      const std::vector<StressGroup>& groups, SelfHits rule)
 {
-    std::vector<SecondHits> by_group(groups.size());
-    tbb::parallel_for(std::size_t{0}, groups.size(), [&](std::size_t g) {
-        by_group[g] = trace_second_hits<Real>(subject, groups[g], rule);
+    SecondHits sum = sum_of_groups(groups.size(), [&](std::size_t g) {
+        return trace_second_hits<Real>(subject, groups[g], rule);
     });
-    SecondHits sum;
-    for (const SecondHits& some : by_group)
-        sum.add(some);
     row.second_rays = sum.rays;
     row.self_hits = sum.taken;
     row.second_lost = sum.lost;
@@ -132,12 +116,8 @@ template <class Real>
 void add_bounds(StressRow& row, const StressSubject& subject,
                 const std::vector<StressGroup>& groups)
 {
-    std::vector<BoundChecks> by_group(groups.size());
-    tbb::parallel_for(std::size_t{0}, groups.size(),
-                      [&](std::size_t g) { by_group[g] = check_bounds<Real>(subject, groups[g]); });
-    BoundChecks sum;
-    for (const BoundChecks& some : by_group)
-        sum.add(some);
+    BoundChecks sum = sum_of_groups(
+        groups.size(), [&](std::size_t g) { return check_bounds<Real>(subject, groups[g]); });
     row.bounds = sum.bounds;
     row.bounds_missed = sum.missed;
     row.bounds_ulp = spread_of(sum.ulp);

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <functional>
 #include <string>
@@ -40,19 +41,12 @@ struct ErrorSpread {
     double max = 0.0;
 };
 
-/// One kernel in one mode on one family. All wrong answers are such as double itself can tell from
-/// right ones, unless another band is named.
-struct StressRow {
-    std::string family;
-    std::string precision;  ///< single, double
-    std::string kernel;     ///< packet, scalar, textbook
-    std::string mode;       ///< of stress_modes; "any" for packets of doubles, empty for others
-    std::string isa;        ///< those that gave the same bits, parted by spaces
-    bool held = false;      ///< its answers count for the verdict
+/// How often answers are wrong, and by how much. Wrong answers are such as double itself can tell
+/// from right ones, unless another band is named.
+struct ErrorCounts {
     std::uint64_t rays = 0;
     std::uint64_t hits = 0;
     std::uint64_t undecided = 0;  ///< rays that double cannot decide either
-    std::uint64_t wrong = 0;      ///< closest hits: the sum of the next four
     std::uint64_t lost = 0;
     std::uint64_t false_hits = 0;
     std::uint64_t wrong_object = 0;
@@ -61,17 +55,55 @@ struct StressRow {
     std::uint64_t order = 0;       ///< the first of all hits is another object than the closest
     std::uint64_t not_closed = 0;  ///< closed bodies not left as often as they are entered
     std::uint64_t beyond_own_band = 0;  ///< wrong even outside the band of the precision itself
-    std::uint64_t not_finite = 0;
-    std::uint64_t no_normal = 0;
-    std::uint64_t wrong_side = 0;
-    std::uint64_t t_beyond = 0;       ///< t off by more than 1 ulp, and than double's limit
+    std::uint64_t not_finite = 0;       ///< hits with a t or a normal that is no number
+    std::uint64_t no_normal = 0;        ///< normals that are not of length 1
+    std::uint64_t wrong_side = 0;       ///< normals turned to the other side of the ray
+    std::uint64_t t_beyond = 0;  ///< t off by more than 1 ulp, and than inputs make it in double
     std::uint64_t t_beyond_half = 0;  ///< the same for 0.51 ulp
     std::uint64_t t_at_limit = 0;     ///< t off by more than 1 ulp, as inputs make it in double
     std::uint64_t normal_beyond = 0;  ///< normals off by more than 1e-6
-    ErrorSpread ulp;                  ///< of t, in units in the last place of the precision
+    double rho = 0.0;                 ///< worst error of t over what the inputs' rounding makes
+    double distance = 0.0;  ///< of mirrored rays, worst distance of hit points, in roundoffs
+};
+
+/// A count and what JSON calls it.
+struct ErrorCount {
+    const char* key;
+    std::uint64_t ErrorCounts::*count;
+};
+
+/// In the order of JSON.
+inline constexpr std::array<ErrorCount, 18> error_counts{
+    {{"rays", &ErrorCounts::rays},
+     {"hits", &ErrorCounts::hits},
+     {"undecided", &ErrorCounts::undecided},
+     {"lost", &ErrorCounts::lost},
+     {"false_hits", &ErrorCounts::false_hits},
+     {"wrong_object", &ErrorCounts::wrong_object},
+     {"wrong_root", &ErrorCounts::wrong_root},
+     {"any_hit_wrong", &ErrorCounts::occluded},
+     {"first_of_all_wrong", &ErrorCounts::order},
+     {"not_closed", &ErrorCounts::not_closed},
+     {"wrong_beyond_own_band", &ErrorCounts::beyond_own_band},
+     {"not_finite", &ErrorCounts::not_finite},
+     {"no_normal", &ErrorCounts::no_normal},
+     {"wrong_side", &ErrorCounts::wrong_side},
+     {"t_beyond_ulp", &ErrorCounts::t_beyond},
+     {"t_beyond_half_ulp", &ErrorCounts::t_beyond_half},
+     {"t_at_doubles_limit", &ErrorCounts::t_at_limit},
+     {"normal_beyond_1e-6", &ErrorCounts::normal_beyond}}};
+
+/// One kernel in one mode on one family.
+struct StressRow : ErrorCounts {
+    std::string family;
+    std::string precision;    ///< single, double
+    std::string kernel;       ///< packet, scalar, textbook
+    std::string mode;         ///< of stress_modes; "any" for packets of doubles, empty for others
+    std::string isa;          ///< those that gave the same bits, parted by spaces
+    bool held = false;        ///< its answers count for the verdict
+    std::uint64_t wrong = 0;  ///< closest hits: lost, false, of the wrong object or root
+    ErrorSpread ulp;          ///< of t, in units in the last place of the precision
     ErrorSpread normal;
-    double rho = 0.0;
-    double distance = 0.0;
     // Rays that leave the hits.
     std::uint64_t second_rays = 0;
     std::uint64_t self_hits = 0;

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cmath>
+#include <cstddef>
 #include <cstdint>
 
 #include <packtrace/vec.hpp>
@@ -38,6 +39,11 @@ public:
     [[nodiscard]] int below(int count)
     {
         return static_cast<int>((bits() >> 33) % static_cast<std::uint64_t>(count));
+    }
+    template <class Values>
+    [[nodiscard]] const auto& pick(const Values& values)
+    {
+        return values[static_cast<std::size_t>(below(static_cast<int>(values.size())))];
     }
     [[nodiscard]] Vec3 box(double half)
     {

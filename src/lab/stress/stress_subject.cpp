@@ -8,6 +8,7 @@
 #include <packtrace/intersect.hpp>
 #include <packtrace/isa.hpp>
 
+#include "core/seconds_since.hpp"
 #include "lab/truth/textbook.hpp"
 
 namespace packtrace::lab {
@@ -20,13 +21,12 @@ constexpr double timed_seconds = 0.02;
 template <class Work>
 double quickest(const Work& work)
 {
-    using Clock = std::chrono::steady_clock;
     double best = std::numeric_limits<double>::infinity();
     double sum = 0.0;
     for (int run = 0; run < timed_runs && sum < timed_seconds; ++run) {
-        const auto start = Clock::now();
+        const auto start = std::chrono::steady_clock::now();
         work();
-        const double seconds = std::chrono::duration<double>(Clock::now() - start).count();
+        const double seconds = seconds_since(start);
         best = std::min(best, seconds);
         sum += seconds;
     }

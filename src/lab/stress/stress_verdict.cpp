@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <set>
 
+#include "core/text.hpp"
+
 namespace packtrace::lab {
 namespace {
 
@@ -36,10 +38,7 @@ std::string families_of(const std::vector<StressRow>& rows, const std::string& p
         if (row.precision == precision && !row.faults.empty() &&
             std::find(names.begin(), names.end(), row.family) == names.end())
             names.push_back(row.family);
-    std::string list;
-    for (const std::string& name : names)
-        list += (list.empty() ? "" : ", ") + name;
-    return list;
+    return joined(names);
 }
 
 /// Where t is off by more than 1 ulp of single precision, or a normal by more than 1e-6, because

@@ -148,11 +148,7 @@ void ReportJob::trace_truths(const std::vector<Asked>& asked, const std::vector<
         const double seconds = seconds_of(0, [&] {
             image = truth_rows(one.work.whole, one.request.samples, rows.first, rows.count);
         });
-        WireWriter wire;
-        wire(seconds, image);
-        Piece piece;
-        piece.bytes = std::move(wire.bytes);
-        return piece;
+        return piece_of(seconds, image);
     };
     cli::ProgressBar progress = bar();
     const auto take = [&](const Piece& piece) {
@@ -212,11 +208,7 @@ std::vector<RankReport> ReportJob::make_looks()
         StudyLook look = StudyErrors::render(subject);
         errors->measure(subject, look);
         report.rays += look.run.rays;
-        WireWriter wire;
-        wire(look);
-        Piece piece;
-        piece.bytes = std::move(wire.bytes);
-        return piece;
+        return piece_of(look);
     };
     cli::ProgressBar progress = bar();
     const int count = static_cast<int>(runs.size());

@@ -34,16 +34,11 @@ std::vector<StressRow> run_parts(const World& world, std::vector<StressOptions> 
     for (StressOptions& part : parts)
         part.alone = [&](const std::function<void()>& timed) { node.alone(timed); };
     const auto make = [&](int number, RankReport& report) {
-        WireWriter wire;
-        node.side_by_side([&] {
-            const std::vector<StressRow> rows = rows_of(parts[static_cast<std::size_t>(number)]);
-            for (const StressRow& row : rows)
-                report.rays += row.rays;
-            wire(rows);
-        });
-        Piece piece;
-        piece.bytes = std::move(wire.bytes);
-        return piece;
+        std::vector<StressRow> rows;
+        node.side_by_side([&] { rows = rows_of(parts[static_cast<std::size_t>(number)]); });
+        for (const StressRow& row : rows)
+            report.rays += row.rays;
+        return piece_of(rows);
     };
     std::vector<StressRow> all;
     const int count = static_cast<int>(parts.size());

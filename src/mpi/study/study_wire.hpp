@@ -1,9 +1,11 @@
 #pragma once
 
 #include <type_traits>
+#include <utility>
 
 #include "lab/report/report_study.hpp"
 #include "lab/stress/stress.hpp"
+#include "mpi/job.hpp"
 #include "mpi/wire.hpp"
 
 // What ranks send each other of reports and stress tests.
@@ -48,14 +50,27 @@ template <class Wire, class Row>
 requires std::is_same_v<std::remove_const_t<Row>, StressRow>
 void each_field(Wire& wire, Row& row)
 {
-    wire(row.family, row.precision, row.kernel, row.mode, row.isa, row.held, row.rays, row.hits,
-         row.undecided, row.wrong, row.lost, row.false_hits, row.wrong_object, row.wrong_root,
-         row.occluded, row.order, row.not_closed, row.beyond_own_band, row.not_finite,
-         row.no_normal, row.wrong_side, row.t_beyond, row.t_beyond_half, row.t_at_limit,
-         row.normal_beyond, row.ulp, row.normal, row.rho, row.distance, row.second_rays,
-         row.self_hits, row.second_lost, row.second_inexact, row.second, row.bounds,
-         row.bounds_missed, row.bounds_ulp, row.ns, row.pareto, row.example_scene, row.example_ray,
-         row.example, row.faults);
+    wire(static_cast<std::conditional_t<std::is_const_v<Row>, const ErrorCounts&, ErrorCounts&>>(
+             row),
+         row.family, row.precision, row.kernel, row.mode, row.isa, row.held, row.wrong, row.ulp,
+         row.normal, row.second_rays, row.self_hits, row.second_lost, row.second_inexact,
+         row.second, row.bounds, row.bounds_missed, row.bounds_ulp, row.ns, row.pareto,
+         row.example_scene, row.example_ray, row.example, row.faults);
 }
 
 }  // namespace packtrace::lab
+
+namespace packtrace::mpi {
+
+/// A piece of work that holds these values.
+template <class... T>
+[[nodiscard]] Piece piece_of(const T&... values)
+{
+    WireWriter wire;
+    wire(values...);
+    Piece piece;
+    piece.bytes = std::move(wire.bytes);
+    return piece;
+}
+
+}  // namespace packtrace::mpi

@@ -1,0 +1,37 @@
+#pragma once
+
+#include <string>
+#include <string_view>
+#include <vector>
+
+// Small steps of making texts.
+namespace packtrace {
+
+/// A number with a fixed count of decimals.
+[[nodiscard]] std::string fixed(double value, int decimals);
+
+/// A number with so many digits, and an exponent where it needs one.
+[[nodiscard]] std::string brief(double value, int digits = 3);
+
+/// What `text` makes of each item, with `between` between each two.
+template <class Items, class Text>
+[[nodiscard]] std::string joined(const Items& items, std::string_view between, const Text& text)
+{
+    std::string all;
+    bool first = true;
+    for (const auto& item : items) {
+        if (!first)
+            all += between;
+        first = false;
+        all += text(item);
+    }
+    return all;
+}
+
+[[nodiscard]] std::string joined(const std::vector<std::string>& words,
+                                 std::string_view between = ", ");
+
+/// `text` with `by` in place of each `letter`.
+[[nodiscard]] std::string replaced(std::string_view text, char letter, std::string_view by);
+
+}  // namespace packtrace
