@@ -134,26 +134,6 @@ abi::RayCounts TileRenderer<Real>::render_piece(const abi::CameraView<Real>& cam
 }
 
 template <class Real>
-abi::RayCounts TileRenderer<Real>::render_once(const Canvas<Real>& canvas,
-                                               const Region& piece) const
-{
-    return render_once(canvas, piece, observation_);
-}
-
-template <class Real>
-abi::RayCounts TileRenderer<Real>::render(const Canvas<Real>& canvas, const Region& piece) const
-{
-    return render(canvas, piece, observation_);
-}
-
-template <class Real>
-abi::RayCounts TileRenderer<Real>::render_observed(const Canvas<Real>& canvas, const Region& piece,
-                                                   abi::Observation& observation) const
-{
-    return render(canvas, piece, &observation);
-}
-
-template <class Real>
 abi::RayCounts TileRenderer<Real>::render(const Canvas<Real>& canvas, const Region& piece,
                                           abi::Observation* observation) const
 {
@@ -199,10 +179,10 @@ abi::RayCounts TileRenderer<Real>::render_mean(const Canvas<Real>& canvas, const
 
 template <class Real>
 abi::RayCounts TileRenderer<Real>::refine(const Canvas<Real>& canvas,
-                                          const ContrastMap<Real>& contrast,
-                                          const Region& tile) const
+                                          const ContrastMap<Real>& contrast, const Region& tile,
+                                          abi::Observation* observation) const
 {
-    abi::TileJob<Real> job = job_of(corner_, tile, observation_);
+    abi::TileJob<Real> job = job_of(corner_, tile, observation);
     abi::RayCounts counts;
     SampleBatch<Real> batch(pattern_, [&](const abi::TileSamples<Real>& samples, Real* rgb) {
         job.samples = &samples;

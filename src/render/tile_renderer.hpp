@@ -47,27 +47,19 @@ public:
     /// one of several tiles whose mirrored rays are better traced together.
     [[nodiscard]] int block_edge(const Region& region, int threads) const;
 
-    /// What kernels of Features::probe record of the pieces that follow; null for nothing. For one
-    /// thread alone.
-    void observe(abi::Observation* observation)
-    {
-        observation_ = observation;
-    }
-
-    /// Fills a piece with one sample a pixel: the scene's own, or of several the centre.
-    abi::RayCounts render_once(const Canvas<Real>& canvas, const Region& piece) const;
+    /// Fills a piece with one sample a pixel: the scene's own, or of several the centre. Here and
+    /// below kernels of Features::probe record into `observation`, unless it is null.
+    abi::RayCounts render_once(const Canvas<Real>& canvas, const Region& piece,
+                               abi::Observation* observation = nullptr) const;
 
     /// Fills it with as many samples as the options say, none of them adaptive.
-    abi::RayCounts render(const Canvas<Real>& canvas, const Region& piece) const;
-
-    /// The same, and records into `observation`, from any thread.
-    abi::RayCounts render_observed(const Canvas<Real>& canvas, const Region& piece,
-                                   abi::Observation& observation) const;
+    abi::RayCounts render(const Canvas<Real>& canvas, const Region& piece,
+                          abi::Observation* observation = nullptr) const;
 
     /// `contrast` is that of the canvas. Gives the pixels of a tile where `contrast` says so what
     /// render() gives them, bit for bit.
     abi::RayCounts refine(const Canvas<Real>& canvas, const ContrastMap<Real>& contrast,
-                          const Region& tile) const;
+                          const Region& tile, abi::Observation* observation = nullptr) const;
 
     /// Working memory of a thread.
     [[nodiscard]] std::size_t scratch_bytes() const
@@ -90,19 +82,14 @@ private:
                                             abi::Observation* observation) const;
     abi::RayCounts render_piece(const abi::CameraView<Real>& camera, const Region& piece,
                                 const Pixels& pixels, abi::Observation* observation) const;
-    abi::RayCounts render(const Canvas<Real>& canvas, const Region& piece,
-                          abi::Observation* observation) const;
-    abi::RayCounts render_once(const Canvas<Real>& canvas, const Region& piece,
-                               abi::Observation* observation) const;
     abi::RayCounts render_mean(const Canvas<Real>& canvas, const Region& piece,
                                abi::Observation* observation) const;
 
     const abi::FeatureKernels<Real>& kernels_;
     PackedScene<Real> packed_;
     std::vector<Vec2> pattern_;
-    abi::CameraView<Real> once_;    // one sample a pixel
-    abi::CameraView<Real> corner_;  // through the upper left corner of each pixel
-    abi::Observation* observation_ = nullptr;
+    abi::CameraView<Real> once_;            // one sample a pixel
+    abi::CameraView<Real> corner_;          // through the upper left corner of each pixel
     const abi::FusedKernels<Real>* fused_;  // null where streams render the scene
     AlignedArray<std::byte> plan_;          // of those
     abi::RayCounts (*render_tiles_)(const abi::TileJob<Real>* tiles, int count);

@@ -78,7 +78,7 @@ Certainty observe_tiles(const Scene& scene, const RenderOptions& options)
         UnsureCounts(std::size_t{abi::cause_count}));
     certainty.rays = for_each_piece(grid, done, [&](const Region& tile) {
         TileRecord record;
-        const abi::RayCounts counts = tiles.render_observed(image, tile, record.observation);
+        const abi::RayCounts counts = tiles.render(image, tile, &record.observation);
         take_pixels(record, tile, certainty);
         add_causes(record.counts, unsure.local());
         return counts;

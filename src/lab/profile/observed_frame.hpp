@@ -48,21 +48,26 @@ public:
         int piece = 0;
         const auto turn = [&](const TileGrid& grid, const auto& render_piece) {
             for (int i = 0; i < grid.count(); ++i, ++piece) {
-                tiles_.observe(before(piece));
+                abi::Observation* const observation = before(piece);
                 const auto start = std::chrono::steady_clock::now();
-                sum += render_piece(grid[i]);
+                sum += render_piece(grid[i], observation);
                 after(piece, seconds_since(start));
             }
         };
         if (options_.adaptive) {
-            turn(blocks_, [&](const Region& block) { return tiles_.render_once(image_, block); });
+            turn(blocks_, [&](const Region& block, abi::Observation* observation) {
+                return tiles_.render_once(image_, block, observation);
+            });
             ContrastMap<Real> contrast(image_, *options_.adaptive);
             for (int y = 0; y < image_.height; ++y)
                 contrast.mark_row(y);
-            turn(TileGrid(picture_),
-                 [&](const Region& tile) { return tiles_.refine(image_, contrast, tile); });
+            turn(TileGrid(picture_), [&](const Region& tile, abi::Observation* observation) {
+                return tiles_.refine(image_, contrast, tile, observation);
+            });
         } else {
-            turn(blocks_, [&](const Region& block) { return tiles_.render(image_, block); });
+            turn(blocks_, [&](const Region& block, abi::Observation* observation) {
+                return tiles_.render(image_, block, observation);
+            });
         }
         return {sum.camera, sum.shadow, sum.reflected, sum.refracted, sum.unsure};
     }
