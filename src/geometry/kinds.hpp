@@ -51,6 +51,12 @@ void for_each_surface(Lists& lists, const Visit& visit)
     });
 }
 
+template <class Kind>
+[[nodiscard]] auto shape_of(const Kind& surface)
+{
+    return pack<double>(surface);
+}
+
 template <class List>
 struct KindOfList;
 template <class Kind>

@@ -59,6 +59,23 @@ struct CenteredBox {
     return within;
 }
 
+/// Whether a tree may hold the surface; one without a box stays in a list.
+template <class Kind>
+[[nodiscard]] bool fits_tree(const Kind& surface)
+{
+    if constexpr (requires { box_of(surface); })
+        return within_tree(box_of(surface));
+    else
+        return false;
+}
+
+/// How many surface numbers a surface takes.
+template <class Kind>
+[[nodiscard]] int pieces_of(const Kind&)
+{
+    return 1;
+}
+
 [[nodiscard]] inline auto key_of(const Vec3& v)
 {
     return std::tuple(v.x, v.y, v.z);

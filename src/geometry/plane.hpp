@@ -35,23 +35,7 @@ int lower_kind(const Object& object, const Plane& plane, std::int32_t surface, S
     return is_certifiable(plane.point, 1.0);
 }
 
-/// Has no bounds.
-[[nodiscard]] inline bool fits_tree(const LoweredPlane&)
-{
-    return false;
-}
-
-[[nodiscard]] inline int pieces_of(const LoweredPlane&)
-{
-    return 1;
-}
-
 template <class Real>
 [[nodiscard]] abi::PlaneRecord<Real> pack(const LoweredPlane& plane);
-
-[[nodiscard]] inline abi::PlaneRecord<double> shape_of(const LoweredPlane& plane)
-{
-    return pack<double>(plane);
-}
 
 }  // namespace packtrace

@@ -50,24 +50,9 @@ int lower_kind(const Object& object, const Polygon& polygon, std::int32_t surfac
     return {polygon.bound, polygon.box_half};
 }
 
-[[nodiscard]] inline bool fits_tree(const LoweredPolygon& polygon)
-{
-    return within_tree(box_of(polygon));
-}
-
-[[nodiscard]] inline int pieces_of(const LoweredPolygon&)
-{
-    return 1;
-}
-
 /// Without its corners, which PackedCorners adds.
 template <class Real>
 [[nodiscard]] abi::PolygonRecord<Real> pack(const LoweredPolygon& polygon);
-
-[[nodiscard]] inline abi::PolygonRecord<double> shape_of(const LoweredPolygon& polygon)
-{
-    return pack<double>(polygon);
-}
 
 /// The corners of some polygons, each coordinate rounded once.
 template <class Real>

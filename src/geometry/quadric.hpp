@@ -89,9 +89,4 @@ int lower_kind(const Object& object, const Quadric& quadric, std::int32_t surfac
 template <class Real>
 [[nodiscard]] abi::QuadricRecord<Real> pack(const LoweredQuadric& quadric);
 
-[[nodiscard]] inline abi::QuadricRecord<double> shape_of(const LoweredQuadric& quadric)
-{
-    return pack<double>(quadric);
-}
-
 }  // namespace packtrace

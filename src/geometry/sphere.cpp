@@ -43,15 +43,6 @@ double similarity_scale(const Mat4& transform)
     return std::sqrt(scale2);
 }
 
-Exit exit_of_sphere(const Vec3& center, double radius, const Vec3& eye, const Vec3& forward)
-{
-    const Vec3 o = eye - center;
-    const double c = glm::dot(o, o) - radius * radius;
-    if (!(c < 0.0))
-        return std::nullopt;
-    return first_positive_root(glm::dot(forward, forward), glm::dot(o, forward), c);
-}
-
 }  // namespace
 
 bool is_anchored(const LoweredSphere& sphere)
@@ -103,27 +94,12 @@ void part_anchored_spheres(SurfaceLists& lists)
     lists.spheres.erase(first, lists.spheres.end());
 }
 
-Exit exit_of(const LoweredSphere& sphere, const Vec3& eye, const Vec3& forward)
-{
-    return exit_of_sphere(sphere.center, sphere.radius, eye, forward);
-}
-
-Exit exit_of(const LoweredAnchoredSphere& sphere, const Vec3& eye, const Vec3& forward)
-{
-    return exit_of_sphere(sphere.center, sphere.radius, eye, forward);
-}
-
 abi::SphereShape shape_of(const LoweredSphere& sphere)
 {
     abi::SphereShape shape;
     round_to(shape.center, sphere.center);
     shape.radius = sphere.radius;
     return shape;
-}
-
-abi::AnchoredSphere<double> shape_of(const LoweredAnchoredSphere& sphere)
-{
-    return pack<double>(sphere);
 }
 
 template <class Real>

@@ -1,5 +1,8 @@
 #pragma once
 
+#include <type_traits>
+
+#include <glm/geometric.hpp>
 #include <packtrace/scene.hpp>
 
 #include "geometry/object_rules.hpp"
@@ -33,6 +36,11 @@ struct LoweredAnchoredSphere {
     std::int32_t surface = 0;
 };
 
+/// Either kind.
+template <class Kind>
+concept AnySphere =
+    std::is_same_v<Kind, LoweredSphere> || std::is_same_v<Kind, LoweredAnchoredSphere>;
+
 /// Appends the sphere to the list of what it is in world space; returns how many surface numbers it
 /// takes. Under a similarity it stays a sphere, else it becomes a quadric.
 int lower_kind(const Object& object, const Sphere& sphere, std::int32_t surface,
@@ -50,24 +58,24 @@ bool lower_sphere(const Sphere& sphere, const Mat4& transform, std::int32_t surf
 /// their own, and finds their anchors.
 void part_anchored_spheres(SurfaceLists& lists);
 
-[[nodiscard]] Exit exit_of(const LoweredSphere& sphere, const Vec3& eye, const Vec3& forward);
-[[nodiscard]] Exit exit_of(const LoweredAnchoredSphere& sphere, const Vec3& eye,
-                           const Vec3& forward);
+template <AnySphere Kind>
+[[nodiscard]] Exit exit_of(const Kind& sphere, const Vec3& eye, const Vec3& forward)
+{
+    const Vec3 o = eye - sphere.center;
+    const double c = glm::dot(o, o) - sphere.radius * sphere.radius;
+    if (!(c < 0.0))
+        return std::nullopt;
+    return first_positive_root(glm::dot(forward, forward), glm::dot(o, forward), c);
+}
 
-[[nodiscard]] inline auto key_of(const LoweredSphere& sphere)
+template <AnySphere Kind>
+[[nodiscard]] auto key_of(const Kind& sphere)
 {
     return std::tuple_cat(key_of(sphere.center), std::tuple(sphere.radius));
 }
-[[nodiscard]] inline auto key_of(const LoweredAnchoredSphere& sphere)
-{
-    return std::tuple_cat(key_of(sphere.center), std::tuple(sphere.radius));
-}
 
-[[nodiscard]] inline bool is_certifiable(const LoweredSphere& sphere)
-{
-    return is_certifiable(sphere.center, sphere.radius);
-}
-[[nodiscard]] inline bool is_certifiable(const LoweredAnchoredSphere& sphere)
+template <AnySphere Kind>
+[[nodiscard]] bool is_certifiable(const Kind& sphere)
 {
     return is_certifiable(sphere.center, sphere.radius);
 }
@@ -77,28 +85,7 @@ void part_anchored_spheres(SurfaceLists& lists);
     return {sphere.center, Vec3(sphere.radius)};
 }
 
-[[nodiscard]] inline bool fits_tree(const LoweredSphere& sphere)
-{
-    return within_tree(box_of(sphere));
-}
-
-/// Stays in a list.
-[[nodiscard]] inline bool fits_tree(const LoweredAnchoredSphere&)
-{
-    return false;
-}
-
-[[nodiscard]] inline int pieces_of(const LoweredSphere&)
-{
-    return 1;
-}
-[[nodiscard]] inline int pieces_of(const LoweredAnchoredSphere&)
-{
-    return 1;
-}
-
 [[nodiscard]] abi::SphereShape shape_of(const LoweredSphere& sphere);
-[[nodiscard]] abi::AnchoredSphere<double> shape_of(const LoweredAnchoredSphere& sphere);
 
 /// How far rounding to Real moves a sphere's centre, at most.
 template <class Real>
