@@ -14,6 +14,8 @@ namespace packtrace {
 struct Sphere {
     Vec3 center{0.0};
     double radius = 1.0;  ///< scene units, > 0
+
+    bool operator==(const Sphere&) const = default;
 };
 
 struct Plane {
@@ -23,6 +25,12 @@ struct Plane {
     /// checker they don't count.
     Vec3 u{1.0, 0.0, 0.0};
     Vec3 v{0.0, 0.0, 1.0};
+
+    /// The axes follow from the normal.
+    bool operator==(const Plane& other) const
+    {
+        return point == other.point && normal == other.normal;
+    }
 };
 
 /// Fills `u` and `v` of a plane from its unit normal: the two world axes that are not the
@@ -44,6 +52,8 @@ enum class QuadricKind {
 struct ZRange {
     double low = 0.0;
     double high = 0.0;  ///< > low
+
+    bool operator==(const ZRange&) const = default;
 };
 
 /// Ax² + By² + Cz² + Dxy + Exz + Fyz + Gx + Hy + Iz + J = 0 in its own space.
@@ -56,6 +66,8 @@ struct Quadric {
     std::optional<ZRange> z_range;
     /// Closes the clipped ends with the flat pieces of inside (F <= 0) at z = low and z = high.
     bool capped = false;
+
+    bool operator==(const Quadric&) const = default;
 };
 
 /// A flat piece of a plane. Its contours are closed from the last corner to the first; what a line
@@ -63,6 +75,8 @@ struct Quadric {
 struct Polygon {
     /// At least one contour, each of three corners or more; all corners in one plane.
     std::vector<std::vector<Vec3>> contours;
+
+    bool operator==(const Polygon&) const = default;
 };
 
 /// The unit normal of a polygon's plane by Newell's method over the first contour, whose corners

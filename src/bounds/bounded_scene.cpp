@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <optional>
-#include <type_traits>
 #include <variant>
 
 #include <tbb/blocked_range.h>
@@ -11,28 +10,6 @@
 
 namespace packtrace::bounds {
 namespace {
-
-bool equal(const Sphere& a, const Sphere& b)
-{
-    return a.center == b.center && a.radius == b.radius;
-}
-
-bool equal(const Plane& a, const Plane& b)
-{
-    return a.point == b.point && a.normal == b.normal;
-}
-
-bool equal(const Quadric& a, const Quadric& b)
-{
-    return a.kind == b.kind && a.coefficients == b.coefficients && a.capped == b.capped &&
-           a.z_range.has_value() == b.z_range.has_value() &&
-           (!a.z_range || (a.z_range->low == b.z_range->low && a.z_range->high == b.z_range->high));
-}
-
-bool equal(const Polygon& a, const Polygon& b)
-{
-    return a.contours == b.contours;
-}
 
 bool may_count(const HitInterval& hit, const Range& range)
 {
@@ -133,14 +110,9 @@ bool BoundedScene::holds(std::int32_t object, const Object& now) const
     const std::int32_t at = index_[static_cast<std::size_t>(object)];
     if (at >= 0)
         return is_plain_sphere(now) &&
-               equal(spheres_[static_cast<std::size_t>(at)], std::get<Sphere>(now.surface));
+               spheres_[static_cast<std::size_t>(at)] == std::get<Sphere>(now.surface);
     const Placed& placed = placed_[static_cast<std::size_t>(~at)];
-    return placed.transform == now.transform && placed.surface.index() == now.surface.index() &&
-           std::visit(
-               [&](const auto& surface) {
-                   return equal(surface, std::get<std::decay_t<decltype(surface)>>(now.surface));
-               },
-               placed.surface);
+    return placed.transform == now.transform && placed.surface == now.surface;
 }
 
 bool BoundedScene::replace_in_place(const Scene& scene, const MovedShape& shape)
