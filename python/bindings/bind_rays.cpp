@@ -13,6 +13,7 @@
 #include "pictures.hpp"
 #include "ray_blocks.hpp"
 #include "ray_columns.hpp"
+#include "render/ray_pieces.hpp"
 #include "scene.hpp"
 #include "two_ray_scenes.hpp"
 
@@ -63,27 +64,6 @@ struct HitArrays {
         return hits;
     }
 };
-
-template <class T>
-void advance(T*& at, std::size_t by)
-{
-    if (at != nullptr)
-        at += by;
-}
-
-template <class Real>
-HitsView<Real> from(HitsView<Real> hits, std::size_t first)
-{
-    advance(hits.t, first);
-    advance(hits.object, first);
-    for (Real** const component : {&hits.normal_x, &hits.normal_y, &hits.normal_z})
-        advance(*component, first);
-    for (auto* const vector : {&hits.point, &hits.outer_start, &hits.inner_start})
-        for (Real*& component : *vector)
-            advance(component, first);
-    advance(hits.surface, first);
-    return hits;
-}
 
 /// Misses have no point.
 template <class Real>
@@ -289,7 +269,7 @@ private:
     {
         const HeldScene<Real> scene = ready<Real>();
         for_rays<Real>(rays, [&](const RaysView<Real>& view, std::size_t first) {
-            const HitsView<Real> block = from(hits, first);
+            const HitsView<Real> block = part_of(hits, first);
             scene->closest_hits(view, block);
             finish(view, block);
         });
@@ -312,7 +292,7 @@ private:
                 const auto at = points.at(first, count);
                 const StartsView<Real> starts{{at[0], at[1], at[2]}, numbers + first};
                 const RaysView<Real> view = rays_view(gathered.at(first, count), count);
-                const HitsView<Real> found = from(hits, first);
+                const HitsView<Real> found = part_of(hits, first);
                 scene->closest_hits(view, starts, found);
                 finish(view, found);
             });

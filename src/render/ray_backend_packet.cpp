@@ -37,17 +37,12 @@ constexpr double most_refit_cost = 1.5;
 template <class Real>
 abi::RaysView<Real> piece_of(const RaysView<Real>& rays, std::size_t first, std::size_t longest)
 {
-    abi::RaysView<Real> piece;
-    const Real* const org[3] = {rays.org_x, rays.org_y, rays.org_z};
-    const Real* const dir[3] = {rays.dir_x, rays.dir_y, rays.dir_z};
-    for (int axis = 0; axis < 3; ++axis) {
-        piece.org[axis] = org[axis] + first;
-        piece.dir[axis] = dir[axis] + first;
-    }
-    piece.t_min = rays.t_min + first;
-    piece.t_max = rays.t_max + first;
-    piece.count = static_cast<int>(std::min(rays.count - first, longest));
-    return piece;
+    const auto part = part_of(rays, first, std::min(rays.count - first, longest));
+    return {{part.org_x, part.org_y, part.org_z},
+            {part.dir_x, part.dir_y, part.dir_z},
+            part.t_min,
+            part.t_max,
+            static_cast<int>(part.count)};
 }
 
 template <class Real>
@@ -61,23 +56,14 @@ abi::PointsView<Real> piece_of(const PointsView<Real>& points, std::size_t first
 template <class Real>
 abi::HitsView<Real> piece_of(const HitsView<Real>& hits, std::size_t first)
 {
-    abi::HitsView<Real> piece{};
-    piece.t = hits.t + first;
-    piece.object = hits.object + first;
-    for (int axis = 0; axis < 3 && hits.outer_start[0] != nullptr; ++axis) {
-        piece.outer_start[axis] = hits.outer_start[axis] + first;
-        piece.inner_start[axis] = hits.inner_start[axis] + first;
-    }
-    for (int axis = 0; axis < 3 && hits.point[0] != nullptr; ++axis)
-        piece.point[axis] = hits.point[axis] + first;
-    if (hits.surface != nullptr)
-        piece.surface = hits.surface + first;
-    if (hits.normal_x != nullptr) {
-        piece.normal[0] = hits.normal_x + first;
-        piece.normal[1] = hits.normal_y + first;
-        piece.normal[2] = hits.normal_z + first;
-    }
-    return piece;
+    const auto part = part_of(hits, first);
+    return {part.t,
+            part.object,
+            {part.normal_x, part.normal_y, part.normal_z},
+            {part.outer_start[0], part.outer_start[1], part.outer_start[2]},
+            {part.inner_start[0], part.inner_start[1], part.inner_start[2]},
+            {part.point[0], part.point[1], part.point[2]},
+            part.surface};
 }
 
 template <class Real>
