@@ -1,6 +1,7 @@
 #pragma once
 
 #include <packtrace/image_io.hpp>
+#include "core/read_file.hpp"
 #include "image/bytes.hpp"
 
 #include <cstddef>
@@ -22,6 +23,20 @@ enum class ImageFormat { png, pfm, hdr };
 
 /// The same. Throws ImageError that lists the known ones.
 [[nodiscard]] ImageFormat image_format(const std::filesystem::path& file);
+
+/// Runs `use`; what goes wrong becomes an ImageError that names the file.
+template <class Use>
+auto named(const std::filesystem::path& file, const Use& use)
+{
+    try {
+        return use();
+    } catch (const FileError& error) {
+        throw ImageError(error.what());
+    } catch (const ImageError& error) {
+        const std::string what = error.what();
+        throw ImageError(what.starts_with(file.string()) ? what : file.string() + ": " + what);
+    }
+}
 
 // PNG
 

@@ -12,6 +12,7 @@
 #include <span>
 #include <stdexcept>
 #include <string>
+#include <type_traits>
 
 namespace packtrace {
 namespace {
@@ -62,16 +63,6 @@ std::string read_recipe_beside(const std::filesystem::path& picture)
     return {};
 }
 
-Bytes encode_as_hdr(const Image<float>& image)
-{
-    return encode_hdr(image);
-}
-template <class Real>
-Bytes encode_as_hdr(const Image<Real>& image)
-{
-    return encode_hdr(convert<float>(image));
-}
-
 template <class Real>
 Bytes encode(ImageFormat format, const Image<Real>& image, const ImageWriteOptions& options)
 {
@@ -83,7 +74,10 @@ Bytes encode(ImageFormat format, const Image<Real>& image, const ImageWriteOptio
         case ImageFormat::hdr:
             break;
     }
-    return encode_as_hdr(image);
+    if constexpr (std::is_same_v<Real, float>)
+        return encode_hdr(image);
+    else
+        return encode_hdr(convert<float>(image));
 }
 
 void check_recipe(const std::string& recipe)
@@ -143,18 +137,14 @@ void write_image(const std::filesystem::path& file, const Image<Real>& image,
     if (image.width < 1 || image.height < 1)
         throw ImageError(file.string() + ": can't write a picture without pixels");
     image.check();
-    try {
+    named(file, [&] {
         AtomicFile output(file);
         const Bytes bytes = encode(format, image, options);
         output.write(std::as_bytes(std::span(bytes)));
         output.commit();
         if (!options.recipe.empty() && format != ImageFormat::png)
             write_recipe_beside(file, bytes, options.recipe);
-    } catch (const FileError& error) {
-        throw ImageError(error.what());
-    } catch (const ImageError& error) {
-        throw ImageError(file.string() + ": " + error.what());
-    }
+    });
 }
 
 template void write_image(const std::filesystem::path&, const Image<float>&,
@@ -167,24 +157,16 @@ template void write_image(const std::filesystem::path&, const Image<long double>
 void check_image_writable(const std::filesystem::path& file)
 {
     static_cast<void>(image_format(file));
-    try {
-        check_writable(file);
-    } catch (const FileError& error) {
-        throw ImageError(error.what());
-    }
+    named(file, [&] { check_writable(file); });
 }
 
 Image<float> read_image(const std::filesystem::path& file)
 {
     const ImageFormat format = image_format(file);
-    try {
+    return named(file, [&] {
         const std::string bytes = read_file(file);
         return decode(format, bytes_of(bytes));
-    } catch (const FileError& error) {
-        throw ImageError(error.what());
-    } catch (const ImageError& error) {
-        throw ImageError(file.string() + ": " + error.what());
-    }
+    });
 }
 
 std::string read_recipe(const std::filesystem::path& file)

@@ -160,20 +160,6 @@ std::unique_ptr<RowFile::Encoder> encoder_for(const std::filesystem::path& file,
     return std::make_unique<Hdr>(file, width, height);
 }
 
-/// Runs `use`; what goes wrong becomes an ImageError that names the file.
-template <class Use>
-auto named(const std::filesystem::path& file, const Use& use)
-{
-    try {
-        return use();
-    } catch (const FileError& error) {
-        throw ImageError(error.what());
-    } catch (const ImageError& error) {
-        const std::string what = error.what();
-        throw ImageError(what.starts_with(file.string()) ? what : file.string() + ": " + what);
-    }
-}
-
 }  // namespace
 
 RowFile::RowFile(const std::filesystem::path& file, int width, int height) : file_(file)
