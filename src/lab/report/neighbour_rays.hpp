@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <array>
-#include <cstdint>
 
 #include <packtrace/intersect.hpp>
 #include <packtrace/scene.hpp>
@@ -27,31 +26,17 @@ public:
     /// Directions close by differ by a ten-thousandth of the direction's length.
     [[nodiscard]] FirstHit trace(const Vec3& org, const Vec3& dir, double t_min, double t_max) const
     {
-        using Lane = std::array<double, ray_count>;
-        std::array<Lane, 3> orgs{};
-        std::array<Lane, 3> dirs{};
-        Lane low{};
-        Lane high{};
+        std::array<Ray<double>, ray_count> rays;
         for (std::size_t ray = 0; ray < ray_count; ++ray) {
             const Vec3 way = moved(dir, ray);
-            for (std::size_t axis = 0; axis < 3; ++axis) {
-                orgs[axis][ray] = org[static_cast<int>(axis)];
-                dirs[axis][ray] = way[static_cast<int>(axis)];
-            }
-            low[ray] = t_min;
-            high[ray] = t_max;
+            rays[ray] = {{org.x, org.y, org.z}, {way.x, way.y, way.z}, t_min, t_max};
         }
-        Lane t{};
-        std::array<std::int32_t, ray_count> object{};
-        HitsView<double> hits;
-        hits.t = t.data();
-        hits.object = object.data();
-        rays_.closest_hits({orgs[0].data(), orgs[1].data(), orgs[2].data(), dirs[0].data(),
-                            dirs[1].data(), dirs[2].data(), low.data(), high.data(), ray_count},
-                           hits);
-        const bool stable = std::all_of(object.begin(), object.end(),
-                                        [&](std::int32_t hit) { return hit == object.front(); });
-        return {object.front(), t.front(), stable};
+        std::array<SurfaceHit<double>, ray_count> hits;
+        rays_.closest_hits(rays, hits);
+        const SurfaceHit<double>& first = hits.front();
+        const bool stable = std::all_of(
+            hits.begin(), hits.end(), [&](const auto& hit) { return hit.object == first.object; });
+        return {first.object, first.t, stable};
     }
 
 private:
