@@ -24,48 +24,26 @@ struct PacketOf<1> {
         rtcOccluded1(scene, context, &rays->ray);
     }
 };
-template <>
-struct PacketOf<4> {
-    using RayHit = RTCRayHit4;
-    static void intersect(const int* valid, RTCScene scene, RTCIntersectContext* context,
-                          RayHit* rays)
-    {
-        rtcIntersect4(valid, scene, context, rays);
+#define PACKTRACE_PACKET_OF(lanes)                                                            \
+    template <>                                                                               \
+    struct PacketOf<lanes> {                                                                  \
+        using RayHit = RTCRayHit##lanes;                                                      \
+        static void intersect(const int* valid, RTCScene scene, RTCIntersectContext* context, \
+                              RayHit* rays)                                                   \
+        {                                                                                     \
+            rtcIntersect##lanes(valid, scene, context, rays);                                 \
+        }                                                                                     \
+        static void occluded(const int* valid, RTCScene scene, RTCIntersectContext* context,  \
+                             RayHit* rays)                                                    \
+        {                                                                                     \
+            rtcOccluded##lanes(valid, scene, context, &rays->ray);                            \
+        }                                                                                     \
     }
-    static void occluded(const int* valid, RTCScene scene, RTCIntersectContext* context,
-                         RayHit* rays)
-    {
-        rtcOccluded4(valid, scene, context, &rays->ray);
-    }
-};
-template <>
-struct PacketOf<8> {
-    using RayHit = RTCRayHit8;
-    static void intersect(const int* valid, RTCScene scene, RTCIntersectContext* context,
-                          RayHit* rays)
-    {
-        rtcIntersect8(valid, scene, context, rays);
-    }
-    static void occluded(const int* valid, RTCScene scene, RTCIntersectContext* context,
-                         RayHit* rays)
-    {
-        rtcOccluded8(valid, scene, context, &rays->ray);
-    }
-};
-template <>
-struct PacketOf<16> {
-    using RayHit = RTCRayHit16;
-    static void intersect(const int* valid, RTCScene scene, RTCIntersectContext* context,
-                          RayHit* rays)
-    {
-        rtcIntersect16(valid, scene, context, rays);
-    }
-    static void occluded(const int* valid, RTCScene scene, RTCIntersectContext* context,
-                         RayHit* rays)
-    {
-        rtcOccluded16(valid, scene, context, &rays->ray);
-    }
-};
+
+PACKTRACE_PACKET_OF(4);
+PACKTRACE_PACKET_OF(8);
+PACKTRACE_PACKET_OF(16);
+#undef PACKTRACE_PACKET_OF
 
 /// Room for `count` rays as packets of so many lanes; the last packet's spare lanes hold rays
 /// that end before they begin, which Embree takes for inactive.

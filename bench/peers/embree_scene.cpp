@@ -133,9 +133,4 @@ std::ptrdiff_t EmbreeScene::bytes() const
     return memory_->now;
 }
 
-bool EmbreeScene::has_native_packets_of_16() const
-{
-    return rtcGetDeviceProperty(device_, RTC_DEVICE_PROPERTY_NATIVE_RAY16_SUPPORTED) != 0;
-}
-
 }  // namespace packtrace::peers

@@ -37,7 +37,6 @@ public:
     /// What Embree's own account of memory rose to, and holds now; its copy of spheres included.
     [[nodiscard]] std::ptrdiff_t peak_bytes() const;
     [[nodiscard]] std::ptrdiff_t bytes() const;
-    [[nodiscard]] bool has_native_packets_of_16() const;
 
 private:
     struct Memory;

@@ -2,15 +2,10 @@
 
 #include <algorithm>
 
+#include "lab/harness/statistics.hpp"
+
 namespace packtrace::peers {
 namespace {
-
-double median(std::vector<double> values)
-{
-    std::sort(values.begin(), values.end());
-    const std::size_t middle = values.size() / 2;
-    return values.size() % 2 == 1 ? values[middle] : 0.5 * (values[middle - 1] + values[middle]);
-}
 
 struct Entry {
     const Tracer* tracer;
@@ -21,7 +16,7 @@ struct Entry {
 
 double Result::median_rate() const
 {
-    return 1e-6 * rays / median(seconds);
+    return 1e-6 * rays / median_of(seconds);
 }
 
 double Result::lowest_rate() const
@@ -76,7 +71,7 @@ double median_ratio(const Result& result, const Result& other)
     std::vector<double> ratios;
     for (std::size_t pass = 0; pass < result.seconds.size(); ++pass)
         ratios.push_back(other.seconds[pass] / result.seconds[pass]);
-    return median(ratios);
+    return median_of(ratios);
 }
 
 }  // namespace packtrace::peers

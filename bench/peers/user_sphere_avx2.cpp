@@ -8,45 +8,8 @@ namespace {
 // Intrinsics of both widths differ in their prefix alone; masks are vectors of all ones and zeros.
 #define PACKTRACE_LANES(Name, count, Vector, Integers, p, bits)                \
     struct Name {                                                              \
-        using V = Vector;                                                      \
+        PACKTRACE_LANES_ARITHMETIC(count, Vector, p)                           \
         using M = Vector;                                                      \
-        static constexpr int width = count;                                    \
-        static V set(float x)                                                  \
-        {                                                                      \
-            return p##_set1_ps(x);                                             \
-        }                                                                      \
-        static V load(const float* x)                                          \
-        {                                                                      \
-            return p##_load_ps(x);                                             \
-        }                                                                      \
-        static V add(V x, V y)                                                 \
-        {                                                                      \
-            return p##_add_ps(x, y);                                           \
-        }                                                                      \
-        static V sub(V x, V y)                                                 \
-        {                                                                      \
-            return p##_sub_ps(x, y);                                           \
-        }                                                                      \
-        static V mul(V x, V y)                                                 \
-        {                                                                      \
-            return p##_mul_ps(x, y);                                           \
-        }                                                                      \
-        static V div(V x, V y)                                                 \
-        {                                                                      \
-            return p##_div_ps(x, y);                                           \
-        }                                                                      \
-        static V sqrt(V x)                                                     \
-        {                                                                      \
-            return p##_sqrt_ps(x);                                             \
-        }                                                                      \
-        static V madd(V x, V y, V z)                                           \
-        {                                                                      \
-            return p##_fmadd_ps(x, y, z);                                      \
-        }                                                                      \
-        static V msub(V x, V y, V z)                                           \
-        {                                                                      \
-            return p##_fmsub_ps(x, y, z);                                      \
-        }                                                                      \
         static M less(V x, V y)                                                \
         {                                                                      \
             return p##_cmp_ps(x, y, _CMP_LT_OQ);                               \
@@ -93,36 +56,13 @@ namespace {
 PACKTRACE_LANES(Lanes8, 8, __m256, __m256i, _mm256, 256);
 PACKTRACE_LANES(Lanes4, 4, __m128, __m128i, _mm, 128);
 #undef PACKTRACE_LANES
-
-void intersect(const RTCIntersectFunctionNArguments* args)
-{
-    switch (args->N) {
-        case 8:
-            return intersect_lanes<Lanes8>(*args);
-        case 4:
-            return intersect_lanes<Lanes4>(*args);
-        default:
-            return intersect_any(*args);
-    }
-}
-
-void occlude(const RTCOccludedFunctionNArguments* args)
-{
-    switch (args->N) {
-        case 8:
-            return occlude_lanes<Lanes8>(*args);
-        case 4:
-            return occlude_lanes<Lanes4>(*args);
-        default:
-            return occlude_any(*args);
-    }
-}
+#undef PACKTRACE_LANES_ARITHMETIC
 
 }  // namespace
 
 UserSphere user_sphere_avx2()
 {
-    return {intersect, occlude};
+    return {intersect_widths<Lanes8, Lanes4>, occlude_widths<Lanes8, Lanes4>};
 }
 
 }  // namespace packtrace::peers

@@ -10,6 +10,47 @@
 namespace packtrace::peers {
 namespace {
 
+// What all lanes have in common: intrinsics differ in their prefix alone.
+#define PACKTRACE_LANES_ARITHMETIC(count, Vector, p) \
+    using V = Vector;                                \
+    static constexpr int width = count;              \
+    static V set(float x)                            \
+    {                                                \
+        return p##_set1_ps(x);                       \
+    }                                                \
+    static V load(const float* x)                    \
+    {                                                \
+        return p##_load_ps(x);                       \
+    }                                                \
+    static V add(V x, V y)                           \
+    {                                                \
+        return p##_add_ps(x, y);                     \
+    }                                                \
+    static V sub(V x, V y)                           \
+    {                                                \
+        return p##_sub_ps(x, y);                     \
+    }                                                \
+    static V mul(V x, V y)                           \
+    {                                                \
+        return p##_mul_ps(x, y);                     \
+    }                                                \
+    static V div(V x, V y)                           \
+    {                                                \
+        return p##_div_ps(x, y);                     \
+    }                                                \
+    static V sqrt(V x)                               \
+    {                                                \
+        return p##_sqrt_ps(x);                       \
+    }                                                \
+    static V madd(V x, V y, V z)                     \
+    {                                                \
+        return p##_fmadd_ps(x, y, z);                \
+    }                                                \
+    static V msub(V x, V y, V z)                     \
+    {                                                \
+        return p##_fmsub_ps(x, y, z);                \
+    }
+
 /// Both distances of rays to a sphere. The discriminant is taken from the cross product, which
 /// keeps its digits where the square of a long way would lose them.
 template <class Lanes>
@@ -151,6 +192,23 @@ inline void occlude_any(const RTCOccludedFunctionNArguments& args)
         if (t.real && (within_one(t.near, ray, n, i) || within_one(t.far, ray, n, i)))
             ray[8 * n + i] = -std::numeric_limits<float>::infinity();
     }
+}
+
+/// Of packets as wide as one of `Lanes`, and of others without vectors.
+template <class... Lanes>
+void intersect_widths(const RTCIntersectFunctionNArguments* args)
+{
+    const bool done = ((args->N == Lanes::width && (intersect_lanes<Lanes>(*args), true)) || ...);
+    if (!done)
+        intersect_any(*args);
+}
+
+template <class... Lanes>
+void occlude_widths(const RTCOccludedFunctionNArguments* args)
+{
+    const bool done = ((args->N == Lanes::width && (occlude_lanes<Lanes>(*args), true)) || ...);
+    if (!done)
+        occlude_any(*args);
 }
 
 }  // namespace
