@@ -17,6 +17,7 @@
 #include <glm/geometric.hpp>
 
 #include "names.hpp"
+#include "peers/ray_set.hpp"
 #include "register.hpp"
 #include "scenes.hpp"
 
@@ -28,23 +29,9 @@ constexpr int edge = 512;
 /// So many have a light's own view built in all scenes here.
 constexpr std::size_t enough_points = 2'000'000;
 
-using Columns = std::array<std::vector<float>, 8>;
+using peers::RaySet;
 
-RaysView<float> view(const Columns& c)
-{
-    return {c[0].data(), c[1].data(), c[2].data(), c[3].data(), c[4].data(),
-            c[5].data(), c[6].data(), c[7].data(), c[0].size()};
-}
-
-void add(Columns& rays, const Vec3& org, const Vec3& dir, float t_max)
-{
-    for (int axis = 0; axis < 3; ++axis) {
-        rays[static_cast<std::size_t>(axis)].push_back(static_cast<float>(org[axis]));
-        rays[static_cast<std::size_t>(axis) + 3].push_back(static_cast<float>(dir[axis]));
-    }
-    rays[6].push_back(0.0f);
-    rays[7].push_back(t_max);
-}
+constexpr double endless_ray = std::numeric_limits<double>::infinity();
 
 /// What rays hit; misses are left out.
 struct Points {
@@ -58,9 +45,9 @@ Vec3 at(const std::array<std::vector<float>, 3>& columns, std::size_t i)
     return {columns[0][i], columns[1][i], columns[2][i]};
 }
 
-Points points_of(const RayScene<float>& scene, const Columns& rays)
+Points points_of(const RayScene<float>& scene, const RaySet& rays)
 {
-    const std::size_t count = rays[0].size();
+    const std::size_t count = rays.size();
     std::array<std::vector<float>, 13> found;
     for (auto& column : found)
         column.resize(count);
@@ -74,7 +61,7 @@ Points points_of(const RayScene<float>& scene, const Columns& rays)
         hits.inner_start[axis] = found[10 + axis].data();
     }
     hits.surface = surface.data();
-    scene.closest_hits(view(rays), hits);
+    scene.closest_hits(rays.view(0, count), hits);
     Points points;
     for (std::size_t i = 0; i < count; ++i) {
         if (object[i] < 0)
@@ -85,31 +72,31 @@ Points points_of(const RayScene<float>& scene, const Columns& rays)
             points.outer[axis].push_back(found[7 + axis][i]);
         }
         points.surface.push_back(surface[i]);
-        points.dir.push_back({rays[3][i], rays[4][i], rays[5][i]});
+        points.dir.push_back({rays.dir[0][i], rays.dir[1][i], rays.dir[2][i]});
     }
     return points;
 }
 
-Columns camera_rays(const Scene& scene)
+RaySet camera_rays(const Scene& scene)
 {
     const CameraBasis basis = camera_basis(scene.camera, edge, edge);
-    Columns rays;
+    RaySet rays;
     for (int row = 0; row < edge; ++row)
         for (int column = 0; column < edge; ++column)
-            add(rays, basis.origin,
-                basis.forward + (column + 0.5 - edge / 2) * basis.right +
-                    (edge / 2 - row - 0.5) * basis.up,
-                std::numeric_limits<float>::infinity());
+            rays.add(basis.origin,
+                     basis.forward + (column + 0.5 - edge / 2) * basis.right +
+                         (edge / 2 - row - 0.5) * basis.up,
+                     endless_ray);
     return rays;
 }
 
-Columns mirrored_rays(const Points& points)
+RaySet mirrored_rays(const Points& points)
 {
-    Columns rays;
+    RaySet rays;
     for (std::size_t i = 0; i < points.surface.size(); ++i) {
         const Vec3 normal = at(points.normal, i);
-        add(rays, at(points.outer, i), points.dir[i] - 2 * glm::dot(points.dir[i], normal) * normal,
-            std::numeric_limits<float>::infinity());
+        rays.add(at(points.outer, i), points.dir[i] - 2 * glm::dot(points.dir[i], normal) * normal,
+                 endless_ray);
     }
     return rays;
 }
@@ -119,7 +106,7 @@ struct Asked {
     std::unique_ptr<RayScene<float>> scene;
     std::array<std::vector<float>, 3> point;
     std::vector<std::int32_t> surface;
-    Columns shadow_rays;
+    RaySet shadow_rays;
     std::vector<std::uint8_t> mask;
 
     [[nodiscard]] PointsView<float> points() const
@@ -148,9 +135,9 @@ Asked ask(const Scene& scene, std::size_t light, bool mirrored)
         // From the light, where rays share their origin: so they are quickest.
         const Vec3 start = at(points.outer, i);
         if (endless)
-            add(asked.shadow_rays, start, from.vector, std::numeric_limits<float>::infinity());
+            asked.shadow_rays.add(start, from.vector, endless_ray);
         else
-            add(asked.shadow_rays, from.vector, start - from.vector, 1.0f - 1e-5f);
+            asked.shadow_rays.add(from.vector, start - from.vector, 1.0f - 1e-5f);
     }
     asked.mask.resize(asked.surface.size());
     return asked;
@@ -181,11 +168,12 @@ void run(benchmark::State& state, const std::string& name, std::size_t light, bo
     // A light's own view is built when enough points were asked about: here before time counts.
     for (std::size_t points = 0; by_lit && points < enough_points; points += asked.mask.size())
         asked.scene->lit(asked.points(), light, asked.mask.data());
+    const RaysView<float> rays = asked.shadow_rays.view(0, asked.shadow_rays.size());
     for (auto _ : state) {
         if (by_lit)
             asked.scene->lit(asked.points(), light, asked.mask.data());
         else
-            asked.scene->occluded(view(asked.shadow_rays), asked.mask.data());
+            asked.scene->occluded(rays, asked.mask.data());
         benchmark::DoNotOptimize(asked.mask.data());
     }
     std::int64_t reached = 0;

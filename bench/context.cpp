@@ -1,6 +1,8 @@
 #include "context.hpp"
 
 #include <cstdio>
+#include <exception>
+#include <iostream>
 
 #include <packtrace/isa.hpp>
 
@@ -34,9 +36,17 @@ std::vector<std::pair<std::string, std::string>> context()
             {"commit", commit_name()},       {"load_before", load_text(load_at_start())}};
 }
 
-std::pair<std::string, std::string> load_after()
+nlohmann::ordered_json context_json()
 {
-    return {"load_after", load_text(load_now())};
+    nlohmann::ordered_json json;
+    for (const auto& [name, value] : context())
+        json[name] = value;
+    return json;
+}
+
+void add_load_after(nlohmann::ordered_json& context)
+{
+    context["load_after"] = load_text(load_now());
 }
 
 std::string command_line(const std::string& program, int argc, const char* const* argv)
@@ -45,6 +55,21 @@ std::string command_line(const std::string& program, int argc, const char* const
     for (int i = 1; i < argc; ++i)
         line += std::string(" ") + argv[i];
     return line;
+}
+
+int run_program(CLI::App& app, const std::string& program, int argc, char** argv,
+                const std::function<void()>& work)
+{
+    try {
+        app.parse(argc, argv);
+        work();
+    } catch (const CLI::ParseError& end) {
+        return app.exit(end) == 0 ? 0 : 2;
+    } catch (const std::exception& error) {
+        std::cerr << program << ": " << error.what() << '\n';
+        return 1;
+    }
+    return 0;
 }
 
 }  // namespace packtrace::bench

@@ -37,8 +37,7 @@ void append_errors(nlohmann::ordered_json& errors)
 int main()
 {
     nlohmann::ordered_json report;
-    for (const auto& [name, value] : packtrace::bench::context())
-        report["context"][name] = value;
+    report["context"] = packtrace::bench::context_json();
     report["errors"] = nlohmann::ordered_json::array();
     packtrace::bench::append_errors<float>(report["errors"]);
     packtrace::bench::append_errors<double>(report["errors"]);

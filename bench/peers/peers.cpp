@@ -1,18 +1,15 @@
 // packtrace_peers: the same rays through Embree, in all its modes, and through packtrace;
 // docs/peers.md says what is raced and what the columns mean.
 #include <algorithm>
-#include <exception>
-#include <fstream>
-#include <iostream>
 
 #include <CLI/CLI.hpp>
 #include <nlohmann/json.hpp>
-#include <packtrace/isa.hpp>
 
 #include "builds.hpp"
 #include "context.hpp"
 #include "core/atomic_file.hpp"
 #include "embree_modes.hpp"
+#include "names.hpp"
 #include "packtrace_modes.hpp"
 #include "raced_scenes.hpp"
 #include "report.hpp"
@@ -34,20 +31,13 @@ struct Arguments {
     bool check = false;
 };
 
-bool is_supported(const std::string& name)
-{
-    for (const IsaInfo& isa : list_isas())
-        if (isa.name == name)
-            return isa.supported;
-    return false;
-}
-
 std::vector<PacktraceMode> modes_of(const Arguments& arguments)
 {
     std::vector<PacktraceMode> modes;
+    const std::vector<std::string> supported = bench::supported_isas();
     for (const std::string& isa : arguments.isas)
         for (const std::string& accuracy : arguments.accuracies)
-            if (is_supported(isa))
+            if (std::count(supported.begin(), supported.end(), isa) > 0)
                 modes.push_back({isa + " " + accuracy, isa,
                                  accuracy == "fast" ? Accuracy::fast : Accuracy::exact});
     return modes;
@@ -167,8 +157,7 @@ nlohmann::ordered_json race_scene(const std::string& name, const Arguments& argu
 nlohmann::ordered_json header(int argc, char** argv)
 {
     nlohmann::ordered_json report;
-    for (const auto& [name, value] : bench::context())
-        report["context"][name] = value;
+    report["context"] = bench::context_json();
     report["context"]["embree"] = RTC_VERSION_STRING;
     report["context"]["command"] = bench::command_line("packtrace_peers", argc, argv);
     return report;
@@ -189,8 +178,7 @@ void run(const Arguments& arguments, nlohmann::ordered_json report)
     }
     if (!file)
         return;
-    const auto [name, load] = bench::load_after();
-    report["context"][name] = load;
+    bench::add_load_after(report["context"]);
     file->write(report.dump(2) + "\n");
     file->commit();
 }
@@ -235,14 +223,6 @@ int main(int argc, char** argv)
     CLI::App app{"Races packtrace against Embree on the same rays, one thread"};
     Arguments arguments;
     add_options(app, arguments);
-    try {
-        app.parse(argc, argv);
-        run(arguments, header(argc, argv));
-    } catch (const CLI::ParseError& end) {
-        return app.exit(end) == 0 ? 0 : 2;
-    } catch (const std::exception& error) {
-        std::cerr << "packtrace_peers: " << error.what() << '\n';
-        return 1;
-    }
-    return 0;
+    return packtrace::bench::run_program(app, "packtrace_peers", argc, argv,
+                                         [&] { run(arguments, header(argc, argv)); });
 }

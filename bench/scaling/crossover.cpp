@@ -4,7 +4,6 @@
 #include <array>
 #include <chrono>
 #include <cmath>
-#include <exception>
 #include <functional>
 #include <iostream>
 #include <memory>
@@ -13,7 +12,6 @@
 #include <CLI/CLI.hpp>
 #include <nlohmann/json.hpp>
 #include <packtrace/generate.hpp>
-#include <packtrace/isa.hpp>
 #include <packtrace/renderer.hpp>
 
 #include <tbb/global_control.h>
@@ -21,6 +19,7 @@
 #include "context.hpp"
 #include "lab/harness/statistics.hpp"
 #include "lab/harness/stopwatch.hpp"
+#include "names.hpp"
 #include "peers/ray_set.hpp"
 
 namespace packtrace {
@@ -67,14 +66,6 @@ Scene scene_of(const Setting& setting, int objects)
     return scene;
 }
 
-/// Processor seconds: what other programs take is not in them.
-double seconds_of(const std::function<void()>& work)
-{
-    const Stopwatch watch(1);
-    work();
-    return watch.seconds();
-}
-
 /// One scene, made ready both ways for an instruction set, and what was measured of it.
 class Race {
 public:
@@ -104,7 +95,7 @@ public:
     {
         for (std::size_t i = 0; i < subjects_.size(); ++i)
             for (std::size_t kind = 0; kind < kinds.size(); ++kind)
-                seconds_[i][kind].push_back(seconds_of(subjects_[i].through[kind]));
+                seconds_[i][kind].push_back(seconds_of(1, subjects_[i].through[kind]));
     }
     /// What was measured so far only warmed up.
     void forget()
@@ -283,8 +274,7 @@ void print_report(const Arguments& arguments, const std::string& command)
     const auto start = std::chrono::steady_clock::now();
     const Stopwatch work(1);
     Json report{{"program", "packtrace_crossover"}, {"command", command}};
-    for (const auto& [name, value] : bench::context())
-        report["context"][name] = value;
+    report["context"] = bench::context_json();
     Json curves = Json::array();
     for (const int size : arguments.sizes)
         for (const double cover : arguments.covers)
@@ -294,8 +284,7 @@ void print_report(const Arguments& arguments, const std::string& command)
     const std::chrono::duration<double> passed = std::chrono::steady_clock::now() - start;
     // 1 on an idle machine; other programs had the rest.
     report["context"]["processor_share"] = work.seconds() / passed.count();
-    const auto [name, load] = bench::load_after();
-    report["context"][name] = load;
+    bench::add_load_after(report["context"]);
     report["curves"] = curves;
     std::cout << report.dump(2) << '\n';
 }
@@ -334,20 +323,11 @@ int main(int argc, char** argv)
     CLI::App app{"List against hierarchy, over the number of spheres, as JSON"};
     packtrace::Arguments arguments;
     packtrace::add_options(app, arguments);
-    try {
-        app.parse(argc, argv);
+    const std::string program = "packtrace_crossover";
+    return packtrace::bench::run_program(app, program, argc, argv, [&] {
         if (arguments.isas.empty())
-            for (const packtrace::IsaInfo& isa : packtrace::list_isas())
-                if (isa.supported)
-                    arguments.isas.push_back(isa.name);
+            arguments.isas = packtrace::bench::supported_isas();
         std::sort(arguments.objects.begin(), arguments.objects.end());
-        packtrace::print_report(arguments,
-                                packtrace::bench::command_line("packtrace_crossover", argc, argv));
-    } catch (const CLI::ParseError& end) {
-        return app.exit(end) == 0 ? 0 : 2;
-    } catch (const std::exception& error) {
-        std::cerr << "packtrace_crossover: " << error.what() << '\n';
-        return 1;
-    }
-    return 0;
+        packtrace::print_report(arguments, packtrace::bench::command_line(program, argc, argv));
+    });
 }

@@ -5,7 +5,6 @@
 
 #include <chrono>
 #include <cmath>
-#include <exception>
 #include <iostream>
 
 #include <CLI/CLI.hpp>
@@ -86,8 +85,7 @@ void print_point(const Arguments& arguments)
     const tbb::global_control limit(tbb::global_control::max_allowed_parallelism,
                                     static_cast<std::size_t>(arguments.threads));
     nlohmann::ordered_json point = measure(arguments);
-    for (const auto& [name, value] : bench::context())
-        point["context"][name] = value;
+    point["context"] = bench::context_json();
     std::cout << point.dump() << '\n';
 }
 
@@ -112,14 +110,6 @@ int main(int argc, char** argv)
     CLI::App app{"One point of a scaling study, as JSON"};
     packtrace::Arguments arguments;
     packtrace::add_options(app, arguments);
-    try {
-        app.parse(argc, argv);
-        packtrace::print_point(arguments);
-    } catch (const CLI::ParseError& end) {
-        return app.exit(end) == 0 ? 0 : 2;
-    } catch (const std::exception& error) {
-        std::cerr << "packtrace_scaling: " << error.what() << '\n';
-        return 1;
-    }
-    return 0;
+    return packtrace::bench::run_program(app, "packtrace_scaling", argc, argv,
+                                         [&] { packtrace::print_point(arguments); });
 }

@@ -97,16 +97,14 @@ Json race(const NamedScene& named, const std::string& isa, const Arguments& argu
 void print_report(const Arguments& arguments, const std::string& command)
 {
     Json report{{"program", "packtrace_sorted"}, {"command", command}};
-    for (const auto& [name, value] : bench::context())
-        report["context"][name] = value;
+    report["context"] = bench::context_json();
     report["size"] = arguments.size;
     report["repetitions"] = arguments.repetitions;
     report["frames"] = Json::array();
     for (const NamedScene& named : large_scenes())
         for (const std::string& isa : arguments.isas)
             report["frames"].push_back(race(named, isa, arguments));
-    const auto [name, load] = bench::load_after();
-    report["context"][name] = load;
+    bench::add_load_after(report["context"]);
     std::cout << report.dump(2) << '\n';
 }
 

@@ -1,6 +1,5 @@
 // packtrace_frames: writes a scene for another tracer, or times packtrace's frames of it.
 #include <chrono>
-#include <exception>
 #include <filesystem>
 #include <iostream>
 #include <optional>
@@ -68,10 +67,7 @@ void render_frames(const RenderArguments& arguments)
 
 void print_context()
 {
-    nlohmann::ordered_json json;
-    for (const auto& [name, value] : bench::context())
-        json[name] = value;
-    std::cout << json.dump() << '\n';
+    std::cout << bench::context_json().dump() << '\n';
 }
 
 struct ExportArguments {
@@ -112,13 +108,6 @@ int main(int argc, char** argv)
     ExportArguments exported;
     RenderArguments rendered;
     add_commands(app, exported, rendered);
-    try {
-        app.parse(argc, argv);
-    } catch (const CLI::ParseError& end) {
-        return app.exit(end) == 0 ? 0 : 2;
-    } catch (const std::exception& error) {
-        std::cerr << "packtrace_frames: " << error.what() << '\n';
-        return 1;
-    }
-    return 0;
+    // The commands' callbacks do the work.
+    return packtrace::bench::run_program(app, "packtrace_frames", argc, argv, [] {});
 }
