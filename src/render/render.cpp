@@ -88,22 +88,13 @@ private:
 };
 
 template <class Real>
-std::unique_ptr<FrameRenderer<Real>> packet_rows(const Scene& scene, const RenderOptions& options)
+std::shared_ptr<FrameRenderer<Real>> packet_rows(const Scene& scene, const RenderOptions& options)
 {
     const IsaInfo isa = choose_isa(options.isa, options.width);
-    return std::make_unique<FrameRenderer<Real>>(
+    return std::make_shared<FrameRenderer<Real>>(
         scene, lower(scene, accuracy_in<Real>(options), options.self_hits), kernels_of(isa.name),
         options);
 }
-
-/// Stands where there are no packets.
-struct NoPackets {
-    template <class Real>
-    FrameCounts render_rows(int, Image<Real>&) const
-    {
-        return {};
-    }
-};
 
 }  // namespace
 
@@ -175,33 +166,17 @@ template Image<double> render(const Scene&, const RenderOptions&, CutRays*);
 template Image<long double> render(const Scene&, const RenderOptions&, CutRays*);
 
 template <class Real>
-struct RowRenderer<Real>::State {
-    using Packets = std::conditional_t<has_packets<Real>, FrameRenderer<Real>, NoPackets>;
-
-    std::unique_ptr<Packets> packets;
-    std::unique_ptr<ScalarRows<Real>> scalar;
-};
-
-template <class Real>
 RowRenderer<Real>::RowRenderer(const Scene& scene, const RenderOptions& options)
-    : state_(std::make_unique<State>())
 {
-    if (options.kernel == Kernel::scalar)
-        state_->scalar = std::make_unique<ScalarRows<Real>>(scene, options);
-    else if constexpr (has_packets<Real>)
-        state_->packets = packet_rows<Real>(scene, options);
-    else
+    if (options.kernel == Kernel::scalar) {
+        const auto rows = std::make_shared<ScalarRows<Real>>(scene, options);
+        render_ = [rows](int first, Image<Real>& image) { return rows->render(first, image); };
+    } else if constexpr (has_packets<Real>) {
+        const auto rows = packet_rows<Real>(scene, options);
+        render_ = [rows](int first, Image<Real>& image) { return rows->render_rows(first, image); };
+    } else {
         refuse_packets();
-}
-
-template <class Real>
-RowRenderer<Real>::~RowRenderer() = default;
-
-template <class Real>
-FrameCounts RowRenderer<Real>::render(int first, Image<Real>& image) const
-{
-    return state_->packets ? state_->packets->render_rows(first, image)
-                           : state_->scalar->render(first, image);
+    }
 }
 
 template class RowRenderer<float>;

@@ -1,6 +1,6 @@
 #pragma once
 
-#include <memory>
+#include <functional>
 
 #include <packtrace/renderer.hpp>
 
@@ -13,16 +13,17 @@ class RowRenderer {
 public:
     /// Throws as render() does. `scene` has to outlive it.
     RowRenderer(const Scene& scene, const RenderOptions& options);
-    ~RowRenderer();
 
     /// Renders the rows of `image`, the first of which is row `first` of the picture, to the bits
     /// they have in the whole picture. Rows are whole tiles, as for FrameRenderer. Rays are counted
     /// of packets alone, those that are cut always.
-    FrameCounts render(int first, Image<Real>& image) const;
+    FrameCounts render(int first, Image<Real>& image) const
+    {
+        return render_(first, image);
+    }
 
 private:
-    struct State;
-    std::unique_ptr<State> state_;
+    std::function<FrameCounts(int first, Image<Real>& image)> render_;
 };
 
 }  // namespace packtrace
