@@ -1,10 +1,13 @@
 #include <packtrace/camera.hpp>
 
 #include <stdexcept>
+#include <string>
 
 #include <glm/geometric.hpp>
+#include <packtrace/read_scene.hpp>
 
 #include "catch.hpp"
+#include "render_scene.hpp"
 
 namespace packtrace {
 
@@ -34,6 +37,36 @@ TEST_CASE("looking along z gives the identity rotation", "[camera]")
 TEST_CASE("looking along up is refused", "[camera]")
 {
     CHECK_THROWS_AS(look_at({0, 0, 0}, {0, 3, 0}, {0, 1, 0}), std::invalid_argument);
+}
+
+TEST_CASE("views of nearly half a turn lose no object of any tile", "[camera]")
+{
+    const char* const scenes[] = {
+        "image_size = 21 x 36  viewport_size = 5078.18 x 0.619306\n"
+        "plane { point = (0, 1.303954, 0)  normal = (0, 1, 0)  ambient = 1 }\n",
+        "image_size = 34 x 37  viewport_size = 9054.14 x 0.0807547\n"
+        "sphere { center = (173.068672, 0.0576, 0.145593)  radius = 0.121942  ambient = 1 }\n",
+        "image_size = 17 x 18  viewport_size = 6.60296e7 x 0.0267464\n"
+        "plane { point = (0, -1.301969, 0)  normal = (0, 1, 0)  ambient = 1 }\n"};
+    const auto pixels_hit = [](const auto& image) {
+        int count = 0;
+        for (std::size_t i = 0; i < image.rgb.size(); i += 3)
+            count += image.rgb[i] > 0 ? 1 : 0;
+        return count;
+    };
+    for (const char* text : scenes) {
+        const Scene scene =
+            parse_scene("illumination = whitted  background = rgb(0, 0, 1)\n" + std::string(text) +
+                            "light { type = ambient  intensity = 1 }\n",
+                        "wide", {});
+        const int truth = pixels_hit(test::render_scalar<long double>(scene));
+        REQUIRE(truth > 0);
+        for (const std::string& isa : test::supported_isas()) {
+            CAPTURE(text, isa);
+            CHECK(pixels_hit(test::render_packets<float>(scene, isa)) == truth);
+            CHECK(pixels_hit(test::render_packets<double>(scene, isa)) == truth);
+        }
+    }
 }
 
 }  // namespace packtrace

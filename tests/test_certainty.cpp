@@ -245,6 +245,10 @@ TEST_CASE("the picture has both shares of each pixel", "[certainty]")
 
 TEST_CASE("what has no unsure rays is refused", "[certainty]")
 {
+    Certainty more;
+    more.width = more.height = 1;
+    more.pixels.resize(2);
+    CHECK_THROWS_AS(certainty_picture(more), std::invalid_argument);
     const Scene scene = four_spheres(16, 16);
     RenderOptions options;
     options.kernel = Kernel::scalar;

@@ -105,6 +105,16 @@ TEST_CASE("one system alone is solved as among others", "[onedim]")
     CHECK((solve(std::span<const Surface>{}) == N));
 }
 
+TEST_CASE("systems that end where there is no surface are refused", "[onedim]")
+{
+    onedim::Systems systems;
+    systems.ends = {5};
+    CHECK_THROWS_AS(onedim::solve(systems), std::invalid_argument);
+    systems.surfaces.resize(5);
+    systems.ends = {3, 2, 5};
+    CHECK_THROWS_AS(onedim::solve(systems), std::invalid_argument);
+}
+
 TEST_CASE("no systems have no answers", "[onedim]")
 {
     test::check_all_solvers({}, {});

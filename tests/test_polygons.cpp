@@ -192,6 +192,7 @@ TEST_CASE("polygons are read contour by contour", "[polygons]")
     CHECK(surface.contours ==
           Contours{{{0, 0, 3}, {1, 0, 3}, {0, 1, 3}}, {{.1, .1, 3}, {.2, .1, 3}, {.1, .2, 3}}});
     CHECK(polygon_normal(surface) == Vec3(0, 0, 1));
+    CHECK(polygon_normal(Polygon{}) == Vec3(0.0));
     CHECK(scene.objects[0].name == "polygon 1");
 }
 

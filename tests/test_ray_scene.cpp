@@ -17,6 +17,7 @@
 #include <glm/gtc/matrix_transform.hpp>
 
 #include "catch.hpp"
+#include "packet_ways.hpp"
 #include "reference_scenes.hpp"
 
 // Rays of the caller's own: packets against the scalar reference, in double precision.
@@ -392,6 +393,89 @@ TEST_CASE("a ray with a NaN hits nothing", "[ray_scene]")
     for (const IsaInfo& isa : list_isas())
         if (isa.supported)
             CHECK(closest(on(isa.name), rays).object == std::vector<std::int32_t>(8, -1));
+}
+
+TEMPLATE_TEST_CASE("a ray that ends at a NaN meets nothing, whatever is asked", "[ray_scene]",
+                   float, double)
+{
+    const Scene scene = parse_scene("sphere { center = (0, 0, 5)  radius = 1 }", "one", {});
+    Ray<TestType> ray{{0, 0, 0}, {0, 0, 1}};
+    ray.t_max = std::numeric_limits<TestType>::quiet_NaN();
+    for (const RenderOptions& options : packet_ways()) {
+        const RayScene<TestType> rays(scene, options);
+        CHECK_FALSE(rays.occluded(ray));
+        CHECK(rays.closest_hit(ray).object == -1);
+        CHECK(rays.all_hits(ray).empty());
+    }
+}
+
+TEMPLATE_TEST_CASE("a miss has no point, and no surface to start on", "[ray_scene]", float, double)
+{
+    const Scene scene = parse_scene(
+        "light { type = point  intensity = 1  position = (0, 9, 0) }\n"
+        "sphere { center = (0, 0, 5)  radius = 1 }\n"
+        "sphere { center = (3, 0, 5)  radius = 1 }\n",
+        "two", {});
+    // Packets of hits on one surface and of misses, on two surfaces, and of misses alone.
+    for (const TestType step : {TestType(0.05), TestType(0.2), TestType(-4)}) {
+        constexpr std::size_t count = 32;
+        std::vector<TestType> x(count), zero(count), one(count, 1), far(count, 1000);
+        for (std::size_t i = 0; i < count; ++i)
+            x[i] = step < 0 ? step : step * static_cast<TestType>(i) - TestType(0.5);
+        const RaysView<TestType> view{x.data(),    zero.data(), zero.data(),
+                                      zero.data(), zero.data(), one.data(),
+                                      zero.data(), far.data(),  count};
+        for (const RenderOptions& options : packet_ways()) {
+            const RayScene<TestType> rays(scene, options);
+            std::vector<TestType> t(count), values[12];
+            std::vector<std::int32_t> object(count), surface(count);
+            TestType* at[12];
+            for (int i = 0; i < 12; ++i) {
+                values[i].resize(count);
+                at[i] = values[i].data();
+            }
+            rays.closest_hits(view, {t.data(),
+                                     object.data(),
+                                     at[0],
+                                     at[1],
+                                     at[2],
+                                     {at[3], at[4], at[5]},
+                                     {at[6], at[7], at[8]},
+                                     {at[9], at[10], at[11]},
+                                     surface.data()});
+            std::vector<std::uint8_t> lit(count);
+            rays.lit({{at[9], at[10], at[11]}, surface.data(), count}, 0, lit.data());
+            int misses = 0;
+            for (std::size_t i = 0; i < count; ++i) {
+                const bool missed = object[i] < 0;
+                misses += missed ? 1 : 0;
+                CHECK((surface[i] == no_start) == missed);
+                for (int place = 3; place < 12; ++place)
+                    CHECK(std::isnan(values[place][i]) == missed);
+                for (int axis = 0; axis < 3; ++axis)
+                    CHECK((values[axis][i] == 0) >= missed);
+                CHECK((missed ? lit[i] == 0 : lit[i] <= 1));
+            }
+            CHECK(misses > 0);
+        }
+    }
+}
+
+TEST_CASE("vectors of hits have all of their arrays or none", "[ray_scene]")
+{
+    const RayScene<float> scene(
+        parse_scene("sphere { center = (0, 0, 5)  radius = 1 }", "one", {}));
+    const float zero = 0;
+    const float one = 1;
+    const RaysView<float> ray{&zero, &zero, &zero, &zero, &zero, &one, &zero, &one, 1};
+    float t = 0;
+    float normal = 0;
+    std::int32_t object = 0;
+    CHECK_THROWS_WITH(scene.closest_hits(ray, {&t, &object, &normal}), ContainsSubstring("normal"));
+    const SurfaceHit<float> hit{4, 0, {}};
+    HitBounds bounds;
+    CHECK_THROWS_WITH(scene.bound_all_hits(ray, 1, {&hit, 1}, {&bounds, 1}),
+                      ContainsSubstring("ray 1 of 1"));
 }
 
 namespace {

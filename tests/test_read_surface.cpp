@@ -174,6 +174,30 @@ TEST_CASE("a z_range that is no range, and a cap without one, are refused", "[re
           "x.scene:1:17: unknown capped 'maybe'; use one of: no, yes, false, true");
 }
 
+TEST_CASE("a clip that leaves nothing of a surface is told in one warning", "[read_surface]")
+{
+    const auto warnings_of = [](const std::string& text) {
+        std::vector<std::string> warnings;
+        (void)parse_scene(text, "x.scene",
+                          [&](const std::string& line) { warnings.push_back(line); });
+        return warnings;
+    };
+    const std::vector<std::string> one = warnings_of(
+        "sphere { center = (0, 0, 3) radius = 1 }\n"
+        "paraboloid { z_range = (-2, -1) }\n"
+        "ellipsoid { z_range = (2, 3)  capped = yes }\n");
+    REQUIRE(one.size() == 1);
+    CHECK(one[0] ==
+          "x.scene:2:14: 'z_range' leaves nothing of the surface, which has no point at these "
+          "heights of its own space; give others (and so of 1 more)");
+    CHECK(warnings_of("hyperboloid2 { z_range = (-0.5, 0.5) }\n").size() == 1);
+    for (const char* rest :
+         {"hyperboloid2 { z_range = (-2, 0.5) }\n", "cone { z_range = (1, 2) }\n",
+          "paraboloid { z_range = (-2, 0) }\n", "saddle { z_range = (5, 6) }\n",
+          "ellipsoid { z_range = (-3, 3) }\n", "hyperboloid { z_range = (0, 1) }\n"})
+        CHECK(warnings_of(rest).empty());
+}
+
 TEST_CASE("a key of another surface is refused", "[read_surface]")
 {
     CHECK(error_of("cone { radius = 1 }") ==

@@ -107,6 +107,9 @@ TEST_CASE("names of scenes become names of folders", "[report_cli]")
     const TempFolder folder;
     CHECK_THROWS_WITH(write_report({scene}, {}, {}, folder / "out"),
                       ContainsSubstring("can't be its folder"));
+    scene.name = "here";
+    CHECK_THROWS_WITH(write_report({scene}, {}, {}, folder / "out"),
+                      ContainsSubstring("without pictures"));
     CHECK(folder.names().empty());
 }
 

@@ -8,6 +8,7 @@
 #include "catch.hpp"
 #include "dispatch/kernels.hpp"
 #include "few_objects.hpp"
+#include "lower/packed_scene.hpp"
 #include "render/tile_loop.hpp"
 #include "render/tile_renderer.hpp"
 #include "render_scene.hpp"
@@ -181,6 +182,47 @@ TEST_CASE("frames are the same for any number of threads, region and rows", "[so
         same &= std::memcmp(part.pixel(0, row), whole.pixel(101, 33 + row),
                             3 * sizeof(float) * static_cast<std::size_t>(part.width)) == 0;
     CHECK(same);
+}
+
+TEST_CASE("memory for some tiles together is enough for fewer, however deep the scene", "[sorted]")
+{
+    Scene scene = mirrors();
+    scene.max_depth = 64;
+    const LoweredScene lowered = lower(scene);
+    const PackedScene<float> packed(lowered);
+    for (const std::string& isa : supported_isas())
+        for (const auto& kernels : precision<float>(kernels_of(isa)).kernels) {
+            if (kernels.scratch_bytes == nullptr)
+                continue;
+            CAPTURE(isa, kernels.set.name);
+            for (int tiles = 2; tiles <= abi::block_tiles; ++tiles)
+                for (int fewer = 1; fewer < tiles; ++fewer)
+                    CHECK(kernels.scratch_bytes(packed.view(), fewer) <=
+                          kernels.scratch_bytes(packed.view(), tiles));
+        }
+}
+
+TEST_CASE("deep small pictures are those of lists, by tiles alone and together", "[sorted]")
+{
+    Scene scene = mirrors();
+    scene.max_depth = 64;
+    set_size(scene, 48, 32);
+    RenderOptions options;
+    options.traversal = Traversal::list;
+    options.threads = 1;
+    const Image<float> by_list = render<float>(scene, options);
+    options.traversal = Traversal::tree;
+    for (const int threads : {1, 2}) {
+        options.threads = threads;
+        const Image<float> by_tree = render<float>(scene, options);
+        CHECK(std::memcmp(by_list.rgb.data(), by_tree.rgb.data(),
+                          by_list.rgb.size() * sizeof(float)) == 0);
+    }
+    options.region = Region{0, 0, 5, 5};
+    const Image<float> part = render<float>(scene, options);
+    for (int row = 0; row < part.height; ++row)
+        CHECK(std::memcmp(part.pixel(0, row), by_list.pixel(0, row),
+                          3 * sizeof(float) * static_cast<std::size_t>(part.width)) == 0);
 }
 
 TEST_CASE("what is not mirrored down a hierarchy is not sorted", "[sorted]")

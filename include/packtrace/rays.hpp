@@ -29,6 +29,9 @@ struct RaysView {
     std::size_t count = 0;
 };
 
+/// The surface of a ray that starts on none, and of a miss.
+inline constexpr std::int32_t no_start = std::numeric_limits<std::int32_t>::min();
+
 /// Where closest hits go: `object` is the index in Scene::objects, -1 for a miss, whose `t` is
 /// the ray's t_max. Normals are unit and point outwards; leave them null where not wanted.
 template <class Real>
@@ -43,8 +46,8 @@ struct HitsView {
     /// Wanted only together with normals; the scalar kernel does not fill them.
     Real* outer_start[3] = {};
     Real* inner_start[3] = {};
-    Real* point[3] = {};              ///< the hit's own point, likewise
-    std::int32_t* surface = nullptr;  ///< a number for StartsView, likewise
+    Real* point[3] = {};              ///< the hit's own point, likewise; NaN for a miss, as starts
+    std::int32_t* surface = nullptr;  ///< a number for StartsView, likewise; no_start for a miss
 };
 
 /// What rays that leave earlier hits start on, `count` elements each: with SelfHits::exact they
@@ -66,8 +69,6 @@ struct PointsView {
     const std::int32_t* surface = nullptr;
     std::size_t count = 0;
 };
-
-inline constexpr std::int32_t no_start = std::numeric_limits<std::int32_t>::min();
 
 /// One hit of a ray with a surface.
 template <class Real>

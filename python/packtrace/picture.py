@@ -30,8 +30,14 @@ class Picture(np.ndarray[Any, Any]):
         """Writes the picture; see `write_image`."""
         write_image(file, self, gamma=gamma)
 
+    def __array_wrap__(self, array: Any, *context: Any) -> Any:
+        # A mean or a largest value is a number, not a picture without pixels.
+        wrapped = super().__array_wrap__(array, *context)
+        return wrapped[()] if wrapped.ndim == 0 else wrapped
+
     def _repr_png_(self) -> Optional[bytes]:
-        return to_png(self) if self.ndim == 3 and self.shape[2] == 3 and self.size > 0 else None
+        shown = self.ndim == 3 and self.shape[2] == 3 and self.size > 0
+        return to_png(self) if shown and self.dtype in (np.float32, np.float64) else None
 
 
 @dataclass

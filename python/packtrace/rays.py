@@ -45,7 +45,7 @@ class Hits:
     #: (..., 3), where rays may start that leave the surface on its outer side
     outer_start: Optional[Array] = None
     inner_start: Optional[Array] = None  #: (..., 3), the same of its inner side
-    surface: Optional[Array] = None  #: (...), int32, a number for `leave`
+    surface: Optional[Array] = None  #: (...), int32, a number for `leave`; NO_START for a miss
 
     @property
     def hit(self) -> Array:

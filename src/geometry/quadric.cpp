@@ -10,6 +10,7 @@
 #include "core/quad.hpp"
 #include "geometry/canonical_form.hpp"
 #include "geometry/kinds.hpp"
+#include "scene/quadric_section.hpp"
 #include "scene/values.hpp"
 
 namespace packtrace {
@@ -53,26 +54,15 @@ std::optional<Vec3> half_axes(const CanonicalForm& form)
     return glm::sqrt(ratio);
 }
 
-/// The largest value of -(C z² + I z + J) within the range: x² A + y² B is at most that.
-double widest_section(const std::array<double, 10>& k, const ZRange& range)
-{
-    const auto section = [&](double z) { return -((k[2] * z + k[8]) * z + k[9]); };
-    double widest = std::max(section(range.low), section(range.high));
-    const double top = k[2] > 0.0 ? -k[8] / (2.0 * k[2]) : range.low;
-    if (top > range.low && top < range.high)
-        widest = std::max(widest, section(top));
-    return std::max(widest, 0.0);
-}
-
 /// The half axes, as columns, of a drum in own space around a clipped surface that is round
 /// about its z axis.
 std::optional<Mat3> clipped_drum(const Quadric& quadric)
 {
-    const auto& k = quadric.coefficients;
-    const bool about_z = k[3] == 0.0 && k[4] == 0.0 && k[5] == 0.0 && k[6] == 0.0 && k[7] == 0.0;
-    if (!quadric.z_range || !about_z || !(k[0] > 0.0) || !(k[1] > 0.0))
+    const auto section = widest_section(quadric);
+    if (!section)
         return std::nullopt;
-    const double widest = widest_section(k, *quadric.z_range);
+    const double widest = std::max(*section, 0.0);
+    const auto& k = quadric.coefficients;
     Mat3 drum(0.0);
     drum[0][0] = std::sqrt(widest / k[0]);
     drum[1][1] = std::sqrt(widest / k[1]);
@@ -259,19 +249,15 @@ bool fits_tree(const LoweredQuadric& quadric)
 
 namespace {
 
-/// As saddles and hyperboloids of one sheet are: the determinant of the equation is positive.
-bool is_doubly_ruled(const LoweredQuadric& quadric)
+/// Whether a in a ray's a t² + 2 b t + c is a difference of squares: 0 along some directions.
+bool has_asymptotes(const LoweredQuadric& quadric)
 {
     const Vec3& s = quadric.square;
-    return quadric.linear != 0.0 ? s.x * s.y < 0.0 : s.x * s.y * s.z * quadric.constant > 0.0;
+    return std::min({s.x, s.y, s.z}) < 0.0 && std::max({s.x, s.y, s.z}) > 0.0;
 }
 
-/// Whether a in a ray's a t² + 2 b t + c is a difference of squares along axes not all the world's.
 bool has_turned_axes(const LoweredQuadric& quadric)
 {
-    const Vec3& s = quadric.square;
-    if (std::min({s.x, s.y, s.z}) >= 0.0 || std::max({s.x, s.y, s.z}) <= 0.0)
-        return false;
     for (int row = 0; row < 3; ++row) {
         const Vec3 axis = glm::row(quadric.inverse, row);
         if ((axis.x != 0.0) + (axis.y != 0.0) + (axis.z != 0.0) > 1)
@@ -320,9 +306,10 @@ abi::QuadricRecord<Real> pack(const LoweredQuadric& quadric)
     set_sizes(packed, quadric);
     packed.clipped = quadric.clipped() ? 1 : 0;
     packed.capped = quadric.capped ? 1 : 0;
-    packed.ruled = is_doubly_ruled(quadric) ? 1 : 0;
+    packed.has_asymptotes = has_asymptotes(quadric) ? 1 : 0;
     // Single precision alone, in `fast`, would lose too much.
-    packed.turned = sizeof(Real) == sizeof(double) && has_turned_axes(quadric) ? 1 : 0;
+    packed.turned =
+        sizeof(Real) == sizeof(double) && has_asymptotes(quadric) && has_turned_axes(quadric);
     packed.surface = quadric.surface;
     return packed;
 }

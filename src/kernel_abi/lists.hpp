@@ -80,8 +80,8 @@ struct QuadricRecord {
     Real clip_size;       ///< |clip|
     std::int32_t clipped;
     std::int32_t capped;
-    std::int32_t ruled;    ///< two straight lines of the side go through each of its points
-    std::int32_t turned;   ///< squares of two signs along axes that are not the world's
+    std::int32_t has_asymptotes;  ///< squares of two signs
+    std::int32_t turned;          ///< likewise, along axes that are not the world's
     std::int32_t surface;  ///< its number; with caps the next is the low one's, then the high's
 };
 

@@ -65,49 +65,43 @@ constexpr void set_feature_kernels(abi::PrecisionTable<Real>& table,
 template <bool Exact>
 inline constexpr abi::Features any_surface{.quadrics = true, .exact = Exact};
 
-template <class Real>
-constexpr bool is_exact(const abi::SceneView<Real>& scene)
+/// `call.template operator()<F>()` with the features of the way that a scene was made for.
+template <class Real, class Call>
+inline auto with_surfaces(const abi::SceneView<Real>& scene, const Call& call)
 {
-    return sizeof(Real) == sizeof(float) && scene.wide != nullptr;
+    if constexpr (sizeof(Real) == sizeof(float))
+        if (scene.wide != nullptr)
+            return call.template operator()<any_surface<true>>();
+    return call.template operator()<any_surface<false>>();
 }
 
 template <class Real>
 std::size_t any_stream_bytes(const abi::SceneView<Real>& scene)
 {
-    if constexpr (sizeof(Real) == sizeof(float))
-        if (is_exact(scene))
-            return StreamWork<any_surface<true>, Real>(nullptr, scene).bytes;
-    return StreamWork<any_surface<false>, Real>(nullptr, scene).bytes;
+    return with_surfaces(
+        scene, [&]<abi::Features F>() { return StreamWork<F, Real>(nullptr, scene).bytes; });
 }
 
 template <class Real>
 void any_closest_hits(const abi::SceneView<Real>& scene, const abi::RaysView<Real>& rays,
                       const abi::HitsView<Real>& hits, void* scratch)
 {
-    if constexpr (sizeof(Real) == sizeof(float))
-        if (is_exact(scene))
-            return closest_hits<any_surface<true>>(scene, rays, hits, scratch);
-    closest_hits<any_surface<false>>(scene, rays, hits, scratch);
+    with_surfaces(scene, [&]<abi::Features F>() { closest_hits<F>(scene, rays, hits, scratch); });
 }
 
 template <class Real>
 void any_occluded(const abi::SceneView<Real>& scene, const abi::RaysView<Real>& rays,
                   std::uint8_t* mask, void* scratch)
 {
-    if constexpr (sizeof(Real) == sizeof(float))
-        if (is_exact(scene))
-            return occluded_rays<any_surface<true>>(scene, rays, mask, scratch);
-    occluded_rays<any_surface<false>>(scene, rays, mask, scratch);
+    with_surfaces(scene, [&]<abi::Features F>() { occluded_rays<F>(scene, rays, mask, scratch); });
 }
 
 template <class Real>
 std::size_t any_lit_bytes(const abi::SceneView<Real>& scene)
 {
     const abi::SceneView<Real>& casters = casters_of(scene);
-    if constexpr (sizeof(Real) == sizeof(float))
-        if (is_exact(scene))
-            return LitWork<any_surface<true>, Real>(nullptr, casters).bytes;
-    return LitWork<any_surface<false>, Real>(nullptr, casters).bytes;
+    return with_surfaces(
+        scene, [&]<abi::Features F>() { return LitWork<F, Real>(nullptr, casters).bytes; });
 }
 
 template <class Real>
@@ -115,20 +109,16 @@ void any_lit(const abi::SceneView<Real>& scene, const abi::PointsView<Real>& poi
              const abi::LightRecord<Real>& light, const abi::LightBuffer* buffer,
              std::uint8_t* mask, void* scratch)
 {
-    if constexpr (sizeof(Real) == sizeof(float))
-        if (is_exact(scene))
-            return lit_points<any_surface<true>>(scene, points, light, buffer, mask, scratch);
-    lit_points<any_surface<false>>(scene, points, light, buffer, mask, scratch);
+    with_surfaces(scene, [&]<abi::Features F>() {
+        lit_points<F>(scene, points, light, buffer, mask, scratch);
+    });
 }
 
 template <class Real>
 void any_all_hits(const abi::SceneView<Real>& scene, const abi::RaysView<Real>& rays,
                   const abi::HitSink<Real>& sink)
 {
-    if constexpr (sizeof(Real) == sizeof(float))
-        if (is_exact(scene))
-            return all_hits<any_surface<true>>(scene, rays, sink);
-    all_hits<any_surface<false>>(scene, rays, sink);
+    with_surfaces(scene, [&]<abi::Features F>() { all_hits<F>(scene, rays, sink); });
 }
 
 template <class Real>

@@ -4,6 +4,8 @@
 #include "onedim/solvers.hpp"
 
 #include <span>
+#include <stdexcept>
+#include <string>
 #include <vector>
 
 namespace packtrace::onedim {
@@ -24,6 +26,19 @@ void solve_linear(const Systems& systems, std::span<Intensity> answers)
         answers[k] = solve_linear(systems[k]);
 }
 
+void check(const Systems& systems)
+{
+    std::size_t end = 0;
+    for (const std::size_t next : systems.ends) {
+        if (next < end || next > systems.surfaces.size())
+            throw std::invalid_argument("a system ends at surface " + std::to_string(next) +
+                                        " of " + std::to_string(systems.surfaces.size()) +
+                                        ", after one that ends at " + std::to_string(end) +
+                                        "; let ends rise, and none be beyond the surfaces");
+        end = next;
+    }
+}
+
 }  // namespace
 
 Intensity solve(std::span<const Surface> system)
@@ -33,6 +48,7 @@ Intensity solve(std::span<const Surface> system)
 
 std::vector<Intensity> solve(const Systems& systems, const SolveOptions& options)
 {
+    check(systems);
     std::vector<Intensity> answers(systems.size());
     switch (options.solver) {
         case Solver::scalar:

@@ -99,10 +99,30 @@ SceneUpdate RayScene<Real>::update(const Scene& scene)
     return state_->update(scene, moved_objects(state_->bounded, scene));
 }
 
+namespace {
+
+/// Refuses vectors of which a component has no array.
+template <class Real>
+void check_hits(const HitsView<Real>& hits)
+{
+    const auto check = [](const char* name, const Real* x, const Real* y, const Real* z) {
+        if ((x == nullptr) != (y == nullptr) || (x == nullptr) != (z == nullptr))
+            throw std::invalid_argument(std::string(name) +
+                                        " has arrays for some of x, y and z; give all or none");
+    };
+    check("normal", hits.normal_x, hits.normal_y, hits.normal_z);
+    check("point", hits.point[0], hits.point[1], hits.point[2]);
+    check("outer_start", hits.outer_start[0], hits.outer_start[1], hits.outer_start[2]);
+    check("inner_start", hits.inner_start[0], hits.inner_start[1], hits.inner_start[2]);
+}
+
+}  // namespace
+
 template <class Real>
 void RayScene<Real>::closest_hits(const RaysView<Real>& rays, const HitsView<Real>& hits,
                                   const QueryWatch& watch) const
 {
+    check_hits(hits);
     for_watched_pieces(rays.count, watch, [&](std::size_t first, std::size_t count) {
         state_->backend->closest_hits(part_of(rays, first, count), nullptr, part_of(hits, first));
     });
@@ -112,6 +132,7 @@ template <class Real>
 void RayScene<Real>::closest_hits(const RaysView<Real>& rays, const StartsView<Real>& starts,
                                   const HitsView<Real>& hits, const QueryWatch& watch) const
 {
+    check_hits(hits);
     for_watched_pieces(rays.count, watch, [&](std::size_t first, std::size_t count) {
         const StartsView<Real> part = part_of(starts, first);
         state_->backend->closest_hits(part_of(rays, first, count), &part, part_of(hits, first));
@@ -196,6 +217,9 @@ void RayScene<Real>::bound_all_hits(const RaysView<Real>& rays, std::size_t ray,
                                     std::span<HitBounds> bounds) const
 {
     detail::check_length("bounds", bounds.size(), hits.size());
+    if (ray >= rays.count)
+        throw std::invalid_argument("ray " + std::to_string(ray) + " of " +
+                                    std::to_string(rays.count) + "; rays count from 0");
     // All hits of one object after the other.
     std::vector<std::size_t> order(hits.size());
     std::iota(order.begin(), order.end(), std::size_t{0});

@@ -6,6 +6,7 @@
 
 #include "scene/keys.hpp"
 #include "scene/object_names.hpp"
+#include "scene/quadric_section.hpp"
 #include "scene/quote.hpp"
 #include "scene/scene_faults.hpp"
 
@@ -342,6 +343,32 @@ void warn_of_duplicate_name(const Block& file, const Scene& scene)
              " too; give one of them another name");
 }
 
+bool is_clipped_away(const Object& object)
+{
+    const Quadric* const quadric = std::get_if<Quadric>(&object.surface);
+    const auto widest = quadric != nullptr ? widest_section(*quadric) : std::nullopt;
+    return widest && *widest < 0.0;
+}
+
+/// Of the first object of which there is nothing to see, and how many more there are.
+void warn_of_empty_clips(const Block& file, const Scene& scene)
+{
+    const auto& objects = scene.objects;
+    const auto first = std::find_if(objects.begin(), objects.end(), is_clipped_away);
+    if (first == objects.end())
+        return;
+    const Field object = object_field(file, static_cast<std::size_t>(first - objects.begin()));
+    Position at = object.entry.key.at;
+    for (const Entry& entry : object.entry.entries)
+        if (entry.key.text == "z_range")
+            at = entry.key.at;
+    const auto more = std::count_if(first + 1, objects.end(), is_clipped_away);
+    warn(object.source, at,
+         "'z_range' leaves nothing of the surface, which has no point at these heights of its own "
+         "space; give others" +
+             (more > 0 ? " (and so of " + std::to_string(more) + " more)" : std::string()));
+}
+
 Scene build_scene(const Source& source, const Entry& tree)
 {
     Keys once = keys<Scene>();
@@ -364,6 +391,7 @@ Scene build_scene(const Source& source, const Entry& tree)
         scene.animation = read_animation(*animation, scene.camera);
     check_growth(file, scene);
     warn_of_duplicate_name(file, scene);
+    warn_of_empty_clips(file, scene);
     return scene;
 }
 

@@ -110,6 +110,8 @@ void plane_axes(Plane& plane)
 
 Vec3 polygon_normal(const Polygon& polygon)
 {
+    if (polygon.contours.empty() || polygon.contours[0].empty())
+        return Vec3(0.0);
     const Vec3 sum = newell_normal(polygon.contours[0]);
     const double largest = largest_component(sum);
     return largest > 0.0 ? glm::normalize(sum / largest) : Vec3(0.0);

@@ -21,6 +21,21 @@ def lit_scene(**fields):
     return scene
 
 
+class TestPicture(unittest.TestCase):
+    def test_a_number_of_a_picture_is_a_number(self):
+        picture = pt.render(lit_scene(width=8, height=8))
+        for number in (picture.mean(), picture.max(), np.sum(picture), picture[0, 0, 0]):
+            self.assertIsInstance(number, np.floating)
+        self.assertIsInstance(picture * 2, pt.Picture)
+        self.assertIsInstance(picture.mean(axis=2), pt.Picture)
+
+    def test_what_is_no_picture_is_not_shown_as_one(self):
+        picture = pt.render(lit_scene(width=8, height=8))
+        self.assertIsNotNone(picture._repr_png_())
+        for other in (picture > 0, picture.astype(np.float16), picture[0], picture[:0]):
+            self.assertIsNone(other._repr_png_())
+
+
 class TestRender(unittest.TestCase):
     def test_the_picture_is_the_programs(self):
         with tempfile.TemporaryDirectory() as folder:

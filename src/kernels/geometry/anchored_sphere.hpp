@@ -399,18 +399,11 @@ inline bool leaves_behind(const Cone<float>& cone, const AnchoredFilter& sphere)
 }
 
 /// The kind (kinds.hpp).
-struct AnchoredSphere {
-    static constexpr abi::Primitive primitive = abi::Primitive::anchored_sphere;
-    static constexpr abi::SurfaceKind first_surface = abi::SurfaceKind::anchored_sphere;
-    static constexpr unsigned surfaces = 1;
+struct AnchoredSphere : KindOf<abi::Primitive::anchored_sphere, abi::SurfaceKind::anchored_sphere> {
     template <class Real>
     using FromPoint = ObjectArray<SharedOriginAnchored<Real>>;
     using Certain = ObjectArray<AnchoredFilter>;
 
-    static constexpr bool in(abi::Features)
-    {
-        return true;
-    }
     template <class Real>
     static const auto& list(const abi::GeometryView<Real>& scene)
     {

@@ -36,6 +36,21 @@ inline std::uint32_t lanes_on_body(const vint<Real>& own, std::int32_t first, in
     return on_body;
 }
 
+/// What the loops over kinds (kinds.hpp) ask of each. Surfaces of an object are numbered in a row;
+/// kernels without quadrics have none of a kind that is `WithQuadrics`.
+template <abi::Primitive P, abi::SurfaceKind First, unsigned Surfaces = 1,
+          bool WithQuadrics = false>
+struct KindOf {
+    static constexpr abi::Primitive primitive = P;
+    static constexpr abi::SurfaceKind first_surface = First;
+    static constexpr unsigned surfaces = Surfaces;
+
+    static constexpr bool in(abi::Features features)
+    {
+        return !WithQuadrics || features.quadrics;
+    }
+};
+
 template <class Object>
 struct ObjectArray {
     Object* data = nullptr;
@@ -59,11 +74,17 @@ inline void take_room(Arena& arena, ObjectArray<Object>& list, int count)
     list.data = arena.template take<Object>(static_cast<std::size_t>(count));
 }
 
-/// Whether no ray of a cone reaches an object, by its record alone.
+/// Whether no ray of a cone reaches an object, by its record alone: by its bound, if it has one.
 template <class Real, class Record>
-inline bool out_of_reach(const Cone<Real>&, const Record&)
+inline bool out_of_reach(const Cone<Real>& cone, const Record& record)
 {
-    return false;
+    if constexpr (requires { record.bound_radius; }) {
+        const Vec3v<Real> to_bound = broadcast(record.bound) - broadcast(cone.base);
+        return cone.bounded &&
+               none(may_meet<Real>(cone, to_bound, vreal<Real>(record.bound_radius)));
+    } else {
+        return false;
+    }
 }
 /// Whether all rays of a cone leave an object behind, by its form for their origin.
 template <class Real, class Form>

@@ -310,18 +310,11 @@ inline bool leaves_behind(const Cone<float>& cone, const PlaneFilter& plane)
 }
 
 /// The kind (kinds.hpp).
-struct Plane {
-    static constexpr abi::Primitive primitive = abi::Primitive::plane;
-    static constexpr abi::SurfaceKind first_surface = abi::SurfaceKind::plane;
-    static constexpr unsigned surfaces = 1;
+struct Plane : KindOf<abi::Primitive::plane, abi::SurfaceKind::plane> {
     template <class Real>
     using FromPoint = ObjectArray<SharedOriginPlane<Real>>;
     using Certain = ObjectArray<PlaneFilter>;
 
-    static constexpr bool in(abi::Features)
-    {
-        return true;
-    }
     template <class Real>
     static const auto& list(const abi::GeometryView<Real>& scene)
     {

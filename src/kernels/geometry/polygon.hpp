@@ -142,13 +142,6 @@ inline abi::PolygonRecord<Real> share_origin(const abi::PolygonRecord<Real>& pol
     return polygon;
 }
 
-template <class Real>
-inline bool out_of_reach(const Cone<Real>& cone, const abi::PolygonRecord<Real>& polygon)
-{
-    const Vec3v<Real> to_bound = broadcast(polygon.bound) - broadcast(cone.base);
-    return cone.bounded && none(may_meet<Real>(cone, to_bound, vreal<Real>(polygon.bound_radius)));
-}
-
 /// Keeps what is closer, but for the lanes of `own`.
 template <class Real, class Own>
 inline void keep_closest(HitPacket<Real>& hit, const abi::PolygonRecord<Real>& polygon,
@@ -256,18 +249,11 @@ inline Occlusion occludes(const PolygonFilter& filter, const RayPacket<float>& r
 }
 
 /// The kind (kinds.hpp). Kernels have it with the quadrics.
-struct Polygon {
-    static constexpr abi::Primitive primitive = abi::Primitive::polygon;
-    static constexpr abi::SurfaceKind first_surface = abi::SurfaceKind::polygon;
-    static constexpr unsigned surfaces = 1;
+struct Polygon : KindOf<abi::Primitive::polygon, abi::SurfaceKind::polygon, 1, true> {
     template <class Real>
     using FromPoint = ObjectArray<abi::PolygonRecord<Real>>;
     using Certain = ObjectArray<PolygonFilter>;
 
-    static constexpr bool in(abi::Features features)
-    {
-        return features.quadrics;
-    }
     template <class Real>
     static const auto& list(const abi::GeometryView<Real>& scene)
     {

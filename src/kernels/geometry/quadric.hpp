@@ -94,39 +94,6 @@ inline vreal<Real> value_size(const abi::QuadricRecord<Real>& quadric, const Vec
            abs(vreal<Real>(quadric.constant));
 }
 
-/// The discriminant of lines that nearly run along the surface is far below the terms that cancel
-/// in what the moment gives, and of these their rounding would be left. But all of a, b and c are
-/// small there: b² - a c is off by far less. It is taken where that is so by the sizes of what
-/// cancels in each. Of vectors in registers, and not inlined, so that other rays don't pay for it.
-template <class Real>
-[[gnu::noinline]] vreal<Real> ruled_discriminant(const abi::QuadricRecord<Real>& quadric,
-                                                 vreal<Real> px, vreal<Real> py, vreal<Real> pz,
-                                                 vreal<Real> vx, vreal<Real> vy, vreal<Real> vz)
-{
-    const Vec3v<Real> p{px, py, pz};
-    const Vec3v<Real> v{vx, vy, vz};
-    const Vec3v<Real> m = cross(p, v);
-    const Vec3v<Real> s = broadcast(quadric.square);
-    const Vec3v<Real> scaled = s * v;
-    const Vec3v<Real> others{s.y * s.z, s.z * s.x, s.x * s.y};
-    const vreal<Real> two(Real(2));
-    const vreal<Real> linear(quadric.linear);
-    const vreal<Real> constant = abs(vreal<Real>(quadric.constant));
-    const vreal<Real> climb = linear * v.z;
-    const vreal<Real> a = dot(scaled, v);
-    const vreal<Real> b = climb + dot(scaled, p);
-    const vreal<Real> c = quadric_value<Real>(quadric, p);
-    const vreal<Real> a_size = magnitude_dot(scaled, v);
-    const vreal<Real> b_size = abs(climb) + magnitude_dot(scaled, p);
-    const vreal<Real> c_size = value_size<Real>(quadric, p);
-    const vreal<Real> straight = madd(two * abs(b), b_size, madd(abs(a), c_size, abs(c) * a_size));
-    const vreal<Real> turn = madd(abs(scaled.y), abs(m.x), abs(scaled.x) * abs(m.y));
-    const vreal<Real> moment = madd(constant, a_size, magnitude_dot(others * m, m)) +
-                               madd(two * abs(linear), turn, climb * climb);
-    return select(vreal<Real>(Real(4)) * straight < moment, msub(b, b, a * c),
-                  quadric_discriminant<Real>(quadric, m, v, a));
-}
-
 /// The coefficient of t² along v in canonical space, `scaled` being v times the squares. What is no
 /// more than its own rounding, or than what v is off by where the axes are turned, is 0: the ray
 /// runs along a generator or an asymptote.
@@ -154,6 +121,84 @@ struct SideQuadratic {
     vreal<Real> start;
 };
 
+/// Whether a quadric is two planes that cross: s_i x_i² + s_j x_j² = 0.
+template <class Real>
+inline bool crossing_planes(const abi::QuadricRecord<Real>& quadric)
+{
+    const Real(&s)[3] = quadric.square;
+    const int flat = (s[0] == 0) + (s[1] == 0) + (s[2] == 0);
+    return quadric.constant == 0 && quadric.linear == 0 && flat == 1;
+}
+
+/// How large the terms are that cancel in b² - a c, by the sizes of what cancels in each of a, b
+/// and c, and in what quadric_discriminant() gives.
+template <class Real>
+struct DiscriminantSizes {
+    vreal<Real> by_terms, by_moment;
+};
+
+template <class Real>
+inline DiscriminantSizes<Real> discriminant_sizes(const abi::QuadricRecord<Real>& quadric,
+                                                  const SideQuadratic<Real>& side,
+                                                  const Vec3v<Real>& p, const Vec3v<Real>& at,
+                                                  const Vec3v<Real>& v)
+{
+    const Quadratic<Real>& q = side.from_start;
+    const Vec3v<Real> s = broadcast(quadric.square);
+    const Vec3v<Real> scaled = s * v;
+    const Vec3v<Real> others{s.y * s.z, s.z * s.x, s.x * s.y};
+    const Vec3v<Real> m = cross(at, v);
+    const vreal<Real> two(Real(2));
+    const vreal<Real> linear = abs(vreal<Real>(quadric.linear));
+    const vreal<Real> climb = linear * abs(v.z);
+    const vreal<Real> a = magnitude_dot(scaled, v);
+    const vreal<Real> b = climb + madd(abs(side.start), a, magnitude_dot(scaled, p));
+    const vreal<Real> c = value_size<Real>(quadric, at) + two * magnitude_dot(s * at, p);
+    const vreal<Real> turn = madd(abs(scaled.y), abs(m.x), abs(scaled.x) * abs(m.y));
+    DiscriminantSizes<Real> sizes;
+    sizes.by_terms = madd(two * abs(q.b), b, madd(abs(q.a), c, abs(q.c) * a));
+    sizes.by_moment = madd(abs(vreal<Real>(quadric.constant)), a, magnitude_dot(others * m, m)) +
+                      madd(two * linear, turn, climb * climb);
+    return sizes;
+}
+
+/// The same of rays that nearly run along an asymptote, or along a straight line of the surface. a
+/// is 0 there but for what cancels in it. The discriminant is b² or next to it, far below the terms
+/// that cancel in what the moment gives, of which rounding would be left: b² - a c is taken where
+/// it is off by less. Going from p to the nearest point rounds p, and b may be far below that: b is
+/// made of p itself, and c is from where its terms are smaller. Of vectors in registers, and not
+/// inlined, so that other rays don't pay for it.
+template <class Real>
+[[gnu::noinline]] SideQuadratic<Real> asymptotic_quadratic(const abi::QuadricRecord<Real>& quadric,
+                                                           vreal<Real> px, vreal<Real> py,
+                                                           vreal<Real> pz, vreal<Real> vx,
+                                                           vreal<Real> vy, vreal<Real> vz,
+                                                           vreal<Real> a, vreal<Real> start)
+{
+    const Vec3v<Real> p{px, py, pz};
+    const Vec3v<Real> v{vx, vy, vz};
+    const Vec3v<Real> near = madd<Real>(start, v, p);
+    const vreal<Real> zero(Real(0));
+    const auto stays = value_size<Real>(quadric, p) <= value_size<Real>(quadric, near);
+    const Vec3v<Real> at = select(stays, p, near);
+    SideQuadratic<Real> side;
+    side.start = select(stays, zero, start);
+    Quadratic<Real>& q = side.from_start;
+    q.a = a;
+    const vreal<Real> slope =
+        madd(vreal<Real>(quadric.linear), v.z, dot(broadcast(quadric.square) * v, p));
+    q.b = madd(side.start, a, slope);
+    q.c = quadric_value<Real>(quadric, at);
+    const auto sizes = discriminant_sizes<Real>(quadric, side, p, at, v);
+    auto by_terms = a == zero;
+    // What two planes have is a square, which is never negative.
+    if (!crossing_planes(quadric))
+        by_terms = by_terms | (vreal<Real>(Real(4)) * sizes.by_terms < sizes.by_moment);
+    q.discriminant = select(by_terms, msub(q.b, q.b, a * q.c),
+                            quadric_discriminant<Real>(quadric, cross(at, v), v, a));
+    return side;
+}
+
 template <class Real>
 inline SideQuadratic<Real> side_quadratic(const abi::QuadricRecord<Real>& quadric,
                                           const Vec3v<Real>& p, const Vec3v<Real>& v,
@@ -167,17 +212,17 @@ inline SideQuadratic<Real> side_quadratic(const abi::QuadricRecord<Real>& quadri
     q.b = madd(vreal<Real>(quadric.linear), v.z, dot(scaled, near));
     q.c = quadric_value<Real>(quadric, near);
     q.discriminant = quadric_discriminant<Real>(quadric, cross(near, v), v, q.a);
-    if (quadric.ruled) {
-        const vreal<Real> sixteen(Real(16));
-        auto along = sixteen * abs(q.a) < magnitude_dot(scaled, v);
-        if (!none(along))
-            along = along & (sixteen * abs(q.c) < value_size<Real>(quadric, near));
-        if (!none(along))
-            q.discriminant = select(
-                along, ruled_discriminant<Real>(quadric, near.x, near.y, near.z, v.x, v.y, v.z),
-                q.discriminant);
-    }
-    return {q, start};
+    if (!quadric.has_asymptotes)
+        return {q, start};
+    const auto along = vreal<Real>(Real(16)) * abs(q.a) < magnitude_dot(scaled, v);
+    if (none(along))
+        return {q, start};
+    const SideQuadratic<Real> other =
+        asymptotic_quadratic<Real>(quadric, p.x, p.y, p.z, v.x, v.y, v.z, q.a, start);
+    q.b = select(along, other.from_start.b, q.b);
+    q.c = select(along, other.from_start.c, q.c);
+    q.discriminant = select(along, other.from_start.discriminant, q.discriminant);
+    return {q, select(along, other.start, start)};
 }
 
 /// The part of a line between two of its points, which may be infinitely far.
@@ -337,14 +382,6 @@ template <class Real>
 inline Body body_of(const SharedOriginQuadric<Real>& quadric)
 {
     return body_of(*quadric.record);
-}
-
-/// Whether no ray of a cone reaches a quadric.
-template <class Real>
-inline bool out_of_reach(const Cone<Real>& cone, const abi::QuadricRecord<Real>& quadric)
-{
-    const Vec3v<Real> to_bound = broadcast(quadric.bound) - broadcast(cone.base);
-    return cone.bounded && none(may_meet<Real>(cone, to_bound, vreal<Real>(quadric.bound_radius)));
 }
 
 template <class Object, class Real>

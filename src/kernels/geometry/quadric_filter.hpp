@@ -285,18 +285,11 @@ inline Occlusion occludes(const QuadricFilter& filter, const RayPacket<float>& r
 }
 
 /// The kind (kinds.hpp).
-struct Quadric {
-    static constexpr abi::Primitive primitive = abi::Primitive::quadric;
-    static constexpr abi::SurfaceKind first_surface = abi::SurfaceKind::quadric_side;
-    static constexpr unsigned surfaces = 3;
+struct Quadric : KindOf<abi::Primitive::quadric, abi::SurfaceKind::quadric_side, 3, true> {
     template <class Real>
     using FromPoint = ObjectArray<SharedOriginQuadric<Real>>;
     using Certain = ObjectArray<QuadricFilter>;
 
-    static constexpr bool in(abi::Features features)
-    {
-        return features.quadrics;
-    }
     template <class Real>
     static const auto& list(const abi::GeometryView<Real>& scene)
     {

@@ -15,14 +15,6 @@ inline Vec3v<Real> apply_transposed(const abi::QuadricRecord<double>& quadric, c
                                  scale<Real>(g.z, broadcast_as<Real>(quadric.inverse[2]))));
 }
 
-/// Whether a quadric is two planes that cross: s_i x_i² + s_j x_j² = 0.
-inline bool crossing_planes(const abi::QuadricRecord<double>& quadric)
-{
-    const double(&s)[3] = quadric.square;
-    const int flat = (s[0] == 0) + (s[1] == 0) + (s[2] == 0);
-    return quadric.constant == 0 && quadric.linear == 0 && flat == 1;
-}
-
 /// The gradient of two planes that cross is that of one of them, and of no other direction however
 /// near to their edge: |s_i| x_i² = |s_j| x_j² there.
 template <class Real>
@@ -75,10 +67,14 @@ inline Vec3v<Real> unit_normal(const abi::QuadricRecord<double>& quadric, unsign
                                  dir);
 }
 
-/// A root of the side, one step of Newton's nearer, where that leads to no other root: of rays that
-/// nearly run along the surface the discriminant loses digits that the equation has. The residual
-/// is that of the point p + t v itself. Taken from a place far from the hit, as the point nearest
-/// to the centre is on long hyperboloids, its terms would be larger, and lose more than is gained.
+/// What a residual may be off by, of the size of its terms.
+constexpr double residual_slack = 0x1p-50;
+
+/// A root of the side, one step of Newton's nearer, where that leads to no other root, and where the
+/// residual is more than its own rounding: of rays that nearly run along the surface the
+/// discriminant loses digits that the equation has. The residual is that of the point p + t v
+/// itself. Taken from a place far from the hit, as the point nearest to the centre is on long
+/// hyperboloids, its terms would be larger, and lose more than is gained.
 inline vreal<double> bettered(const abi::QuadricRecord<double>& quadric, const Vec3v<double>& p,
                               const Vec3v<double>& v, const vreal<double>& t,
                               const vreal<double>& t_min)
@@ -90,7 +86,8 @@ inline vreal<double> bettered(const abi::QuadricRecord<double>& quadric, const V
     const vreal<double> better = t - value / (slope + slope);
     const vreal<double> a = dot(square * v, v);
     const auto near = abs(a * (better - t)) <= vreal<double>(0x1p-11) * abs(slope);
-    return select(near & (better > t_min), better, t);
+    const auto tells = abs(value) > vreal<double>(residual_slack) * value_size<double>(quadric, at);
+    return select(near & tells & (better > t_min), better, t);
 }
 
 /// The first of the crossings of one piece.
@@ -147,9 +144,10 @@ inline RoughRoot rough_root(const QuadricForm& form, const RayPacket<float>& ray
     return {form.found, dot(rough(form.quadric.square) * v, v)};
 }
 
-/// The residual of half a packet, in double.
+/// The residual of half a packet, in double, and how large its terms are.
 struct WideResidual {
     vreal<double> value;
+    vreal<double> size;
     vreal<double> slope;
     Vec3v<double> gradient;
 };
@@ -164,24 +162,31 @@ inline WideResidual residual(const QuadricForm& form, const Vec3v<double>& org,
         const Vec3v<double> gradient = cap_gradient<double>(quadric, high);
         const Vec3v<double> w = from_base(org, dir, t, broadcast(quadric.clip_base));
         const vreal<double> value = dot(gradient, w) + vreal<double>(offset);
-        return {value + value, dot(gradient, dir), gradient};
+        return {value + value, vreal<double>(0.0), dot(gradient, dir), gradient};
     }
     const Vec3v<double> p =
         apply_inverse(quadric, from_base(org, dir, t, broadcast(quadric.center)));
     const Vec3v<double> gradient = side_gradient<double>(quadric, p);
-    return {quadric_value<double>(quadric, p), dot(gradient, dir), gradient};
+    return {quadric_value<double>(quadric, p), value_size<double>(quadric, p), dot(gradient, dir),
+            gradient};
 }
 
-/// Gradients whose squares leave single precision's range make no step: their slope is a NaN.
+/// A step by a residual off by residual_slack is off by 2^-29 of t where the size of its terms is
+/// below this times the slope and t.
+constexpr float largest_size = 0x1p22f;
+
+/// Residuals of which too little but rounding is left, and gradients whose squares leave single
+/// precision's range, make no step: their slope is a NaN.
 inline Residual residual(const QuadricForm& form, const WideRays& rays, const vreal<float>& t)
 {
     const WideResidual low = residual(form, rays.org.low, rays.dir.low, widen_low(t));
     const WideResidual high = residual(form, rays.org.high, rays.dir.high, widen_high(t));
     const Vec3v<float> gradient = narrow(low.gradient, high.gradient);
     const vreal<float> size2 = dot(gradient, gradient);
-    const auto fits = (size2 > vreal<float>(1e-30f)) & (size2 < vreal<float>(1e30f));
-    return {narrow(low.value, high.value),
-            select(fits, narrow(low.slope, high.slope), vreal<float>(__builtin_nanf(""))),
+    const vreal<float> slope = narrow(low.slope, high.slope);
+    const auto fits = (size2 > vreal<float>(1e-30f)) & (size2 < vreal<float>(1e30f)) &
+                      (narrow(low.size, high.size) <= vreal<float>(largest_size) * abs(slope * t));
+    return {narrow(low.value, high.value), select(fits, slope, vreal<float>(__builtin_nanf(""))),
             gradient};
 }
 

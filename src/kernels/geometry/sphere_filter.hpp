@@ -352,18 +352,11 @@ inline void take_room(Arena& arena, SphereFilters& list, int count)
 }
 
 /// The kind (kinds.hpp).
-struct Sphere {
-    static constexpr abi::Primitive primitive = abi::Primitive::sphere;
-    static constexpr abi::SurfaceKind first_surface = abi::SurfaceKind::sphere;
-    static constexpr unsigned surfaces = 1;
+struct Sphere : KindOf<abi::Primitive::sphere, abi::SurfaceKind::sphere> {
     template <class Real>
     using FromPoint = SharedOriginSpheres<Real>;
     using Certain = SphereFilters;
 
-    static constexpr bool in(abi::Features)
-    {
-        return true;
-    }
     template <class Real>
     static const auto& list(const abi::GeometryView<Real>& scene)
     {

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <limits>
+
 #include "kernels/simd/simd.hpp"
 
 // The parts of a floating-point number. Integers go to and from reals by adding 1.5 * 2^52
@@ -8,27 +10,20 @@ namespace packtrace::PACKTRACE_ISA {
 namespace {
 
 template <class Real>
-struct FloatFormat;
-template <>
-struct FloatFormat<float> {
-    static constexpr int mantissa_bits = 23;
-    static constexpr std::int32_t exponent_bias = 127;
-    static constexpr std::int32_t mantissa_mask = 0x007fffff;
-    static constexpr std::int32_t one = 0x3f800000;
-    static constexpr float integer_shift = 12582912.0f;
-    static constexpr int smallest_exponent = -126;
-    static constexpr float smallest_normal = 0x1p-126f;
+struct FloatFormat {
+    using Limits = std::numeric_limits<Real>;
+    using Int = lane_int<Real>;
+
+    static constexpr int mantissa_bits = Limits::digits - 1;
+    static constexpr Int exponent_bias = Limits::max_exponent - 1;
+    static constexpr Int mantissa_mask = (Int{1} << mantissa_bits) - 1;
+    static constexpr Int one = exponent_bias << mantissa_bits;
+    static constexpr Real integer_shift = Real(Int{3} << (mantissa_bits - 1));
+    static constexpr int smallest_exponent = Limits::min_exponent - 1;
+    static constexpr Real smallest_normal = Limits::min();
 };
-template <>
-struct FloatFormat<double> {
-    static constexpr int mantissa_bits = 52;
-    static constexpr std::int64_t exponent_bias = 1023;
-    static constexpr std::int64_t mantissa_mask = 0x000fffffffffffff;
-    static constexpr std::int64_t one = 0x3ff0000000000000;
-    static constexpr double integer_shift = 6755399441055744.0;
-    static constexpr int smallest_exponent = -1022;
-    static constexpr double smallest_normal = 0x1p-1022;
-};
+static_assert(FloatFormat<float>::one == 0x3f800000 &&
+              FloatFormat<double>::integer_shift == 6755399441055744.0);
 
 /// The nearest integer to x, |x| < 2^21.
 template <class Real>

@@ -69,5 +69,27 @@ inline constexpr std::uint32_t all_lanes = (1u << lanes<Real>)-1u;
 
 static_assert(lanes<float> == PACKTRACE_LANES && lanes<double> == (PACKTRACE_LANES + 1) / 2);
 
+/// The bits of reals, and reals of bits.
+template <class Real>
+inline vint<Real> as_int(batch<Real> x)
+{
+    return __builtin_bit_cast(vint<Real>, x);
+}
+inline vreal<float> as_real(vint<float> i)
+{
+    return __builtin_bit_cast(vreal<float>, i);
+}
+inline vreal<double> as_real(vint<double> i)
+{
+    return __builtin_bit_cast(vreal<double>, i);
+}
+
+/// Lanes in one mask or the other.
+template <class Real>
+inline batch_bool<Real> either(batch_bool<Real> a, batch_bool<Real> b)
+{
+    return a | b;
+}
+
 }  // namespace
 }  // namespace packtrace::PACKTRACE_ISA

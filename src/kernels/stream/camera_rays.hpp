@@ -35,25 +35,44 @@ struct TileAxes {
     }
 };
 
+template <class Real>
+inline void cross3(Real (&product)[3], const Real (&a)[3], const Real (&b)[3])
+{
+    for (int i = 0; i < 3; ++i)
+        product[i] = a[(i + 1) % 3] * b[(i + 2) % 3] - a[(i + 2) % 3] * b[(i + 1) % 3];
+}
+
+/// From this tangent on a tile's cone counts as no bound. Up to there its tangent is off by so many
+/// times the roundoff: what is across the middle is a difference of products that may cancel, as in
+/// views of nearly half a turn.
+template <class Real>
+inline constexpr Real largest_tangent = Real(16);
+
 /// The squared tangent of the angle between a tile's middle and its farthest corner; negative
-/// when a corner is a right angle away or more.
+/// when a corner is nearly a right angle away or more.
 template <class Real>
 inline Real widest_tangent2(const TileAxes<Real>& tile, Real length)
 {
     const Real right_along = dot3(tile.right, tile.middle) / length;
     const Real up_along = dot3(tile.up, tile.middle) / length;
     const Real sides2 = dot3(tile.right, tile.right) + dot3(tile.up, tile.up);
-    const Real cross = Real(2) * dot3(tile.right, tile.up);
+    Real right_across[3], up_across[3];
+    cross3(right_across, tile.right, tile.middle);
+    cross3(up_across, tile.up, tile.middle);
+    const Real across2 =
+        (dot3(right_across, right_across) + dot3(up_across, up_across)) / (length * length);
+    const Real cross = Real(2) * dot3(right_across, up_across) / (length * length);
     Real widest = 0;
     for (int corner = 0; corner < 4; ++corner) {
         const Real x = (corner & 1) ? Real(1) : Real(-1);
         const Real y = (corner & 2) ? Real(1) : Real(-1);
         const Real offset_along = x * right_along + y * up_along;
         const Real along = length + offset_along;
-        if (!(along > 0))
+        // A corner is no further away than the longer diagonal, which is below twice the sides.
+        if (!(along > 0) ||
+            Real(2) * sides2 > largest_tangent<Real> * largest_tangent<Real> * along * along)
             return Real(-1);
-        const Real across2 = sides2 + x * y * cross - offset_along * offset_along;
-        const Real tangent2 = across2 / (along * along);
+        const Real tangent2 = (across2 + x * y * cross) / (along * along);
         widest = tangent2 > widest ? tangent2 : widest;
     }
     return widest;

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <limits>
+
 #include "kernel_abi/ray_streams.hpp"
 #include "kernels/stream/pending_hits.hpp"
 #include "kernels/stream/stream_values.hpp"
@@ -26,6 +28,37 @@ inline vint<Real> objects_of(const abi::SceneView<Real>& scene, const vint<Real>
     return load(number);
 }
 
+/// What rays that hit nothing have for a point, a normal, and the number of a surface.
+template <class Real>
+inline Vec3v<Real> nowhere()
+{
+    const vreal<Real> no_number(std::numeric_limits<Real>::quiet_NaN());
+    return {no_number, no_number, no_number};
+}
+template <class Real>
+inline Vec3v<Real> no_normal()
+{
+    const vreal<Real> zero(Real(0));
+    return {zero, zero, zero};
+}
+inline constexpr std::int32_t no_surface_number = std::numeric_limits<std::int32_t>::min();
+
+/// Hands out points with their normals, of which the scene moves starts off if there are `any`.
+template <class Real>
+inline void store_points(const abi::SceneView<Real>& scene, const Vec3v<Real>& point,
+                         const Vec3v<Real>& normal, bool any, const abi::HitsView<Real>& hits,
+                         int at, int live)
+{
+    const vreal<Real> zero(Real(0));
+    Vec3v<Real> offset{zero, zero, zero};
+    if (any && scene.rules.start_error > 0)
+        offset = origin_offset<Real>(scene.rules.start_error, point, normal);
+    store_some3(hits.normal, at, normal, live);
+    store_some3(hits.outer_start, at, point + offset, live);
+    store_some3(hits.inner_start, at, point - offset, live);
+    store_some3(hits.point, at, point, live);
+}
+
 /// Hands out t and places of what a packet of rays, of which `live` are left, hit. In a function of
 /// its own, as few callers ask for places.
 template <abi::Features F, class Real>
@@ -36,23 +69,16 @@ template <abi::Features F, class Real>
 {
     const auto missed = int_equal(hit.surface, no_surface<Real>());
     const std::uint32_t found = ~bits(missed) & first_lanes<Real>(live);
-    const vreal<Real> zero(Real(0));
-    const Vec3v<Real> nothing{zero, zero, zero};
-    RefinedHits<Real> places{t_max, nothing, nothing};
-    Vec3v<Real> offset = nothing;
+    RefinedHits<Real> places{t_max, nowhere<Real>(), no_normal<Real>()};
     if (found != 0) {
         places = refined<F, Refine::place>(scene.shapes, rays, hit, start, found);
         places.t = select(missed, t_max, places.t);
-        places.normal = select(missed, nothing, places.normal);
-        if (scene.rules.start_error > 0)
-            offset = origin_offset<Real>(scene.rules.start_error, places.point, places.normal);
+        places.point = select(missed, nowhere<Real>(), places.point);
+        places.normal = select(missed, no_normal<Real>(), places.normal);
     }
     if (hits.t != nullptr)
         store_some(hits.t + at, places.t, live);
-    store_some3(hits.normal, at, places.normal, live);
-    store_some3(hits.outer_start, at, places.point + offset, live);
-    store_some3(hits.inner_start, at, places.point - offset, live);
-    store_some3(hits.point, at, places.point, live);
+    store_points(scene, places.point, places.normal, found != 0, hits, at, live);
 }
 
 /// Hands out what a packet of rays hit that all meet one surface or none.
@@ -66,23 +92,15 @@ inline void store_common_hits(const abi::SceneView<float>& scene, const CommonHi
     const std::int32_t object = hits_any ? scene.materials.of_surface[hit.surface].object : -1;
     store_numbers<float>(hits.object + at, select(found, vint<float>(object), none), live);
     if (hits.surface != nullptr)
-        store_numbers<float>(hits.surface + at,
-                             select(found, vint<float>(hits_any ? hit.surface : -1), none), live);
+        store_numbers<float>(
+            hits.surface + at,
+            select(found, vint<float>(hit.surface), vint<float>(no_surface_number)), live);
     if (hits.t != nullptr)
         store_some(hits.t + at, select(found, hit.t, t_max), live);
     if (hits.normal[0] == nullptr)
         return;
-    const vreal<float> zero(0.0f);
-    const Vec3v<float> nothing{zero, zero, zero};
-    const Vec3v<float> normal = select(found, hit.outward, nothing);
-    const Vec3v<float> point = select(found, hit.point, nothing);
-    Vec3v<float> offset = nothing;
-    if (scene.rules.start_error > 0 && hits_any)
-        offset = origin_offset<float>(scene.rules.start_error, point, normal);
-    store_some3(hits.normal, at, normal, live);
-    store_some3(hits.outer_start, at, point + offset, live);
-    store_some3(hits.inner_start, at, point - offset, live);
-    store_some3(hits.point, at, point, live);
+    store_points<float>(scene, select(found, hit.point, nowhere<float>()),
+                        select(found, hit.outward, no_normal<float>()), hits_any, hits, at, live);
 }
 
 /// Where the closest hits of a stream go.
@@ -102,7 +120,9 @@ public:
         const std::uint32_t found = ~bits(missed) & first_lanes<Real>(live);
         store_numbers<Real>(hits_.object + at, objects_of(scene_, hit.surface, found), live);
         if (hits_.surface != nullptr)
-            store_numbers<Real>(hits_.surface + at, hit.surface, live);
+            store_numbers<Real>(
+                hits_.surface + at,
+                select(missed, vint<Real>(lane_int<Real>{no_surface_number}), hit.surface), live);
         if (hits_.normal[0] != nullptr)
             store_places<F>(scene_, rays, hit, start, t_max, hits_, at, live);
         else if (hits_.t != nullptr)

@@ -16,7 +16,9 @@ template <abi::Features F, class Objects, class Real>
 {
     for (int first = begin; first < end; first += lanes<Real>) {
         const StreamPacket<Real> packet(view, first);
-        const std::uint32_t wanted = first_lanes<Real>(packet.count);
+        // Of what may be a NaN in a ray the end alone would not end all comparisons.
+        const std::uint32_t wanted =
+            first_lanes<Real>(packet.count) & bits(packet.t_max == packet.t_max);
         const OwnSurface<vint<Real>> own{no_surface<Real>()};
         std::uint32_t blocked = 0;
         if constexpr (F.exact) {
@@ -30,7 +32,7 @@ template <abi::Features F, class Objects, class Real>
             blocked =
                 occluded<F>(RayEnd<Real>{packet.t_max, false}, objects, packet.rays, own, wanted);
         }
-        store_mask<Real>(mask + first, blocked, packet.count);
+        store_mask<Real>(mask + first, blocked & wanted, packet.count);
     }
 }
 

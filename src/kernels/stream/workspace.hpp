@@ -145,10 +145,14 @@ private:
     }
 };
 
+/// Enough for so many tiles together, and for fewer: one alone has a stream for each generation,
+/// which deep scenes need more for than for some tiles.
 template <abi::Features F, class Real>
 inline std::size_t scratch_bytes(const abi::SceneView<Real>& scene, int tiles)
 {
-    return Workspace<F, Real>(nullptr, scene, tiles).bytes;
+    const std::size_t alone = Workspace<F, Real>(nullptr, scene, 1).bytes;
+    const std::size_t together = Workspace<F, Real>(nullptr, scene, tiles).bytes;
+    return alone > together ? alone : together;
 }
 
 }  // namespace

@@ -103,6 +103,10 @@ Certainty find_certainty(const Scene& scene, const RenderOptions& options)
 Image<float> certainty_picture(const Certainty& certainty)
 {
     Image<float> image(certainty.width, certainty.height);
+    if (3 * certainty.pixels.size() != image.rgb.size())
+        throw std::invalid_argument("certainty of " + std::to_string(certainty.pixels.size()) +
+                                    " pixels for a picture of " + std::to_string(image.width) +
+                                    " x " + std::to_string(image.height) + "; give as many");
     float* rgb = image.rgb.data();
     for (const PixelCertainty& pixel : certainty.pixels) {
         if (pixel.rays > 0) {

@@ -31,14 +31,21 @@ constexpr const char* json_file = "report.json";
 constexpr const char* html_file = "report.html";
 constexpr const char* markdown_file = "report.md";
 
-/// Each scene has a folder beside the report's own files.
-void check_names(const std::vector<SceneReport>& scenes)
+/// Each scene has a folder beside the report's own files, and a truth.
+void check_scenes(const std::vector<SceneReport>& scenes)
 {
     std::set<std::string> taken;
-    for (const SceneReport& scene : scenes)
+    for (const SceneReport& scene : scenes) {
         if (scene.name != report_folder_name(scene.name) || !taken.insert(scene.name).second)
             throw std::invalid_argument("report: a scene is called '" + scene.name +
                                         "', which can't be its folder; see report_folder_name()");
+        const auto has_truth = [](const StudyReport& study) { return !study.pictures.empty(); };
+        if (scene.studies.empty() ||
+            !std::all_of(scene.studies.begin(), scene.studies.end(), has_truth))
+            throw std::invalid_argument("report: '" + scene.name +
+                                        "' has a study without pictures, or none at all; take "
+                                        "what report() returns");
+    }
 }
 
 }  // namespace
@@ -66,7 +73,7 @@ std::string report_folder_name(const std::string& name)
 void write_report(const std::vector<SceneReport>& scenes, const ReportOptions& options,
                   const ReportConditions& conditions, const std::filesystem::path& folder)
 {
-    check_names(scenes);
+    check_scenes(scenes);
     make_folders(folder);
     for (const SceneReport& scene : scenes) {
         make_folders(folder / scene.name);

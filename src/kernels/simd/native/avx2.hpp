@@ -43,32 +43,6 @@ inline std::uint32_t bits(vmask<double> m)
     return static_cast<std::uint32_t>(_mm256_movemask_pd(m));
 }
 
-inline vmask<float> either(vmask<float> a, vmask<float> b)
-{
-    return a | b;
-}
-inline vmask<double> either(vmask<double> a, vmask<double> b)
-{
-    return a | b;
-}
-
-inline vint<float> as_int(vreal<float> x)
-{
-    return _mm256_castps_si256(x);
-}
-inline vint<double> as_int(vreal<double> x)
-{
-    return _mm256_castpd_si256(x);
-}
-inline vreal<float> as_real(vint<float> i)
-{
-    return _mm256_castsi256_ps(i);
-}
-inline vreal<double> as_real(vint<double> i)
-{
-    return _mm256_castsi256_pd(i);
-}
-
 inline vmask<float> int_equal(vint<float> i, vint<float> j)
 {
     return _mm256_castsi256_ps(_mm256_cmpeq_epi32(i, j));

@@ -57,23 +57,6 @@ inline vmask<Real> from_bits(std::uint32_t pattern)
     return vmask<Real>(static_cast<typename vmask<Real>::register_type>(pattern));
 }
 
-inline vint<float> as_int(vreal<float> x)
-{
-    return _mm512_castps_si512(x);
-}
-inline vint<double> as_int(vreal<double> x)
-{
-    return _mm512_castpd_si512(x);
-}
-inline vreal<float> as_real(vint<float> i)
-{
-    return _mm512_castsi512_ps(i);
-}
-inline vreal<double> as_real(vint<double> i)
-{
-    return _mm512_castsi512_pd(i);
-}
-
 inline vmask<float> int_equal(vint<float> i, vint<float> j)
 {
     return _mm512_cmpeq_epi32_mask(i, j);

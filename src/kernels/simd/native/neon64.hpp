@@ -76,32 +76,6 @@ inline std::uint32_t bits(vmask<double> m)
     return static_cast<std::uint32_t>(vaddvq_u64(vandq_u64(m, vld1q_u64(lane_bit))));
 }
 
-inline vmask<float> either(vmask<float> a, vmask<float> b)
-{
-    return a | b;
-}
-inline vmask<double> either(vmask<double> a, vmask<double> b)
-{
-    return a | b;
-}
-
-inline vint<float> as_int(vreal<float> x)
-{
-    return vreinterpretq_s32_f32(x);
-}
-inline vint<double> as_int(vreal<double> x)
-{
-    return vreinterpretq_s64_f64(x);
-}
-inline vreal<float> as_real(vint<float> i)
-{
-    return vreinterpretq_f32_s32(i);
-}
-inline vreal<double> as_real(vint<double> i)
-{
-    return vreinterpretq_f64_s64(i);
-}
-
 inline vmask<float> int_equal(vint<float> i, vint<float> j)
 {
     return vceqq_s32(i, j);

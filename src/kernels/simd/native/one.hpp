@@ -45,32 +45,6 @@ inline std::uint32_t bits(vmask<double> m)
     return m.value ? 1u : 0u;
 }
 
-inline vmask<float> either(vmask<float> a, vmask<float> b)
-{
-    return a | b;
-}
-inline vmask<double> either(vmask<double> a, vmask<double> b)
-{
-    return a | b;
-}
-
-inline vint<float> as_int(vreal<float> x)
-{
-    return __builtin_bit_cast(lane_int<float>, x.value);
-}
-inline vint<double> as_int(vreal<double> x)
-{
-    return __builtin_bit_cast(lane_int<double>, x.value);
-}
-inline vreal<float> as_real(vint<float> i)
-{
-    return __builtin_bit_cast(float, i.value);
-}
-inline vreal<double> as_real(vint<double> i)
-{
-    return __builtin_bit_cast(double, i.value);
-}
-
 inline vmask<float> int_equal(vint<float> i, vint<float> j)
 {
     return {i.value == j.value};
