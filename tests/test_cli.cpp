@@ -213,6 +213,17 @@ TEST_CASE("wrong use exits 2 with one line and leaves no file", "[cli]")
         {{"render", four_spheres, "-o", out, "--nonsense"}, "--nonsense"},
         {{"info", "--isa", "mmx"}, "--isa: unknown instruction set 'mmx'"},
         {{"demo", "--rounds", "0"}, "'0' is not a whole number"},
+        {{"render", four_spheres, "-o", out, "--size", "8x8", "--size", "9x9"},
+         "--size: given 2 times; give it once"},
+        {{"render", four_spheres, "-o", out, "--size"}, "--size: needs a value, WxH"},
+        {{"bench", four_spheres, "-o", ""}, "'' is not the name of a file"},
+        {{"bench", four_spheres, "-o", "-"}, "'-' is not the name of a file of its own"},
+        {{"profile", four_spheres, "--trace", "-"}, "'-' is not the name of a file of its own"},
+        {{"profile", four_spheres, "--heatmap", ""}, "'' is not a file's name"},
+        {{"compare", out, out, "--heatmap", ""}, "'' is not a file's name"},
+        {{"generate", "lattice", "-o", ""}, "'' is not a file's name"},
+        {{"intersect", four_spheres, out, "-o", ""}, "'' is not a file's name"},
+        {{"join", out, out, "-o", ""}, "'' is not a file's name"},
     };
     for (const auto& [words, reason] : wrong) {
         const ProgramResult result = run_packtrace(words);

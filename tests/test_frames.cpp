@@ -189,6 +189,23 @@ TEST_CASE("a frame that can't be written stops the run and leaves no half of it"
            Words{"f0.pfm", "f0.pfm.recipe", "f1.pfm", "still.scene", "turning.scene"}));
 }
 
+TEST_CASE("a frame without a view is told before the first one is rendered", "[frames]")
+{
+    const Studio studio;
+    write_text(studio.folder / "through.scene",
+               "sphere { center = (0, 0, 9)  radius = 1 }\n"
+               "animation { frames = 3\n"
+               "key { frame = 0  position = (0, 0, 0)  look_at = (0, 0, 3) }\n"
+               "key { frame = 2  position = (0, 0, 6)  look_at = (0, 0, 3) } }\n");
+    for (const Words& frames : {Words{"--frames", "0..2"}, Words{"--y4m"}}) {
+        const std::string output = frames[0] == "--y4m" ? "film.y4m" : "f%d.png";
+        const ProgramResult result = studio.render(output, frames, "through.scene");
+        CHECK(result.exit_code == 2);
+        CHECK_THAT(result.err, ContainsSubstring("frame 1: the way between"));
+    }
+    CHECK(studio.folder.names().size() == 3);
+}
+
 TEST_CASE("--frame renders one frame under a plain name", "[frames]")
 {
     const Studio studio;

@@ -17,7 +17,7 @@ void check_refused(const std::vector<std::string>& words, int exit_code)
 }
 
 const std::string billions = "1000000000000";
-const std::string sphere = "sphere { center = (0, 0, 3) radius = 1 }\n";
+const std::string one_sphere = "sphere { center = (0, 0, 3) radius = 1 }\n";
 
 }  // namespace
 
@@ -40,8 +40,8 @@ TEST_CASE("scenes beyond their limits are refused before they take memory", "[li
     for (int i = 0; i < 5000; ++i)
         deep += "sphere { ";
     for (const std::string& text :
-         {"image_size = " + billions + " x 1\n" + sphere, "max_depth = " + billions + "\n" + sphere,
-          deep, std::string(1200000, 'a')}) {
+         {"image_size = " + billions + " x 1\n" + one_sphere,
+          "max_depth = " + billions + "\n" + one_sphere, deep, std::string(1200000, 'a')}) {
         write_text(file, text);
         check_refused({"info", file}, 1);
     }

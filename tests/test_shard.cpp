@@ -188,6 +188,10 @@ TEST_CASE("a shard is one of its number", "[shard]")
         CHECK(result.exit_code == 2);
         CHECK_THAT(result.err, ContainsSubstring("is no shard such as 0/8"));
     }
+    const ProgramResult piped =
+        run_packtrace({"intersect", four_spheres_file, "-", "--shard", "0/2"});
+    CHECK(piped.exit_code == 1);
+    CHECK_THAT(piped.err, ContainsSubstring("standard input can't be cut into parts"));
     CHECK(
         run_packtrace({"render", four_spheres_file, "-o", bench.folder / "a.png", "--shard", "0/2"})
             .exit_code == 2);

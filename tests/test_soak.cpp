@@ -306,6 +306,9 @@ TEST_CASE("soak checks scenes of a file, and random ones", "[soak]")
     CHECK(few.exit_code == 0);
     CHECK_THAT(few.out, ContainsSubstring("2 scenes") && ContainsSubstring("0 findings"));
     CHECK(run_packtrace({"soak", "--scenes", "0"}).exit_code == 2);
+    const ProgramResult missing = run_packtrace({"soak", four_spheres_file, folder / "no.scene"});
+    CHECK(missing.exit_code == 1);
+    CHECK(missing.out.empty());
     CHECK(run_packtrace({"soak", "--minutes", "nan"}).exit_code == 2);
 }
 

@@ -86,6 +86,23 @@ std::string describe_unexpected(const CLI::App& command, const std::string& word
     return nearest.empty() ? text : text + "; did you mean " + std::string(nearest) + "?";
 }
 
+/// What CLI11 says of an option that is given more than once, or without its value, in plain words.
+std::string describe_mismatch(const std::string& what)
+{
+    static constexpr std::string_view repeated = ": At Most 1 required but received ";
+    static constexpr std::string_view lacking = ": 1 required ";
+    static constexpr std::string_view missing = " missing";
+    if (const std::size_t at = what.find(repeated); at != std::string::npos)
+        return what.substr(0, at) + ": given " + what.substr(at + repeated.size()) +
+               " times; give it once";
+    const std::size_t at = what.find(lacking);
+    if (at == std::string::npos || !what.ends_with(missing))
+        return what;
+    const std::size_t begin = at + lacking.size();
+    return what.substr(0, at) + ": needs a value, " +
+           what.substr(begin, what.size() - missing.size() - begin);
+}
+
 }  // namespace
 
 std::string usage_error(const CLI::App& app, const CLI::ParseError& error, int count,
@@ -93,7 +110,9 @@ std::string usage_error(const CLI::App& app, const CLI::ParseError& error, int c
 {
     const CLI::App& command = innermost(app);
     const std::string name = full_name(command);
-    std::string what = error.what();
+    std::string what = dynamic_cast<const CLI::ArgumentMismatch*>(&error) != nullptr
+                           ? describe_mismatch(error.what())
+                           : error.what();
     // What is missing may be there under a mistyped name: the name is told first.
     if (dynamic_cast<const CLI::ExtrasError*>(&error) != nullptr ||
         dynamic_cast<const CLI::RequiredError*>(&error) != nullptr)

@@ -122,6 +122,7 @@ void add_compare(CLI::App& app)
         ->check(whole_number(0, INT_MAX))
         ->type_name("N");
     command->add_option("--heatmap", arguments->heatmap, "Write a picture of the error per pixel")
+        ->check(file_name())
         ->type_name("IMAGE");
     command
         ->add_option("--max-error", arguments->max_error,

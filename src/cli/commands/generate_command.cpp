@@ -120,6 +120,7 @@ void add_generate(CLI::App& app)
     });
     for (CLI::App* command : generate->get_subcommands({})) {
         command->add_option("-o,--output", *file, "Scene file (default standard output)")
+            ->check(file_name())
             ->type_name("FILE");
         // Before the work, so that a wrong name doesn't cost it.
         command->parse_complete_callback([file] {

@@ -169,6 +169,7 @@ void add_join(CLI::App& app)
         ->required()
         ->type_name("");
     command->add_option("-o,--output", arguments->output, "File to write (default standard output)")
+        ->check(file_name())
         ->type_name("FILE");
     command->callback([arguments] { run_join(*arguments); });
 }

@@ -36,6 +36,7 @@ void add_intersect_options(CLI::App& command, IntersectArguments& arguments)
     command
         .add_option("-o,--output", arguments.output,
                     "CSV to write (default standard output): hit,t,object,nx,ny,nz")
+        ->check(file_name())
         ->type_name("FILE");
     CLI::Option* all = command.add_flag(
         "--all", arguments.all, "Write every hit of each ray in order: ray,t,object,nx,ny,nz");

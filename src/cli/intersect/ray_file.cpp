@@ -126,6 +126,8 @@ std::uint32_t ray_file_checksum(const std::string& file)
 
 std::uint64_t ray_file_size(const std::string& file)
 {
+    if (file == "-")
+        throw FileError("standard input can't be cut into parts; write the rays into a file");
     std::error_code error;
     const bool regular = std::filesystem::is_regular_file(file, error);
     if (!regular && error)

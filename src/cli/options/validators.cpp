@@ -84,6 +84,17 @@ CLI::Validator whole_number(int least, int most)
         accepts, "a whole number from " + std::to_string(least) + " to " + std::to_string(most));
 }
 
+CLI::Validator file_name()
+{
+    return validator([](const std::string& text) { return !text.empty(); }, "a file's name");
+}
+
+CLI::Validator own_file_name()
+{
+    return validator([](const std::string& text) { return !text.empty() && text != "-"; },
+                     "the name of a file of its own");
+}
+
 CLI::Validator one_of(std::vector<std::string> words)
 {
     std::string wanted = words.front();

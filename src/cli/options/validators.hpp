@@ -28,6 +28,10 @@ namespace packtrace::cli {
 [[nodiscard]] CLI::Validator share();
 /// A whole number from `least` to `most`.
 [[nodiscard]] CLI::Validator whole_number(int least, int most);
+/// The name of a file: not empty, as of a shell's variable that is not set.
+[[nodiscard]] CLI::Validator file_name();
+/// The same, and not -, where standard output has something else.
+[[nodiscard]] CLI::Validator own_file_name();
 /// One of a few words.
 [[nodiscard]] CLI::Validator one_of(std::vector<std::string> words);
 

@@ -71,7 +71,7 @@ std::string recipe_difference(const std::string& before, const std::string& now)
     if (part_of(before, 0) != part_of(now, 0))
         return "another version";
     if (part_of(before, 1) != part_of(now, 1))
-        return "another scene";
+        return "another scene, or options that change the scene";
     return part_of(before, 2) != part_of(now, 2) ? "another camera" : "other options";
 }
 

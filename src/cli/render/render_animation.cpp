@@ -61,10 +61,14 @@ FrameRange frames_of(const AnimationArguments& arguments, const Scene& scene)
         if (!scene.animation)
             throw std::invalid_argument("the scene has no animation");
         const int frames = scene.animation->frames;
-        if (!arguments.frames)
-            return FrameRange{0, frames - 1};
-        const FrameRange range = parse_frame_range(*arguments.frames);
-        check_frame_range(range, frames);
+        FrameRange range{0, frames - 1};
+        if (arguments.frames) {
+            range = parse_frame_range(*arguments.frames);
+            check_frame_range(range, frames);
+        }
+        // A frame without a view would end the work in its middle.
+        for (int frame = range.first; frame <= range.last; ++frame)
+            (void)camera_at(scene, frame);
         return range;
     });
 }

@@ -352,6 +352,7 @@ void add_bench(CLI::App& app)
     command
         ->add_option("-o,--output", arguments->output,
                      "Write the results as JSON, which later runs can take as --baseline")
+        ->check(own_file_name())
         ->type_name("FILE");
     add_comparing_options(*command, *arguments);
     command->callback([arguments] { run_bench_command(*arguments); });

@@ -119,10 +119,12 @@ void add_profile(CLI::App& app)
         ->type_name("N");
     command
         ->add_option("--heatmap", arguments->heatmap, "Write a picture of the cost of each pixel")
+        ->check(file_name())
         ->type_name("IMAGE");
     command
         ->add_option("--trace", arguments->trace,
                      "Write the tiles of a frame over threads, for Perfetto or chrome://tracing")
+        ->check(own_file_name())
         ->type_name("FILE");
     command->add_flag("--json", arguments->json, "Print JSON");
     command->callback([arguments] { run_profile(*arguments); });

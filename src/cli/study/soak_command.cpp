@@ -84,17 +84,24 @@ std::optional<lab::SoakFinding> finding_in(const Scene& scene, std::uint64_t see
 /// Scenes from files, in place of random ones.
 int check_files(const SoakArguments& arguments)
 {
+    // All before the work, so that a wrong name doesn't cost it.
+    std::vector<SceneInput> inputs;
+    for (const std::string& file : arguments.files)
+        inputs.push_back(read_scene_input(file));
     int findings = 0;
-    for (const std::string& file : arguments.files) {
-        const SceneInput input = read_scene_input(file);
+    for (std::size_t i = 0; i < inputs.size(); ++i) {
+        set_interrupt_line("packtrace: interrupted after " + std::to_string(i) + " of " +
+                           std::to_string(inputs.size()) + " scenes");
         const auto finding =
-            finding_in(input.scene, arguments.options.seed, arguments.options.aligned);
-        std::cout << language::escape(input.name) << ": "
-                  << (finding ? finding->what : "as it should be") << '\n';
+            finding_in(inputs[i].scene, arguments.options.seed, arguments.options.aligned);
+        std::cout << language::escape(inputs[i].name) << ": "
+                  << (finding ? finding->what : "as it should be") << '\n'
+                  << std::flush;
         if (finding && !finding->ray)
-            print_commands(*finding, language::escape(file), "");
+            print_commands(*finding, language::escape(arguments.files[i]), "");
         findings += finding ? 1 : 0;
     }
+    set_interrupt_line("");
     return findings;
 }
 
