@@ -11,7 +11,8 @@ scene units, angles in degrees, colours linear with 1.0 for full.
 
 from __future__ import annotations
 
-from typing import Dict, List, Union
+import operator
+from typing import Any, Dict, List, Union
 
 from ._packtrace import ImageError, SceneError, __version__
 from . import _packtrace
@@ -47,15 +48,36 @@ def isas() -> List[Dict[str, Union[str, int, bool]]]:
 
 def generate_sphereflake(depth: int = 4, *, reflective: float = 0.0, ground: bool = False) -> Scene:
     """Spheres on spheres (Haines, 1987): 7381 at depth 4, 597871 at 6."""
-    return _packtrace.generate_sphereflake(depth, reflective, ground)
+    return _packtrace.generate_sphereflake(_whole("depth", depth), _number("reflective", reflective),
+                                           bool(ground))
 
 
 def generate_random_spheres(count: int, radius: float, *, seed: int = 1,
                             reflective: float = 0.0) -> Scene:
     """Spheres of one radius, their centers spread evenly over the unit cube."""
-    return _packtrace.generate_random_spheres(count, radius, seed, reflective)
+    return _packtrace.generate_random_spheres(_whole("count", count), _number("radius", radius),
+                                              _whole("seed", seed, 2**64 - 1),
+                                              _number("reflective", reflective))
 
 
 def generate_lattice(edge: int = 10, *, radius: float = 0.3, reflective: float = 0.0) -> Scene:
     """edge × edge × edge spheres in the middles of the unit cube's cells; the radius is in cells."""
-    return _packtrace.generate_lattice(edge, radius, reflective)
+    return _packtrace.generate_lattice(_whole("edge", edge), _number("radius", radius),
+                                       _number("reflective", reflective))
+
+
+def _whole(name: str, value: Any, most: int = 2**31 - 1) -> int:
+    try:
+        number = operator.index(value)
+    except TypeError:
+        raise ValueError(f"{name} is {value!r}; use a whole number") from None
+    if not 0 <= number <= most:
+        raise ValueError(f"{name} is {number}; use a whole number from 0 to {most}")
+    return number
+
+
+def _number(name: str, value: Any) -> float:
+    try:
+        return float(value)
+    except (TypeError, ValueError):
+        raise ValueError(f"{name} is {value!r}; use a number") from None

@@ -137,6 +137,13 @@ class TestBuilding(unittest.TestCase):
         self.assertEqual(len(pt.generate_sphereflake(2).objects), 91)
         self.assertEqual(len(pt.generate_lattice(3).objects), 27)
         self.assertEqual(len(pt.generate_random_spheres(50, 0.01).objects), 50)
+        for call, name in ((lambda: pt.generate_sphereflake(depth=2.5), "depth"),
+                           (lambda: pt.generate_lattice(edge="3"), "edge"),
+                           (lambda: pt.generate_random_spheres(2**40, 0.1), "count"),
+                           (lambda: pt.generate_random_spheres(5, 0.1, seed=-1), "seed"),
+                           (lambda: pt.generate_lattice(2, radius=None), "radius")):
+            with self.assertRaisesRegex(ValueError, f"^{name} is .*; use a (whole )?number.*$"):
+                call()
         with self.assertRaises(ValueError):
             pt.generate_lattice(0)
 
