@@ -383,6 +383,9 @@ TEMPLATE_TEST_CASE("numbers of objects and surfaces that are not there are refus
         CHECK_THROWS_WITH(leave(surface), ContainsSubstring("surface " + std::to_string(surface)));
     for (const std::int32_t surface : {0, -1, no_start})
         CHECK_NOTHROW(leave(surface));
+    // A point from elsewhere.
+    const std::int32_t none[] = {-1, -7};
+    CHECK_NOTHROW(scene.lit({{zero, zero, nine}, none, 2}, 0, mask));
 }
 
 TEST_CASE("a ray with a NaN hits nothing", "[ray_scene]")
@@ -406,6 +409,23 @@ TEMPLATE_TEST_CASE("a ray that ends at a NaN meets nothing, whatever is asked", 
         CHECK_FALSE(rays.occluded(ray));
         CHECK(rays.closest_hit(ray).object == -1);
         CHECK(rays.all_hits(ray).empty());
+    }
+}
+
+TEST_CASE("a ray that starts so far away that its squares are no numbers misses", "[ray_scene]")
+{
+    const Scene scene = parse_scene("sphere { center = (0, 0, -9)  radius = 1 }", "one", {});
+    const float zero = 0;
+    const float far = 2e19f;
+    const float end = 1e30f;
+    const std::int32_t surface = 0;
+    const RaysView<float> ray{&zero, &zero, &far, &zero, &far, &zero, &zero, &end, 1};
+    for (const RenderOptions& options : packet_ways()) {
+        float t = 0;
+        std::int32_t object = 0;
+        RayScene<float>(scene, options)
+            .closest_hits(ray, {{&zero, &zero, &far}, &surface}, {&t, &object});
+        CHECK(object == -1);
     }
 }
 

@@ -67,10 +67,11 @@ int rank_of(const Vec3& square)
     return (square.x != 0.0) + (square.y != 0.0) + (square.z != 0.0);
 }
 
-/// Eigenvalues that are nothing against the largest become 0 and go last; axes follow.
-void sort_axes(SymmetricEigen& eigen)
+/// Eigenvalues that are nothing against the largest, to within this share, become 0 and go last;
+/// axes follow.
+void sort_axes(SymmetricEigen& eigen, double share)
 {
-    const double limit = negligible * largest(eigen.values);
+    const double limit = share * largest(eigen.values);
     for (int axis = 0; axis < 3; ++axis)
         if (std::abs(eigen.values[axis]) <= limit)
             eigen.values[axis] = 0.0;
@@ -102,8 +103,9 @@ void align_linear(SymmetricEigen& eigen, const Vec3& slope)
     eigen.vectors[1] = glm::cross(eigen.vectors[2], eigen.vectors[0]);
 }
 
-/// Moves along the axes until no axis has both a square and a slope.
-void complete_squares(CanonicalForm& form, const Vec3& slope, double constant)
+/// Moves along the axes until no axis has both a square and a slope, which is none to within this
+/// share of the whole.
+void complete_squares(CanonicalForm& form, const Vec3& slope, double constant, double share)
 {
     Vec3 shift{0.0};  // along the axes
     form.constant = constant;
@@ -112,7 +114,7 @@ void complete_squares(CanonicalForm& form, const Vec3& slope, double constant)
         if (form.square[axis] != 0.0) {
             shift[axis] = -half / form.square[axis];
             form.constant -= half * half / form.square[axis];
-        } else if (axis == 2 && std::abs(half) > negligible * glm::length(slope)) {
+        } else if (axis == 2 && std::abs(half) > share * glm::length(slope)) {
             form.linear = half;
         }
     }
@@ -134,13 +136,16 @@ CanonicalForm canonical_form(const std::array<double, 10>& coefficients)
     matrix[2] = {E / 2, F / 2, C};
     const Vec3 slope{G, H, I};
     SymmetricEigen eigen = symmetric_eigen(matrix);
-    sort_axes(eigen);
+    // Numbers along the world's axes are exact, however small.
+    const bool is_turned = D != 0.0 || E != 0.0 || F != 0.0;
+    sort_axes(eigen, is_turned ? negligible : 0.0);
+    const bool is_aligned = !is_turned && rank_of(eigen.values) >= 2;
     align_linear(eigen, slope);
 
     CanonicalForm form;
     form.axes = eigen.vectors;
     form.square = eigen.values;
-    complete_squares(form, slope, J);
+    complete_squares(form, slope, J, is_aligned ? 0.0 : negligible);
     // A constant that is only what cancelling squares left over is none.
     const double scale = std::abs(J) + std::abs(form.constant - J);
     if (std::abs(form.constant) <= negligible * scale)

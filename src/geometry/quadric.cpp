@@ -296,6 +296,10 @@ abi::QuadricRecord<Real> pack(const LoweredQuadric& quadric)
     round_to(packed.square, quadric.square);
     packed.linear = static_cast<Real>(quadric.linear);
     packed.constant = static_cast<Real>(quadric.constant);
+    for (int axis = 0; axis < 3; ++axis)
+        packed.counting[axis] = quadric.square[axis] != 0.0 ? Real(1) : Real(0);
+    if (quadric.linear != 0.0)
+        packed.counting[2] = Real(1);
     round_to(packed.clip, quadric.clip);
     round_to(packed.clip_base, quadric.clip_base);
     round_to(packed.clip_base_low, quadric.clip_base - widen(packed.clip_base));

@@ -64,6 +64,7 @@ struct QuadricRecord {
     Real square[3];
     Real linear;
     Real constant;
+    Real counting[3];  ///< 1 for axes that the equation has, else 0
     Real clip[3];
     Real clip_base[3];      ///< where its own space begins: a centre may be far from the clipping
     Real clip_base_low[3];  ///< what rounding left of that

@@ -75,13 +75,18 @@ void add_starts(abi::RaysView<Real>& piece, const StartsView<Real>& starts, std:
     piece.start_surface = starts.surface + first;
 }
 
-/// Throws where a number is of no surface of `count`, nor the complement of one.
-void check_surfaces(std::span<const std::int32_t> numbers, std::int32_t count)
+/// What numbers below 0 say: a surface's inner side, by its complement, or any that there is none.
+enum class BelowZero { inner_side, no_surface };
+
+/// Throws where a number is of no surface of `count`.
+void check_surfaces(std::span<const std::int32_t> numbers, std::int32_t count, BelowZero below)
 {
-    const auto is_surface = [&](std::int32_t number) {
-        return number == no_start || (number < 0 ? ~number : number) < count;
+    const auto is_right = [&](std::int32_t number) {
+        if (number >= 0)
+            return number < count;
+        return number == no_start || below == BelowZero::no_surface || ~number < count;
     };
-    const auto wrong = std::find_if_not(numbers.begin(), numbers.end(), is_surface);
+    const auto wrong = std::find_if_not(numbers.begin(), numbers.end(), is_right);
     if (wrong != numbers.end())
         throw std::invalid_argument("surface " + std::to_string(*wrong) + " of " +
                                     std::to_string(count) +
@@ -140,7 +145,7 @@ public:
             if (starts != nullptr) {
                 add_starts(piece, *starts, first);
                 check_surfaces({piece.start_surface, static_cast<std::size_t>(piece.count)},
-                               surfaces_);
+                               surfaces_, BelowZero::inner_side);
             }
             kernels_.closest_hits(packed_->view(), piece, piece_of(hits, first),
                                   scratch_.local().data());
@@ -160,7 +165,8 @@ public:
             const auto count = static_cast<int>(std::min(points.count - first, longest_stream));
             const auto piece = piece_of(points, first, count);
             if (piece.surface != nullptr)
-                check_surfaces({piece.surface, static_cast<std::size_t>(count)}, surfaces_);
+                check_surfaces({piece.surface, static_cast<std::size_t>(count)}, surfaces_,
+                               BelowZero::no_surface);
             lit_->lit(piece, light, mask + first);
         }
     }

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <limits>
 #include <type_traits>
 
 #include "kernel_abi/features.hpp"
@@ -199,13 +200,26 @@ template <class Real>
     return side;
 }
 
+/// Where a ray is nearest to the centre, in the axes that the equation has: far along a cylinder is
+/// no distance. 0 where the ray starts on the very surface, so that its root there is 0, too.
+template <class Real>
+inline vreal<Real> nearest_to_center(const abi::QuadricRecord<Real>& quadric, const Vec3v<Real>& p,
+                                     const Vec3v<Real>& v)
+{
+    const vreal<Real> zero(Real(0));
+    const Vec3v<Real> counting = broadcast(quadric.counting) * v;
+    const vreal<Real> way2 = dot(counting, v);
+    const auto moves = (way2 > zero) & (abs(quadric_value<Real>(quadric, p)) > zero);
+    return select(moves, negated(dot(p, counting)) / way2, zero);
+}
+
 template <class Real>
 inline SideQuadratic<Real> side_quadratic(const abi::QuadricRecord<Real>& quadric,
                                           const Vec3v<Real>& p, const Vec3v<Real>& v,
                                           const Vec3v<Real>& dir)
 {
     const Vec3v<Real> scaled = broadcast(quadric.square) * v;
-    const vreal<Real> start = negated(dot(p, v)) / dot(v, v);
+    const vreal<Real> start = nearest_to_center<Real>(quadric, p, v);
     const Vec3v<Real> near = madd<Real>(start, v, p);
     Quadratic<Real> q;
     q.a = bend_along<Real>(quadric, scaled, v, dir);
@@ -267,6 +281,11 @@ inline ClipCrossings<Real> clip_crossings(const abi::QuadricRecord<Real>& quadri
     return clip;
 }
 
+/// The share of a t by which rounding may have a root lie beyond the plane that clips the surface
+/// there. A plane that only touches a bowl would cut a hole into it otherwise.
+template <class Real>
+inline constexpr Real clip_slack = Real(4) * std::numeric_limits<Real>::epsilon();
+
 /// Calls `visit(valid, t, piece)` for the places where the rays cross the clipped and capped
 /// surface: piece 0 is the side, 1 and 2 the low and the high cap. A t may be infinite, and a piece
 /// may be visited twice for different lanes. Side and caps share one decision, the order of their
@@ -302,9 +321,12 @@ inline void visit_crossings(const abi::QuadricRecord<Real>& quadric,
         return;
     }
     const ClipCrossings<Real> clip = clip_crossings<Real>(quadric, origin.height, rays.dir);
-    const auto between = [&](const vreal<Real>& t) {
-        return (t >= clip.between.low) & (t <= clip.between.high);
-    };
+    LineInterval<Real> kept = clip.between;
+    if (!quadric.capped) {
+        kept.low = kept.low - vreal<Real>(clip_slack<Real>) * (abs(kept.low) + abs(start));
+        kept.high = kept.high + vreal<Real>(clip_slack<Real>) * (abs(kept.high) + abs(start));
+    }
+    const auto between = [&](const vreal<Real>& t) { return (t >= kept.low) & (t <= kept.high); };
     const auto visit_side = [&] {
         visit(from_bits<Real>(crosses & bits(between(first))), first, 0);
         visit(from_bits<Real>(crosses & bits(between(second))), second, 0);

@@ -26,11 +26,8 @@ inline void gather_shadow_rays(const ShadeContext<F, Real>& context, const HitSt
         const LightPacket<Real> packet = light_at<F>(scene, record, surface, material, active);
         with_shadow_ray(scene, record, packet, surface,
                         [&](const vreal<Real>& t_end, const RayPacket<Real>& rays) {
-                            store_rays(bundle, first, rays);
-                            HitPacket<Real> none = no_hit<Real>(Real(0));
-                            none.t = t_end;
-                            start_rays<F>(bundle, first, none, own_of(scene, surface),
-                                          packet.wanted);
+                            start_segments<F>(bundle, first, rays, t_end, own_of(scene, surface),
+                                              packet.wanted);
                         });
         const std::uint32_t by_own = own_shadow(scene, record, packet, surface, packet.wanted);
         if (by_own != 0)
@@ -69,14 +66,7 @@ inline void settle_shadow_bundle(const ShadeContext<F, Real>& context, int light
 {
     if constexpr (F.exact) {
         WideBundle wide;
-        for (int first = 0; first < bundle_rays; first += lanes<Real>) {
-            const std::uint32_t unsure = unsure_of(bundle, first) & active_lanes(bundle, first);
-            if (unsure == 0)
-                continue;
-            add_segments(wide, first, load_rays(bundle, first), load(bundle.own + first),
-                         load(bundle.t + first), unsure);
-            start_again(first, unsure);
-        }
+        add_unsure_segments(wide, bundle, start_again);
         if (wide.count == 0)
             return;
         context.counts->unsure += static_cast<unsigned>(wide.count);

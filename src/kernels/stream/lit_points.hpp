@@ -99,10 +99,8 @@ inline void gather_ways(const abi::SceneView<Real>& scene, const abi::PointsView
         const std::uint32_t open = first_lanes<Real>(count - first) & points.numbers & ~by_own;
         with_shadow_ray(scene, light, points.light, points.surface,
                         [&](const vreal<Real>& t_end, const RayPacket<Real>& rays) {
-                            HitPacket<Real> none = no_hit<Real>(Real(0));
-                            none.t = t_end;
-                            store_rays(bundle, first, rays);
-                            start_rays<F>(bundle, first, none, points.surface.number, open);
+                            start_segments<F>(bundle, first, rays, t_end, points.surface.number,
+                                              open);
                         });
     }
     end_bundle(bundle, count);

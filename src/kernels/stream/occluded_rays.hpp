@@ -43,12 +43,7 @@ template <abi::Features F>
                                        bool closed)
 {
     WideBundle wide;
-    for (int first = 0; first < bundle_rays; first += lanes<float>) {
-        const std::uint32_t unsure = unsure_of(bundle, first) & active_lanes(bundle, first);
-        if (unsure != 0)
-            add_segments(wide, first, load_rays(bundle, first), load(bundle.own + first),
-                         load(bundle.t + first), unsure);
-    }
+    add_unsure_segments(wide, bundle, [](int, std::uint32_t) {});
     if (wide.count == 0)
         return;
     block_wide<F>(*scene.wide, wide, closed, Occluders::any, [&](int ray, std::int32_t) {
@@ -68,11 +63,8 @@ template <abi::Features F, class Real>
     const int count = end - begin;
     for (int first = 0; first < count; first += lanes<Real>) {
         const StreamPacket<Real> packet(view, begin + first);
-        HitPacket<Real> none = no_hit<Real>(Real(0));
-        none.t = packet.t_max;
-        store_rays(bundle, first, packet.rays);
-        start_rays<F>(bundle, first, none, no_surface<Real>(),
-                      first_lanes<Real>(count - first) & numbers(packet));
+        start_segments<F>(bundle, first, packet.rays, packet.t_max, no_surface<Real>(),
+                          first_lanes<Real>(count - first) & numbers(packet));
     }
     end_bundle(bundle, count);
     std::uint16_t wanted[bundle_cells];

@@ -172,6 +172,15 @@ inline void start_rays(RayBundle<Real>& bundle, int first, const HitPacket<Real>
         bundle.unsure[first / cell_rays] = 0;
 }
 
+/// A packet of rays in whose way things are looked for up to `t_end`; else as start_rays().
+template <abi::Features F, class Real>
+inline void start_segments(RayBundle<Real>& bundle, int first, const RayPacket<Real>& rays,
+                           const vreal<Real>& t_end, const vint<Real>& own, std::uint32_t active)
+{
+    store_rays(bundle, first, rays);
+    start_rays<F>(bundle, first, no_hit<Real>(t_end), own, active);
+}
+
 /// Makes the rays from `count` to the end of its cell like the one before it, and marks them and
 /// all later ones as not active. `count` > 0.
 template <class Real>

@@ -79,6 +79,8 @@ private:
     Occlusion certain_sphere_occludes(BlockBounds& bounds, int slot, std::int32_t surface,
                                       int first) const
     {
+        if (surface < 0)
+            return {};
         const RayPacket<float> rays = load_rays(bundle_, first);
         const SphereTest test = bounds.test(slot, rays);
         const SphereApproach near = approach(test.w, test.bounds.outer2, rays);

@@ -40,12 +40,15 @@ inline void bound_origins(RayBundle<float>& bundle, const abi::GeometryView<floa
     // Of rays that are not active, too: they are like their neighbours.
     PacketBox<float> origins;
     for (int first = 0; first < bundle_rays; first += lanes<float>) {
+        // Packets of a cell are looked at together.
+        if (bundle.active[first / cell_rays] == 0)
+            continue;
         const std::uint32_t active = active_lanes(bundle, first);
+        const RayPacket<float> rays = load_rays(bundle, first);
+        store(bundle.inverse + first, RayScale(rays).inverse);
         if (active == 0)
             continue;
-        const RayPacket<float> rays = load_rays(bundle, first);
         origins.add(rays.org);
-        store(bundle.inverse + first, RayScale(rays).inverse);
         const std::uint32_t doubted = uncertifiable(rays, active);
         if (doubted != 0)
             doubt(first, doubted);

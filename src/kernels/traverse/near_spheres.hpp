@@ -97,12 +97,15 @@ inline void find_hits(BlockHits& hits, const LoneRay& ray, const SphereTest& tes
     store(hits.high, first.high);
 }
 
-/// Without the sphere that the ray starts on.
+/// Without the sphere that the ray starts on, and without places that no sphere is in: from very
+/// far nothing tells these from spheres.
 inline std::uint32_t others_of(std::uint32_t near, const SphereLeaf<float>& leaf, std::int32_t own)
 {
-    for (std::uint32_t left = near; left != 0; left &= left - 1)
-        if (leaf.surface_of(__builtin_ctz(left)) == own)
+    for (std::uint32_t left = near; left != 0; left &= left - 1) {
+        const std::int32_t surface = leaf.surface_of(__builtin_ctz(left));
+        if (surface == own || surface < 0)
             near &= ~(left & -left);
+    }
     return near;
 }
 

@@ -62,6 +62,21 @@ inline void add_segments(WideBundle& bundle, int first, const RayPacket<float>& 
     add_lanes(bundle, first, rays, start, t_end, unsure);
 }
 
+/// Adds the active rays of a bundle that something may be in the way of, and calls
+/// `each(first, lanes)` for those of every packet.
+template <class Each>
+inline void add_unsure_segments(WideBundle& wide, const RayBundle<float>& bundle, const Each& each)
+{
+    for (int first = 0; first < bundle_rays; first += lanes<float>) {
+        const std::uint32_t unsure = unsure_of(bundle, first) & active_lanes(bundle, first);
+        if (unsure == 0)
+            continue;
+        add_segments(wide, first, load_rays(bundle, first), load(bundle.own + first),
+                     load(bundle.t + first), unsure);
+        each(first, unsure);
+    }
+}
+
 /// The lanes of `unsure` that are blocked, by double.
 template <abi::Features F>
 [[gnu::noinline]] std::uint32_t retrace_occluded(const abi::GeometryView<double>& wide,

@@ -1,0 +1,134 @@
+// Rays of numbers with structure, for which nothing is to be rounded: through poles that clips
+// touch, from points of a surface, from far along a cylinder, and at coefficients of unlike sizes.
+#include <array>
+#include <cmath>
+#include <limits>
+#include <string>
+#include <vector>
+
+#include <packtrace/intersect.hpp>
+#include <packtrace/read_scene.hpp>
+
+#include "catch.hpp"
+#include "packet_ways.hpp"
+#include "scenes.hpp"
+
+namespace packtrace::test {
+namespace {
+
+using Triple = std::array<double, 3>;
+
+template <class Real>
+Ray<Real> ray_of(const Triple& org, const Triple& dir)
+{
+    const auto real = [](double x) { return static_cast<Real>(x); };
+    return {{real(org[0]), real(org[1]), real(org[2])}, {real(dir[0]), real(dir[1]), real(dir[2])}};
+}
+
+struct KnownHit {
+    std::string text;
+    Triple org, dir;
+    double t;  ///< infinite for a miss
+};
+
+template <class Real>
+void check_known(const KnownHit& known, const RenderOptions& options)
+{
+    const RayScene<Real> scene(parse_scene(known.text, "known", {}), options);
+    const Ray<Real> ray = ray_of<Real>(known.org, known.dir);
+    CAPTURE(known.text, sizeof(Real), options.isa);
+    const SurfaceHit<Real> first = scene.closest_hit(ray);
+    const std::vector<SurfaceHit<Real>> all = scene.all_hits(ray);
+    const bool hits = std::isfinite(known.t);
+    CHECK((first.object == 0) == hits);
+    CHECK(all.empty() != hits);
+    CHECK(scene.occluded(ray) == hits);
+    if (!hits || all.empty())
+        return;
+    const double allowed = 2.0 * std::numeric_limits<Real>::epsilon() * known.t;
+    CHECK(std::abs(static_cast<double>(first.t) - known.t) <= allowed);
+    CHECK(std::abs(static_cast<double>(all[0].t) - known.t) <= allowed);
+}
+
+void check_known(const std::vector<KnownHit>& hits)
+{
+    for (const RenderOptions& options : packet_ways())
+        if (options.traversal == Traversal::list)
+            for (const KnownHit& known : hits) {
+                check_known<float>(known, options);
+                check_known<double>(known, options);
+            }
+}
+
+std::string quadric(const std::string& coefficients)
+{
+    return "quadric { coefficients = (" + coefficients + ") }";
+}
+
+constexpr double nowhere = std::numeric_limits<double>::infinity();
+
+}  // namespace
+
+TEST_CASE("a clip that touches a pole cuts no hole there", "[exact_starts]")
+{
+    SceneRandom random(3);
+    for (const char* text : {"ellipsoid { z_range = (-1, 0) }", "paraboloid { z_range = (0, 1) }",
+                             "cone { z_range = (0, 1) }", "hyperboloid2 { z_range = (1, 2) }",
+                             "paraboloid { z_range = (0, 1)  scale = (0.3, 0.3, 0.3)  "
+                             "rotate = (1, 2, 3, 40)  rotate = (3, 1, 2, 20) }"}) {
+        const Scene scene = parse_scene(text, "bowl", {});
+        const Mat3 turn(scene.objects[0].transform);
+        for (const RenderOptions& options : packet_ways()) {
+            CAPTURE(text, options.isa);
+            const RayScene<float> singles(scene, options);
+            const RayScene<double> doubles(scene, options);
+            for (int i = 0; i < 200; ++i) {
+                const Vec3 org = turn * Vec3(0, 0, -random.between(3, 100));
+                const Vec3 dir = turn * Vec3(0, 0, random.between(0.1, 3));
+                const Triple from{org.x, org.y, org.z};
+                const Triple way{dir.x, dir.y, dir.z};
+                CHECK(singles.closest_hit(ray_of<float>(from, way)).object == 0);
+                CHECK(singles.occluded(ray_of<float>(from, way)));
+                CHECK(doubles.closest_hit(ray_of<double>(from, way)).object == 0);
+                CHECK(doubles.occluded(ray_of<double>(from, way)));
+            }
+        }
+    }
+}
+
+TEST_CASE("a ray from a point of a surface does not meet it there", "[exact_starts]")
+{
+    check_known({{quadric("0,0,1,0,0,0,-1,0,0,0"), {0, -2, 0}, {2, 3, 6}, 1.0 / 18},
+                 {quadric("2,2,0,0,0,0,-1,0,0,0"), {0, 0, 2}, {1, -3, -5}, 0.05},
+                 {quadric("0,2,1,0,0,0,0,-1,0,0"), {1, 0, 0}, {-2, -5, 0}, nowhere},
+                 {quadric("0,2,0,0,0,0,0,-2,0,0"), {-5, 0, -0.5}, {1, -3, 0}, nowhere},
+                 {quadric("1,-1,0,0,0,0,0,0,0,0"), {0, 0, 1}, {1, 3, -1}, nowhere},
+                 {quadric("1,1,1,0,0,0,0,0,0,-25"), {3, 4, 0}, {1, 2, 2}, nowhere},
+                 {quadric("1,1,1,0,0,0,0,0,0,-25"), {3, 4, 0}, {-1, -2, -2}, 22.0 / 9},
+                 {"paraboloid { }", {0, 0, 0}, {1, 2, 3}, 0.6}});
+}
+
+TEST_CASE("far along a cylinder is no distance", "[exact_starts]")
+{
+    check_known(
+        {{"cylinder { }", {0, 0.25, 1e9}, {-12, -3, -4}, 1.0 / 12 + 0.25 / 3 - 0.25 / 3},
+         {"cylinder { }", {0, 0, 65536}, {-3, -4, -12}, 0.2},
+         {"quadric { coefficients = (0,0,1,0,0,0,-1,0,0,0) }", {4, 1e9, 0}, {0, 3, 1}, 2.0}});
+    for (const RenderOptions& options : packet_ways()) {
+        const RayScene<double> walled(
+            parse_scene(
+                "cylinder { }\nplane { point = (-0.999999999, 0, 0)  normal = (1, 0, 0) }\n",
+                "wall", {}),
+            options);
+        CHECK(walled.closest_hit(ray_of<double>({0, 0.25, 1e9}, {-12, -3, -4})).object == 1);
+    }
+}
+
+TEST_CASE("coefficients along the world's axes count, however small", "[exact_starts]")
+{
+    const std::string needle = quadric("1,1,1e-13,0,0,0,0,0,0,-1");
+    check_known({{needle, {0.5, 0, -1e7}, {0, 0, 1}, 1e7 - std::sqrt(0.75e13)},
+                 {needle, {-5, 0, 4e6}, {1, 0, 0}, nowhere}});
+}
+
+}  // namespace packtrace::test
