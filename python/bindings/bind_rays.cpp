@@ -65,17 +65,7 @@ struct HitArrays {
     }
 };
 
-/// Misses have no point.
-template <class Real>
-void clear_missed_points(const HitsView<Real>& hits, std::size_t count)
-{
-    for (std::size_t i = 0; i < count; ++i)
-        if (hits.object[i] < 0)
-            for (Real* const component : hits.point)
-                component[i] = std::numeric_limits<Real>::quiet_NaN();
-}
-
-/// What the scalar kernel leaves out: normals of misses, and points.
+/// What the scalar kernel leaves out: normals of misses, and points, which misses have none of.
 template <class Real>
 void complete_scalar(const RaysView<Real>& rays, const HitsView<Real>& hits)
 {
@@ -88,7 +78,8 @@ void complete_scalar(const RaysView<Real>& rays, const HitsView<Real>& hits)
             if (missed && normal[axis] != nullptr)
                 normal[axis][i] = 0;
             if (hits.point[axis] != nullptr)
-                hits.point[axis][i] = org[axis][i] + hits.t[i] * dir[axis][i];
+                hits.point[axis][i] = missed ? std::numeric_limits<Real>::quiet_NaN()
+                                             : org[axis][i] + hits.t[i] * dir[axis][i];
         }
     }
 }
@@ -260,8 +251,6 @@ private:
     {
         if (is_scalar_)
             complete_scalar(rays, hits);
-        if (hits.point[0] != nullptr)
-            clear_missed_points(hits, rays.count);
     }
 
     template <class Real>

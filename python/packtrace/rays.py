@@ -63,11 +63,9 @@ class Hits:
             raise ValueError(f"directions have shape {directions.shape}; these hits need "
                              f"{self.normal.shape}")
         inward = np.einsum("...i,...i", directions, self.normal) < 0
-        hit = self.hit
         origin = np.where(inward[..., None], self.inner_start, self.outer_start)
-        origin[~hit] = np.nan
         surface = np.where(inward, ~self.surface, self.surface)
-        return Starts(origin, self.point, np.where(hit, surface, np.int32(NO_START)))
+        return Starts(origin, self.point, np.where(self.hit, surface, np.int32(NO_START)))
 
 
 @dataclass
