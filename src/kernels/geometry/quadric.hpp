@@ -114,8 +114,8 @@ inline vreal<Real> bend_along(const abi::QuadricRecord<Real>& quadric, const Vec
     return select(abs(bend) <= slack, vreal<Real>(Real(0)), bend);
 }
 
-/// The ray p + t v in canonical space against the unclipped side, from the ray's point nearest to
-/// the centre, `start` along it: there no term is larger than it must be.
+/// The ray p + t v in canonical space against the unclipped side, from `start` along it: mostly the
+/// ray's point nearest to the centre, where no term is larger than it must be.
 template <class Real>
 struct SideQuadratic {
     Quadratic<Real> from_start;
@@ -163,12 +163,12 @@ inline DiscriminantSizes<Real> discriminant_sizes(const abi::QuadricRecord<Real>
     return sizes;
 }
 
-/// The same of rays that nearly run along an asymptote, or along a straight line of the surface. a
-/// is 0 there but for what cancels in it. The discriminant is b² or next to it, far below the terms
-/// that cancel in what the moment gives, of which rounding would be left: b² - a c is taken where
-/// it is off by less. Going from p to the nearest point rounds p, and b may be far below that: b is
-/// made of p itself, and c is from where its terms are smaller. Of vectors in registers, and not
-/// inlined, so that other rays don't pay for it.
+/// The side's quadratic of rays that nearly run along an asymptote, or along a straight line of the
+/// surface. a is 0 there but for what cancels in it. The discriminant is b² or next to it, far
+/// below the terms that cancel in what the moment gives, of which rounding would be left: b² - a c
+/// is taken where it is off by less. Going from p to the nearest point rounds p, and b may be far
+/// below that: b is made of p itself, and c is from where its terms are smaller. Of vectors in
+/// registers, and not inlined, so that other rays don't pay for it.
 template <class Real>
 [[gnu::noinline]] SideQuadratic<Real> asymptotic_quadratic(const abi::QuadricRecord<Real>& quadric,
                                                            vreal<Real> px, vreal<Real> py,

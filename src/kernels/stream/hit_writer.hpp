@@ -28,7 +28,7 @@ inline vint<Real> objects_of(const abi::SceneView<Real>& scene, const vint<Real>
     return load(number);
 }
 
-/// What rays that hit nothing have for a point, a normal, and the number of a surface.
+/// What rays that hit nothing have for a point and a normal.
 template <class Real>
 inline Vec3v<Real> nowhere()
 {
@@ -41,7 +41,6 @@ inline Vec3v<Real> no_normal()
     const vreal<Real> zero(Real(0));
     return {zero, zero, zero};
 }
-inline constexpr std::int32_t no_surface_number = std::numeric_limits<std::int32_t>::min();
 
 /// Hands out points with their normals, of which the scene moves starts off if there are `any`.
 template <class Real>
@@ -92,9 +91,9 @@ inline void store_common_hits(const abi::SceneView<float>& scene, const CommonHi
     const std::int32_t object = hits_any ? scene.materials.of_surface[hit.surface].object : -1;
     store_numbers<float>(hits.object + at, select(found, vint<float>(object), none), live);
     if (hits.surface != nullptr)
-        store_numbers<float>(
-            hits.surface + at,
-            select(found, vint<float>(hit.surface), vint<float>(no_surface_number)), live);
+        store_numbers<float>(hits.surface + at,
+                             select(found, vint<float>(hit.surface), vint<float>(abi::no_start)),
+                             live);
     if (hits.t != nullptr)
         store_some(hits.t + at, select(found, hit.t, t_max), live);
     if (hits.normal[0] == nullptr)
@@ -122,7 +121,7 @@ public:
         if (hits_.surface != nullptr)
             store_numbers<Real>(
                 hits_.surface + at,
-                select(missed, vint<Real>(lane_int<Real>{no_surface_number}), hit.surface), live);
+                select(missed, vint<Real>(lane_int<Real>{abi::no_start}), hit.surface), live);
         if (hits_.normal[0] != nullptr)
             store_places<F>(scene_, rays, hit, start, t_max, hits_, at, live);
         else if (hits_.t != nullptr)

@@ -14,14 +14,23 @@
 #include "render/camera_view.hpp"
 
 namespace packtrace {
+namespace {
+
+/// Of a tree that may be changed, or not.
+template <class Node>
+Node* find_child(Node& parent, RayKind kind)
+{
+    for (Node& child : parent.children)
+        if (child.kind == kind)
+            return &child;
+    return nullptr;
+}
+
+}  // namespace
 
 const RayNode* child_of(const RayNode* parent, RayKind kind)
 {
-    if (parent != nullptr)
-        for (const RayNode& child : parent->children)
-            if (child.kind == kind)
-                return &child;
-    return nullptr;
+    return parent != nullptr ? find_child(*parent, kind) : nullptr;
 }
 
 const LightShare* light_of(const RayNode* ray, int light)
@@ -44,9 +53,8 @@ Vec3 vec3(const Real (&v)[3])
 // The child of that kind, which comes into being where there is none.
 RayNode& child_of(RayNode& parent, RayKind kind)
 {
-    for (RayNode& child : parent.children)
-        if (child.kind == kind)
-            return child;
+    if (RayNode* const child = find_child(parent, kind))
+        return *child;
     RayNode& child = parent.children.emplace_back();
     child.kind = kind;
     return child;
