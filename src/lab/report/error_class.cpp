@@ -7,6 +7,7 @@
 
 #include <glm/geometric.hpp>
 
+#include "lab/harness/ray_trees.hpp"
 #include "lab/report/neighbour_rays.hpp"
 #include "lower/lowered_scene.hpp"
 
