@@ -15,7 +15,7 @@
 #include "broken_scenes.hpp"
 #include "catch.hpp"
 #include "same_scene.hpp"
-#include "scene/rows.hpp"
+#include "scene/language/rows.hpp"
 #include "scene_text.hpp"
 
 // Random scenes built in code, valid ones and broken ones: the scalar kernel, packets and the

@@ -10,8 +10,8 @@
 
 #include "catch.hpp"
 #include "peak_memory.hpp"
-#include "scene/grammar.hpp"
-#include "scene/quote.hpp"
+#include "scene/language/grammar.hpp"
+#include "scene/language/quote.hpp"
 #include "scene_text.hpp"
 #include "temp_folder.hpp"
 

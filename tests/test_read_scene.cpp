@@ -4,7 +4,7 @@
 #include <string>
 
 #include "catch.hpp"
-#include "scene/rows.hpp"
+#include "scene/language/rows.hpp"
 #include "scene_text.hpp"
 
 // What a good scene file becomes: the scene's own keys, lights and the syntax.

@@ -5,7 +5,7 @@
 #include <packtrace/render.hpp>
 #include <packtrace/scene.hpp>
 
-#include "scene/words.hpp"
+#include "scene/language/words.hpp"
 #include "values.hpp"
 
 // The words that stand for values of enumerations: those of the scene language and of the program.

@@ -10,7 +10,7 @@
 #include <unistd.h>
 
 #include "core/atomic_file.hpp"
-#include "scene/quote.hpp"
+#include "scene/language/quote.hpp"
 
 namespace packtrace::cli {
 namespace {

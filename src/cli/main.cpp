@@ -10,7 +10,7 @@
 #include "cli/interrupts.hpp"
 #include "cli/usage_error.hpp"
 #include "core/read_file.hpp"
-#include "scene/quote.hpp"
+#include "scene/language/quote.hpp"
 
 namespace packtrace::cli {
 namespace {

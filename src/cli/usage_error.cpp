@@ -5,7 +5,7 @@
 #include <string_view>
 #include <vector>
 
-#include "scene/quote.hpp"
+#include "scene/language/quote.hpp"
 
 namespace packtrace::cli {
 namespace {

@@ -4,7 +4,7 @@
 #include <stdexcept>
 
 #include "dispatch/kernels.hpp"
-#include "scene/quote.hpp"
+#include "scene/language/quote.hpp"
 
 namespace packtrace {
 namespace {

@@ -10,8 +10,8 @@
 #include "core/quad.hpp"
 #include "geometry/canonical_form.hpp"
 #include "geometry/kinds.hpp"
+#include "scene/language/values.hpp"
 #include "scene/quadric_section.hpp"
-#include "scene/values.hpp"
 
 namespace packtrace {
 namespace {

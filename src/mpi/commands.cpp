@@ -16,8 +16,8 @@
 #include "cli/usage_error.hpp"
 #include "core/json_text.hpp"
 #include "core/text.hpp"
-#include "scene/quote.hpp"
-#include "scene/source.hpp"
+#include "scene/language/quote.hpp"
+#include "scene/language/source.hpp"
 
 namespace packtrace::mpi {
 namespace {

@@ -18,7 +18,7 @@
 #include "cli/usage_error.hpp"
 #include "core/atomic_file.hpp"
 #include "mpi/commands.hpp"
-#include "scene/quote.hpp"
+#include "scene/language/quote.hpp"
 
 namespace packtrace::mpi {
 namespace {

@@ -16,7 +16,7 @@
 #include "cli/render/render_picture.hpp"
 #include "core/seconds_since.hpp"
 #include "mpi/commands.hpp"
-#include "scene/quote.hpp"
+#include "scene/language/quote.hpp"
 
 namespace packtrace::mpi {
 namespace {

@@ -8,7 +8,7 @@
 
 #include <CLI/CLI.hpp>
 
-#include "scene/quote.hpp"
+#include "scene/language/quote.hpp"
 
 namespace packtrace::mpi {
 namespace {

@@ -5,9 +5,9 @@
 
 #include <glm/ext/matrix_transform.hpp>
 
-#include "scene/keys.hpp"
+#include "scene/language/keys.hpp"
+#include "scene/language/words.hpp"
 #include "scene/unit_vector.hpp"
-#include "scene/words.hpp"
 
 namespace packtrace {
 

@@ -8,7 +8,7 @@
 
 #include <glm/geometric.hpp>
 
-#include "scene/values.hpp"
+#include "scene/language/values.hpp"
 
 namespace packtrace {
 namespace {

@@ -7,8 +7,8 @@
 #include <unordered_map>
 #include <vector>
 
-#include "scene/quote.hpp"
-#include "scene/words.hpp"
+#include "scene/language/quote.hpp"
+#include "scene/language/words.hpp"
 
 namespace packtrace::language {
 namespace {

@@ -13,9 +13,9 @@
 #include <tbb/blocked_range.h>
 #include <tbb/parallel_for.h>
 
-#include "scene/keys.hpp"
+#include "scene/language/keys.hpp"
+#include "scene/language/quote.hpp"
 #include "scene/object_names.hpp"
-#include "scene/quote.hpp"
 #include "scene/unit_vector.hpp"
 
 namespace packtrace::language {

@@ -10,8 +10,8 @@
 
 #include <packtrace/scene.hpp>
 
+#include "scene/language/rows.hpp"
 #include "scene/moved_shape.hpp"
-#include "scene/rows.hpp"
 
 // What is wrong with scenes: values by the rows of their keys, and whatever takes more than one
 // value to see. The reader asks for its objects as it reads them, validate() for all.

@@ -25,7 +25,7 @@
 #include "core/atomic_file.hpp"
 #include "lab/harness/statistics.hpp"
 #include "lab/harness/stopwatch.hpp"
-#include "scene/quote.hpp"
+#include "scene/language/quote.hpp"
 
 namespace packtrace::cli {
 namespace {

@@ -19,10 +19,10 @@
 #include "cli/output/text_table.hpp"
 #include "cli/study/study.hpp"
 #include "core/json_text.hpp"
-#include "scene/quote.hpp"
-#include "scene/rows.hpp"
-#include "scene/values.hpp"
-#include "scene/words.hpp"
+#include "scene/language/quote.hpp"
+#include "scene/language/rows.hpp"
+#include "scene/language/values.hpp"
+#include "scene/language/words.hpp"
 
 namespace packtrace::cli {
 namespace {

@@ -14,7 +14,7 @@
 #include "cli/study/study.hpp"
 #include "core/checksum.hpp"
 #include "core/read_file.hpp"
-#include "scene/quote.hpp"
+#include "scene/language/quote.hpp"
 
 namespace packtrace::cli {
 namespace {

@@ -13,7 +13,7 @@
 #include "cli/options/common_options.hpp"
 #include "cli/options/validators.hpp"
 #include "core/read_file.hpp"
-#include "scene/quote.hpp"
+#include "scene/language/quote.hpp"
 
 namespace packtrace::cli {
 namespace {

@@ -9,7 +9,7 @@
 #include <system_error>
 
 #include "core/read_file.hpp"
-#include "scene/quote.hpp"
+#include "scene/language/quote.hpp"
 
 namespace packtrace::cli {
 namespace {

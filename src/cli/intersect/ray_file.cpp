@@ -13,7 +13,7 @@
 
 #include "core/checksum.hpp"
 #include "core/read_file.hpp"
-#include "scene/quote.hpp"
+#include "scene/language/quote.hpp"
 
 namespace packtrace::cli {
 namespace {

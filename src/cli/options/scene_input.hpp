@@ -10,7 +10,7 @@
 
 #include <CLI/CLI.hpp>
 
-#include "scene/source.hpp"
+#include "scene/language/source.hpp"
 
 namespace packtrace::cli {
 

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "core/read_file.hpp"
-#include "scene/quote.hpp"
+#include "scene/language/quote.hpp"
 
 // Outputs that would take the place of something else that the user named.
 namespace packtrace::cli {

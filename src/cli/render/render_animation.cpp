@@ -16,7 +16,7 @@
 #include "core/seconds_since.hpp"
 #include "image/formats.hpp"
 #include "render/frame_numbers.hpp"
-#include "scene/quote.hpp"
+#include "scene/language/quote.hpp"
 
 namespace packtrace::cli {
 namespace {

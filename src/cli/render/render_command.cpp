@@ -17,7 +17,7 @@
 #include "cli/render/render_picture.hpp"
 #include "cli/study/study.hpp"
 #include "core/seconds_since.hpp"
-#include "scene/quote.hpp"
+#include "scene/language/quote.hpp"
 
 namespace packtrace::cli {
 namespace {

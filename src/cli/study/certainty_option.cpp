@@ -10,7 +10,7 @@
 
 #include "cli/output/distinct_files.hpp"
 #include "image/formats.hpp"
-#include "scene/quote.hpp"
+#include "scene/language/quote.hpp"
 
 namespace packtrace::cli {
 namespace {

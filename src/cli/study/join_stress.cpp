@@ -10,7 +10,7 @@
 #include "core/json_text.hpp"
 #include "core/read_file.hpp"
 #include "lab/stress/stress.hpp"
-#include "scene/quote.hpp"
+#include "scene/language/quote.hpp"
 
 namespace packtrace::cli {
 namespace {

@@ -20,7 +20,7 @@
 #include "core/atomic_file.hpp"
 #include "lab/soak/soak.hpp"
 #include "lab/stress/evaluate.hpp"
-#include "scene/quote.hpp"
+#include "scene/language/quote.hpp"
 
 namespace packtrace::cli {
 namespace {

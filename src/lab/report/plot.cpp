@@ -9,7 +9,7 @@
 #include "core/run_filter.hpp"
 #include "core/text.hpp"
 #include "lab/report/plot_layout.hpp"
-#include "scene/quote.hpp"
+#include "scene/language/quote.hpp"
 
 namespace packtrace {
 namespace {

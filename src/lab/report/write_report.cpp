@@ -9,7 +9,7 @@
 #include "core/atomic_file.hpp"
 #include "lab/report/report_pictures.hpp"
 #include "lab/report/report_text.hpp"
-#include "scene/quote.hpp"
+#include "scene/language/quote.hpp"
 
 namespace packtrace {
 namespace {

@@ -7,7 +7,7 @@
 #include <glm/gtc/matrix_transform.hpp>
 
 #include "lab/stress/placed_quadric.hpp"
-#include "scene/keys.hpp"
+#include "scene/language/keys.hpp"
 
 namespace packtrace::lab {
 namespace {

@@ -1,7 +1,7 @@
 #pragma once
 
-#include "scene/rows.hpp"
-#include "scene/words.hpp"
+#include "scene/language/rows.hpp"
+#include "scene/language/words.hpp"
 
 // The scene language's keys.
 namespace packtrace::language {

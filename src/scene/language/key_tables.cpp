@@ -3,7 +3,7 @@
 #include <vector>
 
 #include "core/text.hpp"
-#include "scene/keys.hpp"
+#include "scene/language/keys.hpp"
 
 namespace packtrace::language {
 namespace {

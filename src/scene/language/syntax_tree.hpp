@@ -5,7 +5,7 @@
 #include <string_view>
 #include <vector>
 
-#include "scene/source.hpp"
+#include "scene/language/source.hpp"
 
 // A scene as its grammar sees it: entries, and blocks whose keys have been checked.
 namespace packtrace::language {

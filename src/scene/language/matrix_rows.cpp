@@ -1,5 +1,5 @@
 #include "core/text.hpp"
-#include "scene/rows.hpp"
+#include "scene/language/rows.hpp"
 #include "scene/unit_vector.hpp"
 
 #include <algorithm>

@@ -1,4 +1,4 @@
-#include "scene/words.hpp"
+#include "scene/language/words.hpp"
 
 #include <algorithm>
 #include <vector>

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "scene/values.hpp"
+#include "scene/language/values.hpp"
 
 #include <cstddef>
 #include <functional>

@@ -1,7 +1,7 @@
-#include "scene/grammar.hpp"
-#include "scene/quote.hpp"
-#include "scene/syntax_tree.hpp"
-#include "scene/values.hpp"
+#include "scene/language/grammar.hpp"
+#include "scene/language/quote.hpp"
+#include "scene/language/syntax_tree.hpp"
+#include "scene/language/values.hpp"
 
 #include <tao/pegtl.hpp>
 

@@ -1,4 +1,4 @@
-#include "scene/quote.hpp"
+#include "scene/language/quote.hpp"
 
 #include <algorithm>
 #include <cstddef>

@@ -5,7 +5,7 @@
 
 #include <packtrace/validate.hpp>
 
-#include "scene/keys.hpp"
+#include "scene/language/keys.hpp"
 #include "scene/object_names.hpp"
 
 namespace packtrace::language {

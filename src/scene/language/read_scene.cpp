@@ -4,10 +4,10 @@
 #include <map>
 #include <stdexcept>
 
-#include "scene/keys.hpp"
+#include "scene/language/keys.hpp"
+#include "scene/language/quote.hpp"
 #include "scene/object_names.hpp"
 #include "scene/quadric_section.hpp"
-#include "scene/quote.hpp"
 #include "scene/scene_faults.hpp"
 
 // The steps from the blocks of the syntax tree to a scene. Each throws SceneError at the place that

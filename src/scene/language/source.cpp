@@ -1,8 +1,8 @@
-#include "scene/source.hpp"
+#include "scene/language/source.hpp"
 
 #include <packtrace/read_scene.hpp>
 
-#include "scene/quote.hpp"
+#include "scene/language/quote.hpp"
 
 #include <algorithm>
 #include <cerrno>

@@ -1,6 +1,6 @@
-#include "scene/values.hpp"
+#include "scene/language/values.hpp"
 
-#include "scene/quote.hpp"
+#include "scene/language/quote.hpp"
 #include "scene/unit_vector.hpp"
 
 #include <charconv>

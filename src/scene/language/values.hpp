@@ -2,8 +2,8 @@
 
 #include <packtrace/vec.hpp>
 
-#include "scene/syntax_tree.hpp"
-#include "scene/words.hpp"
+#include "scene/language/syntax_tree.hpp"
+#include "scene/language/words.hpp"
 
 #include <algorithm>
 #include <array>
