@@ -10,7 +10,7 @@
 #include "core/quad.hpp"
 #include "geometry/canonical_form.hpp"
 #include "geometry/kinds.hpp"
-#include "scene/language/values.hpp"
+#include "scene/language/numbers.hpp"
 #include "scene/quadric_section.hpp"
 
 namespace packtrace {

@@ -8,7 +8,7 @@
 
 #include <glm/geometric.hpp>
 
-#include "scene/language/values.hpp"
+#include "scene/language/numbers.hpp"
 
 namespace packtrace {
 namespace {

@@ -19,9 +19,9 @@
 #include "cli/output/text_table.hpp"
 #include "cli/study/study.hpp"
 #include "core/json_text.hpp"
+#include "scene/language/numbers.hpp"
 #include "scene/language/quote.hpp"
 #include "scene/language/rows.hpp"
-#include "scene/language/values.hpp"
 #include "scene/language/words.hpp"
 
 namespace packtrace::cli {

@@ -4,7 +4,7 @@
 #include <packtrace/write_scene.hpp>
 
 #include "core/checksum.hpp"
-#include "scene/language/values.hpp"
+#include "scene/language/numbers.hpp"
 
 namespace packtrace::cli {
 namespace {

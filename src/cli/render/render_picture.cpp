@@ -4,8 +4,8 @@
 #include <iostream>
 
 #include "core/text.hpp"
+#include "scene/language/numbers.hpp"
 #include "scene/language/quote.hpp"
-#include "scene/language/values.hpp"
 
 namespace packtrace::cli {
 namespace {

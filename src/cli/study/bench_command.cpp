@@ -21,8 +21,8 @@
 #include "core/checksum.hpp"
 #include "lab/bench/paired_bench.hpp"
 #include "lab/bench/slowdown.hpp"
+#include "scene/language/numbers.hpp"
 #include "scene/language/quote.hpp"
-#include "scene/language/values.hpp"
 
 namespace packtrace::cli {
 namespace {

@@ -3,89 +3,15 @@
 #include "scene/language/quote.hpp"
 #include "scene/unit_vector.hpp"
 
-#include <charconv>
 #include <cmath>
-#include <system_error>
 
 namespace packtrace::language {
 namespace {
 
-const std::string number_form = "write it like 2, -0.5 or 1e3";
 constexpr std::string_view color_form = "(255, 128, 0) or rgb(1, 0.5, 0)";
 constexpr std::string_view factor_form = "0.5 or (0.5, 0.4, 0.3)";
 constexpr Range byte_range{.low = 0.0, .high = 255.0};
 constexpr Range any_size{.largest = std::numeric_limits<double>::max()};
-
-/// Throws SceneError: the key wants another kind of value; `form` shows one.
-[[noreturn]] void fail_kind(const Field& field, Position at, std::string_view wanted,
-                            std::string_view form)
-{
-    const std::string key(field.entry.key.text);
-    fail(field.source, at,
-         "'" + key + "' wants " + std::string(wanted) + "; write " + key + " = " +
-             std::string(form));
-}
-
-/// The value's only item, which is of one of two kinds.
-const Item& only_item(const Field& field, ItemKind kind, ItemKind other, std::string_view wanted,
-                      std::string_view form)
-{
-    if (field.entry.kind != EntryKind::value)
-        fail_kind(field, field.entry.key.at, std::string(wanted) + ", not a block", form);
-    const Item& item = field.entry.value[0];
-    if (item.kind != kind && item.kind != other)
-        fail_kind(field, item.at, wanted, form);
-    if (field.entry.value.size() > 1)
-        fail_kind(field, field.entry.value[1].at, "one value, not a list", form);
-    return item;
-}
-
-const Item& only_item(const Field& field, ItemKind kind, std::string_view wanted,
-                      std::string_view form)
-{
-    return only_item(field, kind, kind, wanted, form);
-}
-
-/// The finite number that `word` spells, the same in every locale.
-double to_number(const Field& field, const Word& word)
-{
-    std::string_view digits = word.text;
-    // from_chars takes a minus sign only.
-    if (digits.size() > 1 && digits[0] == '+' && digits[1] != '-')
-        digits.remove_prefix(1);
-    double number = 0.0;
-    const auto [end, error] = std::from_chars(digits.data(), digits.data() + digits.size(), number);
-    const bool whole = end == digits.data() + digits.size();
-    if (whole && error == std::errc::result_out_of_range)
-        fail(field.source, word.at,
-             quote(word.text) + " is beyond double precision; stay within 1e-307 and 1e308");
-    const bool is_number = whole && error == std::errc{};
-    const std::string key = quote(field.entry.key.text);
-    if (!is_number)
-        fail(field.source, word.at,
-             key + " wants a number, not " + quote(word.text) + "; " + number_form);
-    if (!std::isfinite(number))
-        field.refuse(word.at,
-                     key + " wants a finite number, not " + quote(word.text) + "; " + number_form);
-    return number;
-}
-
-/// The numbers of a tuple or size that has just so many.
-std::vector<double> part_numbers(const Field& field, const Item& item, std::size_t count,
-                                 std::string_view form, const Range& range)
-{
-    if (item.parts.size() != count)
-        fail_kind(field, item.at,
-                  std::to_string(count) + " numbers, not " + std::to_string(item.parts.size()),
-                  form);
-    std::vector<double> numbers;
-    numbers.reserve(count);
-    for (const Word& part : item.parts) {
-        numbers.push_back(to_number(field, part));
-        check_range(field, part.at, numbers.back(), range);
-    }
-    return numbers;
-}
 
 std::span<const double> numbers_of(const Vec3& v)
 {
@@ -228,148 +154,11 @@ CheckerValue read_checker(const Field& field)
     value.checker.other = item_color(field, items[1], form);
     if (items[2].kind != ItemKind::word)
         fail_kind(field, items[2].at, "a number", form);
-    value.checker.size = to_number(field, {items[2].at, items[2].text});
-    check_range(field, items[2].at, value.checker.size, any_length);
+    value.checker.size = item_number(field, items[2], any_length);
     return value;
 }
 
 }  // namespace
-
-bool Range::contains(double number) const
-{
-    if (whole && number != std::floor(number))
-        return false;
-    const bool inside = open ? number > low && number < high : number >= low && number <= high;
-    return inside || (!except.empty() && except.starts_with(to_text(number) + ' '));
-}
-
-std::string Range::text() const
-{
-    const double greatest = std::numeric_limits<double>::max();
-    std::string text;
-    if (high == greatest)
-        text = low == -greatest ? ""
-               : open           ? "above " + to_text(low)
-                                : "of " + to_text(low) + " or more";
-    else
-        text = (open ? "above " : "from ") + to_text(low) + (open ? " and below " : " to ") +
-               to_text(high);
-    return except.empty() ? text : text + ", or " + std::string(except);
-}
-
-bool Range::can_hold(double number) const
-{
-    const double size = std::abs(number);
-    return size <= largest && (size >= smallest || size == 0.0);
-}
-
-Fault fault_of(std::string_view key, double number, const Range& range)
-{
-    if (range.contains(number) && range.can_hold(number))
-        return std::nullopt;
-    if (!std::isfinite(number))
-        return quote(key) + " wants a finite number, not " + quote(to_text(number)) + "; " +
-               number_form;
-    const std::string is = quote(key) + (range.part.empty() ? " is " : " has ") +
-                           std::string(range.part) + to_text(number) + std::string(range.unit);
-    if (range.contains(number)) {
-        const bool large = std::abs(number) > range.largest;
-        return is + ", too " + (large ? "large" : "small") + " for single precision; use at " +
-               (large ? "most " + shortest(range.largest) : "least " + shortest(range.smallest)) +
-               " in size";
-    }
-    const bool vowel = std::string_view("aeiou").find(range.noun[0]) != std::string_view::npos;
-    return is + "; use " +
-           (range.whole ? "a whole "
-            : vowel     ? "an "
-                        : "a ") +
-           std::string(range.noun) + ' ' + range.text();
-}
-
-Fault fault_of(std::string_view key, std::span<const double> numbers, const Range& range)
-{
-    for (const double number : numbers)
-        if (!range.contains(number) || !range.can_hold(number))
-            return fault_of(key, number, range);
-    return std::nullopt;
-}
-
-Fault fault_of(std::string_view key, const Vec3& vector, const Range& range)
-{
-    return fault_of(key, numbers_of(vector), range);
-}
-
-void check_range(const Field& field, Position at, double number, const Range& range)
-{
-    if (const Fault fault = fault_of(field.entry.key.text, number, range))
-        field.refuse(at, *fault);
-}
-
-bool is_word(const Field& field)
-{
-    return field.entry.kind == EntryKind::value && field.entry.value[0].kind == ItemKind::word;
-}
-
-double read_number(const Field& field, const Range& range)
-{
-    const Item& item = only_item(field, ItemKind::word, range.whole ? "a whole number" : "a number",
-                                 range.whole ? to_text(range.high) : "0.5");
-    const double number = to_number(field, {item.at, item.text});
-    check_range(field, item.at, number, range);
-    return number;
-}
-
-std::vector<double> read_numbers(const Field& field, std::size_t count, std::string_view form,
-                                 const Range& range)
-{
-    const Item& item = only_item(field, ItemKind::tuple, "numbers in brackets", form);
-    if (!item.text.empty())
-        fail_kind(field, item.at, "numbers in brackets only", form);
-    return part_numbers(field, item, count, form, range);
-}
-
-std::string_view read_word(const Field& field, const Keys& words)
-{
-    const Item& item = only_item(field, ItemKind::word, "one word", words[0]);
-    for (const std::string_view word : words)
-        if (word == item.text)
-            return word;
-    fail(field.source, item.at,
-         "unknown " + std::string(field.entry.key.text) + " " + quote(item.text) + "; " +
-             suggest(item.text, words));
-}
-
-void append(std::string& out, double number)
-{
-    char buffer[32];
-    const auto [end, error] = std::to_chars(buffer, buffer + sizeof buffer, number);
-    out.append(buffer, end);
-}
-
-void append(std::string& out, std::span<const double> numbers)
-{
-    for (std::size_t i = 0; i < numbers.size(); ++i) {
-        out += i == 0 ? '(' : ',';
-        append(out, numbers[i]);
-    }
-    out += ')';
-}
-
-std::string shortest(double number)
-{
-    std::string text;
-    append(text, number);
-    return text;
-}
-
-std::string to_text(double number)
-{
-    char buffer[32];
-    const bool whole = std::abs(number) < 1e15 && number == std::floor(number);
-    const auto format = whole ? std::chars_format::fixed : std::chars_format::general;
-    const auto [end, error] = std::to_chars(buffer, buffer + sizeof buffer, number, format);
-    return error == std::errc{} ? std::string(buffer, end) : std::string("?");
-}
 
 Type<double> number(const Range& range)
 {

@@ -2,14 +2,14 @@
 
 #include <packtrace/vec.hpp>
 
-#include "scene/language/syntax_tree.hpp"
+#include "scene/language/items.hpp"
+#include "scene/language/numbers.hpp"
 #include "scene/language/words.hpp"
 
 #include <algorithm>
 #include <array>
 #include <cstddef>
 #include <functional>
-#include <limits>
 #include <optional>
 #include <span>
 #include <string>
@@ -17,33 +17,8 @@
 #include <utility>
 #include <vector>
 
-// How large and how small the numbers of a scene may be, so that single precision can work with
-// them (docs/scene.md, Ranges; tests/test_validate.cpp looks for NaN at their ends).
-namespace packtrace {
-
-/// The largest size of a coordinate, a length or any other number. A ray that grazes a plane finds
-/// it some 1e7 times as far away, and single precision holds the square of that.
-inline constexpr double largest_number = 1e13;
-
-/// The smallest size of a length.
-inline constexpr double smallest_length = 1e-15;
-
-/// Of a factor or an intensity. Products of three are far within single precision.
-inline constexpr double largest_factor = 1e9;
-
-/// Of an exponent, and of an index of refraction and its inverse. Refraction leaves the length of a
-/// direction off by some roundoffs times the square of that index, and highlights are a power of
-/// it.
-inline constexpr double largest_exponent = 1e4;
-inline constexpr double largest_ior = 10.0;
-
-}  // namespace packtrace
-
 // The kinds of values that keys take.
 namespace packtrace::language {
-
-/// What is wrong with a value, in words that name its key; nothing where it is right.
-using Fault = std::optional<std::string>;
 
 /// How a value is described, read, written and checked.
 template <class Value>
@@ -55,42 +30,6 @@ struct Type {
     /// The first fault of a value under this key, whoever made it. Allocates for a fault only.
     std::function<Fault(std::string_view key, const Value&)> check;
 };
-
-/// The numbers that a key takes; both ends belong to the range unless it is `open`.
-struct Range {
-    double low = -std::numeric_limits<double>::max();
-    double high = std::numeric_limits<double>::max();
-    double smallest = 0.0;            ///< in size, of numbers other than 0
-    double largest = largest_number;  ///< in size
-    bool open = false;
-    bool whole = false;
-    std::string_view noun = "number";
-    std::string_view part{};    ///< for messages: "a side of "
-    std::string_view unit{};    ///< likewise: " pixels"
-    std::string_view except{};  ///< "-1 for no highlight": a number outside that is taken too
-
-    /// Whether the key means anything with the number, however large or small.
-    [[nodiscard]] bool contains(double number) const;
-    /// Whether single precision can work with it.
-    [[nodiscard]] bool can_hold(double number) const;
-    /// "above 0", "of 0 or more", "from 0 to 1".
-    [[nodiscard]] std::string text() const;
-};
-
-inline constexpr Range any_number{};
-inline constexpr Range any_length{.low = 0.0, .smallest = smallest_length, .open = true};
-inline constexpr Range any_ior{
-    .low = 0.0, .smallest = 1.0 / largest_ior, .largest = largest_ior, .open = true};
-inline constexpr Range any_exponent{.low = 0.0, .largest = largest_exponent};
-inline constexpr Range any_factor{.low = 0.0, .largest = largest_factor};
-inline constexpr Range share{.low = 0.0, .high = 1.0};
-
-/// What is wrong with a number under this key.
-[[nodiscard]] Fault fault_of(std::string_view key, double number, const Range& range);
-/// The first fault of several.
-[[nodiscard]] Fault fault_of(std::string_view key, std::span<const double> numbers,
-                             const Range& range);
-[[nodiscard]] Fault fault_of(std::string_view key, const Vec3& vector, const Range& range);
 
 [[nodiscard]] Type<double> number(const Range& range);
 [[nodiscard]] Type<int> whole_number(int low, int high);
@@ -128,31 +67,6 @@ struct CheckerValue {
 };
 [[nodiscard]] Type<CheckerValue> checker();
 
-/// A tuple of just so many numbers; `form` is an example for messages.
-[[nodiscard]] std::vector<double> read_numbers(const Field& field, std::size_t count,
-                                               std::string_view form,
-                                               const Range& range = any_number);
-
-/// Of the first three numbers.
-[[nodiscard]] inline Vec3 to_vector(const std::vector<double>& numbers)
-{
-    return {numbers[0], numbers[1], numbers[2]};
-}
-/// A value of one number.
-[[nodiscard]] double read_number(const Field& field, const Range& range = any_number);
-/// Whether the value is one word, not a tuple.
-[[nodiscard]] bool is_word(const Field& field);
-/// Throws SceneError at the number unless `range` contains it.
-void check_range(const Field& field, Position at, double number, const Range& range);
-
-/// The number in the shortest form that reads back as the same.
-void append(std::string& out, double number);
-/// (a, b, …)
-void append(std::string& out, std::span<const double> numbers);
-[[nodiscard]] std::string shortest(double number);
-/// The number as text for a message: 1000000 rather than 1e+06.
-[[nodiscard]] std::string to_text(double number);
-
 template <std::size_t count>
 [[nodiscard]] Type<std::array<double, count>> numbers(std::string takes, std::string_view form,
                                                       const Range& range = any_number)
@@ -170,9 +84,6 @@ template <std::size_t count>
             return fault_of(key, std::span<const double>(value), range);
         }};
 }
-
-/// The one of `words` that the value is. Throws SceneError for another.
-[[nodiscard]] std::string_view read_word(const Field& field, const Keys& words);
 
 /// One of an enumeration's words.
 template <class Enum>
