@@ -209,6 +209,14 @@ struct KeyFault {
 };
 using OwnerFault = std::optional<KeyFault>;
 
+/// Throws SceneError at the fault's key where it stands in the block, else at the block.
+[[noreturn]] inline void refuse(const Block& block, const KeyFault& fault)
+{
+    const auto field = block.find(fault.key);
+    const Field& at = field ? *field : block.field();
+    at.refuse(at.entry.key.at, fault.message);
+}
+
 /// The first of the owner's keys with a fault.
 template <class Owner>
 [[nodiscard]] OwnerFault fault_in_rows(const Owner& owner)

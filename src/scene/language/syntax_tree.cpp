@@ -18,6 +18,11 @@ bool contains(const Keys& keys, std::string_view key)
     return std::find(keys.begin(), keys.end(), key) != keys.end();
 }
 
+void add(Keys& keys, const Keys& more)
+{
+    keys.insert(keys.end(), more.begin(), more.end());
+}
+
 void Field::fail(const std::string& message) const
 {
     language::fail(source, entry.key.at, message);

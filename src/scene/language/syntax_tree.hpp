@@ -65,6 +65,7 @@ struct Field {
 using Keys = std::vector<std::string_view>;
 
 [[nodiscard]] bool contains(const Keys& keys, std::string_view key);
+void add(Keys& keys, const Keys& more);
 
 /// A block whose keys have been checked: each is known, and given once unless repeatable.
 class Block {
