@@ -100,7 +100,7 @@ Vec3 times(const WideVec (&rows)[3], const Vec3& v)
 {
     Vec3 sum;
     for (int row = 0; row < 3; ++row)
-        sum[row] = glm::dot(glm::abs(narrow(rows[row])), v);
+        sum[row] = glm::dot(sizes(rows[row]), v);
     return sum;
 }
 
@@ -109,11 +109,11 @@ Vec3 times(const WideVec (&rows)[3], const Vec3& v)
 double condition_of_second(const WideSurface& surface, const WideVec& P, const WideVec& d,
                            const Wide& a, const Wide& b)
 {
-    const Vec3 way = glm::abs(narrow(d));
-    const Vec3 place = glm::abs(narrow(P)) + glm::abs(narrow(surface.offset));
+    const Vec3 way = sizes(d);
+    const Vec3 place = sizes(P) + sizes(surface.offset);
     const Vec3 v = surface.placed ? times(surface.own, way) : way;
     const Vec3 p = surface.placed ? times(surface.own, place) : place;
-    const Vec3 gradient = times(surface.square, p) + glm::abs(narrow(surface.linear));
+    const Vec3 gradient = times(surface.square, p) + sizes(surface.linear);
     return glm::dot(v, times(surface.square, v)) / std::abs(static_cast<double>(a)) +
            glm::dot(v, gradient) / std::abs(static_cast<double>(b));
 }

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include <boost/multiprecision/cpp_bin_float.hpp>
+#include <glm/common.hpp>
 
 #include "reference/vec3.hpp"
 
@@ -49,9 +50,20 @@ using WideVec = reference::Vec3<Wide>;
     return ldexp(root, exponent / 2);
 }
 
+[[nodiscard]] inline double narrow(const Wide& x)
+{
+    return static_cast<double>(x);
+}
+
 [[nodiscard]] inline Vec3 narrow(const WideVec& v)
 {
-    return {static_cast<double>(v.x), static_cast<double>(v.y), static_cast<double>(v.z)};
+    return {narrow(v.x), narrow(v.y), narrow(v.z)};
+}
+
+/// Magnitudes where double is enough.
+[[nodiscard]] inline Vec3 sizes(const WideVec& v)
+{
+    return glm::abs(narrow(v));
 }
 
 }  // namespace packtrace::lab

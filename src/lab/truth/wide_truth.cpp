@@ -5,6 +5,8 @@
 
 #include <glm/geometric.hpp>
 
+#include "lab/truth/sensitivity.hpp"
+
 namespace packtrace::lab {
 namespace {
 
@@ -13,99 +15,8 @@ using reference::dot;
 
 constexpr double never = std::numeric_limits<double>::infinity();
 
-/// A coordinate in own space is a sum of three products, each rounded up to three times.
-constexpr double own_roundings = 3.0;
-
 /// What a polygon's normal, made of its edges' cross products, is rounded by.
 constexpr double normal_roundings = 8.0;
-
-double narrow(const Wide& x)
-{
-    return static_cast<double>(x);
-}
-
-Vec3 sizes(const WideVec& v)
-{
-    return glm::abs(lab::narrow(v));
-}
-
-/// How sensitive a ray is to its inputs: sums of magnitudes, for which double is enough. Inputs
-/// are the ray, the surface's place, its transform, and the ray's start and way in own space.
-class Sensitivity {
-public:
-    Sensitivity(const WideSurface& surface, const StressRay& ray)
-        : by_points_(surface.by_points),
-          org_(glm::abs(ray.org)),
-          dir_(glm::abs(ray.dir)),
-          from_offset_(sizes(wide(ray.org) - surface.offset)),
-          place_(sizes(surface.place))
-    {
-        for (int row = 0; row < 3; ++row) {
-            world_[row] = sizes(surface.world[row]);
-            own_[row] = sizes(surface.own[row]);
-        }
-    }
-
-    /// What changes by 1 move at t along the own covector g, whose world form is n.
-    [[nodiscard]] double at(const Vec3& g, const Vec3& n, double t, const Vec3& own) const
-    {
-        const Vec3 way = std::abs(t) * dir_;
-        double sum = dot3(n, org_ + way + place_);
-        if (by_points_)
-            sum += dot3(n, to_world(own)) + own_roundings * dot3(g, to_own(from_offset_ + way));
-        return sum;
-    }
-
-    /// What the roundings of a general quadric's centre, and of the way to it, move along the own
-    /// covector whose world form is n.
-    [[nodiscard]] double of_center(const Vec3& n, const Vec3& center) const
-    {
-        return own_roundings * dot3(n, to_world(center));
-    }
-
-    /// What they turn the direction by, along g.
-    [[nodiscard]] double of_direction(const Vec3& g, const Vec3& n, const Vec3& v) const
-    {
-        double sum = dot3(n, dir_);
-        if (by_points_)
-            sum += dot3(n, to_world(v)) + own_roundings * dot3(g, to_own(dir_));
-        return sum;
-    }
-
-    /// What they change of the own direction's components, one by one.
-    [[nodiscard]] Vec3 of_components(const Vec3& v) const
-    {
-        return to_own(dir_ + to_world(v)) + own_roundings * to_own(dir_);
-    }
-
-    /// The sums of magnitudes that the transposed inverse makes of a covector.
-    [[nodiscard]] Vec3 covector(const Vec3& g) const
-    {
-        return by_points_ ? g.x * own_[0] + g.y * own_[1] + g.z * own_[2] : g;
-    }
-
-private:
-    static double dot3(const Vec3& a, const Vec3& b)
-    {
-        return std::abs(a.x) * b.x + std::abs(a.y) * b.y + std::abs(a.z) * b.z;
-    }
-    [[nodiscard]] Vec3 to_world(const Vec3& v) const
-    {
-        return {dot3(v, world_[0]), dot3(v, world_[1]), dot3(v, world_[2])};
-    }
-    [[nodiscard]] Vec3 to_own(const Vec3& v) const
-    {
-        return {dot3(v, own_[0]), dot3(v, own_[1]), dot3(v, own_[2])};
-    }
-
-    bool by_points_;
-    Vec3 org_;
-    Vec3 dir_;
-    Vec3 from_offset_;
-    Vec3 place_;
-    Vec3 world_[3];
-    Vec3 own_[3];
-};
 
 /// One ray against one surface.
 class Line {
@@ -115,7 +26,7 @@ public:
           sensitivity_(surface, ray),
           p_(surface.point_to_own(wide(ray.org))),
           v_(surface.direction_to_own(wide(ray.dir))),
-          own_dir_(narrow3(v_)),
+          own_dir_(narrow(v_)),
           t_min_(ray.t_min),
           t_max_(ray.t_max)
     {
@@ -148,11 +59,6 @@ public:
     }
 
 private:
-    static Vec3 narrow3(const WideVec& v)
-    {
-        return lab::narrow(v);
-    }
-
     [[nodiscard]] WideVec own_at(const Wide& t) const
     {
         return p_ + t * v_;
@@ -160,12 +66,12 @@ private:
 
     [[nodiscard]] Vec3 to_world(const WideVec& g) const
     {
-        return narrow3(surface_.covector_to_world(g));
+        return narrow(surface_.covector_to_world(g));
     }
 
     [[nodiscard]] double reach(const WideVec& g, const Wide& t, const WideVec& own) const
     {
-        return sensitivity_.at(narrow3(g), to_world(g), narrow(t), narrow3(own));
+        return sensitivity_.at(narrow(g), to_world(g), narrow(t), narrow(own));
     }
 
     /// What a general quadric's canonical form adds to `reach`, and to the change of its half
@@ -174,7 +80,7 @@ private:
     {
         const CanonicalForm& form = *surface_.canonical;
         const Vec3 way = sizes(p_) + glm::abs(form.center) + std::abs(narrow(t)) * sizes(v_);
-        const Vec3 off = narrow3(own - wide(form.center));
+        const Vec3 off = narrow(own - wide(form.center));
         double sum = std::abs(form.constant) / 2.0;
         for (int axis = 0; axis < 3; ++axis) {
             const Vec3& row = form.axes[axis];
@@ -190,7 +96,7 @@ private:
     /// How much the half value can change at t.
     [[nodiscard]] double change_at(const WideVec& g, const Wide& t, const WideVec& own) const
     {
-        return reach(g, t, own) + (surface_.canonical ? canonical_terms(narrow3(g), t, own) : 0.0);
+        return reach(g, t, own) + (surface_.canonical ? canonical_terms(narrow(g), t, own) : 0.0);
     }
 
     /// How much the height in own space can change at t. Of a general quadric it is taken from the
@@ -209,7 +115,7 @@ private:
     [[nodiscard]] double margin_of_infinity(const WideVec& second) const
     {
         const double size =
-            2.0 * sensitivity_.of_direction(narrow3(second), to_world(second), own_dir_);
+            2.0 * sensitivity_.of_direction(narrow(second), to_world(second), own_dir_);
         return size == 0.0 ? never : std::abs(narrow(a_)) / size;
     }
 
@@ -218,7 +124,7 @@ private:
     {
         const Vec3 size = sensitivity_.of_components(own_dir_);
         double margin = 0.0;
-        const Vec3 terms = narrow3(second);
+        const Vec3 terms = narrow(second);
         for (int axis = 0; axis < 3; ++axis)
             if (terms[axis] != 0.0)
                 margin = std::max(margin, std::abs(own_dir_[axis]) / size[axis]);
@@ -339,7 +245,7 @@ private:
         const WideVec own = own_at(t);
         const double steep = std::abs(narrow(slope));
         const double spread = reach(g, t, own) / steep;
-        const double turn = sensitivity_.of_direction(narrow3(g), to_world(g), own_dir_);
+        const double turn = sensitivity_.of_direction(narrow(g), to_world(g), own_dir_);
         const Wide side = dot(other, own);
         TrueHit& hit = add(t, spread, side > 0 ? g : -g, true, steep / turn, found);
         const double blur = reach(other, t, own) + std::abs(narrow(dot(other, v_))) * spread;
@@ -351,7 +257,7 @@ private:
     /// planes it nearly vanishes, which moves the other's t as well.
     void limit_to_quadratic(TrueHit& hit) const
     {
-        const Vec3 terms = narrow3(surface_.second_order(v_) * v_);
+        const Vec3 terms = narrow(surface_.second_order(v_) * v_);
         const double size = std::abs(terms.x) + std::abs(terms.y) + std::abs(terms.z);
         if (a_ == 0)
             return;
@@ -371,7 +277,7 @@ private:
         const WideVec own = own_at(t);
         const double steep = std::abs(narrow(slope));
         const double spread = reach(g, t, own) / steep;
-        const double turn = sensitivity_.of_direction(narrow3(g), to_world(g), own_dir_);
+        const double turn = sensitivity_.of_direction(narrow(g), to_world(g), own_dir_);
         bool inside = false;
         double margin = steep / turn;
         for (const auto& [from, to] : surface_.edges) {
