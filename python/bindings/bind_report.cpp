@@ -2,7 +2,6 @@
 
 #include <utility>
 
-#include "lab/harness/names.hpp"
 #include "lab/report/report_text.hpp"
 #include "pictures.hpp"
 #include "progress.hpp"
@@ -29,10 +28,10 @@ py::dict row_of(const SceneReport& scene, const StudyReport& study, const Report
     return py::dict(
         "scene"_a = scene.name, "width"_a = scene.width, "height"_a = scene.height,
         "study"_a = name_of(study.study), "run"_a = variant.name,
-        "kernel"_a = value_word(variant.kernel), "precision"_a = variant.precision,
+        "kernel"_a = word_of(variant.kernel), "precision"_a = variant.precision,
         "isa"_a = or_none(variant.isa),
         "accuracy"_a =
-            has_accuracy(variant) ? py::object(py::str(name_of(variant.accuracy))) : py::none(),
+            has_accuracy(variant) ? py::object(py::str(word_of(variant.accuracy))) : py::none(),
         "lanes"_a = variant.lanes, "threads"_a = variant.threads, "depth"_a = variant.depth,
         "min_weight"_a = variant.min_weight, "samples"_a = variant.samples,
         "adaptive"_a = variant.adaptive ? py::object(py::float_(*variant.adaptive)) : py::none(),

@@ -53,7 +53,8 @@ Quadric quadric_of(py::handle value)
         from_python(coefficients, "coefficients", result.coefficients);
     else if (!coefficients.is_none())
         throw_wrong("coefficients", coefficients,
-                    "None, as the kind '" + value_word(kind) + "' has its own, or kind='general'");
+                    "None, as the kind '" + std::string(word_of(kind)) +
+                        "' has its own, or kind='general'");
     if (const py::object range = value.attr("z_range"); !range.is_none()) {
         const auto ends = value_of<Vec2>(range, "z_range");
         result.z_range = ZRange{ends.x, ends.y};

@@ -17,9 +17,9 @@ public:
         py::object result =
             make("Scene", "width"_a = scene.width, "height"_a = scene.height,
                  "background"_a = to_python(scene.background),
-                 "illumination"_a = value_word(scene.illumination), "max_depth"_a = scene.max_depth,
-                 "min_weight"_a = scene.min_weight, "depth_limit"_a = value_word(scene.depth_limit),
-                 "shadows"_a = value_word(scene.shadows), "camera"_a = camera(scene.camera),
+                 "illumination"_a = word_of(scene.illumination), "max_depth"_a = scene.max_depth,
+                 "min_weight"_a = scene.min_weight, "depth_limit"_a = word_of(scene.depth_limit),
+                 "shadows"_a = word_of(scene.shadows), "camera"_a = camera(scene.camera),
                  "lights"_a = list(scene.lights), "animation"_a = optional(scene.animation));
         py::delattr(result, "objects");
         result.attr("_native_objects") =
@@ -85,7 +85,7 @@ private:
 
     [[nodiscard]] py::object one(const Light& light) const
     {
-        return make("Light", "type"_a = value_word(light.type),
+        return make("Light", "type"_a = word_of(light.type),
                     "intensity"_a = to_python(light.intensity),
                     "vector"_a = to_python(light.vector), "casts_shadow"_a = light.casts_shadow);
     }
@@ -137,7 +137,7 @@ private:
     {
         const bool general = quadric.kind == QuadricKind::general;
         return make(
-            "Quadric", "kind"_a = value_word(quadric.kind),
+            "Quadric", "kind"_a = word_of(quadric.kind),
             "coefficients"_a = general ? py::object(to_python(quadric.coefficients)) : py::none(),
             "z_range"_a = optional(quadric.z_range), "capped"_a = quadric.capped);
     }

@@ -10,13 +10,9 @@ namespace {
 // Not add_kernel_options: here double is the default, and nothing is wider.
 void add_options(CLI::App& command, KernelArguments& arguments)
 {
-    command.add_option("--kernel", arguments.kernel, "packet (default), or the scalar reference")
-        ->check(one_of({"packet", "scalar"}))
-        ->type_name("packet|scalar");
+    add_kernel_option(command, arguments.kernel);
     arguments.precision = "double";
-    command.add_option("--precision", arguments.precision, "double (default) or single")
-        ->check(one_of({"single", "double"}))
-        ->type_name("single|double");
+    add_precision_option(command, arguments.precision, "double (default) or single");
     add_traversal_option(command, arguments.traversal);
     add_accuracy_option(command, arguments.accuracy);
     add_isa_options(command, arguments.isa);

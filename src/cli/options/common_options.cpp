@@ -30,45 +30,34 @@ bool is_size(const std::string& text)
     return width >= 1 && width <= largest_side && height >= 1 && height <= largest_side;
 }
 
-Accuracy accuracy_of(const std::string& name)
-{
-    return name == "fast" ? Accuracy::fast : Accuracy::exact;
-}
-
 }  // namespace
 
 void add_accuracy_option(CLI::App& command, AccuracyArguments& arguments)
 {
-    command
-        .add_option("--accuracy", arguments.accuracy,
+    add_word_option(command, "--accuracy", arguments.accuracy,
                     "How single-precision packets find hits. fast: in single precision alone. "
                     "exact (default): uncertain decisions are made in double, every hit is "
-                    "refined in double")
-        ->check(one_of({"fast", "exact"}))
-        ->type_name("fast|exact");
+                    "refined in double",
+                    words_of<Accuracy>());
 }
 
 void add_accuracy_options(CLI::App& command, AccuracyArguments& arguments)
 {
     add_accuracy_option(command, arguments);
-    command
-        .add_option("--self-hits", arguments.self_hits,
+    add_word_option(command, "--self-hits", arguments.self_hits,
                     "How secondary rays avoid hitting the surface they start on. note: they start "
                     "0.001 along their direction. exact: they never hit it where they start, only "
                     "where they truly meet it again (default " +
-                        std::string(default_self_hits == SelfHits::note ? "note" : "exact") + ")")
-        ->check(one_of({"note", "exact"}))
-        ->type_name("note|exact");
+                        std::string(language::word_of(default_self_hits)) + ")",
+                    words_of<SelfHits>());
 }
 
 void add_traversal_option(CLI::App& command, std::optional<std::string>& traversal)
 {
-    command
-        .add_option("--traversal", traversal,
+    add_word_option(command, "--traversal", traversal,
                     "How packets find objects: one by one (list), through a hierarchy of "
-                    "boxes (tree), or as suits their number (auto, default)")
-        ->check(one_of({"auto", "list", "tree"}))
-        ->type_name("auto|list|tree");
+                    "boxes (tree), or as suits their number (auto, default)",
+                    words_of<Traversal>());
 }
 
 void add_isa_options(CLI::App& command, IsaArguments& arguments)
@@ -132,16 +121,23 @@ void add_threads_option(CLI::App& command, int& threads)
         ->type_name("N");
 }
 
+void add_kernel_option(CLI::App& command, std::string& kernel)
+{
+    add_word_option(command, "--kernel", kernel, "packet (default), or the scalar reference",
+                    words_of<Kernel>());
+}
+
+void add_precision_option(CLI::App& command, std::string& precision, const std::string& meaning)
+{
+    add_word_option(command, "--precision", precision, meaning, {"single", "double"});
+}
+
 void add_kernel_options(CLI::App& command, KernelArguments& arguments)
 {
-    command.add_option("--kernel", arguments.kernel, "packet (default), or the scalar reference")
-        ->check(one_of({"packet", "scalar"}))
-        ->type_name("packet|scalar");
-    command
-        .add_option("--precision", arguments.precision,
-                    "single (default), double, or extended (scalar only)")
-        ->check(one_of({"single", "double", "extended"}))
-        ->type_name("single|double|extended");
+    add_kernel_option(command, arguments.kernel);
+    add_word_option(command, "--precision", arguments.precision,
+                    "single (default), double, or extended (scalar only)",
+                    {"single", "double", "extended"});
     add_traversal_option(command, arguments.traversal);
     add_accuracy_options(command, arguments.accuracy);
     command.add_flag("--force-general", arguments.force_general,
@@ -149,13 +145,6 @@ void add_kernel_options(CLI::App& command, KernelArguments& arguments)
                      "be seen; the picture is the same");
     add_isa_options(command, arguments.isa);
     add_threads_option(command, arguments.threads);
-}
-
-Traversal traversal_named(const std::string& name)
-{
-    return name == "list"   ? Traversal::list
-           : name == "tree" ? Traversal::tree
-                            : Traversal::automatic;
 }
 
 namespace {
@@ -210,10 +199,8 @@ void apply(const AccuracyArguments& arguments, const std::string& kernel,
         throw CLI::ValidationError(
             "--accuracy: only packets of floats have a choice; leave it out or use "
             "--kernel packet --precision single");
-    if (arguments.accuracy)
-        options.accuracy = accuracy_of(*arguments.accuracy);
-    if (arguments.self_hits)
-        options.self_hits = arguments.self_hits == "exact" ? SelfHits::exact : SelfHits::note;
+    options.accuracy = value_or(arguments.accuracy, options.accuracy);
+    options.self_hits = value_or(arguments.self_hits, options.self_hits);
 }
 
 RenderOptions render_options(const KernelArguments& arguments)
@@ -233,7 +220,7 @@ RenderOptions render_options(const KernelArguments& arguments)
         throw CLI::ValidationError(
             "--precision: packets are single or double; extended needs --kernel scalar");
     options.isa = chosen_isa(arguments.isa).name;
-    options.traversal = traversal_named(arguments.traversal.value_or("auto"));
+    options.traversal = value_or(arguments.traversal, Traversal::automatic);
     options.force_general = arguments.force_general;
     return options;
 }

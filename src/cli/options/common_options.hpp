@@ -2,6 +2,7 @@
 
 #include <optional>
 #include <string>
+#include <vector>
 
 #include <packtrace/isa.hpp>
 #include <packtrace/render.hpp>
@@ -9,7 +10,38 @@
 
 #include <CLI/CLI.hpp>
 
+#include "cli/options/validators.hpp"
+#include "core/text.hpp"
+#include "render/option_words.hpp"
+
 namespace packtrace::cli {
+
+/// An option that takes one of a few words.
+template <class Argument>
+CLI::Option* add_word_option(CLI::App& command, const std::string& name, Argument& argument,
+                             const std::string& meaning, const std::vector<std::string>& words)
+{
+    return command.add_option(name, argument, meaning)
+        ->check(one_of(words))
+        ->type_name(joined(words, "|"));
+}
+
+/// The words of an enumeration, for such an option.
+template <class Enum>
+[[nodiscard]] std::vector<std::string> words_of()
+{
+    std::vector<std::string> words;
+    for (const language::Spelling<Enum>& spelling : spellings(Enum{}))
+        words.emplace_back(spelling.word);
+    return words;
+}
+
+/// What such an option says, if it was given.
+template <class Enum>
+[[nodiscard]] Enum value_or(const std::optional<std::string>& word, Enum usual)
+{
+    return word ? *language::find_word<Enum>(*word) : usual;
+}
 
 /// `--isa` and `--width`.
 struct IsaArguments {
@@ -52,7 +84,10 @@ void add_accuracy_option(CLI::App& command, AccuracyArguments& arguments);
 /// `--accuracy`, and `--self-hits` for what traces secondary rays.
 void add_accuracy_options(CLI::App& command, AccuracyArguments& arguments);
 void add_traversal_option(CLI::App& command, std::optional<std::string>& traversal);
-[[nodiscard]] Traversal traversal_named(const std::string& name);
+/// packet or scalar.
+void add_kernel_option(CLI::App& command, std::string& kernel);
+/// single or double.
+void add_precision_option(CLI::App& command, std::string& precision, const std::string& meaning);
 void add_sampling_options(CLI::App& command, SamplingArguments& arguments);
 void add_isa_options(CLI::App& command, IsaArguments& arguments);
 /// `--size` alone.

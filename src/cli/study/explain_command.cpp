@@ -104,11 +104,8 @@ void add_explain(CLI::App& app)
         ->required()
         ->check(validator(is_pixel, "a pixel such as 320,240: column and row, counted from 0"))
         ->type_name("X,Y");
-    command
-        ->add_option("--precision", arguments->precision,
-                     "Of the packets: single (default) or double")
-        ->check(one_of({"single", "double"}))
-        ->type_name("single|double");
+    add_precision_option(*command, arguments->precision,
+                         "Of the packets: single (default) or double");
     add_accuracy_options(*command, arguments->accuracy);
     add_isa_options(*command, arguments->isa);
     add_picture_options(*command, arguments->picture);

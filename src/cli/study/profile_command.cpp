@@ -104,9 +104,7 @@ void add_profile(CLI::App& app)
     CLI::App* command = app.add_subcommand("profile", "Show where the time of a frame goes");
     const auto arguments = std::make_shared<ProfileArguments>();
     add_scene_option(*command, arguments->scene);
-    command->add_option("--precision", arguments->precision, "single (default) or double")
-        ->check(one_of({"single", "double"}))
-        ->type_name("single|double");
+    add_precision_option(*command, arguments->precision, "single (default) or double");
     add_accuracy_options(*command, arguments->accuracy);
     add_isa_options(*command, arguments->isa);
     add_picture_options(*command, arguments->picture);

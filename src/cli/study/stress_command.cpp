@@ -50,29 +50,21 @@ void add_stress_options(CLI::App& command, StressArguments& arguments)
     command.add_option("--seed", options.seed, "Seed of the random rays (default 1)")
         ->check(whole_number(0, std::numeric_limits<int>::max()))
         ->type_name("N");
-    command.add_option("--kernel", options.kernels, "Only this kernel (repeatable)")
-        ->check(one_of({"packet", "scalar", "textbook"}))
-        ->type_name("packet|scalar|textbook");
+    add_word_option(command, "--kernel", options.kernels, "Only this kernel (repeatable)",
+                    {"packet", "scalar", "textbook"});
     command
         .add_option("--mode", options.modes,
                     "Only this accuracy mode of packets: fast or exact (repeatable)")
         ->check(one_of(mode_names()))
         ->type_name("NAME");
-    command.add_option("--precision", options.precisions, "Only this precision (repeatable)")
-        ->check(one_of({"single", "double"}))
-        ->type_name("single|double");
+    add_word_option(command, "--precision", options.precisions, "Only this precision (repeatable)",
+                    {"single", "double"});
     command.add_option("--isa", arguments.isa, "Only this instruction set (default all)")
         ->type_name("NAME");
     add_traversal_option(command, arguments.traversal);
-    command
-        .add_option_function<std::string>(
-            "--self-hits",
-            [&arguments](const std::string& rule) {
-                arguments.options.self_hits = rule == "note" ? SelfHits::note : SelfHits::exact;
-            },
-            "How secondary rays avoid hitting the surface they start on (default exact)")
-        ->check(one_of({"note", "exact"}))
-        ->type_name("note|exact");
+    add_word_option(command, "--self-hits", arguments.self_hits,
+                    "How secondary rays avoid hitting the surface they start on (default exact)",
+                    words_of<SelfHits>());
     add_threads_option(command, arguments.threads);
     command
         .add_option("--cases", arguments.cases,
@@ -93,7 +85,8 @@ lab::StressOptions stress_options(const StressArguments& arguments)
     lab::StressOptions options = arguments.options;
     if (arguments.isa)
         options.isa = chosen_isa({arguments.isa, {}}).name;
-    options.traversal = traversal_named(arguments.traversal.value_or("auto"));
+    options.traversal = value_or(arguments.traversal, Traversal::automatic);
+    options.self_hits = value_or(arguments.self_hits, options.self_hits);
     return options;
 }
 

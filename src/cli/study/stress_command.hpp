@@ -16,6 +16,7 @@ struct StressArguments {
     lab::StressOptions options;
     std::optional<std::string> isa;
     std::optional<std::string> traversal;
+    std::optional<std::string> self_hits;
     std::optional<std::string> cases;  ///< a folder for scenes and rays of wrong answers
     std::optional<std::string> shard;
     int threads = 0;

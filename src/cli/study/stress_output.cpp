@@ -128,7 +128,7 @@ nlohmann::ordered_json recipe_json(const StressArguments& arguments)
             {"precisions", options.precisions},
             {"isa", arguments.isa.value_or("all")},
             {"traversal", arguments.traversal.value_or("auto")},
-            {"self_hits", options.self_hits == SelfHits::note ? "note" : "exact"}};
+            {"self_hits", arguments.self_hits.value_or("exact")}};
 }
 
 void print_json(const StressArguments& arguments, const std::vector<StressRow>& rows)

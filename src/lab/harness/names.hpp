@@ -1,15 +1,8 @@
 #pragma once
 
 #include <packtrace/explain.hpp>
-#include <packtrace/render.hpp>
 
 namespace packtrace {
-
-/// As the command line has it.
-[[nodiscard]] inline const char* name_of(Accuracy accuracy)
-{
-    return accuracy == Accuracy::fast ? "fast" : "exact";
-}
 
 /// What tables and JSON call a kind of ray.
 [[nodiscard]] inline const char* name_of(RayKind kind)

@@ -9,8 +9,8 @@
 #include "core/text.hpp"
 #include "dispatch/kernels.hpp"
 #include "kernel_abi/probe.hpp"
-#include "lab/harness/names.hpp"
 #include "render/frame_renderer.hpp"
+#include "render/option_words.hpp"
 
 namespace packtrace {
 namespace {
@@ -57,7 +57,7 @@ Variant beside(Variant variant, const std::string& how, const ReportOptions& opt
 // In another accuracy mode than the usual one.
 Variant in_mode(const Variant& usual, Accuracy accuracy, const ReportOptions& options)
 {
-    Variant variant = beside(usual, name_of(accuracy), options);
+    Variant variant = beside(usual, std::string(language::word_of(accuracy)), options);
     variant.accuracy = accuracy;
     return variant;
 }

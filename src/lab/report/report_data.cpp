@@ -3,8 +3,8 @@
 #include <nlohmann/json.hpp>
 
 #include "core/json_text.hpp"
-#include "lab/harness/names.hpp"
 #include "lab/report/report_text.hpp"
+#include "render/option_words.hpp"
 
 // The report as data, for programs: CSV and JSON.
 namespace packtrace {
@@ -28,14 +28,15 @@ void write_row(std::ostream& to, const SceneReport& scene, const StudyReport& st
     to << csv_text(scene.name) << ',' << scene.width << ',' << scene.height << ','
        << name_of(study.study) << ',' << csv_text(variant.name) << ','
        << (variant.kernel == Kernel::scalar ? "scalar" : "packet") << ',' << variant.precision
-       << ',' << variant.isa << ',' << (has_accuracy(variant) ? name_of(variant.accuracy) : "")
-       << ',' << variant.lanes << ',' << variant.threads << ',' << variant.depth << ','
-       << exact(variant.min_weight) << ',' << variant.samples << ','
-       << (variant.adaptive ? exact(*variant.adaptive) : "") << ',' << exact(run.median) << ','
-       << exact(run.spread) << ',' << run.rays << ',' << run.cut.rays << ',' << exact(run.cut.bound)
-       << ',' << exact(run.error.rmse) << ',' << exact(run.error.max_abs) << ','
-       << exact(run.error.psnr) << ',' << run.error.pixels << ',' << run.error.pixels_off << ','
-       << name_of(run.pareto) << ',' << csv_text(shares_text(run)) << '\n';
+       << ',' << variant.isa << ','
+       << (has_accuracy(variant) ? language::word_of(variant.accuracy) : "") << ',' << variant.lanes
+       << ',' << variant.threads << ',' << variant.depth << ',' << exact(variant.min_weight) << ','
+       << variant.samples << ',' << (variant.adaptive ? exact(*variant.adaptive) : "") << ','
+       << exact(run.median) << ',' << exact(run.spread) << ',' << run.rays << ',' << run.cut.rays
+       << ',' << exact(run.cut.bound) << ',' << exact(run.error.rmse) << ','
+       << exact(run.error.max_abs) << ',' << exact(run.error.psnr) << ',' << run.error.pixels << ','
+       << run.error.pixels_off << ',' << name_of(run.pareto) << ',' << csv_text(shares_text(run))
+       << '\n';
 }
 
 }  // namespace
@@ -77,26 +78,27 @@ Json run_json(const SceneReport& scene, const StudyReport& study, const ReportRu
 {
     const Variant& variant = run.variant;
     const bool packet = variant.kernel == Kernel::packet;
-    return {{"name", variant.name},
-            {"kernel", packet ? "packet" : "scalar"},
-            {"precision", variant.precision},
-            {"isa", packet ? Json(variant.isa) : Json()},
-            {"accuracy", has_accuracy(variant) ? Json(name_of(variant.accuracy)) : Json()},
-            {"lanes", variant.lanes},
-            {"threads", variant.threads},
-            {"depth", variant.depth},
-            {"min_weight", variant.min_weight},
-            {"samples", variant.samples},
-            {"adaptive", variant.adaptive ? Json(*variant.adaptive) : Json()},
-            {"median_s", run.median},
-            {"spread", run.spread},
-            {"seconds", run.seconds},
-            {"rays", packet ? Json(run.rays) : Json()},
-            {"cut_rays", run.cut.rays},
-            {"cut_bound", finite_or_null(run.cut.bound)},
-            {"pareto", name_of(run.pareto)},
-            {"error", error_json(run)},
-            {"picture", picture_file(scene, study, run.picture)}};
+    return {
+        {"name", variant.name},
+        {"kernel", packet ? "packet" : "scalar"},
+        {"precision", variant.precision},
+        {"isa", packet ? Json(variant.isa) : Json()},
+        {"accuracy", has_accuracy(variant) ? Json(language::word_of(variant.accuracy)) : Json()},
+        {"lanes", variant.lanes},
+        {"threads", variant.threads},
+        {"depth", variant.depth},
+        {"min_weight", variant.min_weight},
+        {"samples", variant.samples},
+        {"adaptive", variant.adaptive ? Json(*variant.adaptive) : Json()},
+        {"median_s", run.median},
+        {"spread", run.spread},
+        {"seconds", run.seconds},
+        {"rays", packet ? Json(run.rays) : Json()},
+        {"cut_rays", run.cut.rays},
+        {"cut_bound", finite_or_null(run.cut.bound)},
+        {"pareto", name_of(run.pareto)},
+        {"error", error_json(run)},
+        {"picture", picture_file(scene, study, run.picture)}};
 }
 
 Json choice_json(const RunChoice& choice)

@@ -1,10 +1,10 @@
 #include <algorithm>
 #include <utility>
 
-#include "lab/harness/names.hpp"
 #include "lab/report/plot.hpp"
 #include "lab/report/report_study.hpp"
 #include "lab/report/report_text.hpp"
+#include "render/option_words.hpp"
 
 namespace packtrace {
 namespace {
@@ -24,7 +24,7 @@ std::string point_label(const Variant& variant)
         return variant.name;
     const std::string isa = variant.kernel == Kernel::scalar ? "" : variant.isa + " ";
     const bool usual = variant.accuracy == Accuracy::exact;
-    return isa + (usual ? "" : std::string(name_of(variant.accuracy)) + " ") +
+    return isa + (usual ? "" : std::string(language::word_of(variant.accuracy)) + " ") +
            (variant.general ? "general " : "") +
            (variant.self_hits == default_self_hits ? "" : "from 0.001 ") + "x" +
            std::to_string(variant.threads);

@@ -6,6 +6,8 @@
 #include <packtrace/isa.hpp>
 #include <packtrace/render.hpp>
 
+#include "render/option_words.hpp"
+
 // The ways in which a scene is traced.
 namespace packtrace::lab {
 
@@ -18,32 +20,27 @@ struct SoakWay {
     RenderOptions options;
 };
 
-[[nodiscard]] inline std::string common_words(const SoakWay& way)
+/// The options of `packtrace intersect` that ask for it, where the answer is to be to rays.
+[[nodiscard]] inline std::string intersect_words(const SoakWay& way)
 {
     const RenderOptions& options = way.options;
     std::string words = " --precision " + way.precision;
     if (options.kernel == Kernel::scalar)
         return words + " --kernel scalar";
     words += " --isa " + options.isa;
-    words += options.traversal == Traversal::list ? " --traversal list" : " --traversal tree";
+    words.append(" --traversal ").append(language::word_of(options.traversal));
     if (way.precision == "single")
-        words += options.accuracy == Accuracy::fast ? " --accuracy fast" : " --accuracy exact";
+        words.append(" --accuracy ").append(language::word_of(options.accuracy));
     return words + (options.self_hits == SelfHits::note ? " --self-hits note" : "");
 }
 
-/// The options of `packtrace render` that ask for it.
+/// Those of `packtrace render`.
 [[nodiscard]] inline std::string render_words(const SoakWay& way)
 {
-    std::string words = common_words(way);
+    std::string words = intersect_words(way);
     if (way.options.force_general)
         words += " --force-general";
     return words + " --threads " + std::to_string(way.options.threads);
-}
-
-/// Those of `packtrace intersect`, where the answer is to be to rays.
-[[nodiscard]] inline std::string intersect_words(const SoakWay& way)
-{
-    return common_words(way);
 }
 
 /// The scalar kernel.

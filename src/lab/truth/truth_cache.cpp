@@ -18,6 +18,7 @@
 #include "core/checksum.hpp"
 #include "core/read_file.hpp"
 #include "lab/harness/machine.hpp"
+#include "render/option_words.hpp"
 
 namespace packtrace {
 namespace {
@@ -62,7 +63,7 @@ TruthKey truth_key(const Scene& scene, int samples)
     key.machine = processor_name() + ", " + c_library();
     key.precision =
         samples > 1 ? with_bits<double>("double") : with_bits<long double>("long double");
-    key.self_hits = default_self_hits == SelfHits::note ? "note" : "exact";
+    key.self_hits = language::word_of(default_self_hits);
     key.samples = samples;
     key.scene = scene_text(scene);
     return key;

@@ -98,13 +98,7 @@ template <class Enum>
         takes += (takes.empty() ? "`" : ", `") + std::string(spelling.word) + '`';
     }
     return {takes,
-            [words](const Field& field) {
-                const std::string_view word = read_word(field, words);
-                for (const Spelling<Enum>& spelling : spellings(Enum{}))
-                    if (spelling.word == word)
-                        return spelling.value;
-                return Enum{};
-            },
+            [words](const Field& field) { return *find_word<Enum>(read_word(field, words)); },
             [](std::string& out, Enum value) { out += word_of(value); },
             [](std::string_view key, Enum value) {
                 return word_of(value).empty()

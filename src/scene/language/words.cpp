@@ -47,6 +47,15 @@ bool is_of_kind(const Surface& surface, const Surface& blank)
 
 }  // namespace
 
+std::vector<Spelling<QuadricKind>> spellings(QuadricKind)
+{
+    std::vector<Spelling<QuadricKind>> words;
+    for (const QuadricKindInfo& info : quadric_kinds())
+        words.push_back({info.kind, info.name});
+    words.push_back({QuadricKind::general, "general"});
+    return words;
+}
+
 std::span<const SurfaceWord> surface_words()
 {
     static const std::vector<SurfaceWord> words = [] {

@@ -1,8 +1,10 @@
 #pragma once
 
 #include <array>
+#include <optional>
 #include <span>
 #include <string_view>
+#include <vector>
 
 #include <packtrace/scene.hpp>
 
@@ -68,6 +70,9 @@ constexpr std::array<Spelling<bool>, 4> spellings(bool)
     return {{{false, "no"}, {true, "yes"}, {false, "false"}, {true, "true"}}};
 }
 
+[[nodiscard]] std::vector<Spelling<QuadricKind>> spellings(QuadricKind);
+
+/// The word that is written for a value; empty for none of the enumeration.
 template <class Enum>
 [[nodiscard]] constexpr std::string_view word_of(Enum value)
 {
@@ -75,6 +80,16 @@ template <class Enum>
         if (spelling.value == value)
             return spelling.word;
     return {};
+}
+
+/// The value that a word stands for.
+template <class Enum>
+[[nodiscard]] constexpr std::optional<Enum> find_word(std::string_view word)
+{
+    for (const Spelling<Enum>& spelling : spellings(Enum{}))
+        if (spelling.word == word)
+            return spelling.value;
+    return std::nullopt;
 }
 
 /// `word { … }` is an object with a surface of this kind.

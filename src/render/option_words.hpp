@@ -1,0 +1,32 @@
+#pragma once
+
+#include <array>
+
+#include <packtrace/render.hpp>
+
+#include "scene/language/words.hpp"
+
+// The words of the program and of Python for what render options choose between.
+namespace packtrace {
+
+constexpr std::array<language::Spelling<Kernel>, 2> spellings(Kernel)
+{
+    return {{{Kernel::packet, "packet"}, {Kernel::scalar, "scalar"}}};
+}
+
+constexpr std::array<language::Spelling<Accuracy>, 2> spellings(Accuracy)
+{
+    return {{{Accuracy::fast, "fast"}, {Accuracy::exact, "exact"}}};
+}
+
+constexpr std::array<language::Spelling<SelfHits>, 2> spellings(SelfHits)
+{
+    return {{{SelfHits::note, "note"}, {SelfHits::exact, "exact"}}};
+}
+
+constexpr std::array<language::Spelling<Traversal>, 3> spellings(Traversal)
+{
+    return {{{Traversal::automatic, "auto"}, {Traversal::list, "list"}, {Traversal::tree, "tree"}}};
+}
+
+}  // namespace packtrace
