@@ -174,7 +174,7 @@ void run_intersect(const World& world, const IntersectJobArguments& arguments)
     });
     check_ranks(world, options, arguments.job.mixing());
     const Scene scene = shared_scene(world, arguments.scene);
-    const cli::ThreadLimit limit(options.threads, 2);
+    cli::limit_threads(options.threads, 2);
     if (arguments.all)
         pieces->number(world);
 

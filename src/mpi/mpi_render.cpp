@@ -240,7 +240,7 @@ void run_render(const World& world, const RenderJobArguments& arguments)
         if (arguments.animation.frame)
             cli::go_to_frame(scene, *arguments.animation.frame);
     });
-    const cli::ThreadLimit limit(options.threads, 2);
+    cli::limit_threads(options.threads, 2);
     if (arguments.animation.many())
         render_frames(world, arguments, scene, options);
     else

@@ -217,7 +217,7 @@ void run_demo(const DemoArguments& arguments)
     make_folders(arguments.folder);
     check_image_writable(arguments.folder / (input.stem + ".png"));
 
-    const ThreadLimit limit(arguments.threads);
+    limit_threads(arguments.threads);
     std::vector<DemoEntry> entries = demo_entries(arguments.threads);
     render_rounds(scene, arguments.rounds, entries);
     std::cout << language::escape(input.name) << ", " << scene.width << " x " << scene.height

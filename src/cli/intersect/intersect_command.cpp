@@ -30,7 +30,7 @@ void run(const IntersectArguments& arguments, const Scene& scene, const RenderOp
 void run_intersect(const IntersectArguments& arguments)
 {
     const RenderOptions options = checked_options(arguments);
-    const ThreadLimit limit(options.threads);
+    limit_threads(options.threads);
     // Before the work, so that a wrong name doesn't cost it.
     if (!arguments.output.empty())
         check_writable(arguments.output);

@@ -64,7 +64,7 @@ int possible_threads(int threads, int others)
 
 }  // namespace
 
-ThreadLimit::ThreadLimit(int threads, int others)
+void limit_threads(int threads, int others)
 {
     // Never lifted, but held where who looks for leaks finds it.
     [[maybe_unused]] static const tbb::global_control* volatile limit = nullptr;

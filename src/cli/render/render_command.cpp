@@ -96,7 +96,7 @@ void run_render(const RenderArguments& arguments)
     apply(arguments.picture, scene);
     options.region = region_of(arguments, scene);
     // Frames of an animation and bands of a picture are written by one more.
-    const ThreadLimit limit(options.threads, 1);
+    limit_threads(options.threads, 1);
     if (arguments.animation.many())
         return render_animation(arguments, scene, options);
     if (arguments.animation.frame)

@@ -98,7 +98,7 @@ void measure_alone(const std::vector<ReportScene>& scenes, const BenchArguments&
                    BenchResult& result)
 {
     // Measured here are processor seconds, of which other threads should take none.
-    const ThreadLimit one_thread(1);
+    limit_threads(1);
     BenchOptions options;
     if (arguments.isa)
         options.isas = {*arguments.isa};

@@ -69,7 +69,7 @@ void profile_as(const ProfileArguments& arguments, const SceneInput& input)
 {
     const Scene& scene = input.scene;
     const ProfileOptions options = profile_options(arguments);
-    const ThreadLimit limit(options.threads);
+    limit_threads(options.threads);
     const Profile result = profile<Real>(input.text, scene, options);
     write_extras<Real>(arguments, scene, options);
     if (arguments.json)

@@ -223,7 +223,7 @@ void run_report(const ReportArguments& arguments)
     // Before the work, so that a wrong name doesn't cost it.
     check_report_target(arguments);
     // The runs have arenas of their own sizes.
-    const ThreadLimit limit(report_threads(options));
+    limit_threads(report_threads(options));
     std::vector<SceneReport> reports;
     for (const ReportScene& scene : scenes) {
         reports.push_back(report_scene(scene, options, arguments));

@@ -138,7 +138,7 @@ void run(const SoakArguments& arguments)
     const int threads =
         arguments.threads > 0 ? arguments.threads : tbb::info::default_concurrency();
     // Some pictures are made by several threads, in arenas of their own.
-    const ThreadLimit limit(std::max(threads, lab::soak_threads));
+    limit_threads(std::max(threads, lab::soak_threads));
     tbb::task_arena arena(threads);
     const int findings = arena.execute(
         [&] { return arguments.files.empty() ? check_random(arguments) : check_files(arguments); });

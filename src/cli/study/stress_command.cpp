@@ -110,7 +110,7 @@ void run_stress_command(const StressArguments& arguments)
     lab::StressOptions options = stress_options(arguments);
     if (arguments.shard)
         take_shard(arguments, options);
-    const ThreadLimit limit(arguments.threads);
+    limit_threads(arguments.threads);
     // Before the work, so that a wrong name doesn't cost it.
     if (arguments.cases)
         make_folders(*arguments.cases);

@@ -326,7 +326,7 @@ void run_report_on_ranks(const World& world, const ReportJobArguments& arguments
         cli::set_interrupt_line(
             "packtrace-mpi: the job ended before the report was written; start it again (truths "
             "that were found are kept)");
-    const cli::ThreadLimit limit(cli::report_threads(options), 2);
+    cli::limit_threads(cli::report_threads(options), 2);
     ReportJob job(world, arguments, options, works);
     job.find_truths();
     const std::vector<RankReport> reports = job.make_looks();

@@ -67,7 +67,7 @@ void run_stress_on_ranks(const World& world, const cli::StressArguments& argumen
     if (world.is_first())
         cli::set_interrupt_line(
             "packtrace-mpi: the job ended before all families were run; start it again");
-    const cli::ThreadLimit limit(arguments.threads, 2);
+    cli::limit_threads(arguments.threads, 2);
     std::vector<RankReport> reports;
     const std::vector<StressRow> rows = run_parts(world, std::move(parts), reports);
     cli::set_interrupt_line("");
