@@ -25,8 +25,7 @@ constexpr std::chrono::microseconds longest_nap{2000};
 struct Head {
     std::uint64_t bytes = 0;
     std::uint64_t error_bytes = 0;
-    std::uint64_t cut_rays = 0;
-    double cut_bound = 0.0;
+    CutRays cut;
 };
 
 }  // namespace
@@ -39,7 +38,7 @@ struct Job::Sending {
 
     explicit Sending(Piece sent) : piece(std::move(sent))
     {
-        head = {piece.bytes.size(), piece.error.size(), piece.cut_rays, piece.cut_bound};
+        head = {piece.bytes.size(), piece.error.size(), piece.cut};
         const auto send = [&](const void* bytes, int count, bool waits) {
             requests.emplace_back();
             // Bytes leave only when rank 0 has room for them.
@@ -310,8 +309,7 @@ bool Job::receive_one(int tag)
     MPI_Recv(&head, sizeof head, MPI_BYTE, source, tag, MPI_COMM_WORLD, MPI_STATUS_IGNORE);
     Piece piece;
     piece.number = tag;
-    piece.cut_rays = head.cut_rays;
-    piece.cut_bound = head.cut_bound;
+    piece.cut = head.cut;
     piece.bytes.resize(head.bytes);
     piece.error.resize(head.error_bytes);
     in_messages(piece.bytes.size(), [&](std::size_t at, int count) {

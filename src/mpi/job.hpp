@@ -13,6 +13,8 @@
 #include <string>
 #include <vector>
 
+#include <packtrace/render.hpp>
+
 #include "image/bytes.hpp"
 #include "mpi/hand_out.hpp"
 #include "mpi/world.hpp"
@@ -23,8 +25,7 @@ namespace packtrace::mpi {
 struct Piece {
     int number = 0;
     Bytes bytes;
-    std::uint64_t cut_rays = 0;
-    double cut_bound = 0.0;
+    CutRays cut;
     /// Why there are no bytes; empty where there are. The first piece in order that has one ends
     /// the job.
     std::string error;

@@ -1,4 +1,3 @@
-#include <algorithm>
 #include <chrono>
 #include <iostream>
 #include <memory>
@@ -14,6 +13,7 @@
 #include "cli/render/render_arguments.hpp"
 #include "cli/render/render_bands.hpp"
 #include "cli/render/render_picture.hpp"
+#include "core/cut_rays.hpp"
 #include "core/seconds_since.hpp"
 #include "mpi/commands.hpp"
 #include "scene/language/quote.hpp"
@@ -55,7 +55,7 @@ public:
     {
         const int number = missing_[static_cast<std::size_t>(piece.number)];
         write_kept(number);
-        const FinishedBand band{std::move(piece.bytes), {piece.cut_rays, piece.cut_bound}};
+        const FinishedBand band{std::move(piece.bytes), piece.cut};
         file_.keep(number, band);
         write(band);
         note_progress();
@@ -80,8 +80,7 @@ public:
 private:
     void write(const FinishedBand& band)
     {
-        cut_.rays += band.cut.rays;
-        cut_.bound = std::max(cut_.bound, band.cut.bound);
+        cut_ += band.cut;
         file_.write(band.samples);
         bar_.update(static_cast<double>(++written_) / file_.bands().count());
     }
@@ -144,8 +143,7 @@ void render_picture(const World& world, const RenderJobArguments& arguments, con
         Piece piece;
         piece.bytes.resize(samples->row_bytes() * static_cast<std::size_t>(band.rows));
         const FrameCounts counts = render(band, piece.bytes);
-        piece.cut_rays = counts.cut.rays;
-        piece.cut_bound = counts.cut.bound;
+        piece.cut = counts.cut;
         report.rays += counts.total();
         return piece;
     };

@@ -2,6 +2,7 @@
 
 #include <packtrace/render.hpp>
 #include <packtrace/vec.hpp>
+#include "core/cut_rays.hpp"
 #include "reference/world.hpp"
 
 #include <algorithm>
@@ -40,8 +41,7 @@ public:
     /// Takes over what another thread has counted.
     void add(const CutCounter& more)
     {
-        total_.rays += more.total_.rays;
-        total_.bound = std::max(total_.bound, more.total_.bound);
+        total_ += more.total_;
     }
 
     /// The same for another thread, from nothing on.

@@ -6,18 +6,17 @@
 #include <tbb/task_arena.h>
 
 #include "core/arena.hpp"
+#include "core/cut_rays.hpp"
 #include "image/contrast.hpp"
 #include "render/check_options.hpp"
 
 namespace packtrace {
 namespace {
 
-FrameCounts operator+(const FrameCounts& a, const FrameCounts& b)
+FrameCounts operator+(FrameCounts a, const FrameCounts& b)
 {
-    return {
-        a.camera + b.camera,       a.shadow + b.shadow,
-        a.reflected + b.reflected, a.refracted + b.refracted,
-        a.unsure + b.unsure,       {a.cut.rays + b.cut.rays, std::max(a.cut.bound, b.cut.bound)}};
+    return {a.camera + b.camera,       a.shadow + b.shadow, a.reflected + b.reflected,
+            a.refracted + b.refracted, a.unsure + b.unsure, a.cut += b.cut};
 }
 
 }  // namespace

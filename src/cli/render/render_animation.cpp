@@ -1,6 +1,5 @@
 #include "cli/render/render_animation.hpp"
 
-#include <algorithm>
 #include <chrono>
 #include <iostream>
 #include <stdexcept>
@@ -12,6 +11,7 @@
 #include "cli/output/progress_bar.hpp"
 #include "cli/output/text_table.hpp"
 #include "cli/render/render_picture.hpp"
+#include "core/cut_rays.hpp"
 #include "core/job_queue.hpp"
 #include "core/seconds_since.hpp"
 #include "image/formats.hpp"
@@ -45,8 +45,7 @@ AnyImage render_frame(const Scene& scene, const std::string& precision,
     const auto start = std::chrono::steady_clock::now();
     CutRays cut;
     AnyImage image = render_picture(scene, precision, options, &cut);
-    tally.cut.rays += cut.rays;
-    tally.cut.bound = std::max(tally.cut.bound, cut.bound);
+    tally.cut += cut;
     tally.rendering += seconds_since(start);
     ++tally.rendered;
     return image;
