@@ -8,6 +8,7 @@
 #include <packtrace/read_scene.hpp>
 
 #include "catch.hpp"
+#include "core/cut_rays.hpp"
 #include "image/formats.hpp"
 #include "image/row_file.hpp"
 #include "intersect_program.hpp"
@@ -23,13 +24,11 @@ namespace {
 template <class Real>
 Image<Real> in_bands(const Scene& scene, const RenderOptions& options, int rows, CutRays& cut)
 {
-    const RowRenderer<Real> renderer(scene, options);
+    const RenderRows<Real> render_rows = row_renderer<Real>(scene, options);
     Image<Real> image(scene.width, scene.height);
     for (int first = (scene.height - 1) / rows * rows; first >= 0; first -= rows) {
         Image<Real> band(scene.width, std::min(rows, scene.height - first));
-        const CutRays some = renderer.render(first, band).cut;
-        cut.rays += some.rays;
-        cut.bound = std::max(cut.bound, some.bound);
+        cut += render_rows(first, band).cut;
         std::copy(band.rgb.begin(), band.rgb.end(), image.pixel(0, first));
     }
     return image;

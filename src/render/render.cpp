@@ -166,21 +166,22 @@ template Image<double> render(const Scene&, const RenderOptions&, CutRays*);
 template Image<long double> render(const Scene&, const RenderOptions&, CutRays*);
 
 template <class Real>
-RowRenderer<Real>::RowRenderer(const Scene& scene, const RenderOptions& options)
+RenderRows<Real> row_renderer(const Scene& scene, const RenderOptions& options)
 {
     if (options.kernel == Kernel::scalar) {
         const auto rows = std::make_shared<ScalarRows<Real>>(scene, options);
-        render_ = [rows](int first, Image<Real>& image) { return rows->render(first, image); };
-    } else if constexpr (has_packets<Real>) {
+        return [rows](int first, Image<Real>& image) { return rows->render(first, image); };
+    }
+    if constexpr (has_packets<Real>) {
         const auto rows = packet_rows<Real>(scene, options);
-        render_ = [rows](int first, Image<Real>& image) { return rows->render_rows(first, image); };
+        return [rows](int first, Image<Real>& image) { return rows->render_rows(first, image); };
     } else {
         refuse_packets();
     }
 }
 
-template class RowRenderer<float>;
-template class RowRenderer<double>;
-template class RowRenderer<long double>;
+template RenderRows<float> row_renderer(const Scene&, const RenderOptions&);
+template RenderRows<double> row_renderer(const Scene&, const RenderOptions&);
+template RenderRows<long double> row_renderer(const Scene&, const RenderOptions&);
 
 }  // namespace packtrace

@@ -2,12 +2,12 @@
 
 #include <algorithm>
 #include <chrono>
-#include <memory>
 #include <utility>
 
 #include "cli/interrupts.hpp"
 #include "cli/output/progress_bar.hpp"
 #include "cli/render/band_file.hpp"
+#include "core/cut_rays.hpp"
 #include "core/job_queue.hpp"
 #include "core/seconds_since.hpp"
 #include "kernel_abi/kernel_table.hpp"
@@ -20,12 +20,11 @@ template <class Real>
 RenderBand band_renderer(const Scene& scene, const RenderOptions& options,
                          const RowSamples& samples)
 {
-    const auto renderer = std::make_shared<RowRenderer<Real>>(scene, options);
-    return [renderer, samples, width = scene.width, image = Image<Real>()](
-               const Bands::Band& band, std::span<std::uint8_t> bytes) mutable {
+    return [render = row_renderer<Real>(scene, options), samples, width = scene.width,
+            image = Image<Real>()](const Bands::Band& band, std::span<std::uint8_t> bytes) mutable {
         if (image.height != band.rows)
             image = Image<Real>::unset(width, band.rows);
-        const FrameCounts counts = renderer->render(band.first, image);
+        const FrameCounts counts = render(band.first, image);
         samples.encode(std::span<const Real>(image.rgb), bytes.data());
         return counts;
     };
@@ -38,12 +37,6 @@ void note_progress(const RenderArguments& arguments, int done, int bands)
         set_interrupt_line("packtrace: interrupted with " + std::to_string(done) + " of " +
                            std::to_string(bands) + " bands of " + arguments.output +
                            " finished; the same command goes on with them");
-}
-
-void add(CutRays& sum, const CutRays& some)
-{
-    sum.rays += some.rays;
-    sum.bound = std::max(sum.bound, some.bound);
 }
 
 }  // namespace
@@ -82,14 +75,14 @@ BandTally render_bands(const RenderArguments& arguments, const Scene& scene,
     for (; number < tally.bands; ++number) {
         if (std::optional<FinishedBand> kept = file.kept(number)) {
             ++tally.found;
-            add(tally.cut, kept->cut);
+            tally.cut += kept->cut;
             writer.add([&file, samples = std::move(kept->samples)] { file.write(samples); });
             continue;
         }
         FinishedBand band{Bytes(file.band_bytes(number)), {}};
         const auto start = std::chrono::steady_clock::now();
         band.cut = render(file.bands().band(number), band.samples).cut;
-        add(tally.cut, band.cut);
+        tally.cut += band.cut;
         tally.rendering += seconds_since(start);
         writer.add([&, number, band = std::move(band)] {
             file.keep(number, band);
