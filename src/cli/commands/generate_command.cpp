@@ -9,7 +9,7 @@
 #include "cli/command.hpp"
 #include "cli/options/common_options.hpp"
 #include "cli/options/validators.hpp"
-#include "cli/output/text_output.hpp"
+#include "cli/output/output.hpp"
 
 namespace packtrace::cli {
 namespace {
@@ -114,7 +114,7 @@ void add_generate(CLI::App& app)
     CLI::App* generate = app.add_subcommand("generate", "Write a procedural scene");
     const auto file = std::make_shared<std::string>();
     add_generators(*generate, [file](const Scene& scene) {
-        TextOutput output(*file);
+        Output output(*file);
         output.write(scene_text(scene));
         output.finish();
     });

@@ -10,7 +10,7 @@
 #include "cli/command.hpp"
 #include "cli/options/shard.hpp"
 #include "cli/output/distinct_files.hpp"
-#include "cli/output/text_output.hpp"
+#include "cli/output/output.hpp"
 #include "cli/study/study.hpp"
 #include "core/checksum.hpp"
 #include "core/read_file.hpp"
@@ -129,7 +129,7 @@ std::vector<HitPart> open_parts(const std::vector<std::string>& names)
     return parts;
 }
 
-void join_hits(const std::vector<HitPart>& parts, TextOutput& output)
+void join_hits(const std::vector<HitPart>& parts, Output& output)
 {
     std::string header;
     for (const HitPart& part : parts) {
@@ -147,12 +147,12 @@ void run_join(const JoinArguments& arguments)
     const bool json = first_byte(arguments.parts.front()) == '{';
     if (json) {
         const std::string joined = join_stress(arguments.parts);
-        TextOutput output(arguments.output);
+        Output output(arguments.output);
         output.write(joined);
         return output.finish();
     }
     const std::vector<HitPart> parts = open_parts(arguments.parts);
-    TextOutput output(arguments.output);
+    Output output(arguments.output);
     join_hits(parts, output);
     output.finish();
 }

@@ -32,7 +32,7 @@ HitOutput::HitOutput(const IntersectArguments& arguments, const std::string& rec
     : name_(arguments.output)
 {
     if (!arguments.resume) {
-        text_ = std::make_unique<TextOutput>(arguments.output);
+        text_ = std::make_unique<Output>(arguments.output);
         append(header);
         return;
     }

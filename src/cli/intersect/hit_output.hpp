@@ -8,7 +8,7 @@
 
 #include "cli/intersect/intersect_arguments.hpp"
 #include "cli/output/journal.hpp"
-#include "cli/output/text_output.hpp"
+#include "cli/output/output.hpp"
 
 namespace packtrace::cli {
 
@@ -55,7 +55,7 @@ private:
     [[noreturn]] void fail_of_rays() const;
 
     std::string name_;
-    std::unique_ptr<TextOutput> text_;
+    std::unique_ptr<Output> text_;
     std::unique_ptr<Journal> journal_;
     Progress done_;
 };

@@ -1,8 +1,10 @@
 #pragma once
 
 #include <cerrno>
+#include <cstddef>
 #include <cstdio>
 #include <optional>
+#include <span>
 #include <string>
 #include <string_view>
 
@@ -10,22 +12,33 @@
 
 namespace packtrace::cli {
 
-/// Text for standard output, or for a file that appears whole or not at all. All throw
+/// Text or bytes for standard output, or for a file that appears whole or not at all. All throw
 /// FileError.
-class TextOutput {
+class Output {
 public:
     /// Standard output where `file` is empty or -.
-    explicit TextOutput(const std::string& file)
+    explicit Output(const std::string& file)
     {
         if (!file.empty() && file != "-")
             file_.emplace(file);
     }
 
-    void write(std::string_view text)
+    void write(std::span<const std::byte> bytes)
     {
         if (file_)
-            file_->write(text);
-        else if (std::fwrite(text.data(), 1, text.size(), stdout) != text.size())
+            file_->write(bytes);
+        else if (std::fwrite(bytes.data(), 1, bytes.size(), stdout) != bytes.size())
+            throw FileError("standard output", "can't write", errno);
+    }
+    void write(std::string_view text)
+    {
+        write(std::as_bytes(std::span(text)));
+    }
+
+    /// Passes on what standard output has not taken yet.
+    void flush()
+    {
+        if (!file_ && std::fflush(stdout) != 0)
             throw FileError("standard output", "can't write", errno);
     }
 
@@ -34,8 +47,7 @@ public:
     {
         if (file_)
             file_->commit();
-        else if (std::fflush(stdout) != 0)
-            throw FileError("standard output", "can't write", errno);
+        flush();
     }
 
 private:

@@ -1,14 +1,11 @@
 #include "cli/render/frame_output.hpp"
 
-#include <cerrno>
-#include <cstdio>
 #include <filesystem>
-#include <optional>
 #include <span>
 #include <system_error>
 
+#include "cli/output/output.hpp"
 #include "cli/render/frame_recipe.hpp"
-#include "core/atomic_file.hpp"
 #include "image/y4m.hpp"
 #include "render/frame_numbers.hpp"
 
@@ -47,38 +44,10 @@ private:
     FrameRecipe recipe_;
 };
 
-/// Standard output, or a file that appears when complete.
-class ByteSink {
-public:
-    explicit ByteSink(const std::string& output)
-    {
-        if (output != "-")
-            file_.emplace(output);
-    }
-
-    void write(std::span<const std::byte> bytes)
-    {
-        if (file_)
-            return file_->write(bytes);
-        if (std::fwrite(bytes.data(), 1, bytes.size(), stdout) != bytes.size() ||
-            std::fflush(stdout) != 0)
-            throw FileError("standard output", "can't write", errno);
-    }
-
-    void finish()
-    {
-        if (file_)
-            file_->commit();
-    }
-
-private:
-    std::optional<AtomicFile> file_;
-};
-
 class FrameStream final : public FrameOutput {
 public:
     explicit FrameStream(const RenderArguments& arguments)
-        : sink_(arguments.output),
+        : output_(arguments.output),
           gamma_(arguments.write.gamma),
           frames_per_second_(arguments.animation.fps)
     {
@@ -96,23 +65,22 @@ public:
 
     void finish() override
     {
-        sink_.finish();
+        output_.finish();
     }
 
 private:
     template <class Real>
     void write_frame(const Image<Real>& image)
     {
-        if (!started_) {
-            const std::string header = y4m_header(image.width, image.height, frames_per_second_);
-            sink_.write(std::as_bytes(std::span(header)));
-        }
+        if (!started_)
+            output_.write(y4m_header(image.width, image.height, frames_per_second_));
         started_ = true;
         const Bytes frame = y4m_frame(image, gamma_);
-        sink_.write(std::as_bytes(std::span(frame)));
+        output_.write(std::as_bytes(std::span(frame)));
+        output_.flush();
     }
 
-    ByteSink sink_;
+    Output output_;
     double gamma_;
     int frames_per_second_;
     bool started_ = false;

@@ -12,7 +12,7 @@
 #include "cli/options/scene_input.hpp"
 #include "cli/options/thread_limit.hpp"
 #include "cli/options/validators.hpp"
-#include "cli/output/text_output.hpp"
+#include "cli/output/output.hpp"
 #include "cli/output/text_table.hpp"
 #include "cli/study/bench_file.hpp"
 #include "cli/study/bench_programs.hpp"
@@ -297,7 +297,7 @@ void run_bench_command(const BenchArguments& arguments)
         measure_in_pairs(arguments, result);
     print_bench_lines(result);
     if (!arguments.output.empty()) {
-        TextOutput output(arguments.output);
+        Output output(arguments.output);
         output.write(bench_text(result.figures.now));
         output.finish();
     }

@@ -11,7 +11,7 @@
 #include "cli/options/thread_limit.hpp"
 #include "cli/options/validators.hpp"
 #include "cli/output/distinct_files.hpp"
-#include "cli/output/text_output.hpp"
+#include "cli/output/output.hpp"
 #include "cli/study/profile_print.hpp"
 #include "core/atomic_file.hpp"
 #include "core/check_number.hpp"
@@ -58,7 +58,7 @@ void write_extras(const ProfileArguments& arguments, const Scene& scene,
         write_image(arguments.heatmap,
                     cost_picture(pixel_costs<Real>(scene, options), scene.width, scene.height));
     if (!arguments.trace.empty()) {
-        TextOutput output(arguments.trace);
+        Output output(arguments.trace);
         output.write(trace_json(trace_tiles<Real>(scene, options)).dump() + "\n");
         output.finish();
     }
