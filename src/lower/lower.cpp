@@ -18,7 +18,7 @@ namespace packtrace {
 namespace {
 
 /// By surface whether it casts a shadow; none where all do.
-std::vector<bool> shadow_casters(const Scene& scene, const LoweredScene& lowered)
+std::vector<bool> casting_surfaces(const Scene& scene, const LoweredScene& lowered)
 {
     std::vector<bool> casts;
     const auto casts_shadow = [](const Object& object) { return object.casts_shadow; };
@@ -209,7 +209,7 @@ LoweredScene lower(const Scene& scene, Accuracy accuracy, SelfHits self_hits)
     lower_objects(scene, lowered);
     part_anchored_spheres(lowered);
     lowered.self_hits = self_hits;
-    lowered.casts_shadow = shadow_casters(scene, lowered);
+    lowered.casts_shadow = casting_surfaces(scene, lowered);
 
     lowered.features = features_of(lowered);
     lowered.features.exact = accuracy == Accuracy::exact;

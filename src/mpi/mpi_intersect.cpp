@@ -100,7 +100,7 @@ public:
         cli::TextBlocks blocks(file_, part.begin, part.end);
         std::uint32_t sum = 0;
         for (std::string text = blocks.next(); !text.empty(); text = blocks.next())
-            sum = checksum({reinterpret_cast<const std::uint8_t*>(text.data()), text.size()}, sum);
+            sum = checksum(bytes_of(text), sum);
         return std::to_string(sum);
     }
 

@@ -281,11 +281,7 @@ OwnerFault fault_of_object(const Object& object, Illumination illumination)
 
 OwnerFault fault_of_camera(const Camera& camera)
 {
-    CameraKeys keys;
-    keys.position = camera.position;
-    keys.rotation = camera.rotation;
-    keys.fov = camera.fov;
-    return fault_in_rows(keys);
+    return fault_in_rows(keys_of_camera(camera));
 }
 
 OwnerFault fault_of_key(const CameraKey& key, int frames, int earlier)

@@ -14,13 +14,9 @@
 namespace packtrace::cli {
 namespace {
 
-/// What every generator's command takes.
-struct Common {
-    PictureArguments picture{.size = "1024x1024", .depth = {}, .min_weight = {}};
-};
-
 template <class Options>
-struct Arguments : Common {
+struct Arguments {
+    PictureArguments picture{.size = "1024x1024", .depth = {}, .min_weight = {}};
     Options options;
 };
 

@@ -27,8 +27,7 @@ void write_row(std::ostream& to, const SceneReport& scene, const StudyReport& st
     const Variant& variant = run.variant;
     to << csv_text(scene.name) << ',' << scene.width << ',' << scene.height << ','
        << name_of(study.study) << ',' << csv_text(variant.name) << ','
-       << (variant.kernel == Kernel::scalar ? "scalar" : "packet") << ',' << variant.precision
-       << ',' << variant.isa << ','
+       << language::word_of(variant.kernel) << ',' << variant.precision << ',' << variant.isa << ','
        << (has_accuracy(variant) ? language::word_of(variant.accuracy) : "") << ',' << variant.lanes
        << ',' << variant.threads << ',' << variant.depth << ',' << exact(variant.min_weight) << ','
        << variant.samples << ',' << (variant.adaptive ? exact(*variant.adaptive) : "") << ','

@@ -15,6 +15,13 @@ struct CameraKeys {
     std::optional<double> fov;
 };
 
+/// With the pose as a rotation.
+[[nodiscard]] inline CameraKeys keys_of_camera(const Camera& camera)
+{
+    return {
+        .position = camera.position, .look_at = {}, .rotation = camera.rotation, .fov = camera.fov};
+}
+
 /// The keys of every object besides its surface's and its material's.
 struct ObjectKeys {
     std::optional<std::string> name;

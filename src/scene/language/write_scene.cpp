@@ -16,7 +16,7 @@ public:
     [[nodiscard]] SceneText write(const Scene& scene)
     {
         keys_ += write_rows(out_, scene, "", " = ", "\n");
-        write_camera(scene.camera);
+        write_block("camera", keys_of_camera(scene.camera));
         for (const Light& light : scene.lights)
             write_block("light", light);
         if (scene.animation)
@@ -40,15 +40,6 @@ private:
         open(key);
         keys_ += write_rows(out_, owner);
         out_ += " }\n";
-    }
-
-    void write_camera(const Camera& camera)
-    {
-        CameraKeys keys;
-        keys.position = camera.position;
-        keys.rotation = camera.rotation;
-        keys.fov = camera.fov;
-        write_block("camera", keys);
     }
 
     void write_animation(const Animation& animation)
