@@ -1,5 +1,6 @@
 #include <packtrace/compare.hpp>
 
+#include "bindings.hpp"
 #include "pictures.hpp"
 
 namespace packtrace::python {

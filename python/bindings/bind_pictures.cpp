@@ -1,5 +1,6 @@
 #include <packtrace/image_io.hpp>
 
+#include "bindings.hpp"
 #include "image/formats.hpp"
 #include "pictures.hpp"
 

@@ -1,5 +1,3 @@
-#include "rays.hpp"
-
 #include <pybind11/stl.h>
 #include <tbb/enumerable_thread_specific.h>
 
@@ -9,6 +7,7 @@
 #include <optional>
 #include <vector>
 
+#include "bindings.hpp"
 #include "options.hpp"
 #include "pictures.hpp"
 #include "ray_blocks.hpp"
@@ -146,15 +145,15 @@ public:
             scene->lit({}, light, to);  // refuses what is no light, also where there is no point
             GatheredBlocks<Real, 3> places{ColumnBlocks<Real, 3>(
                 {column_of(points, 0), column_of(points, 1), column_of(points, 2)})};
-            for_each_ray_block(
-                static_cast<std::size_t>(points.shape(0)), places.blocks.block_size(),
-                scenes_.threads(), [&](std::size_t first, std::size_t count) {
-                    const auto at = places.at(first, count);
-                    scene->lit({{at[0], at[1], at[2]},
-                                number == nullptr ? nullptr : number + first,
-                                count},
-                               light, to + first);
-                });
+            for_each_ray_block(static_cast<std::size_t>(points.shape(0)),
+                               places.blocks.block_size(), scenes_.threads(),
+                               [&](std::size_t first, std::size_t count) {
+                                   const auto at = places.at(first, count);
+                                   scene->lit({{at[0], at[1], at[2]},
+                                               number == nullptr ? nullptr : number + first,
+                                               count},
+                                              light, to + first);
+                               });
         });
     }
 
@@ -377,9 +376,8 @@ void bind_rays(py::module_& module)
                 Array mask) {
                  self.occluded({origins, directions, t_min, t_max}, mask);
              })
-        .def("lit",
-             [](Native& self, Array points, const std::optional<Numbers>& surface,
-                std::size_t light, Array mask) { self.lit(points, surface, light, mask); })
+        .def("lit", [](Native& self, Array points, const std::optional<Numbers>& surface,
+                       std::size_t light, Array mask) { self.lit(points, surface, light, mask); })
         .def("all_hits",
              [](Native& self, Array origins, Array directions, Array t_min, Array t_max) {
                  return self.all_hits({origins, directions, t_min, t_max});

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "bindings.hpp"
 #include "options.hpp"
 #include "pictures.hpp"
 #include "progress.hpp"

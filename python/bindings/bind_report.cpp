@@ -2,10 +2,10 @@
 
 #include <utility>
 
+#include "bindings.hpp"
 #include "lab/report/report_text.hpp"
 #include "pictures.hpp"
 #include "progress.hpp"
-#include "report.hpp"
 #include "scene.hpp"
 #include "values.hpp"
 #include "words.hpp"

@@ -8,7 +8,7 @@
 #include <packtrace/validate.hpp>
 #include <packtrace/write_scene.hpp>
 
-#include "native_objects.hpp"
+#include "bindings.hpp"
 #include "scene.hpp"
 #include "values.hpp"
 

@@ -6,12 +6,7 @@
 #include <packtrace/read_scene.hpp>
 #include <packtrace/version.hpp>
 
-#include "pictures.hpp"
-#include "rays.hpp"
-#include "scene.hpp"
-#ifdef PACKTRACE_WITH_STUDY
-#include "report.hpp"
-#endif
+#include "bindings.hpp"
 
 namespace {
 

@@ -42,8 +42,4 @@ auto with_real(const py::dtype& dtype, const Use& use)
     return dtype.itemsize() == sizeof(float) ? use(0.0f) : use(0.0);
 }
 
-void bind_pictures(py::module_& module);
-void bind_render(py::module_& module);
-void bind_compare(py::module_& module);
-
 }  // namespace packtrace::python

@@ -2,6 +2,7 @@
 
 #include <pybind11/pybind11.h>
 
+#include <memory>
 #include <vector>
 
 #include <packtrace/scene.hpp>
@@ -18,6 +19,9 @@ namespace py = pybind11;
 [[nodiscard]] py::object to_python(const Camera& camera);
 [[nodiscard]] py::list to_python(const std::vector<Object>& objects);
 
-void bind_scene(py::module_& module);
+/// Objects of a scene that was read or generated, before anyone asks for them in Python.
+struct NativeObjects {
+    std::shared_ptr<const std::vector<Object>> objects;
+};
 
 }  // namespace packtrace::python

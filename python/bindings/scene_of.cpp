@@ -3,7 +3,6 @@
 
 #include <packtrace/build.hpp>
 
-#include "native_objects.hpp"
 #include "scene.hpp"
 #include "scene/unit_vector.hpp"
 #include "words.hpp"

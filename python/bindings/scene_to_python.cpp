@@ -1,7 +1,6 @@
 #include <memory>
 #include <utility>
 
-#include "native_objects.hpp"
 #include "scene.hpp"
 #include "words.hpp"
 

@@ -1,9 +1,0 @@
-#pragma once
-
-#include <pybind11/pybind11.h>
-
-namespace packtrace::python {
-
-void bind_report(pybind11::module_& module);
-
-}  // namespace packtrace::python
