@@ -1,6 +1,7 @@
 #include "reference/render_reference.hpp"
 
 #include "core/arena.hpp"
+#include "core/progress.hpp"
 #include "image/contrast.hpp"
 #include "reference/reference.hpp"
 #include "scene/sample_pattern.hpp"
@@ -16,28 +17,6 @@
 namespace packtrace {
 namespace {
 
-// Counts finished rows and passes their share on, one thread at a time.
-class RowCounter {
-public:
-    RowCounter(int rows, const std::function<void(double)>& progress)
-        : rows_(rows), progress_(progress)
-    {
-    }
-    void row_done()
-    {
-        if (!progress_)
-            return;
-        const std::lock_guard lock(mutex_);
-        progress_(static_cast<double>(++done_) / rows_);
-    }
-
-private:
-    int rows_;
-    int done_ = 0;
-    const std::function<void(double)>& progress_;
-    std::mutex mutex_;
-};
-
 template <class Real>
 class RegionTracer {
 public:
@@ -47,7 +26,8 @@ public:
           options_(options),
           region_(region),
           cuts_(cuts),
-          counter_(options.adaptive ? 2 * region.height : region.height, options.progress)
+          rows_(options.adaptive ? 2 * region.height : region.height, options.progress,
+                options.stop)
     {
     }
 
@@ -100,20 +80,14 @@ private:
         tbb::parallel_for(
             tbb::blocked_range<int>(part.y, part.y + part.height, 1),
             [&](const tbb::blocked_range<int>& some) {
-                for (int j = some.begin(); j != some.end() && !is_stopped(); ++j) {
+                for (int j = some.begin(); j != some.end() && !rows_.is_stopped(); ++j) {
                     work_on(j, work);
                     if (region_.contains(region_.x, j))
-                        counter_.row_done();
+                        rows_.finish_piece();
                 }
             },
             tbb::simple_partitioner());
-        if (is_stopped())
-            throw StopError("rendering was asked to stop");
-    }
-
-    [[nodiscard]] bool is_stopped() const
-    {
-        return options_.stop.stop_requested();
+        rows_.check_stop();
     }
 
     template <class Work>
@@ -131,7 +105,7 @@ private:
     const RenderOptions& options_;
     Region region_;
     Cuts* cuts_;
-    RowCounter counter_;
+    Progress rows_;
     std::mutex adding_;
 };
 

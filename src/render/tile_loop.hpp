@@ -2,19 +2,15 @@
 
 #include <algorithm>
 #include <atomic>
-#include <functional>
-#include <mutex>
-#include <stop_token>
-#include <utility>
 
 #include <packtrace/renderer.hpp>
-#include <packtrace/stop.hpp>
 
 #include <tbb/enumerable_thread_specific.h>
 #include <tbb/parallel_for.h>
 #include <tbb/partitioner.h>
 #include <tbb/task_arena.h>
 
+#include "core/progress.hpp"
 #include "kernel_abi/kernel_table.hpp"
 
 namespace packtrace {
@@ -82,47 +78,6 @@ private:
     int count_;
     int shares_;
     std::atomic<int> next_{0};
-};
-
-/// Counts finished pieces of work from any thread and passes the share done to a callback, one
-/// call at a time, about a hundred times in all. Knows when to stop.
-class Progress {
-public:
-    Progress(int pieces, const std::function<void(double)>& callback, std::stop_token stop = {})
-        : pieces_(pieces), step_(pieces / 100 + 1), callback_(callback), stop_(std::move(stop))
-    {
-    }
-
-    [[nodiscard]] bool is_stopped() const
-    {
-        return stop_.stop_requested();
-    }
-
-    /// Where the work ends.
-    void check_stop() const
-    {
-        if (is_stopped())
-            throw StopError("rendering was asked to stop");
-    }
-
-    void finish_piece()
-    {
-        if (!callback_)
-            return;
-        const int done = ++done_;
-        if (done % step_ != 0 && done != pieces_)
-            return;
-        const std::lock_guard lock(mutex_);
-        callback_(static_cast<double>(done_.load()) / pieces_);
-    }
-
-private:
-    int pieces_;
-    int step_;
-    const std::function<void(double)>& callback_;
-    std::stop_token stop_;
-    std::atomic<int> done_{0};
-    std::mutex mutex_;
 };
 
 /// Calls `work(piece)`, which returns abi::RayCounts, for each piece of the grid, from the threads
