@@ -4,9 +4,9 @@
 #include <optional>
 #include <variant>
 
-#include <tbb/blocked_range.h>
 #include <tbb/concurrent_vector.h>
-#include <tbb/parallel_for.h>
+
+#include "core/in_parallel.hpp"
 
 namespace packtrace::bounds {
 namespace {
@@ -131,14 +131,11 @@ bool BoundedScene::replace_in_place(const Scene& scene, const MovedShape& shape)
 
 void BoundedScene::replace(const Scene& scene, std::span<const MovedShape> moved)
 {
-    constexpr std::size_t task_objects = 4096;
     tbb::concurrent_vector<std::int32_t> placed_now;
-    tbb::parallel_for(tbb::blocked_range<std::size_t>(0, moved.size(), task_objects),
-                      [&](const tbb::blocked_range<std::size_t>& part) {
-                          for (std::size_t i = part.begin(); i < part.end(); ++i)
-                              if (!replace_in_place(scene, moved[i]))
-                                  placed_now.push_back(moved[i].object);
-                      });
+    for_each_in_parallel(moved, [&](const MovedShape& shape) {
+        if (!replace_in_place(scene, shape))
+            placed_now.push_back(shape.object);
+    });
     for (const std::int32_t object : placed_now) {
         const Object& now = scene.objects[static_cast<std::size_t>(object)];
         index_[static_cast<std::size_t>(object)] = ~static_cast<std::int32_t>(placed_.size());

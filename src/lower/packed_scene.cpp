@@ -6,9 +6,9 @@
 
 #include <tbb/parallel_for.h>
 
+#include "core/in_parallel.hpp"
 #include "geometry/object_rules.hpp"
 #include "lower/far_lights.hpp"
-#include "lower/in_parallel.hpp"
 
 namespace packtrace {
 namespace {

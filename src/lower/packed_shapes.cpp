@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "lower/in_parallel.hpp"
+#include "core/in_parallel.hpp"
 
 namespace packtrace {
 namespace {

@@ -13,7 +13,7 @@
 #include <tbb/parallel_reduce.h>
 
 #include "bvh/bvh.hpp"
-#include "lower/in_parallel.hpp"
+#include "core/in_parallel.hpp"
 
 namespace packtrace {
 namespace {
