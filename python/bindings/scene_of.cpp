@@ -4,7 +4,7 @@
 #include <packtrace/build.hpp>
 
 #include "scene.hpp"
-#include "scene/unit_vector.hpp"
+#include "scene/vectors.hpp"
 #include "words.hpp"
 
 namespace packtrace::python {

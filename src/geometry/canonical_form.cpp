@@ -6,6 +6,8 @@
 #include <glm/geometric.hpp>
 #include <glm/matrix.hpp>
 
+#include "scene/vectors.hpp"
+
 namespace packtrace {
 namespace {
 
@@ -57,11 +59,6 @@ SymmetricEigen symmetric_eigen(Mat3 matrix)
     return result;
 }
 
-double largest(const Vec3& v)
-{
-    return std::max({std::abs(v.x), std::abs(v.y), std::abs(v.z)});
-}
-
 int rank_of(const Vec3& square)
 {
     return (square.x != 0.0) + (square.y != 0.0) + (square.z != 0.0);
@@ -71,7 +68,7 @@ int rank_of(const Vec3& square)
 /// axes follow.
 void sort_axes(SymmetricEigen& eigen, double share)
 {
-    const double limit = share * largest(eigen.values);
+    const double limit = share * largest_component(eigen.values);
     for (int axis = 0; axis < 3; ++axis)
         if (std::abs(eigen.values[axis]) <= limit)
             eigen.values[axis] = 0.0;

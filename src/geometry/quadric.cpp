@@ -12,6 +12,7 @@
 #include "geometry/kinds.hpp"
 #include "scene/language/numbers.hpp"
 #include "scene/quadric_section.hpp"
+#include "scene/vectors.hpp"
 
 namespace packtrace {
 namespace {
@@ -25,11 +26,6 @@ struct Bound {
     double radius = std::numeric_limits<double>::infinity();
     Vec3 half{0.0};  ///< of the sizes of a box
 };
-
-double largest_of(const Vec3& v)
-{
-    return std::max({std::abs(v.x), std::abs(v.y), std::abs(v.z)});
-}
 
 /// No less than the length of `m * u` for any unit u.
 double ellipsoid_radius(const Mat3& m)
@@ -155,9 +151,9 @@ std::optional<std::string> quadric_fault(const Quadric& quadric, const Mat4& tra
     Object object;
     object.transform = transform;
     const LoweredQuadric placed = lower_quadric(object, quadric, 0);
-    const Vec3 weights(largest_of(placed.square), std::abs(placed.linear),
+    const Vec3 weights(largest_component(placed.square), std::abs(placed.linear),
                        std::abs(placed.constant));
-    if (!(std::max(largest_of(placed.center), largest_of(weights)) <= largest_number))
+    if (!(std::max(largest_component(placed.center), largest_component(weights)) <= largest_number))
         return "the quadric's center or axes are beyond single precision; use coefficients nearer "
                "to each other";
     if (!(std::max(weights.x, weights.y) >= smallest_length))

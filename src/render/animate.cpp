@@ -14,7 +14,7 @@
 #include <glm/trigonometric.hpp>
 
 #include "scene/scene_faults.hpp"
-#include "scene/unit_vector.hpp"
+#include "scene/vectors.hpp"
 
 namespace packtrace {
 namespace {

@@ -7,7 +7,7 @@
 
 #include "scene/language/keys.hpp"
 #include "scene/language/words.hpp"
-#include "scene/unit_vector.hpp"
+#include "scene/vectors.hpp"
 
 namespace packtrace {
 

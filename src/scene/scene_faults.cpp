@@ -16,7 +16,7 @@
 #include "scene/language/keys.hpp"
 #include "scene/language/quote.hpp"
 #include "scene/object_names.hpp"
-#include "scene/unit_vector.hpp"
+#include "scene/vectors.hpp"
 
 namespace packtrace::language {
 namespace {

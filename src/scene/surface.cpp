@@ -8,6 +8,7 @@
 
 #include "core/quad.hpp"
 #include "core/text.hpp"
+#include "scene/vectors.hpp"
 
 // The axes of a plane, and the plane of a polygon.
 namespace packtrace {
@@ -21,11 +22,6 @@ constexpr double flatness = 1e-6;
 constexpr double least_area = 1e-12;
 
 using Contour = std::vector<Vec3>;
-
-double largest_component(const Vec3& v)
-{
-    return std::max({std::abs(v.x), std::abs(v.y), std::abs(v.z)});
-}
 
 /// The sum of the edges' cross products, twice the area long. From the first corner on, so that a
 /// far polygon keeps its digits.

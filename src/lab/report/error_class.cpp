@@ -10,6 +10,7 @@
 #include "lab/harness/ray_trees.hpp"
 #include "lab/report/neighbour_rays.hpp"
 #include "lower/lowered_scene.hpp"
+#include "scene/vectors.hpp"
 
 namespace packtrace {
 namespace {
@@ -34,11 +35,6 @@ constexpr std::array<ClassText, error_class_count> texts{{
 constexpr double near_epsilons = 100.0;
 // Points and normals that are further apart than this, against their size, are off.
 constexpr double position_tolerance = 1e-4;
-
-double largest(const Rgb& v)
-{
-    return std::max({std::abs(v.x), std::abs(v.y), std::abs(v.z)});
-}
 
 // Too far from each other for rounding.
 bool is_other_crossing(double t, double other)
@@ -89,12 +85,13 @@ struct ErrorClassifier::State {
     void compare(const RayNode& truth, const RayNode& tested, int depth, Finding& worst) const
     {
         if (truth.object != tested.object) {
-            worst.offer(largest(sum_of(truth) - sum_of(tested)),
+            worst.offer(largest_component(sum_of(truth) - sum_of(tested)),
                         [&] { return of_ray(tested, depth); });
             return;
         }
         if (const auto crossing = of_crossing(truth, tested, depth)) {
-            worst.offer(largest(sum_of(truth) - sum_of(tested)), [&] { return *crossing; });
+            worst.offer(largest_component(sum_of(truth) - sum_of(tested)),
+                        [&] { return *crossing; });
             return;
         }
         compare_lights(truth, tested, depth, worst);
@@ -106,7 +103,7 @@ struct ErrorClassifier::State {
                 compare(*a, *b, depth + 1, worst);
             else if (a != nullptr || b != nullptr)
                 // A child can change its parent's own light, too.
-                worst.offer(largest(sum_of(truth) - sum_of(tested)),
+                worst.offer(largest_component(sum_of(truth) - sum_of(tested)),
                             [] { return ErrorClass::deep; });
         }
     }
@@ -118,10 +115,10 @@ struct ErrorClassifier::State {
             const LightShare* other = light_of(&truth, light.light);
             if (other == nullptr)
                 continue;
-            const double effect = largest(truth.weight * (other->color - light.color));
+            const double effect = largest_component(truth.weight * (other->color - light.color));
             worst.offer(effect, [&] {
                 const bool known = light.share && other->share;
-                if (known && largest(*light.share - *other->share) > position_tolerance)
+                if (known && largest_component(*light.share - *other->share) > position_tolerance)
                     return of_shadow(tested, light, *other, depth);
                 return of_color(truth, tested, light.light);
             });
@@ -132,7 +129,7 @@ struct ErrorClassifier::State {
     void compare_rest(const RayNode& truth, const RayNode& tested, Finding& worst) const
     {
         if (truth.object < 0) {
-            worst.offer(largest(truth.weight * (truth.brought - tested.brought)),
+            worst.offer(largest_component(truth.weight * (truth.brought - tested.brought)),
                         [] { return ErrorClass::shading; });
             return;
         }
@@ -143,8 +140,8 @@ struct ErrorClassifier::State {
         for (const LightShare& light : tested.lights)
             if (const LightShare* other = light_of(&truth, light.light))
                 lights += other->color - light.color;
-        if (largest(rest) > largest(lights))
-            worst.offer(largest(truth.weight * (rest - lights)),
+        if (largest_component(rest) > largest_component(lights))
+            worst.offer(largest_component(truth.weight * (rest - lights)),
                         [&] { return of_geometry(truth, tested); });
     }
 
@@ -189,7 +186,8 @@ struct ErrorClassifier::State {
             rays.trace(tested.point, way, epsilon,
                        point ? 1.0 - epsilon : std::numeric_limits<double>::infinity());
         const bool blocked = blocker.object >= 0;
-        const bool tested_darker = largest(*light.share) < largest(*truth.share);
+        const bool tested_darker =
+            largest_component(*light.share) < largest_component(*truth.share);
         if (!blocker.stable || blocked == tested_darker)
             return edge;
         // With nothing else in the way, the light is kept off by the surface it falls on.

@@ -7,6 +7,7 @@
 #include <glm/vec4.hpp>
 
 #include "lab/stress/placed_quadric.hpp"
+#include "scene/vectors.hpp"
 
 namespace packtrace::lab {
 namespace {
@@ -29,9 +30,7 @@ double power_of_two(double value)
 /// The nearest of the directions along axes and between them.
 Vec3 on_axes(const Vec3& direction)
 {
-    const double most =
-        std::max({std::abs(direction.x), std::abs(direction.y), std::abs(direction.z)});
-    return glm::round(direction / most);
+    return glm::round(direction / largest_component(direction));
 }
 
 /// The nearest turn that takes axes to axes, mirrored if need be.

@@ -6,6 +6,8 @@
 
 #include <glm/geometric.hpp>
 
+#include "scene/vectors.hpp"
+
 namespace packtrace::lab {
 namespace {
 
@@ -18,11 +20,6 @@ constexpr double allowed_normal_error = 1e-6;
 bool finite(const Answer& answer)
 {
     return std::isfinite(answer.t + answer.normal.x + answer.normal.y + answer.normal.z);
-}
-
-double largest_of(const Vec3& v)
-{
-    return std::max({std::abs(v.x), std::abs(v.y), std::abs(v.z)});
 }
 
 double distance_of(const Wide& t, const Answer& answer)
@@ -38,8 +35,9 @@ bool is_other(const Expected& expected, const TrueHit& other, const Answer& answ
     if (gap > 4.0 * roundoff * std::abs(static_cast<double>(expected.t)))
         return distance_of(other.t, answer) < distance_of(expected.t, answer);
     const Vec3 normal = narrow(other.normal);
-    return largest_of(normal - expected.normal) > 16.0 * roundoff &&
-           largest_of(answer.normal - normal) < largest_of(answer.normal - expected.normal);
+    return largest_component(normal - expected.normal) > 16.0 * roundoff &&
+           largest_component(answer.normal - normal) <
+               largest_component(answer.normal - expected.normal);
 }
 
 bool has_wrong_root(const Expected& expected, const Answer& answer, double roundoff)
@@ -152,7 +150,7 @@ void Evaluation::measure(const StressRay& ray, const Expected& expected, const A
     }
     if (expected.normal == Vec3(0.0))
         return;
-    const double off = largest_of(answer.normal - expected.normal);
+    const double off = largest_component(answer.normal - expected.normal);
     errors_.normal.push_back(static_cast<float>(off));
     errors_.normal_beyond += off > allowed_normal_error;
     const double cosine = glm::dot(answer.normal, ray.dir) / glm::length(ray.dir);

@@ -1,6 +1,6 @@
 #include "core/text.hpp"
 #include "scene/language/rows.hpp"
-#include "scene/unit_vector.hpp"
+#include "scene/vectors.hpp"
 
 #include <algorithm>
 #include <cmath>

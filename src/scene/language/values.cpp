@@ -1,7 +1,7 @@
 #include "scene/language/values.hpp"
 
 #include "scene/language/quote.hpp"
-#include "scene/unit_vector.hpp"
+#include "scene/vectors.hpp"
 
 #include <cmath>
 
@@ -97,9 +97,7 @@ Fault fault_of_direction(std::string_view key, const Vec3& direction)
         return fault;
     if (Fault fault = fault_of(key, direction, any_number))
         return fault;
-    const double largest =
-        std::max({std::abs(direction.x), std::abs(direction.y), std::abs(direction.z)});
-    return fault_of(key, largest, any_length);
+    return fault_of(key, largest_component(direction), any_length);
 }
 
 Fault fault_of_unit(std::string_view key, const Vec3& direction)

@@ -7,6 +7,16 @@
 #include <algorithm>
 #include <cmath>
 
+namespace packtrace {
+
+/// In size.
+[[nodiscard]] inline double largest_component(const Vec3& v)
+{
+    return std::max({std::abs(v.x), std::abs(v.y), std::abs(v.z)});
+}
+
+}  // namespace packtrace
+
 namespace packtrace::language {
 
 /// Whether a vector's length is 1 but for rounding to seven digits.
@@ -18,7 +28,7 @@ namespace packtrace::language {
 /// `v` at length 1, however long or short it is; (0, 0, 0) stays as it is.
 [[nodiscard]] inline Vec3 unit_vector(const Vec3& v)
 {
-    const double largest = std::max({std::abs(v.x), std::abs(v.y), std::abs(v.z)});
+    const double largest = largest_component(v);
     return largest == 0.0 ? v : glm::normalize(v / largest);
 }
 
