@@ -1,39 +1,19 @@
 #include "context.hpp"
 
-#include <cstdio>
 #include <exception>
 #include <iostream>
 
-#include <packtrace/isa.hpp>
-
+#include "core/text.hpp"
 #include "lab/harness/machine.hpp"
+#include "names.hpp"
 
 namespace packtrace::bench {
-namespace {
-
-std::string instruction_sets()
-{
-    std::string names;
-    for (const IsaInfo& isa : list_isas())
-        if (isa.supported)
-            names += (names.empty() ? "" : " ") + isa.name;
-    return names;
-}
-
-std::string load_text(double load)
-{
-    char text[32];
-    std::snprintf(text, sizeof text, "%.2f", load);
-    return text;
-}
-
-}  // namespace
 
 std::vector<std::pair<std::string, std::string>> context()
 {
-    return {{"processor", processor_name()}, {"instruction_sets", instruction_sets()},
-            {"compiler", compiler_name()},   {"flags", flags_name()},
-            {"commit", commit_name()},       {"load_before", load_text(load_at_start())}};
+    return {{"processor", processor_name()}, {"instruction_sets", joined(supported_isas(), " ")},
+            {"compiler", compiler_name()},   {"flags", kernel_flags},
+            {"commit", built_commit},        {"load_before", fixed(load_at_start(), 2)}};
 }
 
 nlohmann::ordered_json context_json()
@@ -46,7 +26,7 @@ nlohmann::ordered_json context_json()
 
 void add_load_after(nlohmann::ordered_json& context)
 {
-    context["load_after"] = load_text(load_now());
+    context["load_after"] = fixed(load_now(), 2);
 }
 
 std::string command_line(const std::string& program, int argc, const char* const* argv)

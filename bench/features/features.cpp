@@ -125,7 +125,7 @@ int run(const Arguments& arguments)
 {
     const std::string isa = choose_isa(arguments.isa).name;
     Json report{{"machine", processor_name()}, {"compiler", compiler_name()},
-                {"commit", commit_name()},     {"isa", isa},
+                {"commit", built_commit},      {"isa", isa},
                 {"size", arguments.size},      {"repetitions", arguments.repetitions},
                 {"scenes", Json::array()}};
     std::printf("%-22s %-9s %9s %9s %7s %7s\n", "scene", "kernel", "special", "general", "ratio",
@@ -137,7 +137,7 @@ int run(const Arguments& arguments)
         same = same && row["same_bits"].get<bool>();
         report["scenes"].push_back(row);
     }
-    report["flags"] = flags_name();
+    report["flags"] = kernel_flags;
     report["load_before"] = load_at_start();
     report["load_after"] = load_now();
     if (!arguments.json.empty()) {

@@ -162,8 +162,8 @@ void write_whole_report(const std::vector<SceneReport>& reports, const ReportOpt
                         const ReportArguments& arguments)
 {
     const ReportConditions conditions{processor_name(),  tbb::info::default_concurrency(),
-                                      compiler_name(),   commit_name(),
-                                      arguments.command, flags_name(),
+                                      compiler_name(),   built_commit,
+                                      arguments.command, kernel_flags,
                                       load_at_start(),   load_now()};
     write_report(reports, options, conditions, arguments.folder);
 }

@@ -28,16 +28,6 @@ std::string compiler_name()
 #endif
 }
 
-std::string commit_name()
-{
-    return built_commit;
-}
-
-std::string flags_name()
-{
-    return kernel_flags;
-}
-
 double load_now()
 {
     double minute = 0.0;

@@ -22,10 +22,6 @@ extern const char* const kernel_flags;
 /// The compiler the library was built with.
 [[nodiscard]] std::string compiler_name();
 
-/// The commit the library was built of, and the flags of its kernels.
-[[nodiscard]] std::string commit_name();
-[[nodiscard]] std::string flags_name();
-
 /// Programs that ran or waited to run on the machine, on average over the last minute: now, and
 /// when this program started. 0 where the system does not say.
 [[nodiscard]] double load_now();

@@ -59,7 +59,7 @@ TruthKey truth_key(const Scene& scene, int samples)
     TruthKey key;
     key.version = PACKTRACE_VERSION_STRING;
     key.sources = built_sources;
-    key.compiler = compiler_name() + ' ' + flags_name();
+    key.compiler = compiler_name() + ' ' + kernel_flags;
     key.machine = processor_name() + ", " + c_library();
     key.precision =
         samples > 1 ? with_bits<double>("double") : with_bits<long double>("long double");
