@@ -11,6 +11,7 @@
 #include <boost/multiprecision/cpp_int.hpp>
 
 #include "catch.hpp"
+#include "core/quad.hpp"
 #include "intersect_program.hpp"
 #include "lab/stress/stress_family.hpp"
 #include "lab/stress/stress_subject.hpp"
@@ -207,6 +208,31 @@ TEST_CASE("bounds at a rim are one interval", "[hit_bounds]")
     const HitBounds axis = OneRay<double>({0.5, 0, 0}, {0, 0, -0.5}).first(scene);
     CHECK(holds(axis, 2.0));
     CHECK(axis.high - axis.low < 1e-14);
+}
+
+TEST_CASE("bounds of two hits with one t in single precision are those of each", "[hit_bounds]")
+{
+    // Rays along an asymptote meet the side once, and the cap next to the rim.
+    const RayScene<float> waist(
+        scene_of("hyperboloid { z_range = (-1, 1)  capped = true  scale = 1.1 }"));
+    const float z = -9.89999962f;
+    const double cap = 1.1 - double{z};
+    int apart = 0;
+    for (int i = 0; i < 24; ++i) {
+        CAPTURE(i);
+        const float x = -12.5556374f + 0x1p-20f * static_cast<float>(i);
+        const auto all = OneRay<float>({x, 0, z}, {1, 0, 1}).all(waist);
+        if (all.size() != 2 || all[0].high >= all[1].low)
+            continue;
+        ++apart;
+        // ((x + t) - (z + t)) ((x + t) + (z + t)) = 1.1²
+        const Quad difference = Quad(x) - Quad(z);
+        const Quad side = (Quad(1.1) * Quad(1.1) / difference - Quad(x) - Quad(z)) / 2;
+        const auto rounded = static_cast<double>(side);
+        CHECK(holds(all[side < cap ? 0 : 1], rounded));
+        CHECK(holds(all[side < cap ? 1 : 0], cap));
+    }
+    CHECK(apart > 12);
 }
 
 TEST_CASE("bounds stay tight along generators, across scales and for long directions",

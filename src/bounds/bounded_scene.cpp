@@ -64,6 +64,58 @@ HitBounds first_of(std::span<const HitInterval> hits, const Range& range)
     return low ? rounded(*low, latest.value_or(*most), range) : HitBounds{};
 }
 
+/// What is against some hits being in some of the intervals, the gravest first.
+struct Misfit {
+    int passed_over = 0;  ///< intervals that hold a hit for sure, but none of these
+    Quad distance = 0;
+
+    friend bool operator<(const Misfit& a, const Misfit& b)
+    {
+        return a.passed_over != b.passed_over ? a.passed_over < b.passed_over
+                                              : a.distance < b.distance;
+    }
+};
+
+/// Which of `hits` each t is in, as many or fewer, both in rising order: the fewest certain ones
+/// are passed over, and of that the nearest are taken. By dynamic programming.
+std::vector<std::size_t> in_order(std::span<const HitInterval> hits, std::span<const double> t)
+{
+    const std::size_t width = hits.size() + 1;
+    // Of the first `i` of t in the first `j` intervals, for j >= i.
+    std::vector<Misfit> best((t.size() + 1) * width);
+    std::vector<bool> takes(best.size());
+    for (std::size_t i = 0; i <= t.size(); ++i)
+        for (std::size_t j = std::max<std::size_t>(i, 1); j <= hits.size(); ++j) {
+            const std::size_t at = i * width + j;
+            const HitInterval& hit = hits[j - 1];
+            Misfit without = best[at - 1];
+            without.passed_over += hit.certain ? 1 : 0;
+            Misfit with = i > 0 ? best[at - width - 1] : Misfit{};
+            with.distance += i > 0 ? distance(hit, t[i - 1]) : Quad(0);
+            takes[at] = i > 0 && (i == j || with < without);
+            best[at] = takes[at] ? with : without;
+        }
+    std::vector<std::size_t> found(t.size());
+    for (std::size_t i = t.size(), j = hits.size(); i > 0; --j)
+        if (takes[i * width + j])
+            found[--i] = j - 1;
+    return found;
+}
+
+/// The interval nearest to each t, of which there are more.
+std::vector<std::size_t> nearest(std::span<const HitInterval> hits, std::span<const double> t)
+{
+    std::vector<std::size_t> found;
+    for (const double at : t) {
+        const auto first = std::min_element(hits.begin(), hits.end(),
+                                            [at](const HitInterval& a, const HitInterval& b) {
+                                                return distance(a, at) < distance(b, at);
+                                            });
+        found.push_back(static_cast<std::size_t>(first - hits.begin()));
+    }
+    return found;
+}
+
 /// Bounds of each of several hits in the range, whose rounded t are given in rising order.
 void bounds_of(std::span<const HitInterval> hits, const Range& range, std::span<const double> t,
                std::span<HitBounds> bounds)
@@ -72,21 +124,14 @@ void bounds_of(std::span<const HitInterval> hits, const Range& range, std::span<
     for (const HitInterval& hit : hits)
         if (may_count(hit, range))
             counted.insert(counted.end(), static_cast<std::size_t>(hit.hits), hit);
-    for (std::size_t i = 0; i < t.size(); ++i) {
-        if (counted.empty()) {
-            bounds[i] = {};
-            continue;
-        }
-        // As many as there can be: in their order. Else some are not there, and the nearest is it.
-        const HitInterval hit =
-            counted.size() == t.size()
-                ? counted[i]
-                : *std::min_element(counted.begin(), counted.end(),
-                                    [&](const HitInterval& a, const HitInterval& b) {
-                                        return distance(a, t[i]) < distance(b, t[i]);
-                                    });
-        bounds[i] = with_overlapping(hit, counted, range);
+    if (counted.empty()) {
+        std::fill(bounds.begin(), bounds.end(), HitBounds{});
+        return;
     }
+    const std::vector<std::size_t> found =
+        t.size() > counted.size() ? nearest(counted, t) : in_order(counted, t);
+    for (std::size_t i = 0; i < t.size(); ++i)
+        bounds[i] = with_overlapping(counted[found[i]], counted, range);
 }
 
 }  // namespace

@@ -111,10 +111,23 @@ private:
     {
         if (!surface_.z_range)
             return Proof::yes;
-        if (!(hit.high < Quad(infinity)) || !(hit.low > -Quad(infinity)))
+        const bool ends = hit.high < Quad(infinity);
+        const bool begins = hit.low > -Quad(infinity);
+        if (ends && begins)
+            return is_between(at(ball_of(hit.low, hit.high)).z, surface_.z_range->low,
+                              surface_.z_range->high);
+        if (ends == begins)
             return Proof::open;
-        return is_between(at(ball_of(hit.low, hit.high)).z, surface_.z_range->low,
-                          surface_.z_range->high);
+        return stays_out(at(Ball(begins ? hit.low : hit.high, 0.0)).z, begins ? v_.z : -v_.z)
+                   ? Proof::no
+                   : Proof::open;
+    }
+
+    /// Whether heights from `z` on, which change by `climb`, are surely out of the z range.
+    [[nodiscard]] bool stays_out(const Ball& z, const Ball& climb) const
+    {
+        return (is_positive(climb) && is_positive(z - Ball(surface_.z_range->high))) ||
+               (is_negative(climb) && is_positive(Ball(surface_.z_range->low) - z));
     }
 
     void add_cap(double height, std::vector<HitInterval>& found) const

@@ -26,7 +26,8 @@ void define(WideSurface& surface, const Sphere& sphere)
     const WideVec center = wide(sphere.center);
     set_coefficients(surface, {1, 1, 1, 0, 0, 0, 0, 0, 0, 0});
     surface.linear = -center;
-    surface.constant = dot(center, center) - Wide(sphere.radius) * sphere.radius;
+    surface.radius2 = Wide(sphere.radius) * sphere.radius;
+    surface.constant = dot(center, center) - *surface.radius2;
     surface.place = magnitudes(center);
     surface.by_points = surface.placed;
 }
@@ -146,6 +147,10 @@ WideVec WideSurface::second_order(const WideVec& v) const
 
 Wide WideSurface::value(const WideVec& p) const
 {
+    if (radius2) {
+        const WideVec from_center = gradient(p);
+        return dot(from_center, from_center) - *radius2;
+    }
     return dot(second_order(p) + linear + linear, p) + constant;
 }
 

@@ -37,6 +37,8 @@ struct WideSurface {
     std::optional<std::array<WideVec, 2>> sheets;
     /// Edges of a polygon, two ends each; `linear` is half a normal of its plane.
     std::vector<std::array<WideVec, 2>> edges;
+    /// Of a sphere: far from the origin the equation's other terms would cancel.
+    std::optional<Wide> radius2;
     std::int32_t object = 0;
 
     explicit WideSurface(const Object& from, std::int32_t number);
