@@ -535,7 +535,7 @@ TEST_CASE("slivers are hit where they are", "[polygons]")
         }
 }
 
-TEST_CASE("a ray in a polygon's plane meets it within its outline or not at all", "[polygons]")
+TEST_CASE("a ray along a polygon's plane meets it within its outline or not at all", "[polygons]")
 {
     Random random(67);
     std::vector<RenderOptions> ways = packet_ways();
@@ -557,21 +557,28 @@ TEST_CASE("a ray in a polygon's plane meets it within its outline or not at all"
             const RayScene<double> rays(scene, options);
             const RayScene<float> narrow(scene, options);
             for (int ray = 0; ray < 60; ++ray) {
+                // The plane is crossed a few directions on, or not at all.
+                const Vec3 off(0, 0, std::round(random.between(-3, 3)));
+                const Vec3 turn(0, 0, std::round(random.between(-1, 1)));
                 const Vec3 org = in_plane(15);
                 const Vec3 dir = in_plane(5);
+                const Vec3 o = org + 0x1p-46 * off;
+                const Vec3 d = dir + 0x1p-46 * turn;
                 for (const SurfaceHit<double>& hit :
-                     rays.all_hits(Ray<double>{{org.x, org.y, org.z}, {dir.x, dir.y, dir.z}})) {
+                     rays.all_hits(Ray<double>{{o.x, o.y, o.z}, {d.x, d.y, d.z}})) {
                     ++hits;
-                    CHECK(distance_to_triangle(org + hit.t * dir, corners) < 1e-9);
+                    CHECK(turn.z != 0);
+                    CHECK(distance_to_triangle(o + hit.t * d, corners) < 1e-9);
                 }
                 if (options.kernel == Kernel::scalar)
                     continue;
-                const glm::vec3 o(org);
-                const glm::vec3 d(dir);
-                const Ray<float> single{{o.x, o.y, o.z}, {d.x, d.y, d.z}};
+                const glm::vec3 of(org + 0x1p-18 * off);
+                const glm::vec3 df(dir + 0x1p-18 * turn);
+                const Ray<float> single{{of.x, of.y, of.z}, {df.x, df.y, df.z}};
                 const SurfaceHit<float> first = narrow.closest_hit(single);
                 if (first.object >= 0)
-                    CHECK(distance_to_triangle(org + double{first.t} * dir, corners) < 1e-4);
+                    CHECK(distance_to_triangle(Vec3(of) + double{first.t} * Vec3(df), corners) <
+                          1e-4);
             }
         }
     }

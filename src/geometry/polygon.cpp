@@ -75,7 +75,11 @@ abi::PolygonRecord<Real> pack(const LoweredPolygon& polygon)
     round_to(packed.normal, polygon.normal);
     round_to(packed.point, widen(polygon.corners[0].position));
     round_to(packed.bound, polygon.bound);
-    packed.bound_radius = static_cast<Real>(polygon.bound_radius);
+    // Rounding moves the centre and the corners.
+    const Vec3 size = glm::abs(polygon.bound);
+    const double moved = 4.0 * static_cast<double>(std::numeric_limits<Real>::epsilon()) *
+                         (size.x + size.y + size.z + polygon.bound_radius);
+    packed.bound_radius = static_cast<Real>(polygon.bound_radius + moved);
     packed.corners = nullptr;
     packed.corner_count = static_cast<std::int32_t>(polygon.corners.size());
     packed.surface = polygon.surface;

@@ -99,7 +99,7 @@ template <class Real>
 struct PolygonRecord {
     Real normal[3];  ///< unit, outwards
     Real point[3];   ///< of the plane: the first corner
-    Real bound[3];   ///< centre of a ball around the corners
+    Real bound[3];   ///< centre of a ball around the corners, all of them as they are rounded
     Real bound_radius;
     const PolygonCorner<Real>* corners;
     std::int32_t corner_count;

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "kernel_abi/even_odd.hpp"
 #include "kernels/geometry/ball_filter.hpp"
 #include "kernels/geometry/plane.hpp"
 
@@ -8,89 +9,182 @@
 //
 // Corners are projected along the ray (the shear of Woop, Benthin and Wald, "Watertight
 // Ray/Triangle Intersection", 2013), and the edges counted that cross a half line from where the
-// ray stands. What is computed of a corner hangs on the corner and the ray alone, and an edge's
-// part changes nothing but its sign with the edge's direction: polygons that share an edge decide
-// it alike, so that no ray slips between them.
+// ray stands. Where rounding could decide about a corner or an edge, the ray counts again without
+// any (even_odd.hpp): polygons that share an edge decide it alike and right, so that no ray slips
+// between them or hits the wrong one.
 namespace packtrace::PACKTRACE_ISA {
 namespace {
 
-/// Two directions across a ray: e·(p - org) is where a point is seen along it; and the axis that it
-/// goes along the most.
+/// Whether the z axis is the one that rays go along the most, and if not, whether x is rather than
+/// y.
 template <class Real>
-struct AcrossRay {
-    Vec3v<Real> u, v, longest;
+struct LongestAxis {
+    vmask<Real> z, x;
 };
 
-/// Along two axes, moved by as much as the ray goes along the third, its longest.
 template <class Real>
-inline AcrossRay<Real> across(const Vec3v<Real>& dir)
+inline LongestAxis<Real> longest_axis(const Vec3v<Real>& dir)
 {
-    const vreal<Real> zero(Real(0));
-    const vreal<Real> one(Real(1));
     const Vec3v<Real> size{abs(dir.x), abs(dir.y), abs(dir.z)};
-    const auto z_longest = (size.z >= size.x) & (size.z >= size.y);
-    const auto x_longest = size.x >= size.y;
-    const vreal<Real> longest = select(z_longest, dir.z, select(x_longest, dir.x, dir.y));
-    const Vec3v<Real> back = scale<Real>(vreal<Real>(Real(-1)) / longest, dir);
-    const auto by_axis = [&](const vreal<Real>& z, const vreal<Real>& x, const vreal<Real>& y) {
-        return select(z_longest, z, select(x_longest, x, y));
-    };
-    return {{by_axis(one, back.y, one), by_axis(zero, one, back.x), by_axis(back.x, zero, zero)},
-            {by_axis(zero, back.z, zero), by_axis(one, zero, back.z), by_axis(back.y, one, one)},
-            {by_axis(zero, one, zero), by_axis(zero, zero, one), by_axis(one, zero, zero)}};
+    return {(size.z >= size.x) & (size.z >= size.y), size.x >= size.y};
 }
 
-/// A corner as the rays see it.
-template <class Real>
-struct SeenCorner {
-    vreal<Real> u, v;
-};
-
-/// Lanes whose rays pass through the polygon, ahead of their origins or behind.
-template <class Real>
-[[gnu::noinline]] std::uint32_t passes_through(const abi::PolygonRecord<Real>& polygon,
-                                               const RayPacket<Real>& rays)
+/// A component, counted on from z to x.
+template <int axis, class Real>
+inline const vreal<Real>& component(const Vec3v<Real>& v)
 {
-    const vreal<Real> zero(Real(0));
-    const AcrossRay<Real> axes = across<Real>(rays.dir);
+    if constexpr (axis % 3 == 0)
+        return v.x;
+    else if constexpr (axis % 3 == 1)
+        return v.y;
+    else
+        return v.z;
+}
+
+/// The lanes of `unsure` whose rays pass through the polygon, without rounding.
+template <class Real>
+[[gnu::noinline]] std::uint32_t passes_through_exactly(const abi::PolygonRecord<Real>& polygon,
+                                                       const RayPacket<Real>& rays,
+                                                       std::uint32_t unsure)
+{
+    const Vec3v<Real> vectors[2] = {rays.org, rays.dir};
+    alignas(64) Real by_lane[2][3][lanes<Real>];
+    for (int i = 0; i < 2; ++i) {
+        store(by_lane[i][0], vectors[i].x);
+        store(by_lane[i][1], vectors[i].y);
+        store(by_lane[i][2], vectors[i].z);
+    }
     std::uint32_t inside = 0;
-    SeenCorner<Real> from{zero, zero};
-    std::uint32_t from_above = 0;
-    for (std::int32_t i = 0; i < polygon.corner_count; ++i) {
-        const abi::PolygonCorner<Real>& corner = polygon.corners[i];
-        const Vec3v<Real> w = broadcast(corner.position) - rays.org;
-        const SeenCorner<Real> to{dot(axes.u, w), dot(axes.v, w)};
-        const std::uint32_t above = bits(to.v >= zero);
-        const std::uint32_t crosses = corner.starts_contour != 0 ? 0 : above ^ from_above;
-        if (crosses != 0) {
-            // The edge is at u = turn / (to.v - from.v) where it crosses v = 0.
-            const vreal<Real> turn = from.u * to.v - to.u * from.v;
-            inside ^= crosses & ((above & bits(turn > zero)) | (~above & bits(turn < zero)));
+    for (std::uint32_t left = unsure; left != 0; left &= left - 1) {
+        const int lane = __builtin_ctz(left);
+        double org[3], dir[3];
+        for (int axis = 0; axis < 3; ++axis) {
+            org[axis] = by_lane[0][axis][lane];
+            dir[axis] = by_lane[1][axis][lane];
         }
-        from = to;
-        from_above = above;
+        abi::EvenOdd<double> rule(org, dir);
+        for (std::int32_t i = 0; i < polygon.corner_count; ++i) {
+            const abi::PolygonCorner<Real>& corner = polygon.corners[i];
+            const double position[3] = {corner.position[0], corner.position[1], corner.position[2]};
+            if (corner.starts_contour != 0)
+                rule.start(position);
+            else
+                rule.edge_to(position);
+        }
+        inside |= std::uint32_t{rule.inside()} << lane;
     }
     return inside;
 }
 
-/// `t`, but no further along the rays than the edges that passes_through() finds to cross: those on
-/// either side of a ray that passes through have their crossings before and behind its own.
+/// Lanes by what counting edges says of them.
+struct EdgeCount {
+    std::uint32_t odd = 0;     ///< inside
+    std::uint32_t unsure = 0;  ///< rounding may have decided
+};
+
+/// A corner as the rays see it, and the lanes in which v >= 0.
+template <class Real>
+struct SeenCorner {
+    vreal<Real> u, v;
+    std::uint32_t above;
+};
+
+/// Counts the edges for rays whose longest axis is `along`; of other lanes it says nothing.
+template <int along, class Real>
+[[gnu::always_inline]] inline EdgeCount count_edges(const abi::PolygonRecord<Real>& polygon,
+                                                    const RayPacket<Real>& rays)
+{
+    const vreal<Real> zero(Real(0));
+    const vreal<Real> back = vreal<Real>(Real(-1)) / component<along>(rays.dir);
+    const vreal<Real> back_u = back * component<along + 1>(rays.dir);
+    const vreal<Real> back_v = back * component<along + 2>(rays.dir);
+    vreal<Real> least_v(static_cast<Real>(__builtin_inf()));
+    vreal<Real> least_turn = least_v;
+    EdgeCount count;
+    const auto see = [&](std::int32_t i) {
+        const Vec3v<Real> w = broadcast(polygon.corners[i].position) - rays.org;
+        const vreal<Real> v = madd(back_v, component<along>(w), component<along + 2>(w));
+        least_v = min(least_v, abs(v));
+        return SeenCorner<Real>{madd(back_u, component<along>(w), component<along + 1>(w)), v,
+                                bits(v >= zero)};
+    };
+    SeenCorner<Real> from;
+    const auto add_edge_to = [&](const SeenCorner<Real>& to) {
+        const std::uint32_t crosses = to.above ^ from.above;
+        if (crosses != 0) {
+            // The edge is at u = turn / (to.v - from.v) where it crosses v = 0.
+            const vreal<Real> turn = msub(from.u, to.v, to.u * from.v);
+            least_turn = min(least_turn, abs(turn));
+            count.odd ^= crosses & ~(to.above ^ bits(turn > zero));
+        }
+        from = to;
+    };
+    for (std::int32_t i = 0; i < polygon.corner_count; ++i) {
+        const SeenCorner<Real> first = see(i);
+        from = first;
+        // The last corner of a contour is its first.
+        while (++i + 1 < polygon.corner_count && polygon.corners[i + 1].starts_contour == 0)
+            add_edge_to(see(i));
+        add_edge_to(first);
+    }
+    // How far a sign has to be from changing (docs/numerics_derivations.md).
+    constexpr Real roundoffs_16 = sizeof(Real) == 4 ? Real(0x1p-20) : Real(0x1p-49);
+    const Real radius = polygon.bound_radius;
+    const vreal<Real> depth =
+        abs(component<along>(broadcast(polygon.bound) - rays.org)) + vreal<Real>(radius);
+    count.unsure = bits(either<Real>(least_v <= depth * vreal<Real>(roundoffs_16),
+                                     least_turn <= depth * vreal<Real>(8 * roundoffs_16 * radius)));
+    return count;
+}
+
+/// The lanes of `active` whose rays pass through the polygon, ahead of their origins or behind.
+template <class Real>
+[[gnu::noinline]] std::uint32_t passes_through(const abi::PolygonRecord<Real>& polygon,
+                                               const RayPacket<Real>& rays, std::uint32_t active)
+{
+    const LongestAxis<Real> longest = longest_axis<Real>(rays.dir);
+    const std::uint32_t z = active & bits(longest.z);
+    const std::uint32_t x = active & ~z & bits(longest.x);
+    const std::uint32_t y = active & ~z & ~x;
+    EdgeCount found;
+    const auto take = [&](std::uint32_t lanes_of_axis, const EdgeCount& count) {
+        found.odd |= lanes_of_axis & count.odd;
+        found.unsure |= lanes_of_axis & count.unsure;
+    };
+    if (x != 0)
+        take(x, count_edges<0>(polygon, rays));
+    if (y != 0)
+        take(y, count_edges<1>(polygon, rays));
+    if (z != 0)
+        take(z, count_edges<2>(polygon, rays));
+    if (found.unsure == 0)
+        return found.odd;
+    return (found.odd & ~found.unsure) | passes_through_exactly(polygon, rays, found.unsure);
+}
+
+/// `t`, but no further along the rays than the edges that cross their half axes, as rounding has
+/// them: those on either side of a ray that passes through have their crossings before and behind
+/// its own.
 template <class Real>
 [[gnu::noinline]] vreal<Real> between_edges(const abi::PolygonRecord<Real>& polygon,
                                             const RayPacket<Real>& rays, const vreal<Real>& t)
 {
     const vreal<Real> zero(Real(0));
-    const AcrossRay<Real> axes = across<Real>(rays.dir);
+    const LongestAxis<Real> longest = longest_axis<Real>(rays.dir);
+    const auto by_axis = [&](const vreal<Real>& z, const vreal<Real>& x, const vreal<Real>& y) {
+        return select(longest.z, z, select(longest.x, x, y));
+    };
     vreal<Real> first(static_cast<Real>(__builtin_inf()));
     vreal<Real> last(static_cast<Real>(-__builtin_inf()));
-    const vreal<Real> length = dot(axes.longest, rays.dir);
+    const vreal<Real> length = by_axis(rays.dir.z, rays.dir.x, rays.dir.y);
+    const vreal<Real> across = by_axis(rays.dir.y, rays.dir.z, rays.dir.x);
     vreal<Real> from_v = zero;
     vreal<Real> from_depth = zero;
     for (std::int32_t i = 0; i < polygon.corner_count; ++i) {
         const abi::PolygonCorner<Real>& corner = polygon.corners[i];
         const Vec3v<Real> w = broadcast(corner.position) - rays.org;
-        const vreal<Real> v = dot(axes.v, w);
-        const vreal<Real> at = dot(axes.longest, w) / length;
+        const vreal<Real> at = by_axis(w.z, w.x, w.y) / length;
+        const vreal<Real> v = by_axis(w.y, w.z, w.x) - at * across;
         const auto crosses = from_bits<Real>(
             corner.starts_contour != 0 ? 0 : bits(v >= zero) ^ bits(from_v >= zero));
         const vreal<Real> here = from_depth + (at - from_depth) * (from_v / (from_v - v));
@@ -151,7 +245,7 @@ inline void keep_closest(HitPacket<Real>& hit, const abi::PolygonRecord<Real>& p
     const std::uint32_t ahead =
         bits((t > rays.t_min) & (t <= hit.t)) & own.template lanes_on_others<Real>(polygon.surface);
     if (ahead != 0)
-        keep_closer<Real>(hit, from_bits<Real>(ahead & passes_through(polygon, rays)), t,
+        keep_closer<Real>(hit, from_bits<Real>(passes_through(polygon, rays, ahead)), t,
                           polygon.surface);
 }
 
@@ -162,14 +256,15 @@ inline std::uint32_t occluding_lanes(const RayEnd<Real>& end,
                                      const RayPacket<Real>& rays)
 {
     const std::uint32_t ahead = bits(end.blocked_at(polygon_t(polygon, rays), rays));
-    return ahead == 0 ? 0 : ahead & passes_through(polygon, rays);
+    return ahead == 0 ? 0 : passes_through(polygon, rays, ahead);
 }
 
 template <class Real, class Visit>
 inline void visit_crossings(const abi::PolygonRecord<Real>& polygon, const RayPacket<Real>& rays,
                             const Visit& visit)
 {
-    visit(from_bits<Real>(passes_through(polygon, rays)), polygon_t(polygon, rays), 0);
+    visit(from_bits<Real>(passes_through(polygon, rays, all_lanes<Real>)), polygon_t(polygon, rays),
+          0);
 }
 
 /// A polygon for the origins of one group of rays in single precision.
@@ -205,7 +300,7 @@ inline HalfPolygonCrossings half_crossings(const abi::PolygonRecord<double>& pol
     half.t = polygon_t(polygon, rays);
     const std::uint32_t ahead =
         bits((half.t > rays.t_min) & (half.t < vreal<double>(__builtin_inf())));
-    half.valid = ahead == 0 ? 0 : ahead & passes_through(polygon, rays);
+    half.valid = ahead == 0 ? 0 : passes_through(polygon, rays, ahead);
     return half;
 }
 
