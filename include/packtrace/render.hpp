@@ -89,11 +89,11 @@ struct CutRays {
 };
 
 /// Renders a scene in the precision of `Real` (float or double; the scalar kernel also long
-/// double). The picture is the same, bit for bit, whatever the width and number of threads on
-/// a machine with fused multiply-add, but for last digits of transparent shadows of several bodies
-/// of glass (docs/architecture.md). Throws std::invalid_argument for impossible options, and
-/// SceneError as validate() does; every kernel refuses the same scenes with the same words.
-/// `cut`, if any, is set.
+/// double). The picture is the same, bit for bit, whatever the width, the traversal and
+/// the number of threads on a machine with fused multiply-add, but for last digits of transparent
+/// shadows of several bodies of glass (docs/architecture.md). Throws std::invalid_argument for
+/// impossible options, and SceneError as validate() does; every kernel refuses the same scenes with
+/// the same words. `cut`, if any, is set.
 template <class Real>
 [[nodiscard]] PACKTRACE_API Image<Real> render(const Scene& scene,
                                                const RenderOptions& options = {},

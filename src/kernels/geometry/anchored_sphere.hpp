@@ -119,6 +119,16 @@ inline Vec3v<Real> unit_normal(const abi::AnchoredSphere<double>& sphere, unsign
     return unit_or_against<Real>(normal_at<Real>(sphere, point), dir);
 }
 
+inline vreal<double> height_over(const abi::AnchoredSphere<double>& sphere, unsigned,
+                                 const Vec3v<double>& point)
+{
+    const Vec3v<double> w = point - broadcast(sphere.anchor);
+    const vreal<double> value =
+        dot(normal_at<double>(sphere, point) + broadcast(sphere.normal), w) +
+        vreal<double>(sphere.offset);
+    return vreal<double>(0.5) * value;
+}
+
 inline RefinedHalf refine(const abi::AnchoredSphere<double>& sphere, unsigned,
                           const RayPacket<double>& rays)
 {

@@ -9,8 +9,8 @@
 namespace packtrace::PACKTRACE_ISA {
 namespace {
 
-template <class Real>
-inline Vec3v<Real> broadcast_as(const double (&v)[3])
+template <class Real, class Stored>
+inline Vec3v<Real> broadcast_as(const Stored (&v)[3])
 {
     return {vreal<Real>(static_cast<Real>(v[0])), vreal<Real>(static_cast<Real>(v[1])),
             vreal<Real>(static_cast<Real>(v[2]))};

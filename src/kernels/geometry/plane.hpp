@@ -143,6 +143,13 @@ inline Vec3v<Real> unit_normal(const Flat& plane, unsigned, const Vec3v<Real>&, 
     return broadcast_as<Real>(plane.normal);
 }
 
+/// How far outside a point near the surface is, to first order; so in the other kinds' files.
+template <IsFlat Flat>
+inline vreal<double> height_over(const Flat& plane, unsigned, const Vec3v<double>& point)
+{
+    return dot(broadcast(plane.normal), point - broadcast(plane.point));
+}
+
 /// What is flat is never met again.
 template <IsFlat Flat>
 inline HitAgain hit_again(const Flat&, unsigned)

@@ -72,18 +72,19 @@ inline vreal<Real> quadric_value(const abi::QuadricRecord<Real>& quadric, const 
 /// The discriminant by the moment m = p × v (Lagrange's identity), in which no term of the origin's
 /// distance cancels, and which is never negative where no real ray can miss, as with crossing
 /// planes: -k a - Σ s_j s_k m_i² + 2 l (s1 v_y m_x - s0 v_x m_y) + l² v_z².
-template <class Real>
-inline vreal<Real> quadric_discriminant(const abi::QuadricRecord<Real>& quadric,
+template <class Real, class Stored>
+inline vreal<Real> quadric_discriminant(const abi::QuadricRecord<Stored>& quadric,
                                         const Vec3v<Real>& m, const Vec3v<Real>& v,
                                         const vreal<Real>& a)
 {
-    const Vec3v<Real> s = broadcast(quadric.square);
-    const vreal<Real> l(quadric.linear);
+    const Vec3v<Real> s = broadcast_as<Real>(quadric.square);
+    const vreal<Real> l(static_cast<Real>(quadric.linear));
+    const vreal<Real> constant(static_cast<Real>(quadric.constant));
     const vreal<Real> squares =
         madd(s.y * s.z, m.x * m.x, madd(s.z * s.x, m.y * m.y, (s.x * s.y) * (m.z * m.z)));
     const vreal<Real> turn = msub(s.y * v.y, m.x, (s.x * v.x) * m.y);
     const vreal<Real> lifted = l * v.z;
-    return madd(l + l, turn, msub(lifted, lifted, madd(vreal<Real>(quadric.constant), a, squares)));
+    return madd(l + l, turn, msub(lifted, lifted, madd(constant, a, squares)));
 }
 
 /// How large the terms are that cancel in the left side of the equation at p.

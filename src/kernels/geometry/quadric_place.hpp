@@ -67,11 +67,29 @@ inline Vec3v<Real> unit_normal(const abi::QuadricRecord<double>& quadric, unsign
                                  dir);
 }
 
+/// 0 for two planes that cross, whose gradient is not that of one equation.
+inline vreal<double> height_over(const abi::QuadricRecord<double>& quadric, unsigned piece,
+                                 const Vec3v<double>& point)
+{
+    if (piece != 0) {
+        const vreal<double> height =
+            dot(broadcast(quadric.clip), point - broadcast(quadric.clip_base));
+        const vreal<double> inverse(1.0 / quadric.clip_size);
+        return inverse * (piece == 2 ? height - vreal<double>(quadric.clip_high)
+                                     : vreal<double>(quadric.clip_low) - height);
+    }
+    if (crossing_planes(quadric))
+        return vreal<double>(0.0);
+    const Vec3v<double> p = apply_inverse(quadric, point - broadcast(quadric.center));
+    const Vec3v<double> gradient = side_gradient<double>(quadric, p);
+    return vreal<double>(0.5) * quadric_value<double>(quadric, p) / sqrt(dot(gradient, gradient));
+}
+
 /// What a residual may be off by, of the size of its terms.
 constexpr double residual_slack = 0x1p-50;
 
-/// A root of the side, one step of Newton's nearer, where that leads to no other root, and where the
-/// residual is more than its own rounding: of rays that nearly run along the surface the
+/// A root of the side, one step of Newton's nearer, where that leads to no other root, and where
+/// the residual is more than its own rounding: of rays that nearly run along the surface the
 /// discriminant loses digits that the equation has. The residual is that of the point p + t v
 /// itself. Taken from a place far from the hit, as the point nearest to the centre is on long
 /// hyperboloids, its terms would be larger, and lose more than is gained.
@@ -114,8 +132,7 @@ inline vreal<double> bettered(const abi::QuadricRecord<double>& quadric, const V
     return hit;
 }
 
-/// A piece of a quadric, for one step of Newton's from the root that the search found in double and
-/// rounded: which of its roots is meant needs no telling then.
+/// A piece of a quadric, for one step of Newton's from the root next to what the search found.
 struct QuadricForm {
     static constexpr bool root_is_known = true;
 
@@ -136,12 +153,39 @@ inline QuadricForm form_of(const abi::QuadricRecord<double>& quadric, unsigned p
     return {quadric, piece, found};
 }
 
+/// A ray's origin in canonical space, in single precision.
+inline Vec3v<float> rough_origin(const abi::QuadricRecord<double>& quadric, const Vec3v<float>& org)
+{
+    float high[3];
+    float low[3];
+    for (int axis = 0; axis < 3; ++axis) {
+        high[axis] = static_cast<float>(quadric.center[axis]);
+        low[axis] = static_cast<float>(quadric.center[axis] - double{high[axis]});
+    }
+    return apply_inverse_as<float>(quadric, from_place<float>(org, high, low));
+}
+
+/// The side's root next to what the search found, of the ray and the quadric alone, so that
+/// Newton's step has the same bits whatever found the hit, and in whatever precision. A NaN where
+/// the other root is not further away by far. Caps are found in double alone, and so the same by
+/// all.
 inline RoughRoot rough_root(const QuadricForm& form, const RayPacket<float>& rays)
 {
     if (form.piece != 0)
         return {form.found, vreal<float>(0.0f)};
-    const Vec3v<float> v = apply_inverse_as<float>(form.quadric, rays.dir);
-    return {form.found, dot(rough(form.quadric.square) * v, v)};
+    const abi::QuadricRecord<double>& quadric = form.quadric;
+    const Vec3v<float> p = rough_origin(quadric, rays.org);
+    const Vec3v<float> v = apply_inverse_as<float>(quadric, rays.dir);
+    const Vec3v<float> scaled = rough(quadric.square) * v;
+    const vreal<float> a = dot(scaled, v);
+    const vreal<float> b = madd(rough(quadric.linear), v.z, dot(scaled, p));
+    const vreal<float> discriminant = quadric_discriminant<float>(quadric, cross(p, v), v, a);
+    const vreal<float> inverse = vreal<float>(1.0f) / a;
+    const vreal<float> middle = negated(b) * inverse;
+    const vreal<float> half = abs(sqrt(max(discriminant, vreal<float>(0.0f))) * inverse);
+    const vreal<float> t = select(form.found < middle, middle - half, middle + half);
+    const auto next = abs(t - form.found) <= vreal<float>(0.5f) * half;
+    return {select(next, t, vreal<float>(__builtin_nanf(""))), a};
 }
 
 /// The residual of half a packet, in double, and how large its terms are.

@@ -186,6 +186,13 @@ inline Vec3v<Real> unit_normal(const abi::SphereShape& sphere, unsigned, const V
     return unit_or_against<Real>(normal_at<Real>(sphere, point), dir);
 }
 
+inline vreal<double> height_over(const abi::SphereShape& sphere, unsigned,
+                                 const Vec3v<double>& point)
+{
+    const Vec3v<double> w = point - broadcast(sphere.center);
+    return sqrt(dot(w, w)) - vreal<double>(sphere.radius);
+}
+
 inline RefinedHalf refine(const abi::SphereShape& sphere, unsigned, const RayPacket<double>& rays)
 {
     const vreal<double> radius2(sphere.radius * sphere.radius);

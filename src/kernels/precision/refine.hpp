@@ -56,8 +56,9 @@ inline vmask<float> is_close(const RoughRoot& root, const vreal<float>& slope,
            (size <= vreal<float>(0x1p-9f) * root.t) & (root.t + dt > t_min);
 }
 
-/// Lanes in which that is the root that the search found and rounded to within four roundoffs of
-/// `root`: the other one is further away by far. Smaller t are off by more.
+/// Lanes in which that is the root that the search found, where `root` is the one next to it: what
+/// the search rounded is off by four roundoffs of t at most, and the other one is further away by
+/// far. Smaller t are off by more.
 inline vmask<float> is_found(const RoughRoot& root, const vreal<float>& slope,
                              const vreal<float>& dt, const vreal<float>& t_min)
 {
@@ -91,7 +92,10 @@ inline std::uint32_t refine_by_newton(RefinedHits<float>& hits, const Form& form
 {
     const RoughRoot root = rough_root(form, rays);
     const Residual at = residual(form, wide, root.t);
-    const vreal<float> dt = vreal<float>(-0.5f) * at.value / at.slope;
+    vreal<float> dt = vreal<float>(-0.5f) * at.value / at.slope;
+    // And what the step leaves, for points of rays that are long.
+    if constexpr (Form::root_is_known)
+        dt = madd(vreal<float>(-0.5f) * dt / at.slope, root.bend * dt, dt);
     std::uint32_t done;
     if constexpr (Form::root_is_known)
         done = same & bits(is_found(root, at.slope, dt, rays.t_min) &
@@ -221,6 +225,26 @@ inline void refine_others(RefinedHits<float>& hits, const abi::ShapesView& shape
     });
 }
 
+/// Points of one surface that packets of doubles found along their rays, moved onto it: rounding a
+/// long way leaves them further off than what lies in the same place is told apart by. No further
+/// than rounding brings them, so that no apex throws them away.
+inline Vec3v<double> on_surface(const abi::ShapesView& shapes, const abi::SurfaceIndex& index,
+                                const RayPacket<double>& rays, const vreal<double>& t,
+                                const Vec3v<double>& point, const Vec3v<double>& normal)
+{
+    if (index.kind == abi::SurfaceKind::none)
+        return point;
+    const vreal<double> height = with_shape(shapes, index, [&](const auto& shape, unsigned piece) {
+        return height_over(shape, piece, point);
+    });
+    const Vec3v<double> o = rays.org;
+    const Vec3v<double> d = rays.dir;
+    const vreal<double> way =
+        madd(abs(t), abs(d.x) + abs(d.y) + abs(d.z), abs(o.x) + abs(o.y) + abs(o.z));
+    const auto by_rounding = abs(height) <= vreal<double>(0x1p-46) * way;
+    return select(by_rounding, point - scale<double>(height, normal), point);
+}
+
 /// The places of the hits of `active`. Those on a ray's own body are where its start says.
 template <abi::Features F, Refine R, class Real>
 inline RefinedHits<Real> refined(const abi::ShapesView& shapes, const RayPacket<Real>& rays,
@@ -245,10 +269,14 @@ inline RefinedHits<Real> refined(const abi::ShapesView& shapes, const RayPacket<
             hits.point = madd<Real>(hits.t, rays.dir, select(again, start.point, rays.org));
             for_each_distinct<Real>(
                 hit.surface, active, [&](lane_int<Real> number, vmask<Real> same) {
-                    hits.normal = select(
-                        same,
-                        surface_normal<Real>(shapes, shapes.index[number], hits.point, rays.dir),
-                        hits.normal);
+                    const abi::SurfaceIndex& index = shapes.index[number];
+                    const Vec3v<Real> normal =
+                        surface_normal<Real>(shapes, index, hits.point, rays.dir);
+                    hits.normal = select(same, normal, hits.normal);
+                    if constexpr (sizeof(Real) == sizeof(double))
+                        hits.point = select(
+                            same, on_surface(shapes, index, rays, hits.t, hits.point, normal),
+                            hits.point);
                 });
         }
     }

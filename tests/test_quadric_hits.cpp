@@ -1,0 +1,133 @@
+// Hits of quadrics, which single precision finds where it is sure and double where not.
+#include <cmath>
+#include <cstring>
+#include <span>
+#include <vector>
+
+#include <packtrace/intersect.hpp>
+#include <packtrace/read_scene.hpp>
+
+#include "catch.hpp"
+#include "packet_ways.hpp"
+#include "scenes.hpp"
+
+namespace packtrace::test {
+namespace {
+
+/// Every kind, whole, open, clipped and capped, with roots on both sides of clips.
+Scene every_quadric()
+{
+    return parse_scene(R"(
+        ellipsoid { scale = (0.9, 0.5, 0.6)  rotate = (0, 1, 0, 30)  translate = (-3, 0, 0) }
+        cylinder { z_range = (-1.5, 1.5)  scale = (0.6, 0.5, 0.5)  rotate = (0, 1, 0, 65)  translate = (0, 0, 0) }
+        cone { z_range = (-1, -0.1)  capped = true  rotate = (1, 0, 0, -90)  translate = (3, 0, 0) }
+        paraboloid { z_range = (-0.1, 1)  rotate = (1, 0, 0, -70)  translate = (-3, 0, 3) }
+        hyperboloid { z_range = (-1, 1)  scale = (0.4, 0.4, 0.7)  rotate = (1, 0, 0, -80)  translate = (0, 0, 3) }
+        hyperboloid2 { z_range = (-2, 2)  capped = true  scale = 0.4  translate = (3, 0, 3) }
+        cone { z_range = (-1, 1)  scale = (0.7, 0.7, -0.8)  rotate = (1, 0, 0, -80)  translate = (-3, 0, 6) }
+        quadric { coefficients = (1, 2, 3, 1, -1, 0, 0, 0, 0, -0.8)  translate = (0, 0, 6) }
+        cylinder { z_range = (-1, 1)  capped = true  scale = 0.6  rotate = (1, 1, 0, 50)  translate = (3, 0, 6) }
+        saddle { scale = (4, 4, 1)  translate = (0, 0, 12) }
+    )",
+                       "quadrics", {});
+}
+
+/// From one place at the objects of every_quadric(), and next to them.
+std::vector<Ray<float>> rays_from(const Vec3& eye, SceneRandom& random, int count)
+{
+    std::vector<Ray<float>> rays;
+    for (int i = 0; i < count; ++i) {
+        const Vec3 aim(3 * (i % 3 - 1) + random.between(-1, 1), random.between(-1, 1),
+                       3 * (i / 3 % 3) + random.between(-1, 1));
+        Ray<float> ray;
+        for (int axis = 0; axis < 3; ++axis) {
+            ray.org[axis] = static_cast<float>(eye[axis]);
+            ray.dir[axis] = static_cast<float>(aim[axis] - eye[axis]);
+        }
+        rays.push_back(ray);
+    }
+    return rays;
+}
+
+bool same_hit(const SurfaceHit<float>& a, const SurfaceHit<float>& b)
+{
+    return a.object == b.object && std::memcmp(&a.t, &b.t, sizeof(a.t)) == 0 &&
+           std::memcmp(a.normal, b.normal, sizeof(a.normal)) == 0;
+}
+
+std::vector<SurfaceHit<float>> hits_of(const RayScene<float>& scene,
+                                       std::span<const Ray<float>> rays)
+{
+    std::vector<SurfaceHit<float>> hits(rays.size());
+    scene.closest_hits(RayStructs<float>(rays), HitStructs<float>(hits));
+    return hits;
+}
+
+/// How many first hits are further than one last place from all that double finds of their object.
+int not_among_all_hits(const RayScene<float>& scene, std::span<const Ray<float>> rays,
+                       std::span<const SurfaceHit<float>> hits)
+{
+    int beyond = 0;
+    for (std::size_t i = 0; i < rays.size(); ++i) {
+        if (hits[i].object < 0)
+            continue;
+        const auto t = double{hits[i].t};
+        const double ulp = std::ldexp(0x1p-23, std::ilogb(t));
+        const auto all = scene.all_hits(rays[i]);
+        bool held = false;
+        for (const SurfaceHit<float>& hit : all)
+            held = held || (hit.object == hits[i].object && std::abs(double{hit.t} - t) <= ulp);
+        beyond += held ? 0 : 1;
+    }
+    return beyond;
+}
+
+}  // namespace
+
+TEST_CASE("Hits of quadrics have the same bits from one place, from many and alone",
+          "[quadric_hits]")
+{
+    const Scene scene = every_quadric();
+    SceneRandom random(41);
+    const Vec3 eyes[] = {{0.3, 2, -6}, {-1, 40, 9}, {300, 500, -200}, {0.1, 0.2, 4.4}};
+    std::vector<std::vector<Ray<float>>> from;
+    for (const Vec3& eye : eyes)
+        from.push_back(rays_from(eye, random, 1800));
+    std::vector<Ray<float>> mixed;
+    for (std::size_t i = 0; i < from[0].size(); ++i)
+        for (const auto& rays : from)
+            mixed.push_back(rays[i]);
+    std::vector<SurfaceHit<float>> first;
+    for (const RenderOptions& options : packet_ways()) {
+        // Without fused products everything may differ in the last place.
+        if (options.isa == "sse42")
+            continue;
+        INFO(options.isa << (options.traversal == Traversal::tree ? " tree" : " list"));
+        const RayScene<float> traced(scene, options);
+        const auto together = hits_of(traced, mixed);
+        if (first.empty())
+            first = together;
+        int differ = 0;
+        for (std::size_t i = 0; i < together.size(); ++i)
+            differ += same_hit(together[i], first[i]) ? 0 : 1;
+        CHECK(differ == 0);
+        for (std::size_t eye = 0; eye < from.size(); ++eye) {
+            const auto shared = hits_of(traced, from[eye]);
+            int other = 0;
+            for (std::size_t i = 0; i < shared.size(); ++i) {
+                other += same_hit(shared[i], first[i * from.size() + eye]) ? 0 : 1;
+                if (i % 50 == 0)
+                    other += same_hit(hits_of(traced, {&from[eye][i], 1})[0], shared[i]) ? 0 : 1;
+            }
+            CHECK(other == 0);
+        }
+    }
+    const RayScene<float> traced(scene);
+    int hit = 0;
+    for (const SurfaceHit<float>& one : first)
+        hit += one.object >= 0 ? 1 : 0;
+    CHECK(hit > 4000);
+    CHECK(not_among_all_hits(traced, mixed, first) == 0);
+}
+
+}  // namespace packtrace::test
