@@ -13,8 +13,8 @@
 // - What a cone of rays leaves out of a list: out_of_reach, leaves_behind.
 // - Its tests: keep_closest, occluding_lanes and visit_crossings, or quadratic_of for all three.
 // - Its tests with error bounds: keep_certain, occludes.
-// - Of its shape in double, the place of a hit: refine, unit_normal, and form_of where one step of
-//   Newton's betters a rough root, or the root that the search found.
+// - Of its shape in double, the place of a hit: refine, unit_normal, height_over, and form_of where
+//   one step of Newton's betters a rough root, or the root next to what the search found.
 // - Where rays that start on it meet it again: hit_again, second_crossing.
 // - The struct of its name, with the types and lists that the loops ask for.
 // What holds of an object unless its kind says otherwise is in object_list.hpp.
