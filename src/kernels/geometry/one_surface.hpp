@@ -72,7 +72,7 @@ inline vreal<float> rough(double x)
 }
 inline Vec3v<float> rough(const double (&v)[3])
 {
-    return {rough(v[0]), rough(v[1]), rough(v[2])};
+    return broadcast_as<float>(v);
 }
 
 /// A root in single precision: the first beyond t_min, as far as that can tell.

@@ -93,15 +93,15 @@ inline std::uint32_t refine_by_newton(RefinedHits<float>& hits, const Form& form
     const RoughRoot root = rough_root(form, rays);
     const Residual at = residual(form, wide, root.t);
     vreal<float> dt = vreal<float>(-0.5f) * at.value / at.slope;
-    // And what the step leaves, for points of rays that are long.
-    if constexpr (Form::root_is_known)
-        dt = madd(vreal<float>(-0.5f) * dt / at.slope, root.bend * dt, dt);
     std::uint32_t done;
-    if constexpr (Form::root_is_known)
+    if constexpr (Form::root_is_known) {
+        // And what the step leaves, for points of rays that are long.
+        dt = madd(vreal<float>(-0.5f) * dt / at.slope, root.bend * dt, dt);
         done = same & bits(is_found(root, at.slope, dt, rays.t_min) &
                            turns_little(form, at.gradient, rays, dt));
-    else
+    } else {
         done = is_enough(root, at.slope, dt, rays.t_min, same);
+    }
     const vmask<float> active = from_bits<float>(done);
     hits.t = select(active, root.t + dt, hits.t);
     if constexpr (R == Refine::place) {

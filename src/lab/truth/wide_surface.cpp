@@ -27,7 +27,6 @@ void define(WideSurface& surface, const Sphere& sphere)
     set_coefficients(surface, {1, 1, 1, 0, 0, 0, 0, 0, 0, 0});
     surface.linear = -center;
     surface.radius2 = Wide(sphere.radius) * sphere.radius;
-    surface.constant = dot(center, center) - *surface.radius2;
     surface.place = magnitudes(center);
     surface.by_points = surface.placed;
 }
