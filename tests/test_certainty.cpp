@@ -15,6 +15,7 @@
 #include <nlohmann/json.hpp>
 
 #include "catch.hpp"
+#include "memory_limit.hpp"
 #include "run_program.hpp"
 #include "scenes.hpp"
 #include "temp_folder.hpp"
@@ -307,6 +308,26 @@ TEST_CASE("render paints certainty beside the picture", "[certainty]")
         CHECK_FALSE(std::filesystem::exists(at("b.pfm")));
         CHECK_FALSE(std::filesystem::exists(at("d.pfm")));
     }
+}
+
+TEST_CASE("certainty of a picture that memory does not hold is refused before the picture",
+          "[certainty]")
+{
+    const std::string limit = memory_limit(4'000'000);
+    if (limit.empty())
+        return;
+    const TempFolder folder;
+    const std::string picture = (folder / "a.png").string();
+    const ProgramResult result =
+        run_packtrace({"render", four_spheres_file, "--size", "20000x10000", "-o", picture,
+                       "--certainty", (folder / "c.png").string()},
+                      limit);
+    CHECK(result.exit_code == 2);
+    CHECK_THAT(result.err, ContainsSubstring(
+                               "--certainty: 20000 x 10000 pixels take 7.2 GB of memory, of which "
+                               "there are 4.1 GB; give a smaller --size or leave it out"));
+    CHECK(std::count(result.err.begin(), result.err.end(), '\n') == 1);
+    CHECK(folder.names().empty());
 }
 
 TEST_CASE("info counts unsure rays of a small picture", "[certainty]")

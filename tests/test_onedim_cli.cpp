@@ -5,6 +5,7 @@
 #include <random>
 
 #include "catch.hpp"
+#include "memory_limit.hpp"
 #include "onedim_systems.hpp"
 #include "run_program.hpp"
 #include "temp_folder.hpp"
@@ -13,6 +14,7 @@ namespace packtrace {
 namespace {
 
 using test::ContainsSubstring;
+using test::memory_limit;
 using test::ProgramResult;
 using test::run_packtrace;
 using test::TempFolder;
@@ -34,14 +36,6 @@ void write_systems(const std::filesystem::path& file, int count)
         const std::size_t length = random() % 17;
         out << to_text(test::random_system(random, length, 3), onedim::Notation::compact) << '\n';
     }
-}
-
-// A limit to the program's address space, where it can start at all under one: sanitizers map
-// more than any would leave them.
-std::string memory_limit()
-{
-    const std::string limit = "ulimit -v 40000;";  // kB
-    return run_packtrace({"--version"}, limit).exit_code == 0 ? limit : "";
 }
 
 }  // namespace
@@ -147,7 +141,7 @@ TEST_CASE("a million systems are answered in less memory than they fill", "[oned
     const std::filesystem::path file = folder / "systems";
     write_systems(file, 1'000'000);
     REQUIRE(std::filesystem::file_size(file) > 45'000'000);
-    const ProgramResult result = run_packtrace({"onedim", file.string()}, memory_limit());
+    const ProgramResult result = run_packtrace({"onedim", file.string()}, memory_limit(40'000));
     CHECK(result.exit_code == 0);
     CHECK(std::count(result.out.begin(), result.out.end(), '\n') == 1'000'000);
 }

@@ -32,6 +32,11 @@ void check_certainty(const RenderArguments&, const RenderOptions&)
     fail_certainty();
 }
 
+void check_certainty_size(const Scene&)
+{
+    fail_certainty();
+}
+
 std::string write_certainty(const RenderArguments&, const Scene&, const RenderOptions&)
 {
     fail_certainty();

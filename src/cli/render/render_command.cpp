@@ -95,6 +95,8 @@ void run_render(const RenderArguments& arguments)
     Scene scene = read_scene_input(arguments.scene).scene;
     apply(arguments.picture, scene);
     options.region = region_of(arguments, scene);
+    if (arguments.certainty)
+        check_certainty_size(scene);
     // Frames of an animation and bands of a picture are written by one more.
     limit_threads(options.threads, 1);
     if (arguments.animation.many())

@@ -9,7 +9,9 @@
 #include <CLI/CLI.hpp>
 
 #include "cli/output/distinct_files.hpp"
+#include "core/text.hpp"
 #include "image/formats.hpp"
+#include "lab/harness/machine.hpp"
 #include "scene/language/quote.hpp"
 
 namespace packtrace::cli {
@@ -17,6 +19,15 @@ namespace {
 
 /// Longest edge of the picture that `info` takes rays from.
 constexpr int sample_edge = 128;
+
+/// Bytes a pixel of the counts, and of the picture made of them, twice: its file is made whole.
+constexpr double certainty_bytes = sizeof(PixelCertainty) + 2 * 3 * sizeof(float);
+
+/// "12.3 GB"
+std::string gigabytes(double bytes)
+{
+    return fixed(1e-9 * bytes, 1) + " GB";
+}
 
 std::uint64_t unsure_total(const UnsureCounts& counts)
 {
@@ -57,6 +68,16 @@ void check_certainty(const RenderArguments& arguments, const RenderOptions& opti
     check_two_files(arguments.output, *arguments.certainty);
     check_not_read(*arguments.certainty, {arguments.scene});
     check_image_writable(*arguments.certainty);
+}
+
+void check_certainty_size(const Scene& scene)
+{
+    const double needed = certainty_bytes * scene.width * scene.height;
+    if (const double limit = memory_limit(); needed > limit)
+        throw CLI::ValidationError("--certainty: " + std::to_string(scene.width) + " x " +
+                                   std::to_string(scene.height) + " pixels take " +
+                                   gigabytes(needed) + " of memory, of which there are " +
+                                   gigabytes(limit) + "; give a smaller --size or leave it out");
 }
 
 std::string write_certainty(const RenderArguments& arguments, const Scene& scene,

@@ -12,11 +12,15 @@
 #include "cli/render/render_arguments.hpp"
 
 // What other commands take of this folder. Builds without studies have cli/without_study.cpp in its
-// place: the first three need kernels that observe themselves.
+// place: the first four need kernels that observe themselves.
 namespace packtrace::cli {
 
 /// Throws where `--certainty` cannot be had with the other options, before any work.
 void check_certainty(const RenderArguments& arguments, const RenderOptions& options);
+
+/// Throws CLI::ValidationError where the memory for `--certainty` of this scene's picture is not
+/// there. Unlike the picture itself, it is held as a whole.
+void check_certainty_size(const Scene& scene);
 
 /// Writes the picture that `--certainty` names; returns a line on it.
 [[nodiscard]] std::string write_certainty(const RenderArguments& arguments, const Scene& scene,

@@ -1,7 +1,11 @@
 #include "lab/harness/machine.hpp"
 
+#include <algorithm>
 #include <cstdlib>
 #include <fstream>
+
+#include <sys/resource.h>
+#include <unistd.h>
 
 namespace packtrace {
 namespace {
@@ -17,6 +21,16 @@ std::string processor_name()
         if (line.starts_with("model name"))
             return line.substr(line.find(": ") + 2);
     return "unknown";
+}
+
+double memory_limit()
+{
+    const double machine =
+        static_cast<double>(sysconf(_SC_PHYS_PAGES)) * static_cast<double>(sysconf(_SC_PAGESIZE));
+    rlimit limit{};
+    if (getrlimit(RLIMIT_AS, &limit) != 0 || limit.rlim_cur == RLIM_INFINITY)
+        return machine;
+    return std::min(machine, static_cast<double>(limit.rlim_cur));
 }
 
 std::string compiler_name()

@@ -19,6 +19,9 @@ extern const char* const kernel_flags;
 /// The processor's name as the operating system has it, or "unknown".
 [[nodiscard]] std::string processor_name();
 
+/// Bytes of memory that this process may take: the machine's, or fewer where `ulimit -v` says so.
+[[nodiscard]] double memory_limit();
+
 /// The compiler the library was built with.
 [[nodiscard]] std::string compiler_name();
 
