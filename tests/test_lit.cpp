@@ -474,9 +474,9 @@ TEST_CASE("lights that nothing can be in the way of are refused", "[lit]")
     for (const RenderOptions& options : {RenderOptions(), scalar}) {
         const RayScene<double> rays(scene, options);
         CHECK_THROWS_WITH(one_point(rays, {0, 0, 0}, 1),
-                          Catch::Matchers::StartsWith("light 1 is ambient"));
+                          Catch::Matchers::StartsWith("lights[1] is ambient"));
         CHECK_THROWS_WITH(one_point(rays, {0, 0, 0}, 4),
-                          Catch::Matchers::StartsWith("light 4 of 4"));
+                          Catch::Matchers::StartsWith("lights[4] of 4"));
         CHECK(one_point(rays, {0, 50, 0}, 3).size() == 1);
     }
 }

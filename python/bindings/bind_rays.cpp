@@ -166,7 +166,7 @@ public:
     void bounds(const RayArrays& rays, const Numbers& objects, py::array to)
     {
         static_assert(sizeof(HitBounds) == 2 * sizeof(double));
-        check_objects(objects, -1, "object of ray ");
+        check_objects(objects, -1, "object");
         auto* const found = static_cast<HitBounds*>(to.mutable_data());
         const std::int32_t* const object = objects.data();
         with_real(rays.origins.dtype(), [&](auto real) {
@@ -195,7 +195,7 @@ public:
     /// `transforms` is (n, 4, 4), rows first.
     py::tuple transform(const Numbers& objects, const Doubles& transforms)
     {
-        check_objects(objects, 0, "object number ");
+        check_objects(objects, 0, "objects");
         std::vector<Mat4> matrices(static_cast<std::size_t>(objects.size()));
         for (std::size_t i = 0; i < matrices.size(); ++i)
             for (int row = 0; row < 4; ++row)
@@ -330,13 +330,13 @@ private:
         return py::make_tuple(offsets, t, object, normal);
     }
 
-    /// Throws where a number is below `least` or of no object; `of` says what has the numbers.
-    void check_objects(const Numbers& objects, std::int32_t least, const std::string& of) const
+    /// Throws where a number is below `least` or of no object; `name` is the caller's of the array.
+    void check_objects(const Numbers& objects, std::int32_t least, const std::string& name) const
     {
         const auto count = static_cast<std::int64_t>(scenes_.object_count());
         for (py::ssize_t i = 0; i < objects.size(); ++i)
             if (objects.data()[i] < least || objects.data()[i] >= count)
-                throw py::value_error(of + std::to_string(i) + " is " +
+                throw py::value_error(name + "[" + std::to_string(i) + "] is " +
                                       std::to_string(objects.data()[i]) + "; use " +
                                       std::to_string(least) + " to " + std::to_string(count - 1));
     }

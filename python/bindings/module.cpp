@@ -7,6 +7,7 @@
 #include <packtrace/version.hpp>
 
 #include "bindings.hpp"
+#include "scene/scene_faults.hpp"
 
 namespace {
 
@@ -20,6 +21,19 @@ void add_error(py::module_& module, const char* name, PyObject* base, const char
     error.attr("__doc__") = documentation;
 }
 
+/// A scene made in Python is that of its lists: what is wrong is at "lights[0]".
+void name_scene_faults_by_index()
+{
+    py::register_exception_translator([](std::exception_ptr thrown) {
+        try {
+            std::rethrow_exception(thrown);
+        } catch (const packtrace::language::SceneFaultError& error) {
+            const py::object type = py::module_::import("packtrace._packtrace").attr("SceneError");
+            PyErr_SetString(type.ptr(), error.fault.text_by_index().c_str());
+        }
+    });
+}
+
 }  // namespace
 
 PYBIND11_MODULE(_packtrace, module)
@@ -29,6 +43,7 @@ PYBIND11_MODULE(_packtrace, module)
     add_error<SceneError>(module, "SceneError", PyExc_ValueError,
                           "A scene that cannot be used: one line that says what, why, and what to "
                           "do; for text, also where.");
+    name_scene_faults_by_index();
     add_error<ImageError>(
         module, "ImageError", PyExc_OSError,
         "A picture that cannot be read or written: one line that names the file.");

@@ -15,6 +15,12 @@ std::string type_of(py::handle value)
     return py::str(py::type::handle_of(value).attr("__name__"));
 }
 
+/// "lights[0]"
+std::string at_index(const std::string& list, std::size_t index)
+{
+    return list + "[" + std::to_string(index) + "]";
+}
+
 Rgb color_field(py::handle object, const char* key)
 {
     return color_of(object.attr(key), key);
@@ -66,9 +72,10 @@ Polygon polygon_of(py::handle value)
 {
     Polygon polygon;
     for (const py::object& contour : elements_of(value.attr("contours"), "contours")) {
+        const std::string name = at_index("contours", polygon.contours.size());
         std::vector<Vec3>& corners = polygon.contours.emplace_back();
-        for (const py::object& corner : elements_of(contour, "contours"))
-            corners.push_back(value_of<Vec3>(corner, "a corner"));
+        for (const py::object& corner : elements_of(contour, name))
+            corners.push_back(value_of<Vec3>(corner, at_index(name, corners.size())));
     }
     return polygon;
 }
@@ -111,18 +118,19 @@ Light light_of(py::handle value)
             field<Vec3>(value, "vector"), field<bool>(value, "casts_shadow")};
 }
 
-/// Calls `convert`; what it finds wrong is said behind what it is about.
+/// Calls `convert`; what it finds wrong is said behind what it is about, where that has a name.
 template <class Convert>
 auto about(const std::string& what, const Convert& convert)
 {
+    const std::string subject = what.empty() ? what : what + ": ";
     try {
         return convert();
     } catch (const py::value_error& error) {
-        throw py::value_error(what + ": " + error.what());
+        throw py::value_error(subject + error.what());
     } catch (py::error_already_set& error) {
         if (!error.matches(PyExc_AttributeError))
             throw;
-        throw py::value_error(what + ": " + py::str(error.value()).cast<std::string>());
+        throw py::value_error(subject + py::str(error.value()).cast<std::string>());
     }
 }
 
@@ -146,12 +154,12 @@ public:
         about("camera", [&] { camera(value.attr("camera"), result.camera); });
         objects(value, result.objects);
         for (const py::object& light : elements_of(value.attr("lights"), "lights"))
-            result.lights.push_back(about("light " + std::to_string(result.lights.size()), [&] {
+            result.lights.push_back(about(at_index("lights", result.lights.size()), [&] {
                 return is_a(light, "Light") ? light_of(light)
                                             : wrong_class<Light>(light, "a Light");
             }));
         if (const py::object moves = value.attr("animation"); !moves.is_none())
-            result.animation = about("animation", [&] { return animation(moves); });
+            result.animation = animation(moves);
         return result;
     }
 
@@ -198,13 +206,12 @@ private:
 
     [[nodiscard]] Object object(py::handle value, std::size_t number)
     {
-        std::string what = "object " + std::to_string(number);
-        return about(what, [&] {
+        return about(at_index("objects", number), [&] {
             if (!is_a(value, "Object"))
                 wrong_class<Object>(value, "an Object, such as Object(Sphere((0, 0, 5), 1))");
             Object result;
             result.name = field<std::string>(value, "name");
-            return about(result.name.empty() ? "its fields" : "'" + result.name + "'", [&] {
+            return about(result.name.empty() ? "" : "'" + result.name + "'", [&] {
                 result.surface = surface(value.attr("surface"));
                 if (const py::object given = value.attr("transform"); !given.is(identity_))
                     from_python(given, "transform", result.transform);
@@ -266,13 +273,19 @@ private:
     [[nodiscard]] Animation animation(py::handle value)
     {
         Animation result;
-        result.frames = field<int>(value, "frames");
-        if (const py::object orbit = value.attr("orbit"); !orbit.is_none())
-            result.orbit = Orbit{field<Vec3>(orbit, "center"), field<Vec3>(orbit, "axis"),
-                                 field<double>(orbit, "degrees")};
-        for (const py::object& key : elements_of(value.attr("keys"), "keys"))
-            result.keys.push_back({field<int>(key, "frame"), field<Vec3>(key, "position"),
-                                   field<Vec3>(key, "look_at"), field<Vec3>(key, "up")});
+        std::vector<py::object> keys;
+        about("animation", [&] {
+            result.frames = field<int>(value, "frames");
+            if (const py::object orbit = value.attr("orbit"); !orbit.is_none())
+                result.orbit = Orbit{field<Vec3>(orbit, "center"), field<Vec3>(orbit, "axis"),
+                                     field<double>(orbit, "degrees")};
+            keys = elements_of(value.attr("keys"), "keys");
+        });
+        for (const py::object& key : keys)
+            result.keys.push_back(about(at_index("animation.keys", result.keys.size()), [&] {
+                return CameraKey{field<int>(key, "frame"), field<Vec3>(key, "position"),
+                                 field<Vec3>(key, "look_at"), field<Vec3>(key, "up")};
+            }));
         return result;
     }
 

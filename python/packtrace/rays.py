@@ -198,7 +198,7 @@ class RayScene:
                              f"{mask.size} points; give both as closest gave them")
         number = operator.index(light)
         if number < 0:
-            raise ValueError(f"light {number}; lights count from 0, as in Scene.lights")
+            raise ValueError(f"lights[{number}]; lights count from 0, and none from the end")
         self._native.lit(places.reshape(-1, 3), surface, number, mask.reshape(-1))
         return mask
 

@@ -2,7 +2,7 @@
 (docs/scene.md); colours are linear, 1.0 is full.
 
 Classes here hold values and check nothing: `Scene.validate`, `render` and `RayScene` check all of a
-scene and raise `SceneError`, which names the object.
+scene and raise `SceneError`, which names the object as in `objects[0]`.
 """
 
 from __future__ import annotations

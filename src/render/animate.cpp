@@ -116,8 +116,8 @@ Camera camera_at(const Scene& scene, int frame)
     if (!scene.animation)
         throw std::invalid_argument("the scene has no animation");
     const Animation& animation = *scene.animation;
-    if (const auto fault = language::fault_of_movement(scene))
-        throw SceneError(fault->text());
+    if (auto fault = language::fault_of_movement(scene))
+        throw language::SceneFaultError(*std::move(fault));
     if (frame < 0 || frame >= animation.frames)
         throw std::invalid_argument("frame " + std::to_string(frame) +
                                     " is none of the animation's, 0.." +

@@ -63,8 +63,8 @@ SceneUpdate RayScene<Real>::State::update(const Scene& scene,
 {
     if (moved.empty())
         return {};
-    if (const auto fault = language::fault_of_shapes(scene, moved, shapes))
-        throw SceneError(fault->text());
+    if (auto fault = language::fault_of_shapes(scene, moved, shapes))
+        throw language::SceneFaultError(*std::move(fault));
     const SceneUpdate done = backend->update(scene, shapes);
     bounded.replace(scene, shapes);
     return done;
@@ -74,12 +74,11 @@ template <class Real>
 std::size_t RayScene<Real>::State::place_of_light(std::size_t light) const
 {
     if (light >= lights.size())
-        throw std::invalid_argument("light " + std::to_string(light) + " of " +
-                                    std::to_string(lights.size()) +
-                                    "; lights count from 0, as in Scene::lights");
+        throw std::invalid_argument("lights[" + std::to_string(light) + "] of " +
+                                    std::to_string(lights.size()) + "; they count from 0");
     if (lights[light] == LightType::ambient)
-        throw std::invalid_argument("light " + std::to_string(light) +
-                                    " is ambient, which nothing is in the way of; give a point or "
+        throw std::invalid_argument("lights[" + std::to_string(light) +
+                                    "] is ambient, which nothing is in the way of; give a point or "
                                     "directional light");
     const auto end = lights.begin() + static_cast<std::ptrdiff_t>(light);
     return light - static_cast<std::size_t>(std::count(lights.begin(), end, LightType::ambient));

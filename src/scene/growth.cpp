@@ -92,7 +92,7 @@ std::optional<SceneFault> fault_of_growth(const Scene& scene)
         ", beyond single precision: it mirrors and lets through " + to_text(most.bounced) +
         " times the light, at max_depth = " + std::to_string(scene.max_depth) +
         "; use smaller factors or a lower max_depth";
-    return SceneFault{label_of(scene, object), message, object, ""};
+    return SceneFault{label_of(scene, object), message, "objects", object};
 }
 
 }  // namespace packtrace::language

@@ -199,14 +199,15 @@ std::optional<SceneFault> fault_of_objects(const Scene& scene)
     if (first == scene.objects.size())
         return std::nullopt;
     const OwnerFault fault = fault_of_object(scene.objects[first], scene.illumination);
-    return SceneFault{subject_of(scene, first, *fault), fault->message, first, fault->key};
+    return SceneFault{subject_of(scene, first, *fault), fault->message, "objects", first,
+                      fault->key};
 }
 
 std::optional<SceneFault> fault_of_lights(const Scene& scene)
 {
     for (std::size_t i = 0; i < scene.lights.size(); ++i)
         if (OwnerFault fault = fault_in_rows(scene.lights[i]))
-            return SceneFault{"light " + std::to_string(i + 1), fault->message};
+            return SceneFault{"light " + std::to_string(i + 1), fault->message, "lights", i};
     return std::nullopt;
 }
 
@@ -223,7 +224,7 @@ std::optional<SceneFault> fault_of_movement(const Scene& scene)
     for (std::size_t i = 0; i < animation.keys.size(); ++i) {
         const CameraKey& key = animation.keys[i];
         if (const OwnerFault fault = fault_of_key(key, animation.frames, earlier))
-            return SceneFault{"key " + std::to_string(i + 1), fault->message};
+            return SceneFault{"key " + std::to_string(i + 1), fault->message, "animation.keys", i};
         earlier = key.frame;
     }
     if (animation.orbit)
@@ -338,7 +339,7 @@ std::optional<SceneFault> fault_of_shapes(const Scene& scene, std::span<const st
         return std::nullopt;
     const std::size_t number = number_at(first);
     const OwnerFault fault = fault_of_shape(scene.objects[number]);
-    return SceneFault{label_of(scene, number), fault->message, number, fault->key};
+    return SceneFault{label_of(scene, number), fault->message, "objects", number, fault->key};
 }
 
 std::optional<SceneFault> fault_of_scene(const Scene& scene)
@@ -362,8 +363,8 @@ namespace packtrace {
 
 void validate(const Scene& scene)
 {
-    if (const auto fault = language::fault_of_scene(scene))
-        throw SceneError(fault->text());
+    if (auto fault = language::fault_of_scene(scene))
+        throw language::SceneFaultError(*std::move(fault));
 }
 
 }  // namespace packtrace

@@ -6,9 +6,11 @@
 #include <span>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include <packtrace/scene.hpp>
+#include <packtrace/validate.hpp>
 
 #include "scene/language/rows.hpp"
 #include "scene/moved_shape.hpp"
@@ -39,13 +41,33 @@ namespace packtrace::language {
 struct SceneFault {
     std::string subject;  ///< "sphere 3", "light 1", "camera"; empty for the scene's own keys
     std::string message;
-    std::optional<std::size_t> object{};  ///< that it is about
-    std::string_view key{};               ///< of the object
+    std::string_view list{};  ///< the scene's list that holds the subject, as code calls it, if any
+    std::size_t index{};      ///< there
+    std::string_view key{};   ///< of an object
 
     [[nodiscard]] std::string text() const
     {
         return subject.empty() ? message : subject + ": " + message;
     }
+    /// For who made the scene in code: by the place in the list, "lights[0]", not by a number
+    /// from 1.
+    [[nodiscard]] std::string text_by_index() const
+    {
+        if (list.empty())
+            return text();
+        // A name of the user's own stands in quotes.
+        const std::string name = subject.ends_with('\'') ? ": " + subject : std::string();
+        return std::string(list) + "[" + std::to_string(index) + "]" + name + ": " + message;
+    }
+};
+
+/// The SceneError of a scene that was made in code.
+struct SceneFaultError final : SceneError {
+    explicit SceneFaultError(SceneFault found) : SceneError(found.text()), fault(std::move(found))
+    {
+    }
+
+    SceneFault fault;
 };
 
 /// The first fault of a scene's animation, if it has one.

@@ -133,7 +133,7 @@ class TestAnswers(unittest.TestCase):
                 dark = rays.occluded(hits.leave(way).origin, way, 0, 1.0 - 1e-5 if light == 0 else np.inf)
                 self.assertGreater(np.mean((lit == ~dark)[hits.hit]), 0.9999)
         for light in (1, 3, -1):
-            with self.assertRaisesRegex(ValueError, f"light {light}"):
+            with self.assertRaisesRegex(ValueError, rf"^lights\[{light}\]"):
                 rays.lit(hits, light)
         with self.assertRaisesRegex(ValueError, 'detail="start"'):
             rays.lit(rays.closest(origins, directions), 0)
@@ -278,7 +278,7 @@ class TestArrays(unittest.TestCase):
                 self.rays.closest(*arguments)
         with self.assertRaisesRegex(ValueError, "detail is 'most'; use one of 't', 'normal'"):
             self.rays.closest(good, good, detail="most")
-        with self.assertRaisesRegex(ValueError, "object of ray 4 is 3; use -1 to 2"):
+        with self.assertRaisesRegex(ValueError, r"^object\[4\] is 3; use -1 to 2"):
             self.rays.bounds(good, good, np.array([0, 0, 0, 0, 3]))
         with self.assertRaisesRegex(ValueError, "object is float64"):
             self.rays.bounds(good, good, np.zeros(5))
@@ -371,12 +371,12 @@ class TestMoving(unittest.TestCase):
         rays = pt.RayScene(self.scene)
         self.assert_like_new(rays)
         flat = np.diag((1.0, 0, 1, 1))
-        with self.assertRaisesRegex(pt.SceneError, "sphere 5: the transform is singular"):
+        with self.assertRaisesRegex(pt.SceneError, r"^objects\[4\]: the transform is singular"):
             rays.transform([3, 4], [np.diag((2.0, 2, 2, 1)), flat])
         for message, arguments in (("objects are float64", ([1.5], np.eye(4)[None])),
                                    (r"transforms are float64 of shape \(4, 4\)", ([1], np.eye(4))),
                                    ("last row", ([1], np.ones((1, 4, 4)))),
-                                   ("object number 0 is 200; use 0 to 199", ([200], np.eye(4)[None]))):
+                                   (r"^objects\[0\] is 200; use 0 to 199", ([200], np.eye(4)[None]))):
             with self.subTest(message), self.assertRaisesRegex(ValueError, message):
                 rays.transform(*arguments)
         with self.assertRaisesRegex(ValueError, "object"):

@@ -157,11 +157,11 @@ class TestErrors(unittest.TestCase):
 
     def test_values_of_the_wrong_type(self):
         ball = pt.Sphere((0, 0, 5), 1)
-        self.refuses(r"^object 0: 'ball': center is \(0, 0\); use 3 numbers",
+        self.refuses(r"^objects\[0\]: 'ball': center is \(0, 0\); use 3 numbers",
                      objects=[pt.Object(pt.Sphere((0, 0)), name="ball")])
-        self.refuses(r"^object 1: .*radius is 'big'; use a number",
+        self.refuses(r"^objects\[1\]: radius is 'big'; use a number",
                      objects=[pt.Object(ball), pt.Object(pt.Sphere(radius="big"))])
-        self.refuses(r"^object 0: is of the class Sphere; use an Object", objects=[ball])
+        self.refuses(r"^objects\[0\]: is of the class Sphere; use an Object", objects=[ball])
         self.refuses(r"surface is None; use a Sphere", objects=[pt.Object(None)])
         self.refuses(r"material: .*class str; use the one that fits",
                      objects=[pt.Object(ball, "gold")])
@@ -171,7 +171,7 @@ class TestErrors(unittest.TestCase):
         self.refuses(r"kind is 'egg'; use one of 'ellipsoid'", objects=[pt.Object(pt.Quadric("egg"))])
         self.refuses(r"coefficients is \(1,\); use None, as the kind 'cone' has its own",
                      objects=[pt.Object(pt.Quadric("cone", (1,)))])
-        self.refuses(r"^light 0: type is 'sun'; use one of 'ambient'", lights=[pt.Light("sun")])
+        self.refuses(r"^lights\[0\]: type is 'sun'; use one of 'ambient'", lights=[pt.Light("sun")])
         self.refuses(r"^illumination is 'dark'; use one of", illumination="dark")
         self.refuses(r"^width is 2.5; use a whole number", width=2.5)
         self.refuses(r"^objects is 7; use a list", objects=7)
@@ -181,6 +181,26 @@ class TestErrors(unittest.TestCase):
             pt.Scene(objects=[pt.Object(pt.Sphere((0, 0, 5), -1), name="ball")]).validate()
         with self.assertRaisesRegex(pt.SceneError, "illumination"):
             pt.Scene(objects=[pt.Object(pt.Sphere(), pt.GeneralMaterial())]).validate()
+
+    def test_what_is_in_a_list_is_named_by_its_index(self):
+        ball = pt.Object(pt.Sphere((0, 0, 5), 1))
+        self.refuses(r"^objects\[1\]: 'radius' is -1; use a number above 0$",
+                     objects=[ball, pt.Object(pt.Sphere((0, 0, 5), -1))])
+        self.refuses(r"^objects\[1\]: sphere 'big': 'radius' is -1; use a number above 0$",
+                     objects=[ball, pt.Object(pt.Sphere((0, 0, 5), -1), name="big")])
+        self.refuses(r"^lights\[1\]: 'intensity' is -1; use a number of 0 or more$",
+                     objects=[ball], lights=[pt.Light(), pt.Light(intensity=-1)])
+        self.refuses(r"^animation.keys\[1\]: frame 0 does not come after frame 0",
+                     objects=[ball], animation=pt.Animation(9, keys=[pt.CameraKey(), pt.CameraKey()]))
+        self.refuses(r"^animation.keys\[1\]: frame is 'x'; use a whole number", objects=[ball],
+                     animation=pt.Animation(9, keys=[pt.CameraKey(), pt.CameraKey("x")]))
+        self.refuses(r"^objects\[0\]: contours\[0\]\[2\] is \(0, 1\); use 3 numbers",
+                     objects=[pt.Object(pt.Polygon([[(0, 0, 0), (1, 0, 0), (0, 1)]]))])
+        with self.assertRaisesRegex(pt.SceneError, r"^objects\[0\]: 'radius'"):
+            pt.render(pt.Scene(objects=[pt.Object(pt.Sphere(radius=0))]))
+        # A file's messages count as its names do, from 1, and say where.
+        with self.assertRaisesRegex(pt.SceneError, r"^mine:1:\d+: .*'intensity'"):
+            pt.Scene.from_text("light { type = ambient intensity = -1 }", "mine")
 
     def test_what_is_no_scene(self):
         with self.assertRaisesRegex(ValueError, "use a packtrace.Scene"):

@@ -103,7 +103,7 @@ void read_lights(const Block& file, Scene& scene)
 void check_growth(const Block& file, const Scene& scene)
 {
     if (const auto fault = fault_of_growth(scene)) {
-        const Field object = object_field(file, *fault->object);
+        const Field object = object_field(file, fault->index);
         fail(object.source, object.entry.key.at, fault->text());
     }
 }
