@@ -10,8 +10,9 @@ from __future__ import annotations
 import os
 import threading
 from dataclasses import dataclass, field, replace
-from typing import Any, Dict, List, Literal, Optional, Sequence, Tuple, Union
+from typing import Any, ClassVar, Dict, List, Literal, Optional, Sequence, Tuple, Union
 
+import numpy as np
 from numpy.typing import NDArray
 
 from . import _packtrace
@@ -44,24 +45,48 @@ def file_name(file: Path) -> str:
     return name
 
 
-@dataclass
-class Sphere:
+def _same(a: Any, b: Any) -> bool:
+    """Whether two values of a field are equal. Arrays, lists and tuples are by their elements."""
+    if a is b:
+        return True
+    if isinstance(a, (list, tuple)) and isinstance(b, (list, tuple)):
+        return len(a) == len(b) and all(map(_same, a, b))
+    if isinstance(a, np.ndarray) or isinstance(b, np.ndarray):
+        return bool(np.array_equal(a, b))
+    return bool(a == b)
+
+
+class _Part:
+    """A scene or a part of one."""
+
+    # Of the dataclass that each part is.
+    __dataclass_fields__: ClassVar[Dict[str, Any]]
+
+    def __eq__(self, other: object) -> bool:
+        if other.__class__ is not self.__class__:
+            return NotImplemented
+        return all(_same(getattr(self, name), getattr(other, name))
+                   for name in self.__dataclass_fields__)
+
+
+@dataclass(eq=False)
+class Sphere(_Part):
     """All points at `radius` from `center`, in scene units; the radius is above 0."""
 
     center: Vector = (0.0, 0.0, 0.0)
     radius: float = 1.0
 
 
-@dataclass
-class Plane:
+@dataclass(eq=False)
+class Plane(_Part):
     """An infinite plane through `point`. `normal` points to its outer side, at any length but 0."""
 
     point: Vector = (0.0, 0.0, 0.0)
     normal: Vector = (0.0, 1.0, 0.0)
 
 
-@dataclass
-class Quadric:
+@dataclass(eq=False)
+class Quadric(_Part):
     """A surface of second order in its own space, to be placed by the object's transform.
 
     `kind` names an equation: "ellipsoid" x² + y² + z² = 1, "cylinder" x² + y² = 1, "cone" x² + y² =
@@ -78,8 +103,8 @@ class Quadric:
     capped: bool = False
 
 
-@dataclass
-class Polygon:
+@dataclass(eq=False)
+class Polygon(_Part):
     """A flat sheet. `contours` holds one contour or more, each of three corners (x, y, z) or more in
     one plane. The first one's corners run clockwise seen from the outer side; a contour within
     another is a hole.
@@ -91,16 +116,16 @@ class Polygon:
 Surface = Union[Sphere, Plane, Quadric, Polygon]
 
 
-@dataclass
-class Checker:
+@dataclass(eq=False)
+class Checker(_Part):
     """Squares on a plane: `other` is the colour of every second one, `size` its edge in scene units."""
 
     other: Colour = 0.0
     size: float = 1.0
 
 
-@dataclass(kw_only=True)
-class Material:
+@dataclass(eq=False, kw_only=True)
+class Material(_Part):
     """What all materials have. Use the class that fits `Scene.illumination`."""
 
     color: Colour = 1.0
@@ -108,7 +133,7 @@ class Material:
     name: str = ""
 
 
-@dataclass(kw_only=True)
+@dataclass(eq=False, kw_only=True)
 class ScratchMaterial(Material):
     """`specular` is the highlight's exponent, -1 for none; `reflective` the mirrored share, 0 to 1."""
 
@@ -116,7 +141,7 @@ class ScratchMaterial(Material):
     reflective: float = 0.0
 
 
-@dataclass(kw_only=True)
+@dataclass(eq=False, kw_only=True)
 class SketchMaterial(Material):
     """`ambient` and `diffuse` multiply the colour; `specular` (mirror and highlight) and `refractive`
     (the share that goes through) are white. `ior` is the index of refraction."""
@@ -129,7 +154,7 @@ class SketchMaterial(Material):
     ior: float = 1.0
 
 
-@dataclass(kw_only=True)
+@dataclass(eq=False, kw_only=True)
 class WhittedMaterial(Material):
     """As SketchMaterial, with `transmissive` for the share that goes through."""
 
@@ -141,14 +166,14 @@ class WhittedMaterial(Material):
     ior: float = 1.0
 
 
-@dataclass(kw_only=True)
+@dataclass(eq=False, kw_only=True)
 class ShaderMaterial(Material):
     """`reflectance` = (r0, r1, r2, r3) of f = r0 + r1 Id + r2 Is^r3, times the colour."""
 
     reflectance: Sequence[float] = (0.0, 0.0, 0.0, 1.0)
 
 
-@dataclass(kw_only=True)
+@dataclass(eq=False, kw_only=True)
 class GeneralMaterial(Material):
     """Absolute factors; the colour counts for nothing."""
 
@@ -161,8 +186,8 @@ class GeneralMaterial(Material):
     ior: float = 1.0
 
 
-@dataclass
-class Object:
+@dataclass(eq=False)
+class Object(_Part):
     """A surface with a material. `transform` is a 4 × 4 matrix M (rows first) that takes a point p of
     the surface to M p; its last row is (0, 0, 0, 1). Without a material it has the one that the
     scene's illumination starts from."""
@@ -186,8 +211,8 @@ class Object:
         return replace(self, transform=_packtrace.scaled(self.transform, factors))
 
 
-@dataclass
-class Light:
+@dataclass(eq=False)
+class Light(_Part):
     """`type` is "ambient", "point" (`vector` is its position) or "directional" (`vector` points from
     the scene towards it). `intensity` 1 is full and does not fall off with the distance."""
 
@@ -197,8 +222,8 @@ class Light:
     casts_shadow: bool = True
 
 
-@dataclass
-class Camera:
+@dataclass(eq=False)
+class Camera(_Part):
     """A pinhole camera. The columns of `rotation` (3 × 3, rows first) are its axes to the right, up
     and forward. `viewport` (width, height) lies at `distance`, in scene units; with `fov`, the full
     vertical angle of view in degrees, it follows the picture's shape. `pixel_sample` says where in a
@@ -219,8 +244,8 @@ class Camera:
         return Camera(position=position, rotation=_packtrace.look_at(position, target, up), **fields)
 
 
-@dataclass
-class Orbit:
+@dataclass(eq=False)
+class Orbit(_Part):
     """A circle of the camera about an axis through `center`, which it looks at."""
 
     center: Vector = (0.0, 0.0, 0.0)
@@ -228,8 +253,8 @@ class Orbit:
     degrees: float = 360.0
 
 
-@dataclass
-class CameraKey:
+@dataclass(eq=False)
+class CameraKey(_Part):
     """The camera's pose at one frame."""
 
     frame: int = 0
@@ -238,8 +263,8 @@ class CameraKey:
     up: Vector = (0.0, 1.0, 0.0)
 
 
-@dataclass
-class Animation:
+@dataclass(eq=False)
+class Animation(_Part):
     """`frames` pictures of a camera on an `orbit`, or through two `keys` or more."""
 
     frames: int = 1
@@ -247,8 +272,8 @@ class Animation:
     keys: List[CameraKey] = field(default_factory=list)
 
 
-@dataclass
-class Scene:
+@dataclass(eq=False)
+class Scene(_Part):
     """A scene in double precision. Object numbers of hits are indices in `objects`; where two
     surfaces are hit at the same t, the lower number wins.
 

@@ -113,6 +113,27 @@ class TestBuilding(unittest.TestCase):
         for make in (copy.copy, copy.deepcopy, lambda scene: pickle.loads(pickle.dumps(scene))):
             self.assertEqual(make(hand_scene()), hand_scene())
 
+    def test_parts_that_hold_arrays_are_equal_by_their_numbers(self):
+        zeros = np.zeros(3)
+        self.assertIs(pt.Sphere(zeros) == pt.Sphere(np.zeros(3)), True)
+        self.assertIs(pt.Sphere(zeros) == pt.Sphere((0, 0, 0)), True)
+        self.assertIs(pt.Sphere([0, 0, 0]) == pt.Sphere((0, 0, 0)), True)
+        self.assertIs(pt.Sphere(zeros) == pt.Sphere(np.ones(3)), False)
+        self.assertIs(pt.Sphere(zeros) == pt.Sphere(np.zeros(2)), False)
+        self.assertIs(pt.Sphere(zeros) != pt.Sphere(np.ones(3)), True)
+        self.assertIs(pt.Sphere(zeros) == pt.Plane(zeros), False)
+        self.assertIs(pt.Sphere(radius=np.float64(2)) == pt.Sphere(radius=2), True)
+        corners = [(-1, -1, 9), (-1, 1, 9), (1, 1, 9)]
+        self.assertEqual(pt.Polygon([np.array(corners)]), pt.Polygon([corners]))
+        self.assertNotEqual(pt.Polygon([np.array(corners)]), pt.Polygon([corners, corners]))
+        self.assertNotEqual(pt.Camera(fov=None), pt.Camera(fov=np.ones(1)))
+        scene = pt.Scene(objects=[pt.Object(pt.Sphere(zeros), transform=np.eye(4))],
+                         lights=[pt.Light(vector=zeros)])
+        self.assertEqual(copy.deepcopy(scene), scene)
+        other = copy.deepcopy(scene)
+        other.objects[0].surface.center[2] = 1
+        self.assertNotEqual(other, scene)
+
     def test_defaults_are_those_of_the_illumination(self):
         for illumination in ("scratch", "sketch", "whitted", "shader", "general"):
             with self.subTest(illumination):
