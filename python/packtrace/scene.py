@@ -1,12 +1,13 @@
 """Scenes built object by object. The words, units and defaults are those of the scene language
 (docs/scene.md); colours are linear, 1.0 is full.
 
-Classes here hold values and check nothing: `Scene.validate`, `render` and `RayScene` check all of a
-scene and raise `SceneError`, which names the object as in `objects[0]`.
+Classes here hold values and check their fields' names alone: `Scene.validate`, `render` and
+`RayScene` check all of a scene and raise `SceneError`, which names the object as in `objects[0]`.
 """
 
 from __future__ import annotations
 
+import difflib
 import os
 import threading
 from dataclasses import dataclass, field, replace
@@ -57,10 +58,21 @@ def _same(a: Any, b: Any) -> bool:
 
 
 class _Part:
-    """A scene or a part of one."""
+    """A scene or a part of one. Its fields are those of its class; no other can be set."""
 
     # Of the dataclass that each part is.
     __dataclass_fields__: ClassVar[Dict[str, Any]]
+
+    def __setattr__(self, name: str, value: Any) -> None:
+        # What a user's own class adds to one of these is its own.
+        if name not in self.__dataclass_fields__ and not name.startswith("_") and not hasattr(
+                type(self), name):
+            known = list(self.__dataclass_fields__)
+            near = difflib.get_close_matches(name, known, 1)
+            raise AttributeError(f"{type(self).__name__} has no field '{name}'; " +
+                                 (f"did you mean '{near[0]}'?" if near else
+                                  f"use one of: {', '.join(known)}"))
+        object.__setattr__(self, name, value)
 
     def __eq__(self, other: object) -> bool:
         if other.__class__ is not self.__class__:

@@ -5,7 +5,7 @@ import pickle
 import threading
 import unittest
 import warnings
-from dataclasses import replace
+from dataclasses import dataclass, replace
 
 import numpy as np
 
@@ -222,6 +222,34 @@ class TestErrors(unittest.TestCase):
         # A file's messages count as its names do, from 1, and say where.
         with self.assertRaisesRegex(pt.SceneError, r"^mine:1:\d+: .*'intensity'"):
             pt.Scene.from_text("light { type = ambient intensity = -1 }", "mine")
+
+    def test_a_misspelt_field_is_refused(self):
+        sphere = pt.Sphere()
+        with self.assertRaisesRegex(AttributeError,
+                                    "^Sphere has no field 'radiuss'; did you mean 'radius'\\?$"):
+            sphere.radiuss = 2
+        self.assertEqual(sphere, pt.Sphere())
+        with self.assertRaisesRegex(AttributeError, "'bachground'; did you mean 'background'"):
+            hand_scene().bachground = 1
+        with self.assertRaisesRegex(AttributeError, "'colour'; did you mean 'color'"):
+            pt.WhittedMaterial().colour = 1
+        with self.assertRaisesRegex(AttributeError, "^Light has no field 'x'; use one of: type, "
+                                                    "intensity, vector, casts_shadow$"):
+            pt.Light().x = 1
+
+    def test_a_users_own_class_has_fields_of_its_own(self):
+        @dataclass(eq=False)
+        class Ball(pt.Sphere):
+            weight: float = 1.0
+            counter = 0
+
+        ball = Ball((0, 0, 5), 1)
+        ball.weight = 2
+        ball.counter = 3
+        ball._private = 4
+        self.assertNotEqual(ball, Ball((0, 0, 5), 1))
+        with self.assertRaises(AttributeError):
+            ball.wait = 2
 
     def test_what_is_no_scene(self):
         with self.assertRaisesRegex(ValueError, "use a packtrace.Scene"):
