@@ -74,6 +74,19 @@ completes 'packtrace ren' render '!compare'
 completes 'packtrace render --acc' accuracy '!traversal'
 completes 'packtrace render --accuracy ' fast exact '!scene'
 completes 'packtrace render --accuracy=' fast exact '!scene'
+# Those of `packtrace info`, whether they run here or not.
+isas=$("$packtrace" info | sed -n '/^instruction set/,/^$/s/^\([a-z0-9_]*\)  .*/\1/p')
+completes 'packtrace render --isa ' auto $isas '!scene'
+completes 'packtrace render --width ' 16 '!scene'
+completes 'packtrace render --precision ' single double extended
+completes 'packtrace render --traversal ' auto list tree
+completes 'packtrace intersect --precision ' single '!extended'
+if "$packtrace" stress --help | grep -q -e --family; then
+    completes 'packtrace stress --mode ' fast exact
+    completes 'packtrace stress --family ' tiny-far '!scene'
+    completes 'packtrace bench --isa ' auto $isas
+fi
+completes 'packtrace onedim --solver ' bitsliced
 completes 'packtrace render x -o ' 'a.*scene'
 completes 'packtrace render ' 'a.*scene'
 completes 'packtrace render --size ' '!scene'

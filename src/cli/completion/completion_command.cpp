@@ -4,7 +4,6 @@
 #include <array>
 #include <iostream>
 #include <memory>
-#include <sstream>
 #include <string>
 #include <string_view>
 
@@ -23,17 +22,7 @@ std::string first_sentence(const std::string& text)
     return text.substr(0, std::min(text.find(". "), text.find("; ")));
 }
 
-/// Those of "fast|exact".
-std::vector<std::string> alternatives(const std::string& type)
-{
-    std::vector<std::string> words;
-    std::istringstream stream(type);
-    for (std::string word; std::getline(stream, word, '|');)
-        words.push_back(word);
-    return words;
-}
-
-OptionWords option_words(const CLI::Option& option)
+OptionWords option_words(CLI::Option& option)
 {
     OptionWords words;
     for (const std::string& name : option.get_snames())
@@ -47,32 +36,31 @@ OptionWords option_words(const CLI::Option& option)
     words.argument = Argument::other;
     if (std::find(path_types.begin(), path_types.end(), type) != path_types.end())
         words.argument = Argument::path;
-    if (type.find('|') != std::string::npos) {
+    words.words = offered_words(option);
+    if (!words.words.empty())
         words.argument = Argument::words;
-        words.words = alternatives(type);
-    }
     return words;
 }
 
 /// The words of `app`; commands without a group are hidden, here as in the help.
-CommandWords command_words(const CLI::App& app)
+CommandWords command_words(CLI::App& app)
 {
     CommandWords words;
     words.name = app.get_name();
     words.description = first_sentence(app.get_description());
-    for (const CLI::Option* option : app.get_options()) {
+    for (CLI::Option* option : app.get_options()) {
         if (option->get_positional())
             words.takes_paths = true;
         else
             words.options.push_back(option_words(*option));
     }
-    for (const CLI::App* command : app.get_subcommands([](const CLI::App*) { return true; }))
+    for (CLI::App* command : app.get_subcommands([](CLI::App*) { return true; }))
         if (!command->get_group().empty())
             words.commands.push_back(command_words(*command));
     return words;
 }
 
-void print_completion(const CLI::App& app, const std::string& shell)
+void print_completion(CLI::App& app, const std::string& shell)
 {
     const CommandWords program = command_words(app);
     std::cout << (shell == "bash"  ? bash_completion(program)

@@ -60,12 +60,19 @@ void add_traversal_option(CLI::App& command, std::optional<std::string>& travers
                     words_of<Traversal>());
 }
 
+void add_isa_option(CLI::App& command, std::optional<std::string>& isa, const std::string& meaning)
+{
+    // Completion is made on one machine for others: it has those that do not run here, too.
+    std::vector<std::string> names{"auto"};
+    for (const IsaInfo& each : list_isas())
+        names.push_back(each.name);
+    command.add_option("--isa", isa, meaning)->check(offers(names))->type_name("NAME");
+}
+
 void add_isa_options(CLI::App& command, IsaArguments& arguments)
 {
-    command
-        .add_option("--isa", arguments.isa,
-                    "Instruction set (default PACKTRACE_ISA, else the widest; see info)")
-        ->type_name("NAME");
+    add_isa_option(command, arguments.isa,
+                   "Instruction set (default PACKTRACE_ISA, else the widest; see info)");
     command
         .add_option("--width", arguments.width,
                     "Instruction set by the rays of a packet in single precision: 1, 4, 8 or 16 "

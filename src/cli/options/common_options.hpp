@@ -89,6 +89,9 @@ void add_kernel_option(CLI::App& command, std::string& kernel);
 /// single or double.
 void add_precision_option(CLI::App& command, std::string& precision, const std::string& meaning);
 void add_sampling_options(CLI::App& command, SamplingArguments& arguments);
+/// `--isa` alone, for chosen_isa().
+void add_isa_option(CLI::App& command, std::optional<std::string>& isa, const std::string& meaning);
+/// `--isa` and `--width`.
 void add_isa_options(CLI::App& command, IsaArguments& arguments);
 /// `--size` alone.
 void add_size_option(CLI::App& command, PictureArguments& arguments);

@@ -3,8 +3,12 @@
 #include <algorithm>
 #include <charconv>
 #include <cmath>
+#include <iterator>
 #include <optional>
+#include <sstream>
 #include <utility>
+
+#include "core/text.hpp"
 
 namespace packtrace::cli {
 namespace {
@@ -100,10 +104,27 @@ CLI::Validator one_of(std::vector<std::string> words)
     std::string wanted = words.front();
     for (std::size_t i = 1; i < words.size(); ++i)
         wanted += (i + 1 < words.size() ? ", " : " or ") + words[i];
+    const std::string name = offers(words).get_name();
     const auto accepts = [words = std::move(words)](const std::string& text) {
         return std::find(words.begin(), words.end(), text) != words.end();
     };
-    return validator(accepts, wanted);
+    return validator(accepts, wanted).name(name);
+}
+
+// The words are kept as the validator's name, which CLI11 shows nowhere.
+CLI::Validator offers(const std::vector<std::string>& words)
+{
+    return validator([](const std::string&) { return true; }, "").name(joined(words, " "));
+}
+
+std::vector<std::string> offered_words(CLI::Option& option)
+{
+    try {
+        std::istringstream names(option.get_validator(0)->get_name());
+        return {std::istream_iterator<std::string>(names), {}};
+    } catch (const CLI::OptionNotFound&) {
+        return {};  // it has no validator
+    }
 }
 
 }  // namespace packtrace::cli

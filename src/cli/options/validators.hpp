@@ -32,7 +32,11 @@ namespace packtrace::cli {
 [[nodiscard]] CLI::Validator file_name();
 /// The same, and not -, where standard output has something else.
 [[nodiscard]] CLI::Validator own_file_name();
-/// One of a few words.
+/// One of a few words, which shells offer.
 [[nodiscard]] CLI::Validator one_of(std::vector<std::string> words);
+/// Takes any text: shells offer these words, and who reads the option says what is wrong.
+[[nodiscard]] CLI::Validator offers(const std::vector<std::string>& words);
+/// The words of an option that is checked by one_of() or offers(); none for any other.
+[[nodiscard]] std::vector<std::string> offered_words(CLI::Option& option);
 
 }  // namespace packtrace::cli

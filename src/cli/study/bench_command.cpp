@@ -340,9 +340,7 @@ void add_bench(CLI::App& app)
         ->required()
         ->type_name("");
     add_picture_options(*command, arguments->picture);
-    command
-        ->add_option("--isa", arguments->isa, "Only this instruction set (default all there are)")
-        ->type_name("NAME");
+    add_isa_option(*command, arguments->isa, "Only this instruction set (default all there are)");
     command
         ->add_option(
             "--repetitions", arguments->repetitions,

@@ -59,8 +59,7 @@ void add_stress_options(CLI::App& command, StressArguments& arguments)
         ->type_name("NAME");
     add_word_option(command, "--precision", options.precisions, "Only this precision (repeatable)",
                     {"single", "double"});
-    command.add_option("--isa", arguments.isa, "Only this instruction set (default all)")
-        ->type_name("NAME");
+    add_isa_option(command, arguments.isa, "Only this instruction set (default all)");
     add_traversal_option(command, arguments.traversal);
     add_word_option(command, "--self-hits", arguments.self_hits,
                     "How secondary rays avoid hitting the surface they start on (default exact)",
