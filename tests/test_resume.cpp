@@ -121,10 +121,21 @@ TEST_CASE("a picture begun otherwise is not gone on with", "[resume]")
     };
     const std::vector<Other> others = {
         {{"--resume"}, "other.scene", "was begun with another scene"},
-        {{"--resume", "--depth", "0"}, "one.scene", "was begun with another scene"},
-        {{"--resume", "--spp", "2"}, "one.scene", "was begun with other options"},
-        {{"--resume", "--precision", "double"}, "one.scene", "was begun with other options"},
-        {{"--resume", "--gamma", "2.2"}, "one.scene", "was begun with other options"},
+        {{"--resume", "--depth", "0"},
+         "one.scene",
+         "was begun with --depth 3; now with --depth 0;"},
+        {{"--resume", "--spp", "2"}, "one.scene", "was begun with --spp 1; now with --spp 2;"},
+        {{"--resume", "--precision", "double", "--gamma", "2.2"},
+         "one.scene",
+         "was begun with --precision single, with --gamma 1; now with --precision double, "
+         "with --gamma 2.2;"},
+        {{"--resume", "--adaptive", "0.1", "--spp", "4"},
+         "one.scene",
+         "was begun with --spp 1, without --adaptive; now with --spp 4, with --adaptive 0.1;"},
+        {{"--resume", "--kernel", "scalar"},
+         "one.scene",
+         "was begun with --kernel packet, with --isa with FMA; now with --kernel scalar, without "
+         "--isa;"},
     };
     const Studio studio;
     studio.interrupt("a.png", 1);

@@ -185,8 +185,8 @@ void run_intersect(const World& world, const IntersectJobArguments& arguments)
             return;
         output = std::make_unique<cli::HitOutput>(
             arguments,
-            cli::hits_recipe(arguments, scene, options) + ", in " +
-                std::to_string(pieces->count()) + " pieces",
+            cli::hits_recipe(arguments, scene, options) + ", " + std::to_string(pieces->count()) +
+                " pieces of rays",
             cli::header_of(arguments.query(), arguments.ray_bounds()));
         std::uint64_t number = 0;
         output->skip_finished([&] { return pieces->mark(number++); });

@@ -62,9 +62,12 @@ std::string hits_recipe(const IntersectArguments& arguments, const Scene& scene,
 {
     RenderArguments kernel;
     kernel.kernel = arguments.kernel;
-    std::string recipe = FrameRecipe(kernel, scene, options).of(scene.camera);
-    recipe += arguments.all ? ", all hits" : arguments.any ? ", any hit" : ", closest hits";
-    return recipe + (arguments.bounds ? " with bounds" : "");
+    // No hit depends on the picture.
+    Scene without_picture = scene;
+    set_usual_picture(without_picture);
+    std::string recipe = FrameRecipe(kernel, without_picture, options).of(scene.camera);
+    recipe += arguments.all ? ", --all" : arguments.any ? ", --any" : "";
+    return recipe + (arguments.bounds ? ", --bounds" : "");
 }
 
 }  // namespace packtrace::cli

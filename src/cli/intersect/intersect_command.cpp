@@ -47,7 +47,7 @@ void run_intersect(const IntersectArguments& arguments)
                                        " bytes of rays, checksum " +
                                        std::to_string(ray_file_checksum(arguments.rays))};
         header = head.line() + header;
-        recipe += ", shard " + shard.text();
+        recipe += ", --shard " + shard.text();
     }
     RayBlocks rays(arguments.rays, range);
     HitOutput output(arguments, recipe, header);

@@ -94,7 +94,7 @@ void Journal::open(const std::string& head,
     const std::string text = read_file(journal_name_);
     const std::string before = read_entries(text);
     if (before != head)
-        throw FileError(journal_name_.string() + ": was begun with " + differs(before, head) +
+        throw FileError(journal_name_.string() + ": was begun " + differs(before, head) +
                         "; use what it was begun with, or remove this file to begin again");
     // What was cut short stays a line of its own.
     if (!text.ends_with('\n'))

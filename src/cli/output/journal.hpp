@@ -18,7 +18,7 @@ class Journal {
 public:
     /// Begins both files, or goes on with those that are there. `head` is one line. Throws also
     /// where another run is at work on `output`, or where one was begun with another head:
-    /// `differs` then says in which respect, of the two heads.
+    /// `differs` then says with what it was begun, and what is other now, of the two heads.
     Journal(const std::filesystem::path& output, const std::string& head,
             std::string (*differs)(const std::string& before, const std::string& now));
 

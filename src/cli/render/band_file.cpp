@@ -12,9 +12,8 @@ namespace {
 std::string head_of(const RenderArguments& arguments, const Scene& scene,
                     const RenderOptions& options, const Bands& bands)
 {
-    return FrameRecipe(arguments, scene, options).of(scene.camera) + ", picture of " +
-           std::to_string(bands.width) + " x " + std::to_string(bands.height) + " in bands of " +
-           std::to_string(bands.rows);
+    return FrameRecipe(arguments, scene, options).of(scene.camera) + ", bands of " +
+           std::to_string(bands.rows) + " rows";
 }
 
 }  // namespace

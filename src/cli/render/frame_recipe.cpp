@@ -1,9 +1,15 @@
 #include "cli/render/frame_recipe.hpp"
 
+#include <algorithm>
+#include <array>
+#include <vector>
+
 #include <packtrace/version.hpp>
 #include <packtrace/write_scene.hpp>
 
 #include "core/checksum.hpp"
+#include "core/text.hpp"
+#include "render/option_words.hpp"
 #include "scene/language/numbers.hpp"
 
 namespace packtrace::cli {
@@ -15,46 +21,84 @@ std::string hash_of(const Scene& scene)
 }
 
 /// Width, threads, traversal and --force-general are not among them: no pixel depends on those.
-std::string text_of(const RenderArguments& arguments, const RenderOptions& options)
+std::string text_of(const RenderArguments& arguments, const Scene& scene,
+                    const RenderOptions& options)
 {
-    const bool packets = options.kernel == Kernel::packet;
+    std::string text = "--size " + std::to_string(scene.width) + "x" + std::to_string(scene.height);
+    text += ", --depth " + std::to_string(scene.max_depth);
+    text += ", --min-weight " + language::shortest(scene.min_weight);
+    text += ", --kernel " + std::string(language::word_of(options.kernel));
     // The one instruction set without fused multiply-add rounds otherwise than all others.
-    std::string text = !packets                 ? "scalar"
-                       : options.isa == "sse42" ? "packet without FMA"
-                                                : "packet";
-    text += ", " + arguments.kernel.precision;
-    text += ", accuracy " + std::to_string(static_cast<int>(options.accuracy));
-    text += ", self hits " + std::to_string(static_cast<int>(options.self_hits));
-    text += ", samples " + std::to_string(options.samples);
+    if (options.kernel == Kernel::packet)
+        text += options.isa == "sse42" ? ", --isa without FMA" : ", --isa with FMA";
+    text += ", --precision " + arguments.kernel.precision;
+    text += ", --accuracy " + std::string(language::word_of(options.accuracy));
+    text += ", --self-hits " + std::string(language::word_of(options.self_hits));
+    text += ", --spp " + std::to_string(options.samples);
     if (options.adaptive)
-        text += ", adaptive " + language::shortest(*options.adaptive);
+        text += ", --adaptive " + language::shortest(*options.adaptive);
     if (arguments.region)
-        text += ", region " + *arguments.region;
-    return text + ", gamma " + language::shortest(arguments.write.gamma);
+        text += ", --region " + *arguments.region;
+    return text + ", --gamma " + language::shortest(arguments.write.gamma);
 }
 
-/// The parts of a recipe that commas end: the program, the scene, the camera; then all else.
-std::string part_of(const std::string& recipe, int number)
+/// What commas part: the program, the scene, the camera; then an option each, and what the caller
+/// added.
+std::vector<std::string> parts_of(const std::string& recipe)
 {
-    std::size_t begin = 0;
-    for (int i = 0; i < number; ++i)
-        if (begin = recipe.find(", ", begin); begin != std::string::npos)
-            begin += 2;
-        else
-            return {};
-    return recipe.substr(begin, number == 3 ? std::string::npos : recipe.find(", ", begin) - begin);
+    std::vector<std::string> parts;
+    for (std::size_t begin = 0; begin < recipe.size();) {
+        const std::size_t end = std::min(recipe.find(", ", begin), recipe.size());
+        parts.push_back(recipe.substr(begin, end - begin));
+        begin = end + 2;
+    }
+    return parts;
+}
+
+/// "--spp" of "--spp 4"; all of what is no option.
+std::string name_of(const std::string& part)
+{
+    return part.starts_with("--") ? part.substr(0, part.find(' ')) : part;
+}
+
+/// Those parts of one recipe that the other has not, and the options that only the other has.
+std::string parts_apart(const std::vector<std::string>& from, const std::vector<std::string>& other)
+{
+    std::vector<std::string> apart;
+    for (const std::string& part : from)
+        if (std::find(other.begin(), other.end(), part) == other.end())
+            apart.push_back("with " + part);
+    for (const std::string& part : other) {
+        const auto has_name = [&](const std::string& each) {
+            return name_of(each) == name_of(part);
+        };
+        if (part.starts_with("--") && std::none_of(from.begin(), from.end(), has_name))
+            apart.push_back("without " + name_of(part));
+    }
+    return joined(apart);
 }
 
 }  // namespace
 
+void set_usual_picture(Scene& scene)
+{
+    const Scene usual;
+    scene.width = usual.width;
+    scene.height = usual.height;
+    scene.max_depth = usual.max_depth;
+    scene.min_weight = usual.min_weight;
+}
+
 FrameRecipe::FrameRecipe(const RenderArguments& arguments, const Scene& scene,
                          const RenderOptions& options)
-    : options_(text_of(arguments, options))
+    : options_(text_of(arguments, scene, options))
 {
-    // The camera of each frame is named by itself, so that a longer animation keeps its frames.
+    // The camera of each frame is named by itself, so that a longer animation keeps its frames, and
+    // what options change is named with them.
     Scene still = scene;
     still.animation.reset();
     still.camera = {};
+    set_usual_picture(still);
     scene_ = hash_of(still);
 }
 
@@ -68,11 +112,14 @@ std::string FrameRecipe::of(const Camera& camera) const
 
 std::string recipe_difference(const std::string& before, const std::string& now)
 {
-    if (part_of(before, 0) != part_of(now, 0))
-        return "another version";
-    if (part_of(before, 1) != part_of(now, 1))
-        return "another scene, or options that change the scene";
-    return part_of(before, 2) != part_of(now, 2) ? "another camera" : "other options";
+    const std::vector<std::string> old_parts = parts_of(before);
+    const std::vector<std::string> new_parts = parts_of(now);
+    static constexpr std::array<const char*, 3> others{"with another version", "with another scene",
+                                                       "with another camera"};
+    for (std::size_t i = 0; i < others.size(); ++i)
+        if (i >= old_parts.size() || i >= new_parts.size() || old_parts[i] != new_parts[i])
+            return others[i];
+    return parts_apart(old_parts, new_parts) + "; now " + parts_apart(new_parts, old_parts);
 }
 
 }  // namespace packtrace::cli
