@@ -195,9 +195,30 @@ TEST_CASE("ranges of frames are two numbers in order", "[animation]")
     CHECK_THROWS_AS(check_frame_range({0, 10}, 10), std::invalid_argument);
 }
 
+TEST_CASE("frame rates are whole numbers, decimals or fractions, written in lowest terms",
+          "[animation]")
+{
+    const auto header_of = [](const char* text) {
+        const std::optional<FrameRate> rate = parse_frame_rate(text);
+        return rate ? std::to_string(rate->frames) + ":" + std::to_string(rate->seconds) : "none";
+    };
+    CHECK(header_of("24") == "24:1");
+    CHECK(header_of("23.976") == "2997:125");
+    CHECK(header_of("30000/1001") == "30000:1001");
+    CHECK(header_of("12.50") == "25:2");
+    CHECK(header_of("1/60") == "1:60");
+    CHECK(header_of("2000/2") == "1000:1");
+    CHECK(header_of("1000.000001") == "none");
+    for (const char* text : {"", "0", "0.0", "0/1", "1/0", "1001", "-1", "+1", "1e1", "24.", ".5",
+                             "1/", "/1", "1.5/2", "1/2/3", "24 ", "nan", "1234567890", "1/-2"}) {
+        CAPTURE(text);
+        CHECK(header_of(text) == "none");
+    }
+}
+
 TEST_CASE("a video is a header and three whole planes a frame", "[animation]")
 {
-    CHECK(y4m_header(5, 3, 24) == "YUV4MPEG2 W5 H3 F24:1 Ip A1:1 C444 XCOLORRANGE=LIMITED\n");
+    CHECK(y4m_header(5, 3, {24, 1}) == "YUV4MPEG2 W5 H3 F24:1 Ip A1:1 C444 XCOLORRANGE=LIMITED\n");
     Image<float> image(6, 1);
     // White, black, red, green, blue, and beyond white.
     image.rgb = {1, 1, 1, 0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0, 1, 7, 7, 7};

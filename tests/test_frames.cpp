@@ -59,7 +59,7 @@ private:
 
 std::string video_of(const Studio& studio, int first, int last)
 {
-    std::string bytes = y4m_header(19, 13, 30);
+    std::string bytes = y4m_header(19, 13, {});
     for (int number = first; number <= last; ++number) {
         const Bytes frame = y4m_frame(studio.frame(number));
         bytes.append(frame.begin(), frame.end());

@@ -3,7 +3,10 @@
 #include "image/bytes.hpp"
 
 #include <algorithm>
-#include <string_view>
+#include <charconv>
+#include <cstdint>
+#include <limits>
+#include <numeric>
 
 namespace packtrace {
 namespace {
@@ -22,12 +25,58 @@ std::uint8_t sample(const ColorPlane& plane, const std::uint8_t* rgb)
     return static_cast<std::uint8_t>((sum >> 8) + plane.offset);
 }
 
+/// A text of digits alone, few enough for what is made of the number.
+std::optional<std::int64_t> digits(std::string_view text)
+{
+    constexpr std::size_t most = 9;
+    std::int64_t number = 0;
+    const char* const end = text.data() + text.size();
+    if (text.empty() || text.size() > most || text.front() == '-')
+        return std::nullopt;
+    const auto [stop, error] = std::from_chars(text.data(), end, number);
+    return error == std::errc() && stop == end ? std::optional(number) : std::nullopt;
+}
+
+/// In lowest terms.
+std::optional<FrameRate> rate_of(std::int64_t frames, std::int64_t seconds)
+{
+    constexpr std::int64_t most_a_second = 1000;
+    if (frames <= 0 || seconds <= 0 || frames > most_a_second * seconds)
+        return std::nullopt;
+    const std::int64_t common = std::gcd(frames, seconds);
+    frames /= common;
+    seconds /= common;
+    // Players read both numbers as 32 bits.
+    if (frames > std::numeric_limits<std::int32_t>::max())
+        return std::nullopt;
+    return FrameRate{static_cast<int>(frames), static_cast<int>(seconds)};
+}
+
 }  // namespace
 
-std::string y4m_header(int width, int height, int frames_per_second)
+std::optional<FrameRate> parse_frame_rate(std::string_view text)
+{
+    const std::size_t mark = text.find_first_of("./");
+    const auto before = digits(text.substr(0, mark));
+    if (mark == std::string_view::npos)
+        return before ? rate_of(*before, 1) : std::nullopt;
+    const std::string_view rest = text.substr(mark + 1);
+    const auto behind = digits(rest);
+    if (!before || !behind)
+        return std::nullopt;
+    if (text[mark] == '/')
+        return rate_of(*before, *behind);
+    std::int64_t scale = 1;
+    for (std::size_t i = 0; i < rest.size(); ++i)
+        scale *= 10;
+    return rate_of(*before * scale + *behind, scale);
+}
+
+std::string y4m_header(int width, int height, const FrameRate& rate)
 {
     return "YUV4MPEG2 W" + std::to_string(width) + " H" + std::to_string(height) + " F" +
-           std::to_string(frames_per_second) + ":1 Ip A1:1 C444 XCOLORRANGE=LIMITED\n";
+           std::to_string(rate.frames) + ":" + std::to_string(rate.seconds) +
+           " Ip A1:1 C444 XCOLORRANGE=LIMITED\n";
 }
 
 template <class Real>

@@ -49,7 +49,7 @@ public:
     explicit FrameStream(const RenderArguments& arguments)
         : output_(arguments.output),
           gamma_(arguments.write.gamma),
-          frames_per_second_(arguments.animation.fps)
+          rate_(parse_frame_rate(arguments.animation.fps).value_or(FrameRate{}))
     {
     }
 
@@ -73,7 +73,7 @@ private:
     void write_frame(const Image<Real>& image)
     {
         if (!started_)
-            output_.write(y4m_header(image.width, image.height, frames_per_second_));
+            output_.write(y4m_header(image.width, image.height, rate_));
         started_ = true;
         const Bytes frame = y4m_frame(image, gamma_);
         output_.write(std::as_bytes(std::span(frame)));
@@ -82,7 +82,7 @@ private:
 
     Output output_;
     double gamma_;
-    int frames_per_second_;
+    FrameRate rate_;
     bool started_ = false;
 };
 

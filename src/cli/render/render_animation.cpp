@@ -15,6 +15,7 @@
 #include "core/job_queue.hpp"
 #include "core/seconds_since.hpp"
 #include "image/formats.hpp"
+#include "image/y4m.hpp"
 #include "render/frame_numbers.hpp"
 #include "scene/language/quote.hpp"
 
@@ -138,9 +139,14 @@ void add_animation_options(CLI::App& command, AnimationArguments& arguments)
     CLI::Option* const y4m = command.add_flag(
         "--y4m", arguments.y4m,
         "Write the frames (default all) as one YUV4MPEG2 video; IMAGE is a file or -");
-    command.add_option("--fps", arguments.fps, "Frames per second of --y4m (default 30)")
+    command
+        .add_option("--fps", arguments.fps,
+                    "Frames per second of --y4m, such as 24, 23.976 or 30000/1001 (default 30)")
         ->needs(y4m)
-        ->check(whole_number(1, 1000))
+        ->check(
+            validator([](const std::string& text) { return parse_frame_rate(text).has_value(); },
+                      "a number of frames per second, up to 1000, such as 24, 23.976 or "
+                      "30000/1001"))
         ->type_name("N");
 }
 

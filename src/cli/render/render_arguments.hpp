@@ -17,7 +17,7 @@ struct AnimationArguments {
     std::optional<std::string> shard;
     bool y4m = false;
     bool overwrite = false;
-    int fps = 30;
+    std::string fps = "30";
 
     /// More than one picture is asked for.
     [[nodiscard]] bool many() const
