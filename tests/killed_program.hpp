@@ -45,6 +45,18 @@ namespace packtrace::test {
     return status;
 }
 
+/// What a command of packtrace prints on standard error that is interrupted after two seconds, of
+/// many that its work takes.
+[[nodiscard]] inline std::string interrupted_message(const std::string& command)
+{
+    const TempFolder folder;
+    const std::string words = "exec " + shell_quoted(PACKTRACE_CLI) + " " + command + " 2>" +
+                              shell_quoted((folder / "err").string());
+    int waits = 0;
+    const int status = kill_program({"sh", "-c", words}, SIGINT, [&] { return ++waits > 2000; });
+    return WIFSIGNALED(status) ? read_text(folder / "err") : "was not interrupted";
+}
+
 /// Lines of a file that may not be there.
 [[nodiscard]] inline long lines_of(const std::filesystem::path& file)
 {

@@ -314,17 +314,25 @@ TEST_CASE("soak checks scenes of a file, and random ones", "[soak]")
 
 TEST_CASE("an interrupted soak tells how far it came", "[soak]")
 {
-    const TempFolder folder;
-    const std::string command = "exec " + shell_quoted(PACKTRACE_CLI) + " soak --cases " +
-                                shell_quoted(folder / "cases") + " 2>" +
-                                shell_quoted(folder / "err");
-    int waits = 0;
-    const int status = kill_program({"sh", "-c", command}, SIGINT, [&] {
-        return std::filesystem::exists(folder / "cases") && ++waits > 500;
-    });
-    CHECK(WIFSIGNALED(status));
-    CHECK_THAT(read_text(folder / "err"),
+    CHECK_THAT(interrupted_message("soak"),
                ContainsSubstring("interrupted after ") && ContainsSubstring("0 findings"));
+}
+
+TEST_CASE("a soak makes its folder of cases for findings alone", "[soak]")
+{
+    const TempFolder folder;
+    const auto soak = [&](const std::string& cases) {
+        return run_packtrace({"soak", "--scenes", "1", "--seed", "5", "--cases", folder / cases});
+    };
+    CHECK(soak("new/cases/").exit_code == 0);
+    CHECK(folder.names().empty());
+    // Where it can't be made, nothing is traced.
+    write_text(folder / "file", "");
+    const ProgramResult refused = soak("file/cases");
+    CHECK(refused.exit_code == 1);
+    CHECK(refused.out.empty());
+    CHECK_THAT(refused.err, ContainsSubstring("can't make this folder"));
+    CHECK((folder.names() == std::vector<std::string>{"file"}));
 }
 
 }  // namespace packtrace::test

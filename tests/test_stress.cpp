@@ -666,7 +666,12 @@ TEST_CASE("the stress command writes wrong rays and their scenes", "[stress]")
     const ProgramResult traced = run_packtrace({"intersect", name + ".scene", name + ".csv"});
     CHECK(traced.exit_code == 0);
     CHECK(std::count(traced.out.begin(), traced.out.end(), '\n') == 2);
-    // The folder is made; where a file is in its way, nothing is traced.
+    // The folder is made for what is wrong; where a file is in its way, nothing is traced.
+    const ProgramResult right =
+        run_packtrace({"stress", "--family", "tiny-far", "--rays", "64", "--kernel", "packet",
+                       "--mode", "exact", "--cases", (folder / "none").string()});
+    CHECK(right.exit_code == 0);
+    CHECK_FALSE(std::filesystem::exists(folder / "none"));
     CHECK(run((folder / "new").string()).exit_code == 0);
     CHECK(std::filesystem::exists(folder / "new" / "tiny-far-single-textbook.csv"));
     const ProgramResult nowhere = run(name + ".csv");

@@ -309,6 +309,26 @@ void make_folders(const std::filesystem::path& folder)
         throw FileError(folder, "can't make this folder", error.value());
 }
 
+void check_folder(const std::filesystem::path& folder)
+{
+    // Only the system knows whether a folder can be made: it is, and removed again.
+    struct Missing {
+        std::vector<std::filesystem::path> folders;  ///< the innermost first
+        ~Missing()
+        {
+            std::error_code ignored;
+            for (const std::filesystem::path& each : folders)
+                std::filesystem::remove(each, ignored);
+        }
+    } missing;
+    std::error_code ignored;
+    for (std::filesystem::path at = std::filesystem::absolute(folder).lexically_normal();
+         !std::filesystem::exists(at, ignored) && at.has_relative_path(); at = at.parent_path())
+        missing.folders.push_back(at);
+    make_folders(folder);
+    check_writable(folder / ".packtrace");
+}
+
 void write_file(const std::filesystem::path& target, std::string_view text)
 {
     AtomicFile file(target);

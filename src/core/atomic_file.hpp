@@ -48,6 +48,10 @@ void check_writable(const std::filesystem::path& target);
 /// Makes the folder and those above it, where they are missing. Throws FileError.
 void make_folders(const std::filesystem::path& folder);
 
+/// Throws FileError where make_folders() would, or where no file can be written into the folder.
+/// Leaves nothing behind.
+void check_folder(const std::filesystem::path& folder);
+
 /// Removes the temporary files of all AtomicFiles that live, for signal handlers: takes no lock
 /// and allocates nothing. Returns how many there were.
 int remove_all_temporaries();

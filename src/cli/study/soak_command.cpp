@@ -62,6 +62,7 @@ void print_report(const SoakArguments& arguments, const lab::SoakReport& report)
         "soak-" + std::to_string(arguments.options.seed) + "-" + std::to_string(report.number);
     const std::filesystem::path scene = arguments.cases / (stem + ".scene");
     const std::filesystem::path rays = arguments.cases / (stem + ".csv");
+    make_folders(arguments.cases);
     write_file(scene, "# " + report.finding.what + "\n" + scene_text(report.scene));
     if (report.finding.ray)
         write_file(rays,
@@ -134,7 +135,7 @@ void run(const SoakArguments& arguments)
 {
     // Before the work, so that a wrong name doesn't cost it.
     if (arguments.files.empty())
-        make_folders(arguments.cases);
+        check_folder(arguments.cases);
     const int threads =
         arguments.threads > 0 ? arguments.threads : tbb::info::default_concurrency();
     // Some pictures are made by several threads, in arenas of their own.

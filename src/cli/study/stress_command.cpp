@@ -112,7 +112,7 @@ void run_stress_command(const StressArguments& arguments)
     limit_threads(arguments.threads);
     // Before the work, so that a wrong name doesn't cost it.
     if (arguments.cases)
-        make_folders(*arguments.cases);
+        check_folder(*arguments.cases);
     std::vector<StressRow> rows;
     lab::run_stress(options, [&](const std::vector<StressRow>& some) {
         rows.insert(rows.end(), some.begin(), some.end());

@@ -156,6 +156,7 @@ void write_cases(const std::filesystem::path& folder, const std::vector<StressRo
     for (const StressRow& row : rows) {
         if (row.example.empty())
             continue;
+        make_folders(folder);
         std::string name = row.family + "-" + row.precision + "-" + row.kernel;
         for (const std::string& part : {row.mode, row.isa.substr(0, row.isa.find(' '))})
             name += part.empty() ? "" : "-" + part;
