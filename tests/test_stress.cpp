@@ -10,6 +10,7 @@
 #include <packtrace/isa.hpp>
 
 #include "catch.hpp"
+#include "killed_program.hpp"
 #include "lab/stress/evaluate.hpp"
 #include "lab/stress/placed_quadric.hpp"
 #include "lab/stress/stress_family.hpp"
@@ -678,6 +679,15 @@ TEST_CASE("the stress command writes wrong rays and their scenes", "[stress]")
     CHECK(nowhere.exit_code != 0);
     CHECK(nowhere.out.empty());
     CHECK(nowhere.err.find(name + ".csv") != std::string::npos);
+}
+
+TEST_CASE("an interrupted stress tells how far it came", "[stress]")
+{
+    const std::string families = std::to_string(lab::list_stress_families().size());
+    CHECK_THAT(interrupted_message("stress"),
+               ContainsSubstring("packtrace: interrupted after ") &&
+                   ContainsSubstring(" of " + families + " families, 0 of ") &&
+                   ContainsSubstring(" rows with faults"));
 }
 
 TEST_CASE("accuracy is refused where it means nothing", "[stress]")

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "cli/command.hpp"
+#include "cli/interrupts.hpp"
 #include "cli/options/common_options.hpp"
 #include "cli/options/shard.hpp"
 #include "cli/options/thread_limit.hpp"
@@ -102,6 +103,17 @@ void take_shard(const StressArguments& arguments, lab::StressOptions& options)
     options.family_step = shard.count;
 }
 
+/// Says how far an interrupted run came.
+void note_progress(std::size_t done, std::size_t families, const std::vector<StressRow>& rows)
+{
+    const auto faulty = std::count_if(rows.begin(), rows.end(),
+                                      [](const StressRow& row) { return !row.faults.empty(); });
+    set_interrupt_line("packtrace: interrupted after " + std::to_string(done) + " of " +
+                       std::to_string(families) + (families == 1 ? " family, " : " families, ") +
+                       std::to_string(faulty) + " of " + std::to_string(rows.size()) +
+                       " rows with faults");
+}
+
 void run_stress_command(const StressArguments& arguments)
 {
     if (arguments.list)
@@ -113,10 +125,15 @@ void run_stress_command(const StressArguments& arguments)
     // Before the work, so that a wrong name doesn't cost it.
     if (arguments.cases)
         check_folder(*arguments.cases);
+    const std::size_t families = lab::chosen_families(options).size();
     std::vector<StressRow> rows;
+    std::size_t done = 0;
+    note_progress(done, families, rows);
     lab::run_stress(options, [&](const std::vector<StressRow>& some) {
         rows.insert(rows.end(), some.begin(), some.end());
+        note_progress(++done, families, rows);
     });
+    set_interrupt_line("");
     print_stress(arguments, rows);
     if (!lab::without_faults(rows))
         throw Failed{};

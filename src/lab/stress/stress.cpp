@@ -240,13 +240,9 @@ void run_stress(const StressOptions& options,
 {
     check_families(options);
     const std::vector<StressSubject> subjects = stress_subjects(options);
-    // Counts those wanted.
-    int number = -options.first_family;
+    const std::vector<std::string> chosen = chosen_families(options);
     const auto mine = [&](const std::string& name) {
-        if (!wanted(options.families, name))
-            return false;
-        const int place = number++;
-        return place >= 0 && place % options.family_step == 0;
+        return std::find(chosen.begin(), chosen.end(), name) != chosen.end();
     };
     for (const StressFamily& family : stress_families()) {
         if (!mine(family.name))
@@ -270,6 +266,21 @@ void run_stress(const StressOptions& options,
         mark_pareto(rows);
         take(rows);
     }
+}
+
+std::vector<std::string> chosen_families(const StressOptions& options)
+{
+    std::vector<std::string> chosen;
+    // Counts those wanted.
+    int number = -options.first_family;
+    for (const StressFamilyInfo& family : list_stress_families()) {
+        if (!wanted(options.families, family.name))
+            continue;
+        if (number >= 0 && number % options.family_step == 0)
+            chosen.push_back(family.name);
+        ++number;
+    }
+    return chosen;
 }
 
 std::vector<StressOptions> stress_parts(const StressOptions& options)

@@ -128,6 +128,9 @@ struct StressRow : ErrorCounts {
 void run_stress(const StressOptions& options,
                 const std::function<void(const std::vector<StressRow>&)>& take);
 
+/// The names of the families that run_stress() runs by these options, in order.
+[[nodiscard]] std::vector<std::string> chosen_families(const StressOptions& options);
+
 /// The same work in parts, each a family in one precision, whose rows in turn are those of the
 /// whole.
 [[nodiscard]] std::vector<StressOptions> stress_parts(const StressOptions& options);
