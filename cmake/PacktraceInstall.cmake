@@ -66,3 +66,10 @@ install(FILES ${example_scenes}
         DESTINATION ${CMAKE_INSTALL_DATADIR}/packtrace/scenes COMPONENT runtime)
 install(FILES ${PROJECT_SOURCE_DIR}/LICENSE
         DESTINATION ${CMAKE_INSTALL_DOCDIR} COMPONENT runtime)
+
+# CMake itself has no such target. A project that took packtrace in has its own.
+if(PROJECT_IS_TOP_LEVEL)
+    add_custom_target(uninstall VERBATIM COMMAND ${CMAKE_COMMAND}
+        -D MANIFEST=${CMAKE_BINARY_DIR}/install_manifest.txt
+        -P ${CMAKE_CURRENT_LIST_DIR}/uninstall.cmake)
+endif()

@@ -35,6 +35,10 @@ quietly() {
 
 install_prefix() {
     rm -rf "$prefix"
+    # Nothing is left of what is removed again, but for folders that others use.
+    quietly "$cmake" --install "$build" --prefix "$prefix"
+    quietly "$cmake" -D MANIFEST="$build/install_manifest.txt" -P "$source/cmake/uninstall.cmake"
+    ! find "$prefix" ! -type d -o -name 'packtrace*' | grep . || fail "uninstall leaves these"
     quietly "$cmake" --install "$build" --prefix "$prefix"
     quietly "$prefix/bin/packtrace" render "$prefix/share/packtrace/scenes/four_spheres.scene" \
         --size 16x16 -o "$folder/picture.png"
@@ -122,6 +126,12 @@ pkg_config() {
     quietly "$cxx" "$consumer/main.cpp" -o "$folder/static" $(pkg-config --cflags packtrace) \
         "$libraries/libpacktrace.a" -Wl,--as-needed $(pkg-config --static --libs packtrace)
     runs "$folder/static" 0
+    # From a folder with a blank in its name, which pkg-config writes for a shell to read.
+    ln -s "$prefix" "$folder/a prefix"
+    blank=$(PKG_CONFIG_PATH=$folder/a\ prefix/${PKG_CONFIG_PATH#"$prefix"/} pkg-config --cflags --libs packtrace)
+    echo "$blank" | grep -q 'a.\{1,2\}prefix' || fail "pkg-config names another folder: $blank"
+    eval "quietly \"\$cxx\" \"\$consumer/main.cpp\" -o \"\$folder/blank\" $blank"
+    runs "$folder/blank" 1
     # The first program of the documentation prints what stands there.
     sed -n '/^```cpp/,/^```$/{p;/^```$/q}' "$source/docs/library.md" | grep -v '^```' >"$folder/first.cpp"
     sed -n '/^```output/,/^```/p' "$source/docs/library.md" | grep -v '^```' >"$folder/expected"
