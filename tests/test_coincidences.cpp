@@ -2,6 +2,7 @@
 // surfaces.
 #include <cmath>
 #include <string>
+#include <utility>
 
 #include <packtrace/intersect.hpp>
 #include <packtrace/read_scene.hpp>
@@ -181,6 +182,49 @@ TEST_CASE("A ray along an asymptote of a turned quadric meets it once, wherever 
             wrong += (single.closest_hit(narrow).object == 0) != hits ? 1 : 0;
         }
         CHECK(wrong == 0);
+    }
+}
+
+namespace {
+
+/// A carpet in the very place of the floor, seen from 1000 away.
+Scene carpet_on_floor(const std::string& illumination, const std::string& material)
+{
+    return parse_scene("illumination = " + illumination + R"(
+        image_size = 48 x 48
+        camera { position = (0, 1000, -1000)  look_at = (0, 0, 0)  fov = 0.2 }
+        light { type = point  intensity = 1  position = (3, 40, -5) }
+        plane { point = (0, 0, 0)  normal = (0, 1, 0)  )" +
+                           material + R"( }
+        polygon { vertices = (-1, 0, -1), (-1, 0, 1), (1, 0, 1), (1, 0, -1)  )" +
+                           material + " }",
+                       "carpet", {});
+}
+
+}  // namespace
+
+TEST_CASE("Surfaces in one place do not shadow each other, seen from however far", "[coincidences]")
+{
+    const std::pair<const char*, const char*> models[] = {
+        {"scratch", ""},
+        {"sketch", "diffuse = 0.6"},
+        {"whitted", "diffuse = 0.6"},
+        {"shader", "reflectance = (0.1, 0.6, 0.3, 20)"},
+        {"general", "diffuse = 0.6"}};
+    for (const auto& [illumination, material] : models) {
+        const Scene scene = carpet_on_floor(illumination, material);
+        Scene unshadowed = scene;
+        unshadowed.shadows = ShadowKind::none;
+        CAPTURE(illumination);
+        const auto darkened = [&](const RenderOptions& options) {
+            return largest_difference(render<double>(scene, options),
+                                      render<double>(unshadowed, options));
+        };
+        CHECK(darkened({.kernel = Kernel::scalar}) == 0.0);
+        for (const RenderOptions& options : packet_ways()) {
+            INFO(options.isa);
+            CHECK(darkened(options) == 0.0);
+        }
     }
 }
 

@@ -93,7 +93,9 @@ template <class Real>
     const Hit<Real> hit = closest_from(world.bodies, start, D, t_max);
     if (!hit)
         return std::nullopt;
-    const Vec3<Real> P = point_of(hit, start, D);
+    Vec3<Real> P = point_of(hit, start, D);
+    if (world.self_hits == SelfHits::exact)
+        P = on_surface(world.bodies, hit, P, length(start.org) + std::abs(hit.t) * length(D));
     const Facing<Real> at = facing(world.bodies, hit, P, D);
     return SurfacePoint<Real>{hit.t, hit.object, hit.part, P, at.outward, at.turned(), at.leaving};
 }

@@ -106,9 +106,15 @@ Color<Real> Note004<Real, Recorder>::shader(const Tuple& intersection, const Vec
     const Real Is = std::max(dot(R, V), Real(0));
     Real f = r[0];
     const Departure<Real> on{k, part, unit(object.placement.normal_to_world(N)).value_or(N)};
-    const bool blocked = light.casts_shadow && (world_.self_hits == SelfHits::exact
-                                                    ? shadowed_exactly(object, on, I, S, distance)
-                                                    : shadowed(object, I, S, distance));
+    bool blocked = false;
+    if (light.casts_shadow && world_.self_hits == SelfHits::exact) {
+        const Vec3<Real> P =
+            on_surface(world_.bodies, {t0, k, part}, object.placement.point_to_world(I),
+                       length(e) + t0 * length(d));
+        blocked = shadowed_exactly(on, P, object.placement.vector_to_world(S), distance);
+    } else if (light.casts_shadow) {
+        blocked = shadowed(object, I, S, distance);
+    }
     if (!record_.blocked(light.number, blocked))
         f = r[0] + r[1] * Id + r[2] * (Is > 0 ? std::pow(Is, r[3]) : Real(0));
     // r0 is ambient light, which nothing keeps off.
@@ -138,14 +144,12 @@ bool Note004<Real, Recorder>::shadowed(const PlacedBody<Real>& shaded, const Vec
 }
 
 template <class Real, class Recorder>
-bool Note004<Real, Recorder>::shadowed_exactly(const PlacedBody<Real>& shaded,
-                                               const Departure<Real>& on, const Vec3<Real>& own_I,
-                                               const Vec3<Real>& own_S, Real distance) const
+bool Note004<Real, Recorder>::shadowed_exactly(const Departure<Real>& on, const Vec3<Real>& P,
+                                               const Vec3<Real>& S, Real distance) const
 {
     if (world_.shadows == ShadowKind::none)
         return false;
-    const Vec3<Real> S = shaded.placement.vector_to_world(own_S);
-    const Start<Real> start = start_at(world_, on.along(S), shaded.placement.point_to_world(own_I));
+    const Start<Real> start = start_at(world_, on.along(S), P);
     return std::any_of(blockers_.begin(), blockers_.end(), [&](const auto& object) {
         const Roots<Real> roots = roots_from(object, start, S);
         return std::any_of(roots.begin(), roots.end(), [&](const auto& root) {

@@ -45,11 +45,10 @@ public:
     [[nodiscard]] bool shadowed(const PlacedBody<Real>& object, const Vec3<Real>& I,
                                 const Vec3<Real>& S, Real distance) const;
 
-    /// The same by SelfHits::exact: nothing is moved by an epsilon, and the piece of `object` that
-    /// I is on is not found by looking.
-    [[nodiscard]] bool shadowed_exactly(const PlacedBody<Real>& object, const Departure<Real>& on,
-                                        const Vec3<Real>& I, const Vec3<Real>& S,
-                                        Real distance) const;
+    /// The same by SelfHits::exact, for a point of the world: nothing is moved by an epsilon, and
+    /// the piece of surface that P is on is not found by looking.
+    [[nodiscard]] bool shadowed_exactly(const Departure<Real>& on, const Vec3<Real>& P,
+                                        const Vec3<Real>& S, Real distance) const;
 
 private:
     struct Material {

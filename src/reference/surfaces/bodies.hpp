@@ -83,4 +83,12 @@ template <class Real>
         [&](const auto& surface) { return normal_at(surface, own, part); }, body.surface));
 }
 
+template <class Real>
+[[nodiscard]] Real value_at(const PlacedBody<Real>& body, const Vec3<Real>& P, Part part)
+{
+    const Vec3<Real> own = body.placement.point_to_own(P);
+    return std::visit([&](const auto& surface) { return value_at(surface, own, part); },
+                      body.surface);
+}
+
 }  // namespace packtrace::reference

@@ -65,23 +65,46 @@ struct Facing {
     }
 };
 
+/// Calls `visit` with the body of an object.
+template <class Real, class Visit>
+auto with_body(const Bodies<Real>& bodies, int object, const Visit& visit)
+{
+    const auto [kind, index] = bodies.places[static_cast<std::size_t>(object)];
+    switch (kind) {
+        case BodyKind::sphere:
+            return visit(bodies.spheres[index]);
+        case BodyKind::plane:
+            return visit(bodies.planes[index]);
+        case BodyKind::polygon:
+            return visit(bodies.polygons[index]);
+        case BodyKind::placed:
+            break;
+    }
+    return visit(bodies.placed[index]);
+}
+
 /// Outwards, not normalised, at the point `P` of a hit.
 template <class Real>
 [[nodiscard]] Vec3<Real> gradient_at(const Bodies<Real>& bodies, const Hit<Real>& hit,
                                      const Vec3<Real>& P)
 {
-    const auto [kind, index] = bodies.places[static_cast<std::size_t>(hit.object)];
-    switch (kind) {
-        case BodyKind::sphere:
-            return normal_at(bodies.spheres[index], P, hit.part);
-        case BodyKind::plane:
-            return normal_at(bodies.planes[index], P, hit.part);
-        case BodyKind::polygon:
-            return normal_at(bodies.polygons[index], P, hit.part);
-        case BodyKind::placed:
-            break;
-    }
-    return normal_at(bodies.placed[index], P, hit.part);
+    return with_body(bodies, hit.object,
+                     [&](const auto& body) { return normal_at(body, P, hit.part); });
+}
+
+/// The point `P` of a hit, moved onto the surface: rounding a long `way` leaves it further off than
+/// what lies in the same place is told apart by. No further than rounding brings it, so that no
+/// apex throws it away.
+template <class Real>
+[[nodiscard]] Vec3<Real> on_surface(const Bodies<Real>& bodies, const Hit<Real>& hit,
+                                    const Vec3<Real>& P, Real way)
+{
+    constexpr Real roundoffs = 64 * std::numeric_limits<Real>::epsilon();
+    const Vec3<Real> gradient = gradient_at(bodies, hit, P);
+    const Real value = with_body(bodies, hit.object,
+                                 [&](const auto& body) { return value_at(body, P, hit.part); });
+    const bool by_rounding = std::abs(value) <= roundoffs * way * length(gradient);
+    return by_rounding && value != 0 ? P - (value / dot(gradient, gradient)) * gradient : P;
 }
 
 /// At the point `P` of a hit of a ray along `D`. Where the gradient vanishes, at a cone's apex or
@@ -96,8 +119,7 @@ template <class Real>
 }
 
 /// The place that a surface's coordinates are off from: a sphere's centre, a plane's or a
-/// polygon's first point, where
-/// a matrix takes the own origin.
+/// polygon's first point, where a matrix takes the own origin.
 template <class Real>
 [[nodiscard]] Vec3<Real> place_of(const Bodies<Real>& bodies, int object)
 {

@@ -35,4 +35,11 @@ template <class Real>
     return plane.normal;
 }
 
+/// What is 0 on the surface, and has normal_at() for its gradient.
+template <class Real>
+[[nodiscard]] Real value_at(const PlaneBody<Real>& plane, const Vec3<Real>& P, Part)
+{
+    return dot(plane.normal, P - plane.point);
+}
+
 }  // namespace packtrace::reference

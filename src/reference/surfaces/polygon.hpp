@@ -61,7 +61,7 @@ template <class Real>
 }
 
 /// `t`, but no further along the line than the edges that cross a half axis across it, as rounding
-/// has them.
+/// has them; `t` where it finds none.
 template <class Real>
 [[nodiscard]] Real between_edges(const PolygonBody<Real>& polygon, const Vec3<Real>& O,
                                  const Vec3<Real>& D, Real t)
@@ -91,6 +91,8 @@ template <class Real>
             last_t = at;
         }
     }
+    if (!(nearest <= farthest))
+        return t;
     return t > nearest ? std::min(t, farthest) : nearest;
 }
 
@@ -115,6 +117,13 @@ template <class Real>
 [[nodiscard]] Vec3<Real> normal_at(const PolygonBody<Real>& polygon, const Vec3<Real>&, Part)
 {
     return polygon.normal;
+}
+
+/// What is 0 on the surface, and has normal_at() for its gradient.
+template <class Real>
+[[nodiscard]] Real value_at(const PolygonBody<Real>& polygon, const Vec3<Real>& P, Part)
+{
+    return dot(polygon.normal, P - polygon.contours[0][0]);
 }
 
 }  // namespace packtrace::reference

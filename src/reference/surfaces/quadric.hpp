@@ -222,4 +222,20 @@ template <class Real>
     return n.x * axes[0] + n.y * axes[1] + n.z * axes[2];
 }
 
+/// What is 0 on the surface, and has normal_at() for its gradient; 0 everywhere for two planes that
+/// cross, whose gradient is not that of one equation.
+template <class Real>
+[[nodiscard]] Real value_at(const QuadricBody<Real>& quadric, const Vec3<Real>& P, Part part)
+{
+    switch (part) {
+        case Part::low_cap:
+            return quadric.low - P.z;
+        case Part::high_cap:
+            return P.z - quadric.high;
+        case Part::side:
+            break;
+    }
+    return quadric.crossing_planes() ? Real(0) : quadric.value(quadric.point_to_canonical(P)) / 2;
+}
+
 }  // namespace packtrace::reference

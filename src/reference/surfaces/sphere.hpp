@@ -93,4 +93,12 @@ template <class Real>
     return P - sphere.center;
 }
 
+/// What is 0 on the surface, and has normal_at() for its gradient.
+template <class Real>
+[[nodiscard]] Real value_at(const SphereBody<Real>& sphere, const Vec3<Real>& P, Part)
+{
+    const Vec3<Real> w = P - sphere.center;
+    return (dot(w, w) - sphere.radius * sphere.radius) / 2;
+}
+
 }  // namespace packtrace::reference
