@@ -164,6 +164,12 @@ Scene lit_from(double distance)
         cylinder { z_range = (-0.5, 0.5)  capped = true  rotate = (1, 0, 0, 90)
                    translate = (1.5, 0.5, 0) }
         polygon { vertices = (-1, 1.8, 1), (1, 1.8, 1), (0, 2.6, 1.4) }
+        # A wire 2000 times as long as it is thick, and an elliptic post turned against its axes.
+        cylinder { z_range = (0, 1)  capped = true  scale = (0.002, 0.002, 4)
+                   rotate = (1, 0, 0, -90)  translate = (2, 0, 2) }
+        quadric { coefficients = (1, 1, 0, 0.5, 0.2, 0, 0.6, 0, 0, -1)  z_range = (0, 1)
+                  capped = true  scale = (0.3, 0.3, 2)  rotate = (1, 0, 0, -90)
+                  translate = (-2.5, 0, 2) }
         light { type = ambient  intensity = 0.2 }
     )",
                               "lit", {});

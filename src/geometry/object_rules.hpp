@@ -59,6 +59,13 @@ struct CenteredBox {
     return within;
 }
 
+/// Whether the surface ends on all sides, within box_of().
+template <class Kind>
+[[nodiscard]] bool is_bounded(const Kind& surface)
+{
+    return requires { box_of(surface); };
+}
+
 /// Whether a tree may hold the surface; one without a box stays in a list.
 template <class Kind>
 [[nodiscard]] bool fits_tree(const Kind& surface)

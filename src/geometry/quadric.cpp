@@ -10,8 +10,8 @@
 #include "core/quad.hpp"
 #include "geometry/canonical_form.hpp"
 #include "geometry/kinds.hpp"
+#include "scene/elliptic_sections.hpp"
 #include "scene/language/numbers.hpp"
-#include "scene/quadric_section.hpp"
 #include "scene/vectors.hpp"
 
 namespace packtrace {
@@ -50,20 +50,26 @@ std::optional<Vec3> half_axes(const CanonicalForm& form)
     return glm::sqrt(ratio);
 }
 
-/// The half axes, as columns, of a drum in own space around a clipped surface that is round
-/// about its z axis.
-std::optional<Mat3> clipped_drum(const Quadric& quadric)
+/// A drum, straight or slanting: center + half * u with x² + y² <= 1 and |z| <= 1.
+struct Drum {
+    Vec3 center;
+    Mat3 half;
+};
+
+/// Around a clipped surface, in its own space.
+std::optional<Drum> clipped_drum(const Quadric& quadric)
 {
-    const auto section = widest_section(quadric);
-    if (!section)
+    const auto sections = elliptic_sections(quadric);
+    if (!sections)
         return std::nullopt;
-    const double widest = std::max(*section, 0.0);
-    const auto& k = quadric.coefficients;
-    Mat3 drum(0.0);
-    drum[0][0] = std::sqrt(widest / k[0]);
-    drum[1][1] = std::sqrt(widest / k[1]);
-    drum[2][2] = 0.5 * (quadric.z_range->high - quadric.z_range->low);
-    return drum;
+    const auto& [low, high] = *quadric.z_range;
+    const double middle = 0.5 * (low + high);
+    const double half_height = 0.5 * (high - low);
+    const auto& [center, slope, half_axes, widest, rounding] = *sections;
+    const glm::dmat2 across = std::sqrt(std::max(widest, 0.0) + rounding) * half_axes;
+    return Drum{
+        Vec3(center + middle * slope, middle),
+        Mat3(Vec3(across[0], 0.0), Vec3(across[1], 0.0), Vec3(half_height * slope, half_height))};
 }
 
 /// The box of `m * u` for all unit u.
@@ -110,9 +116,8 @@ Bound bound_of(const Quadric& quadric, const CanonicalForm& form, const Mat4& tr
                 ellipsoid_box(ellipsoid) * slack};
     }
     if (const auto drum = clipped_drum(quadric)) {
-        const double middle = 0.5 * (quadric.z_range->low + quadric.z_range->high);
-        return {Vec3(transform * glm::dvec4(0.0, 0.0, middle, 1.0)),
-                drum_radius(linear * *drum) * slack, drum_box(linear * *drum) * slack};
+        return {Vec3(transform * glm::dvec4(drum->center, 1.0)),
+                drum_radius(linear * drum->half) * slack, drum_box(linear * drum->half) * slack};
     }
     return {};
 }
@@ -233,13 +238,17 @@ bool is_certifiable(const LoweredQuadric& quadric)
         if (!is_certifiable(Vec3(0.0), glm::length(glm::row(quadric.inverse, row))))
             return false;
     return is_certifiable(quadric.center, 1.0) && is_certifiable(quadric.clip_base, 1.0) &&
-           (!std::isfinite(quadric.bound_radius) ||
-            is_certifiable(quadric.bound, quadric.bound_radius));
+           (!is_bounded(quadric) || is_certifiable(quadric.bound, quadric.bound_radius));
+}
+
+bool is_bounded(const LoweredQuadric& quadric)
+{
+    return std::isfinite(quadric.bound_radius);
 }
 
 bool fits_tree(const LoweredQuadric& quadric)
 {
-    return std::isfinite(quadric.bound_radius) && quadric.condition < worst_condition &&
+    return is_bounded(quadric) && quadric.condition < worst_condition &&
            within_tree(box_of(quadric));
 }
 

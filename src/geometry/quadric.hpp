@@ -72,6 +72,8 @@ int lower_kind(const Object& object, const Quadric& quadric, std::int32_t surfac
     return {quadric.bound, quadric.box_half};
 }
 
+[[nodiscard]] bool is_bounded(const LoweredQuadric& quadric);
+
 /// Whether the quadric has bounds, and single precision can tell with little room where it is hit.
 [[nodiscard]] bool fits_tree(const LoweredQuadric& quadric);
 

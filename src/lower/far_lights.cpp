@@ -59,7 +59,7 @@ bool is_far(const Vec3& light, const LoweredScene& lowered)
     double off = infinite;
     for_each_surface(lowered, [&](const auto& surface) {
         if constexpr (requires { box_of(surface); })
-            if (fits_tree(surface))
+            if (is_bounded(surface))
                 return bodies.add(box_of(surface));
         off = std::min(off, distance_to(surface, light));
     });

@@ -1,26 +1,63 @@
 #pragma once
 
 #include <algorithm>
+#include <cmath>
 #include <optional>
+
+#include <glm/common.hpp>
+#include <glm/geometric.hpp>
+#include <glm/mat2x2.hpp>
 
 #include <packtrace/surface.hpp>
 
 namespace packtrace {
 
-/// The largest value of -(C z² + I z + J) within a clipped quadric's heights, for those that are
-/// round about their own z axis, stretched or not: x² A + y² B is at most that on the surface, of
-/// which nothing is left where it is below 0.
-[[nodiscard]] inline std::optional<double> widest_section(const Quadric& quadric)
+/// What a clipped quadric is across its own z axis, if it is an ellipse of one shape at all
+/// heights: (p - c)ᵀ Q (p - c) = w(z), c being on a straight line.
+struct EllipticSections {
+    Vec2 center;           ///< c at z = 0
+    Vec2 slope;            ///< by which c moves for z + 1
+    glm::dmat2 half_axes;  ///< M of Q⁻¹ = M Mᵀ: p is c + √w M u for some u of length 1
+    double widest;    ///< the largest w within the clip; below 0 nothing is left of the surface
+    double rounding;  ///< what `widest` may be off by
+};
+
+/// Nothing for a quadric without a clip, or with other sections than ellipses that are inside.
+[[nodiscard]] inline std::optional<EllipticSections> elliptic_sections(const Quadric& quadric)
 {
-    const auto& k = quadric.coefficients;
-    const bool about_z = k[3] == 0.0 && k[4] == 0.0 && k[5] == 0.0 && k[6] == 0.0 && k[7] == 0.0;
-    if (!quadric.z_range || !about_z || !(k[0] > 0.0) || !(k[1] > 0.0))
+    const auto& [A, B, C, D, E, F, G, H, I, J] = quadric.coefficients;
+    const double determinant = A * B - 0.25 * D * D;
+    // What is nearly a parabola is off by too much where it ends.
+    if (!quadric.z_range || !(A > 0.0) || !(B > 0.0) || !(determinant > 1e-6 * A * B))
         return std::nullopt;
+    const glm::dmat2 inverse(B / determinant, -0.5 * D / determinant, -0.5 * D / determinant,
+                             A / determinant);
+    const Vec2 constant = 0.5 * Vec2(G, H);
+    const Vec2 by_z = 0.5 * Vec2(E, F);
+    EllipticSections sections;
+    sections.center = -(inverse * constant);
+    sections.slope = -(inverse * by_z);
+    const double first = std::sqrt(inverse[0][0]);
+    const double below = inverse[0][1] / first;
+    sections.half_axes = glm::dmat2(first, below, 0.0, std::sqrt(inverse[1][1] - below * below));
+
+    const double square = -glm::dot(by_z, sections.slope) - C;
+    const double linear = -2.0 * glm::dot(by_z, sections.center) - I;
+    const double rest = -glm::dot(constant, sections.center) - J;
+    const auto w = [&](double z) { return (square * z + linear) * z + rest; };
     const auto& [low, high] = *quadric.z_range;
-    const auto section = [&](double z) { return -((k[2] * z + k[8]) * z + k[9]); };
-    const double widest = std::max(section(low), section(high));
-    const double top = k[2] > 0.0 ? -k[8] / (2.0 * k[2]) : low;
-    return top > low && top < high ? std::max(widest, section(top)) : widest;
+    const double top = square < 0.0 ? -linear / (2.0 * square) : low;
+    sections.widest = std::max(w(low), w(high));
+    if (top > low && top < high)
+        sections.widest = std::max(sections.widest, w(top));
+    const double height = std::max(std::abs(low), std::abs(high));
+    const double along_axis = (std::abs(C) * height + std::abs(I)) * height + std::abs(J);
+    const Vec2 off_axis = glm::abs(constant) + height * glm::abs(by_z);
+    const Vec2 reach = glm::abs(sections.center) + height * glm::abs(sections.slope);
+    // The determinant's terms cancel, and with them the inverse's digits.
+    const double cancelled = A * B / determinant;
+    sections.rounding = 1e-15 * (along_axis + cancelled * glm::dot(off_axis, reach));
+    return sections;
 }
 
 }  // namespace packtrace

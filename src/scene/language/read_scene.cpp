@@ -7,7 +7,7 @@
 #include "scene/language/quote.hpp"
 #include "scene/language/read_objects.hpp"
 #include "scene/object_names.hpp"
-#include "scene/quadric_section.hpp"
+#include "scene/elliptic_sections.hpp"
 #include "scene/scene_faults.hpp"
 
 // The steps from the blocks of the syntax tree to a scene. Each throws SceneError at the place that
@@ -129,8 +129,8 @@ void warn_of_duplicate_name(const Block& file, const Scene& scene)
 bool is_clipped_away(const Object& object)
 {
     const Quadric* const quadric = std::get_if<Quadric>(&object.surface);
-    const auto widest = quadric != nullptr ? widest_section(*quadric) : std::nullopt;
-    return widest && *widest < 0.0;
+    const auto sections = quadric != nullptr ? elliptic_sections(*quadric) : std::nullopt;
+    return sections && sections->widest < 0.0;
 }
 
 /// Of the first object of which there is nothing to see, and how many more there are.
