@@ -7,7 +7,8 @@
 
 #include <tbb/blocked_range.h>
 #include <tbb/parallel_for.h>
-#include <tbb/task_arena.h>
+
+#include "core/arena.hpp"
 
 namespace packtrace::python {
 
@@ -32,8 +33,7 @@ void for_each_block(std::size_t begin, std::size_t end, std::size_t block, int t
             one(number);
         return;
     }
-    tbb::task_arena arena(threads == 0 ? tbb::task_arena::automatic : threads);
-    arena.execute([&] { tbb::parallel_for(std::size_t{0}, blocks, one); });
+    run_on_threads(threads, [&] { tbb::parallel_for(std::size_t{0}, blocks, one); });
 }
 
 /// The same for all rays, without the GIL; Ctrl-C ends it.

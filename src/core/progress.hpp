@@ -6,6 +6,8 @@
 #include <stop_token>
 #include <utility>
 
+#include <tbb/task_arena.h>
+
 #include <packtrace/stop.hpp>
 
 namespace packtrace {
@@ -39,7 +41,10 @@ public:
         if (done % step_ != 0 && done != pieces_)
             return;
         const std::lock_guard lock(mutex_);
-        callback_(static_cast<double>(done_.load()) / pieces_);
+        // A callback that waits for tasks of its own is given none of this work meanwhile, whose
+        // pieces end here, too.
+        tbb::this_task_arena::isolate(
+            [&] { callback_(static_cast<double>(done_.load()) / pieces_); });
     }
 
 private:

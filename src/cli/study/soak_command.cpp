@@ -9,7 +9,6 @@
 #include <packtrace/write_scene.hpp>
 
 #include <tbb/info.h>
-#include <tbb/task_arena.h>
 
 #include "cli/command.hpp"
 #include "cli/interrupts.hpp"
@@ -17,6 +16,7 @@
 #include "cli/options/scene_input.hpp"
 #include "cli/options/thread_limit.hpp"
 #include "cli/options/validators.hpp"
+#include "core/arena.hpp"
 #include "core/atomic_file.hpp"
 #include "lab/soak/soak.hpp"
 #include "lab/stress/evaluate.hpp"
@@ -140,9 +140,9 @@ void run(const SoakArguments& arguments)
         arguments.threads > 0 ? arguments.threads : tbb::info::default_concurrency();
     // Some pictures are made by several threads, in arenas of their own.
     limit_threads(std::max(threads, lab::soak_threads));
-    tbb::task_arena arena(threads);
-    const int findings = arena.execute(
-        [&] { return arguments.files.empty() ? check_random(arguments) : check_files(arguments); });
+    const int findings = run_on_threads(threads, [&] {
+        return arguments.files.empty() ? check_random(arguments) : check_files(arguments);
+    });
     if (findings > 0)
         throw Failed{};
 }
