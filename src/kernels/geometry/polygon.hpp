@@ -164,7 +164,7 @@ template <class Real>
 
 /// `t`, but no further along the rays than the edges that cross their half axes, as rounding has
 /// them: those on either side of a ray that passes through have their crossings before and behind
-/// its own.
+/// its own. `t` where rounding finds no edge that crosses.
 template <class Real>
 [[gnu::noinline]] vreal<Real> between_edges(const abi::PolygonRecord<Real>& polygon,
                                             const RayPacket<Real>& rays, const vreal<Real>& t)
@@ -193,7 +193,7 @@ template <class Real>
         from_v = v;
         from_depth = at;
     }
-    return select(t > first, min(t, last), first);
+    return select(first <= last, select(t > first, min(t, last), first), t);
 }
 
 /// Below this share of a direction's length rounding may decide about its slope to a plane.

@@ -88,6 +88,9 @@ constexpr std::size_t sparse = 4;
 /// What a second hit's t may be off by, relative to it.
 constexpr double second_bound = 1e-6;
 
+/// Next to 0 single precision has no number between it and this one.
+constexpr double least_single = 0x1p-149;
+
 /// To either side of the surface, half of them grazing it.
 Vec3 any_direction(StressRandom& random, const Vec3& normal)
 {
@@ -260,7 +263,7 @@ void count(SecondHits& counts, const Leaving& leaving, SelfHits rule, std::int32
         return;
     }
     if (object != leaving.expected.object ||
-        (object == own && std::abs(t - expected) > 0.1 * expected)) {
+        (object == own && std::abs(t - expected) > 0.1 * expected + least_single)) {
         ++counts.lost;
         return;
     }
@@ -268,8 +271,8 @@ void count(SecondHits& counts, const Leaving& leaving, SelfHits rule, std::int32
         return;
     const double error = std::abs(static_cast<double>((Wide(t) - leaving.own.t) / leaving.own.t));
     counts.errors.push_back(static_cast<float>(error));
-    // Next to 0 single precision has no more than its smallest number.
-    const double allowed = second_bound + 4.0 * 0x1p-53 * leaving.own.condition + 0x1p-149 / second;
+    const double allowed =
+        second_bound + 4.0 * 0x1p-53 * leaving.own.condition + least_single / second;
     counts.inexact += error > allowed;
 }
 
