@@ -2,6 +2,7 @@
 #include <csignal>
 #include <filesystem>
 #include <fstream>
+#include <sstream>
 #include <string>
 #include <vector>
 
@@ -182,6 +183,52 @@ TEST_CASE("bands that are damaged or cut short are rendered again", "[resume]")
     write_text(studio.folder / "a.pfm.part", changed);
     CHECK(studio.render("a.pfm").exit_code == 0);
     CHECK(studio.same("a.pfm", "whole.pfm"));
+}
+
+TEST_CASE("a journal that ends before its head counts for none", "[resume]")
+{
+    const Studio studio;
+    REQUIRE(studio.render("whole.png", {"-q"}).exit_code == 0);
+    studio.interrupt("a.png", 0);
+    const std::string journal = read_text(studio.folder / "a.png.journal");
+    std::filesystem::remove(studio.folder / "a.png.part");
+    const std::size_t head = journal.find('\n', journal.find('\n') + 1);
+    for (const std::size_t kept : {std::size_t{0}, std::size_t{5}, head - 40, head}) {
+        CAPTURE(kept);
+        write_text(studio.folder / "a.png.journal", journal.substr(0, kept));
+        CHECK(studio.render("a.png").exit_code == 0);
+        CHECK(studio.same("a.png", "whole.png"));
+        CHECK((studio.folder.names() == Words{"a.png", "one.scene", "other.scene", "whole.png"}));
+    }
+}
+
+TEST_CASE("runs that begin and end at once leave one whole picture and no journal", "[resume]")
+{
+    const TempFolder folder;
+    const TempFolder errors;
+    const std::string run =
+        shell_quoted(PACKTRACE_CLI) + " render " + shell_quoted(four_spheres_file) +
+        " --size 16x16 --threads 1 -q --resume -o " + shell_quoted((folder / "a.png").string());
+    // Each of many shells starts one run after the other, so that some begin as others end.
+    const std::string each = "for run in $(seq 20); do " + run + "; echo exit $?; done";
+    const ProgramResult all = run_command(
+        {"sh", "-c",
+         "for shell in $(seq 16); do (" + each + ") >" + shell_quoted((errors / "").string()) +
+             "$shell 2>&1 & done; wait; cat " + shell_quoted((errors / "").string()) + "*"});
+    std::istringstream lines(all.out);
+    int finished = 0;
+    int refused = 0;
+    for (std::string line; std::getline(lines, line);) {
+        CAPTURE(line);
+        const bool is_refusal = line.ends_with(
+            "a.png.journal: another run is at work on this output; wait for it or end it");
+        finished += line == "exit 0" ? 1 : 0;
+        refused += is_refusal ? 1 : 0;
+        CHECK((is_refusal || line == "exit 0" || line == "exit 1"));
+    }
+    CHECK(finished > 0);
+    CHECK(finished + refused == 16 * 20);
+    CHECK(folder.names() == Words{"a.png"});
 }
 
 TEST_CASE("--resume is refused where no journal can be kept", "[resume]")

@@ -2,14 +2,13 @@
 
 #include <cerrno>
 #include <charconv>
-#include <sstream>
 #include <string_view>
 
 #include <fcntl.h>
 #include <sys/file.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
-#include "core/atomic_file.hpp"
 #include "core/checksum.hpp"
 #include "core/read_file.hpp"
 
@@ -62,6 +61,15 @@ Journal::Entry parse_entry(std::string_view line)
     return entry;
 }
 
+/// Whether it is what a run leaves that ended before it had written the head.
+bool has_no_head(std::string_view text)
+{
+    if (!text.starts_with(first_line))
+        return first_line.starts_with(text);
+    text.remove_prefix(first_line.size());
+    return text.find('\n') == std::string_view::npos;
+}
+
 }  // namespace
 
 Journal::Journal(const std::filesystem::path& output, const std::string& head,
@@ -83,37 +91,60 @@ Journal::Journal(const std::filesystem::path& output, const std::string& head,
 void Journal::open(const std::string& head,
                    std::string (*differs)(const std::string&, const std::string&))
 {
-    if (!std::filesystem::exists(journal_name_))
-        begin(head);
-    journal_.reset(std::fopen(journal_name_.c_str(), "abe"));
-    if (!journal_)
-        throw FileError(journal_name_, "can't write", errno);
-    if (flock(fileno(journal_.get()), LOCK_EX | LOCK_NB) != 0)
-        throw FileError(journal_name_.string() +
-                        ": another run is at work on this output; wait for it or end it");
-    const std::string text = read_file(journal_name_);
+    while (!lock())
+        continue;
+    std::string text = read_file(journal_name_);
+    if (has_no_head(text))
+        text = begin(head);
     const std::string before = read_entries(text);
     if (before != head)
         throw FileError(journal_name_.string() + ": was begun " + differs(before, head) +
                         "; use what it was begun with, or remove this file to begin again");
     // What was cut short stays a line of its own.
     if (!text.ends_with('\n'))
-        std::fputc('\n', journal_.get());
+        append("\n");
     const int handle = ::open(part_name_.c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0666);
     part_.reset(handle < 0 ? nullptr : fdopen(handle, "r+b"));
     if (!part_)
         throw FileError(part_name_, "can't write", errno);
 }
 
-/// A journal without pieces; it appears whole.
-void Journal::begin(const std::string& head)
+/// Opens the journal, an empty one where there is none, for this run alone. False where the run
+/// that had it has removed it in between: a lock on a file without a name keeps nobody away.
+bool Journal::lock()
 {
-    // No run of this program leaves it without a journal.
-    if (std::filesystem::exists(part_name_))
-        throw FileError(part_name_.string() +
-                        ": is in the way of --resume, and no journal tells what it is; move it "
-                        "away or remove it");
-    write_file(journal_name_, std::string(first_line) + head + "\n");
+    journal_.reset(std::fopen(journal_name_.c_str(), "abe"));
+    if (!journal_)
+        throw FileError(journal_name_, "can't write", errno);
+    if (flock(fileno(journal_.get()), LOCK_EX | LOCK_NB) != 0)
+        throw FileError(journal_name_.string() +
+                        ": another run is at work on this output; wait for it or end it");
+    struct stat locked {};
+    struct stat named {};
+    return fstat(fileno(journal_.get()), &locked) == 0 &&
+           stat(journal_name_.c_str(), &named) == 0 && locked.st_dev == named.st_dev &&
+           locked.st_ino == named.st_ino;
+}
+
+/// Makes a file without a head a journal without pieces. Returns its text.
+std::string Journal::begin(const std::string& head)
+{
+    std::string text = std::string(first_line) + head + "\n";
+    try {
+        // It comes after the head: no run of this program leaves one without a journal.
+        if (std::filesystem::exists(part_name_))
+            throw FileError(part_name_.string() +
+                            ": is in the way of --resume, and no journal tells what it is; move "
+                            "it away or remove it");
+        if (ftruncate(fileno(journal_.get()), 0) != 0)
+            throw FileError(journal_name_, "can't write", errno);
+        append(text);
+    } catch (const FileError&) {
+        std::error_code ignored;
+        std::filesystem::remove(journal_name_, ignored);
+        throw;
+    }
+    return text;
 }
 
 /// Returns the head.
@@ -138,7 +169,12 @@ void Journal::add(const Entry& entry)
         line += std::to_string(number) + " ";
     line.pop_back();
     line += " " + std::to_string(checksum_of(line)) + "\n";
-    if (std::fwrite(line.data(), 1, line.size(), journal_.get()) != line.size() ||
+    append(line);
+}
+
+void Journal::append(std::string_view text)
+{
+    if (std::fwrite(text.data(), 1, text.size(), journal_.get()) != text.size() ||
         std::fflush(journal_.get()) != 0)
         throw FileError(journal_name_, "can't write", errno);
 }

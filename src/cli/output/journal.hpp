@@ -4,6 +4,7 @@
 #include <filesystem>
 #include <span>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "core/read_file.hpp"
@@ -11,9 +12,9 @@
 namespace packtrace::cli {
 
 /// What remains of an interrupted run beside its output: a journal `OUTPUT.journal` of finished
-/// pieces, and `OUTPUT.part` with their bytes. The journal begins with what the pieces depend on.
-/// Each line has a checksum, so that a line that was cut short counts for nothing. All throw
-/// FileError.
+/// pieces, and `OUTPUT.part` with their bytes. The journal begins with what the pieces depend on;
+/// a file that ends before or in that is no journal yet. Each line has a checksum, so that a line
+/// that was cut short counts for nothing. A run has a lock on its journal. All throw FileError.
 class Journal {
 public:
     /// Begins both files, or goes on with those that are there. `head` is one line. Throws also
@@ -47,8 +48,10 @@ public:
 private:
     void open(const std::string& head,
               std::string (*differs)(const std::string&, const std::string&));
-    void begin(const std::string& head);
+    [[nodiscard]] bool lock();
+    [[nodiscard]] std::string begin(const std::string& head);
     [[nodiscard]] std::string read_entries(const std::string& text);
+    void append(std::string_view text);
 
     std::filesystem::path output_;
     std::filesystem::path journal_name_;
