@@ -167,6 +167,29 @@ TEST_CASE("what a killed program left is removed by the next that writes the sam
     CHECK(WaitingProgram::temporaries(folder) == 0);
 }
 
+TEST_CASE("what killed programs left of finished frames is removed by the next run", "[outputs]")
+{
+    const TempFolder folder;
+    const std::vector<std::string> words{"render",
+                                         PACKTRACE_SOURCE_DIR "/scenes/flight.scene",
+                                         "--size",
+                                         "16x12",
+                                         "-q",
+                                         "--frames",
+                                         "0..2",
+                                         "-o",
+                                         (folder / "f%d.png").string()};
+    REQUIRE(run_packtrace(words).exit_code == 0);
+    const std::vector<std::string> frames = folder.names();
+    // No process has so large a number.
+    write_text(folder / ".f1.png.4194305-0.tmp", "half a picture");
+    const std::string living = ".f1.png." + std::to_string(getpid()) + "-0.tmp";
+    write_text(folder / living, "of this process");
+    CHECK(run_packtrace(words).exit_code == 0);
+    CHECK(std::filesystem::remove(folder / living));
+    CHECK(folder.names() == frames);
+}
+
 TEST_CASE("names of files show in messages without their control characters", "[outputs]")
 {
     const TempFolder folder;

@@ -93,20 +93,6 @@ std::vector<std::string> temporaries_in(const std::filesystem::path& folder)
     return place->second;
 }
 
-/// Removes what writers of `target` have left that were killed before this program began.
-void remove_left_over(const std::filesystem::path& target)
-{
-    const std::string prefix = temporary_prefix(target);
-    const std::filesystem::path folder =
-        target.has_parent_path() ? target.parent_path() : std::filesystem::path(".");
-    for (const std::string& name : temporaries_in(folder)) {
-        const pid_t writer = writer_of(name, prefix);
-        std::error_code ignored;
-        if (writer != 0 && is_left_over(folder / name, writer))
-            std::filesystem::remove(folder / name, ignored);
-    }
-}
-
 /// The file that a chain of links leads to, whether it is there or not; a link to a pipe without a
 /// name, such as /dev/stdout may be, stays itself.
 std::filesystem::path followed(std::filesystem::path target)
@@ -213,6 +199,20 @@ void forget_temporary(int slot)
 }
 
 }  // namespace
+
+void remove_left_over(const std::filesystem::path& target)
+{
+    const std::filesystem::path file = followed(target);
+    const std::string prefix = temporary_prefix(file);
+    const std::filesystem::path folder =
+        file.has_parent_path() ? file.parent_path() : std::filesystem::path(".");
+    for (const std::string& name : temporaries_in(folder)) {
+        const pid_t writer = writer_of(name, prefix);
+        std::error_code ignored;
+        if (writer != 0 && is_left_over(folder / name, writer))
+            std::filesystem::remove(folder / name, ignored);
+    }
+}
 
 AtomicFile::AtomicFile(std::filesystem::path target) : target_(followed(std::move(target)))
 {

@@ -12,9 +12,8 @@ namespace packtrace {
 /// A file that appears complete or not at all: bytes go to a temporary name beside `target`,
 /// `commit` renames it. Without a commit the destructor removes it and leaves what was at
 /// `target` untouched. A link is followed: the file it leads to is replaced. What is no regular
-/// file, such as a pipe or a device, is written to directly. The constructor also removes
-/// temporary files of `target` whose writers were killed. Everything but the destructor throws
-/// FileError.
+/// file, such as a pipe or a device, is written to directly. The constructor also calls
+/// remove_left_over(). Everything but the destructor throws FileError.
 class AtomicFile {
 public:
     explicit AtomicFile(std::filesystem::path target);
@@ -40,6 +39,9 @@ private:
 
 /// Writes all of a file, which appears complete or not at all. Throws FileError.
 void write_file(const std::filesystem::path& target, std::string_view text);
+
+/// Removes temporary files of `target` whose writers were killed before this program began.
+void remove_left_over(const std::filesystem::path& target);
 
 /// Throws FileError, as an AtomicFile for `target` would: its folder is missing or can't be
 /// written to, or it is a folder itself. Leaves nothing behind.

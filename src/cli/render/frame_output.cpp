@@ -6,6 +6,7 @@
 
 #include "cli/output/output.hpp"
 #include "cli/render/frame_recipe.hpp"
+#include "core/atomic_file.hpp"
 #include "image/y4m.hpp"
 #include "render/frame_numbers.hpp"
 
@@ -26,6 +27,11 @@ public:
         if (!std::filesystem::is_regular_file(pattern_.name(frame), error))
             return Found::nothing;
         return read_recipe(pattern_.name(frame)) == recipe_.of(camera) ? Found::same : Found::other;
+    }
+
+    void skip(int frame) override
+    {
+        remove_left_over(pattern_.name(frame));
     }
 
     void write(int frame, const Camera& camera, const AnyImage& image) override
@@ -56,6 +62,10 @@ public:
     [[nodiscard]] Found find(int, const Camera&) const override
     {
         return Found::nothing;
+    }
+
+    void skip(int) override
+    {
     }
 
     void write(int, const Camera&, const AnyImage& any) override

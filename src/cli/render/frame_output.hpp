@@ -23,6 +23,8 @@ public:
     };
     /// May be called while another thread writes another frame.
     [[nodiscard]] virtual Found find(int frame, const Camera& camera) const = 0;
+    /// For a frame that is there. Removes what killed runs left of it besides.
+    virtual void skip(int frame) = 0;
     virtual void write(int frame, const Camera& camera, const AnyImage& image) = 0;
     /// After the last frame.
     virtual void finish() = 0;

@@ -102,6 +102,7 @@ FrameTally render_frames(const RenderArguments& arguments, const Scene& scene,
         posed.camera = camera_at(scene, *frame);
         const FrameOutput::Found found = output.find(*frame, posed.camera);
         if (found == FrameOutput::Found::same && !arguments.animation.overwrite) {
+            output.skip(*frame);
             ++tally.skipped;
             continue;
         }
