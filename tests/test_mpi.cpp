@@ -632,6 +632,36 @@ TEST_CASE("what a job can't do it says in one line, once", "[mpi]")
     CHECK(run_ranks(2, {"--version"}).exit_code == 0);
 }
 
+TEST_CASE("a job whose results do not fit on standard output ends with exit code 1", "[mpi]")
+{
+    const TempFolder folder;
+    const std::vector<Words> all = {
+        {"--help"},
+        {"--version"},
+        {"render", "--help"},
+        {"stress", "--list"},
+        {"stress", "--rays", "16", "--family", "grazing", "--isa", "sse42"},
+        {"stress", "--rays", "16", "--family", "grazing", "--isa", "sse42", "--json"},
+        {"render", four_spheres_file, "--size", "16x12", "--json", "-o", folder / "a.png"},
+        {"report", four_spheres_file, "--size", "16x12", "--quick", "-q", "--repetitions", "1",
+         "--max-error", "1", "-o", folder / "r"}};
+    for (const Words& words : all) {
+        // A rank that mpirun starts writes into a pipe of mpirun.
+        std::string command = shell_quoted(PACKTRACE_MPI);
+        for (const std::string& word : words)
+            command += " " + shell_quoted(word);
+        for (const std::string lost : {"/dev/full", "&-"}) {
+            const ProgramResult result = run_command({"sh", "-c", command + " >" + lost});
+            CAPTURE(words, lost, result.err);
+            CHECK(result.exit_code == 1);
+            CHECK_THAT(
+                result.err,
+                ContainsSubstring(lost == "&-" ? "standard output: can't write: Bad file descriptor"
+                                               : "standard output: can't write: No space left"));
+        }
+    }
+}
+
 TEST_CASE("a job's messages show control characters in names as they are written", "[mpi]")
 {
     const TempFolder folder;

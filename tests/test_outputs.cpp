@@ -126,9 +126,11 @@ TEST_CASE("results that do not fit on standard output end with exit code 1", "[o
         std::string command = shell_quoted(PACKTRACE_CLI);
         for (const std::string& word : words)
             command += " " + shell_quoted(word);
-        CAPTURE(command);
-        const int status = std::system((command + " >/dev/full 2>/dev/null").c_str());
-        CHECK(WEXITSTATUS(status) == 1);
+        for (const std::string lost : {"/dev/full", "&-"}) {
+            CAPTURE(command, lost);
+            const int status = std::system((command + " >" + lost + " 2>/dev/null").c_str());
+            CHECK(WEXITSTATUS(status) == 1);
+        }
     }
 }
 

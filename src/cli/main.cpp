@@ -1,5 +1,3 @@
-#include <cerrno>
-#include <cstdio>
 #include <exception>
 #include <iostream>
 #include <new>
@@ -8,21 +6,12 @@
 
 #include "cli/command.hpp"
 #include "cli/interrupts.hpp"
+#include "cli/output/standard_output.hpp"
 #include "cli/usage_error.hpp"
-#include "core/read_file.hpp"
 #include "scene/language/quote.hpp"
 
 namespace packtrace::cli {
 namespace {
-
-/// Throws FileError where part of what was printed is lost, as on a full disk.
-void check_standard_output()
-{
-    std::cout.flush();
-    const bool flushed = std::fflush(stdout) == 0;
-    if (!std::cout || !flushed || std::ferror(stdout) != 0)
-        throw FileError("standard output", "can't write", errno != 0 ? errno : EIO);
-}
 
 // CLI11 prints help and version itself; a wrong use becomes one line.
 int report_parse_end(const CLI::App& app, const CLI::ParseError& end, int argc, char** argv)

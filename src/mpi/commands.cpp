@@ -129,7 +129,7 @@ void print_report(const World& world, const JobArguments& arguments, bool quiet,
     if (!world.is_first())
         return;
     if (arguments.json)
-        std::cout << json_text(report_json(output, what, reports, hosts, seconds)) << std::flush;
+        std::cout << json_text(report_json(output, what, reports, hosts, seconds));
     if (quiet || arguments.json)
         return;
     std::int64_t pieces = 0;

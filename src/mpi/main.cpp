@@ -15,6 +15,7 @@
 
 #include "cli/command.hpp"
 #include "cli/interrupts.hpp"
+#include "cli/output/standard_output.hpp"
 #include "cli/usage_error.hpp"
 #include "core/atomic_file.hpp"
 #include "mpi/commands.hpp"
@@ -65,12 +66,22 @@ void clean_up_when_ended(const World& world)
 int report_parse_end(const World& world, const CLI::App& app, const CLI::ParseError& end, int argc,
                      char** argv)
 {
-    if (!world.is_first())
-        return end.get_exit_code() == 0 ? cli::exit_ok : cli::exit_usage;
     if (end.get_exit_code() == 0)
-        return app.exit(end);
-    std::cerr << language::escape(cli::usage_error(app, end, argc, argv)) << '\n';
+        return world.is_first() ? app.exit(end) : cli::exit_ok;
+    if (world.is_first())
+        std::cerr << language::escape(cli::usage_error(app, end, argc, argv)) << '\n';
     return cli::exit_usage;
+}
+
+/// Runs the subcommand on all ranks.
+int parse_and_run(const World& world, CLI::App& app, int argc, char** argv)
+{
+    try {
+        app.parse(argc, argv);
+    } catch (const CLI::ParseError& end) {
+        return report_parse_end(world, app, end, argc, argv);
+    }
+    return cli::exit_ok;
 }
 
 int run(const World& world, int argc, char** argv)
@@ -86,13 +97,16 @@ int run(const World& world, int argc, char** argv)
     cli::report_size_limits_as_errors();
     cli::ask_for_subcommand(app);
     try {
-        app.parse(argc, argv);
-    } catch (const CLI::ParseError& end) {
-        return report_parse_end(world, app, end, argc, argv);
+        const int exit_code = parse_and_run(world, app, argc, argv);
+        if (exit_code == cli::exit_ok)
+            world.together([&] {
+                if (world.is_first())
+                    cli::check_standard_output();
+            });
+        return exit_code;
     } catch (const JobFailed& failed) {
         return failed.exit_code;
     }
-    return cli::exit_ok;
 }
 
 /// Work is over. The first rank that ends with an error has all others ended by a signal, which is
@@ -120,6 +134,7 @@ int end_together(int exit_code)
 
 int main(int argc, char** argv)
 {
+    packtrace::cli::hold_standard_output();
     const packtrace::mpi::World world(argc, argv);
     try {
         return packtrace::mpi::end_together(packtrace::mpi::run(world, argc, argv));

@@ -1,0 +1,34 @@
+#include "cli/output/standard_output.hpp"
+
+#include <cerrno>
+#include <cstdio>
+#include <iostream>
+
+#include <fcntl.h>
+#include <unistd.h>
+
+#include "core/read_file.hpp"
+
+namespace packtrace::cli {
+
+void hold_standard_output()
+{
+    if (fcntl(STDOUT_FILENO, F_GETFD) >= 0 || errno != EBADF)
+        return;
+    // For reading alone, so that a write fails as to a closed one.
+    const int nothing = open("/dev/null", O_RDONLY);
+    if (nothing < 0 || nothing == STDOUT_FILENO)
+        return;
+    dup2(nothing, STDOUT_FILENO);
+    close(nothing);
+}
+
+void check_standard_output()
+{
+    std::cout.flush();
+    const bool flushed = std::fflush(stdout) == 0;
+    if (!std::cout || !flushed || std::ferror(stdout) != 0)
+        throw FileError("standard output", "can't write", errno != 0 ? errno : EIO);
+}
+
+}  // namespace packtrace::cli
