@@ -9,6 +9,8 @@
 #include <thread>
 #include <vector>
 
+#include <sys/stat.h>
+
 #include <nlohmann/json.hpp>
 
 #include "../bench/cluster/job_model.hpp"
@@ -153,6 +155,17 @@ int kill_rank(int ranks, const Words& words, std::size_t victim,
     return kill_rank(ranks, words, errors, [&](const std::vector<pid_t>& children) {
         return when() ? children[victim % children.size()] : 0;
     });
+}
+
+/// Starts a job of one rank and sends it SIGTERM once `when` holds. Returns what it says.
+std::string errors_of_ended(const Words& words, const std::filesystem::path& errors,
+                            const std::function<bool()>& when)
+{
+    Words all{"sh", "-c", "exec \"$0\" \"$@\" 2>" + shell_quoted(errors.string()), PACKTRACE_MPI};
+    all.insert(all.end(), words.begin(), words.end());
+    const int status = kill_program(all, SIGTERM, when);
+    CHECK(WIFSIGNALED(status));
+    return read_text(errors);
 }
 
 /// The first families of stress tests.
@@ -698,6 +711,33 @@ TEST_CASE("a rank that dies ends the job with a line, and --resume goes on", "[m
         std::filesystem::remove(folder / "m.png");
         CHECK(folder.names() == Words{"err", "w.png"});
     }
+}
+
+TEST_CASE("a job of rays that is ended says in its own name how to go on", "[mpi]")
+{
+    const TempFolder folder;
+    std::string rays;
+    for (int i = 0; i < 400000; ++i)
+        rays += "0,0,0,0," + std::to_string(i) + ",1\n";
+    write_text(folder / "rays.csv", rays);
+    const std::string hits = folder / "hits.csv";
+    const Words words{"intersect", four_spheres_file, folder / "rays.csv", "-o", hits, "--resume"};
+    // Its journal has two lines before the first piece.
+    const std::string begun =
+        errors_of_ended(words, folder / "err", [&] { return lines_of(hits + ".journal") >= 3; });
+    CHECK_THAT(begun, ContainsSubstring("packtrace-mpi: interrupted; the same command goes on "));
+    // It waits for a scene that does not come.
+    REQUIRE(mkfifo((folder / "pipe").c_str(), 0600) == 0);
+    Words waiting = words;
+    waiting[1] = folder / "pipe";
+    const int pipe = open((folder / "pipe").c_str(), O_RDWR);
+    const auto start = std::chrono::steady_clock::now();
+    const std::string early = errors_of_ended(waiting, folder / "err", [&] {
+        return std::chrono::steady_clock::now() - start > std::chrono::seconds(2);
+    });
+    close(pipe);
+    CHECK_THAT(early, ContainsSubstring("packtrace-mpi: interrupted; finished work is kept where "
+                                        "--resume was given"));
 }
 
 TEST_CASE("a job that mpirun ends says so and leaves no file, however long its tiles take", "[mpi]")

@@ -5,6 +5,7 @@
 #include <atomic>
 #include <csignal>
 #include <ctime>
+#include <string>
 #include <string_view>
 
 #include <unistd.h>
@@ -15,10 +16,30 @@
 namespace packtrace::cli {
 namespace {
 
-/// Lines for the handler of signals: one that may be read, one that may be written.
-std::array<std::array<char, 512>, 2> signal_lines;
+/// A whole line, with an end of line before and behind it: the handler of signals allocates
+/// nothing.
+using SignalLine = std::array<char, 512>;
+
+/// One that may be read, one that may be written.
+std::array<SignalLine, 2> signal_lines;
 std::atomic<const char*> given_line{nullptr};
+/// Where none is given, and no unfinished file was there to remove, or some.
+SignalLine usual_line;
+SignalLine removal_line;
 volatile std::sig_atomic_t linger = 0;  ///< milliseconds
+
+std::string program_name;  ///< what each line begins with
+
+void fill(SignalLine& line, const std::string& given)
+{
+    // One line, whatever is in the names of files.
+    const std::string text = language::escape(program_name + ": " + given);
+    const std::size_t length = std::min(text.size(), line.size() - 3);
+    line[0] = '\n';
+    std::copy_n(text.data(), length, line.data() + 1);
+    line[length + 1] = '\n';
+    line[length + 2] = '\0';
+}
 
 void say(std::string_view line)
 {
@@ -34,8 +55,7 @@ void end_by(int signal)
         say(given);
     const bool removed = remove_all_temporaries() > 0;
     if (given == nullptr)
-        say(removed ? "\npacktrace: interrupted; the unfinished file is removed\n"
-                    : "\npacktrace: interrupted\n");
+        say(removed ? removal_line.data() : usual_line.data());
     const timespec rest{.tv_sec = linger / 1000, .tv_nsec = linger % 1000 * 1'000'000L};
     nanosleep(&rest, nullptr);
     std::signal(signal, SIG_DFL);
@@ -49,21 +69,19 @@ void set_interrupt_line(const std::string& given)
     static std::size_t next = 0;
     if (given.empty())
         return given_line.store(nullptr);
-    // One line, whatever is in the names of files.
-    const std::string line = language::escape(given);
-    std::array<char, 512>& text = signal_lines[next];
+    SignalLine& line = signal_lines[next];
     next = 1 - next;
-    const std::size_t length = std::min(line.size(), text.size() - 3);
-    text[0] = '\n';
-    std::copy_n(line.data(), length, text.data() + 1);
-    text[length + 1] = '\n';
-    text[length + 2] = '\0';
-    given_line.store(text.data());
+    fill(line, given);
+    given_line.store(line.data());
 }
 
-void clean_up_when_interrupted(int linger_milliseconds)
+void clean_up_when_interrupted(const Interruption& interruption)
 {
-    linger = linger_milliseconds;
+    program_name = interruption.program;
+    linger = interruption.linger_milliseconds;
+    const std::string advice = interruption.advice.empty() ? "" : "; " + interruption.advice;
+    fill(usual_line, "interrupted" + advice);
+    fill(removal_line, "interrupted; the unfinished file is removed" + advice);
     for (const int number : {SIGINT, SIGTERM, SIGHUP}) {
         struct sigaction before {};
         // What nohup or a shell's background has switched off stays so.

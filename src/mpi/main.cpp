@@ -31,15 +31,16 @@ volatile pid_t first_process = 0;
 /// each leaves the others so long to do what they have to do.
 constexpr int linger_milliseconds = 300;
 
+/// What rank 1 says where that died.
+std::string death_line;
+
 // Calls nothing but what signal handlers may call.
 void end_quietly(int signal)
 {
     // Rank 0 says what is missing, unless it is the one that died.
     if (first_process != 0 && kill(first_process, 0) != 0) {
-        constexpr char line[] =
-            "\npacktrace-mpi: rank 0 died; finished work is kept where --resume was given, and "
-            "of --frames: start the same command again\n";
-        [[maybe_unused]] const ssize_t written = write(STDERR_FILENO, line, sizeof line - 1);
+        [[maybe_unused]] const ssize_t written =
+            write(STDERR_FILENO, death_line.data(), death_line.size());
     }
     remove_all_temporaries();
     constexpr timespec rest{.tv_sec = 0, .tv_nsec = linger_milliseconds * 1'000'000L};
@@ -51,13 +52,21 @@ void end_quietly(int signal)
 /// A job that ends by a signal says so once.
 void clean_up_when_ended(const World& world)
 {
+    const std::string advice =
+        "finished work is kept where --resume was given, and of --frames: start the same command "
+        "again";
+    if (world.is_first())
+        cli::clean_up_when_interrupted({.program = "packtrace-mpi",
+                                        .advice = advice,
+                                        .linger_milliseconds = linger_milliseconds});
     const std::string process = std::to_string(getpid());
     const std::vector<std::string> hosts = world.gather(world.host());
     const std::vector<std::string> processes = world.gather(process);
     if (world.is_first())
-        return cli::clean_up_when_interrupted(linger_milliseconds);
+        return;
     if (world.rank() == 1 && hosts[0] == hosts[1])
         first_process = static_cast<pid_t>(std::stol(processes[0]));
+    death_line = "\npacktrace-mpi: rank 0 died; " + advice + "\n";
     for (const int number : {SIGINT, SIGTERM, SIGHUP})
         std::signal(number, end_quietly);
 }

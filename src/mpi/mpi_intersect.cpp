@@ -193,7 +193,7 @@ void run_intersect(const World& world, const IntersectJobArguments& arguments)
         finished[0] = static_cast<int>(output->finished());
         if (!arguments.resume)
             cli::set_interrupt_line(
-                "packtrace-mpi: the job ended before all rays were answered; "
+                "the job ended before all rays were answered; "
                 "with --resume finished rows are kept");
     });
     world.broadcast(finished);

@@ -100,12 +100,11 @@ private:
     {
         const std::string bands =
             std::to_string(written_) + " of " + std::to_string(file_.bands().count()) + " bands";
-        cli::set_interrupt_line(
-            arguments_.resume
-                ? "packtrace-mpi: the job ended with " + bands + " of " + arguments_.output +
-                      " written; the same command goes on with them"
-                : "packtrace-mpi: the job ended after " + bands + " of " + arguments_.output +
-                      ", which are lost; with --resume they are kept");
+        cli::set_interrupt_line(arguments_.resume
+                                    ? "the job ended with " + bands + " of " + arguments_.output +
+                                          " written; the same command goes on with them"
+                                    : "the job ended after " + bands + " of " + arguments_.output +
+                                          ", which are lost; with --resume they are kept");
     }
 
     const RenderJobArguments& arguments_;
@@ -174,8 +173,7 @@ void render_frames(const World& world, const RenderJobArguments& arguments, cons
         output = cli::frame_files(arguments, scene, options);
     });
     if (world.is_first())
-        cli::set_interrupt_line("packtrace-mpi: the job ended before all frames of " +
-                                arguments.output +
+        cli::set_interrupt_line("the job ended before all frames of " + arguments.output +
                                 " were written; the same command renders the missing ones");
     cli::ProgressBar bar(arguments.quiet || !world.is_first() ? cli::Verbosity::quiet
                                                               : cli::Verbosity::normal);

@@ -40,6 +40,7 @@ HitOutput::HitOutput(const IntersectArguments& arguments, const std::string& rec
     done_ = find_finished(header);
     journal_->truncate(done_.bytes);
     journal_->write(0, bytes_of(header));
+    note_progress();
 }
 
 /// The last entry whose bytes are in the part file.
@@ -92,7 +93,13 @@ void HitOutput::take(std::string_view block, std::string_view rows)
     ++done_.blocks;
     done_.rays = checksum(bytes_of(block), done_.rays);
     journal_->add({done_.blocks, done_.rays, done_.bytes, done_.rows});
-    set_interrupt_line("packtrace: interrupted; the same command goes on after the " +
+    note_progress();
+}
+
+/// Says what an interrupted run leaves.
+void HitOutput::note_progress() const
+{
+    set_interrupt_line("interrupted; the same command goes on after the " +
                        std::to_string(done_.blocks) + " finished blocks of rays of " + name_);
 }
 

@@ -52,6 +52,7 @@ private:
     void append(std::string_view text);
 
     [[nodiscard]] Progress find_finished(std::string_view header) const;
+    void note_progress() const;
     [[noreturn]] void fail_of_rays() const;
 
     std::string name_;

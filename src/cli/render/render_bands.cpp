@@ -34,7 +34,7 @@ RenderBand band_renderer(const Scene& scene, const RenderOptions& options,
 void note_progress(const RenderArguments& arguments, int done, int bands)
 {
     if (arguments.resume)
-        set_interrupt_line("packtrace: interrupted with " + std::to_string(done) + " of " +
+        set_interrupt_line("interrupted with " + std::to_string(done) + " of " +
                            std::to_string(bands) + " bands of " + arguments.output +
                            " finished; the same command goes on with them");
 }

@@ -91,7 +91,7 @@ int check_files(const SoakArguments& arguments)
         inputs.push_back(read_scene_input(file));
     int findings = 0;
     for (std::size_t i = 0; i < inputs.size(); ++i) {
-        set_interrupt_line("packtrace: interrupted after " + std::to_string(i) + " of " +
+        set_interrupt_line("interrupted after " + std::to_string(i) + " of " +
                            std::to_string(inputs.size()) + " scenes");
         const auto finding =
             finding_in(inputs[i].scene, arguments.options.seed, arguments.options.aligned);
@@ -124,7 +124,7 @@ int check_random(const SoakArguments& arguments)
     const lab::SoakCounts counts = lab::run_soak(
         options, [&](const lab::SoakReport& report) { print_report(arguments, report); },
         [](const lab::SoakCounts& so_far) {
-            set_interrupt_line("packtrace: interrupted after " + text_of(so_far));
+            set_interrupt_line("interrupted after " + text_of(so_far));
         });
     set_interrupt_line("");
     std::cout << text_of(counts) << '\n';

@@ -108,7 +108,7 @@ void note_progress(std::size_t done, std::size_t families, const std::vector<Str
 {
     const auto faulty = std::count_if(rows.begin(), rows.end(),
                                       [](const StressRow& row) { return !row.faults.empty(); });
-    set_interrupt_line("packtrace: interrupted after " + std::to_string(done) + " of " +
+    set_interrupt_line("interrupted after " + std::to_string(done) + " of " +
                        std::to_string(families) + (families == 1 ? " family, " : " families, ") +
                        std::to_string(faulty) + " of " + std::to_string(rows.size()) +
                        " rows with faults");

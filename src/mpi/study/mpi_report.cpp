@@ -324,7 +324,7 @@ void run_report_on_ranks(const World& world, const ReportJobArguments& arguments
     });
     if (world.is_first())
         cli::set_interrupt_line(
-            "packtrace-mpi: the job ended before the report was written; start it again (truths "
+            "the job ended before the report was written; start it again (truths "
             "that were found are kept)");
     cli::limit_threads(cli::report_threads(options), 2);
     ReportJob job(world, arguments, options, works);

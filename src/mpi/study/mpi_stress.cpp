@@ -65,8 +65,7 @@ void run_stress_on_ranks(const World& world, const cli::StressArguments& argumen
     check_same_isas(world,
                     arguments.isa ? std::vector{parts.front().isa} : std::vector<std::string>());
     if (world.is_first())
-        cli::set_interrupt_line(
-            "packtrace-mpi: the job ended before all families were run; start it again");
+        cli::set_interrupt_line("the job ended before all families were run; start it again");
     cli::limit_threads(arguments.threads, 2);
     std::vector<RankReport> reports;
     const std::vector<StressRow> rows = run_parts(world, std::move(parts), reports);
