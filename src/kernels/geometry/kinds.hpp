@@ -1,6 +1,6 @@
 #pragma once
 
-#include "kernels/geometry/anchored_sphere.hpp"
+#include "kernels/geometry/anchored_filter.hpp"
 #include "kernels/geometry/plane.hpp"
 #include "kernels/geometry/polygon.hpp"
 #include "kernels/geometry/quadric_filter.hpp"
