@@ -14,6 +14,7 @@
 
 #include "catch.hpp"
 #include "lower/packed_scene.hpp"
+#include "lower/tree_objects.hpp"
 #include "scenes.hpp"
 
 // Through the hierarchy, as beams, cells or single rays, the same is hit as one by one: bit for
@@ -243,6 +244,79 @@ TEST_CASE("frames of wide packets keep to lists for longer than those of narrow 
 TEST_CASE("lists and hierarchies give the same hits and pictures", "[traversal]")
 {
     compare_on_every_isa(4, 3000, 1);
+}
+
+namespace {
+
+/// Small quadrics and triangles in a ball around (0, 0, 6), and a mirror to see them in.
+Scene quadrics_and_polygons(int count)
+{
+    Scene scene = mixed_scene(0, 1);
+    std::mt19937 random(17);
+    std::uniform_real_distribution<double> unit(-1.0, 1.0);
+    for (int i = 0; i < count; ++i) {
+        const Vec3 center(3.0 * unit(random), 3.0 * unit(random), 6.0 + 3.0 * unit(random));
+        if (i % 3 == 0)
+            add_object(scene, Polygon{{{{0, 0, 0}, {1, 0, 0.2}, {0, 1, 0.1}}}},
+                       scratch(Rgb(0.5), 50, 0.3));
+        else
+            add_object(scene, quadric_of(i), scratch(Rgb(0.2), 50, 0.3));
+        const Mat4 turned =
+            glm::rotate(glm::translate(Mat4(1.0), center), 3.0 * unit(random), Vec3(1, 2, 3));
+        scene.objects.back().transform = glm::scale(turned, Vec3(0.2, 0.1, 0.3));
+    }
+    return scene;
+}
+
+}  // namespace
+
+TEST_CASE("more quadrics and polygons than bounds are kept of are hit as from lists", "[traversal]")
+{
+    const Scene scene = quadrics_and_polygons(700);
+    for (const IsaInfo& isa : list_isas()) {
+        if (!isa.supported)
+            continue;
+        INFO(isa.name);
+        RenderOptions options;
+        options.isa = isa.name;
+        // From near and from 400 away by turns.
+        compare_traversals(scene, many_rays<float>(3000, 5), options);
+        compare_frames<float>(scene, options);
+    }
+}
+
+TEST_CASE("a few objects very far from the rest are in no hierarchy", "[traversal]")
+{
+    Scene scene = random_spheres(300, 1);
+    const auto packed = [&] { return PackedScene<float>(lower(scene), Traversal::tree); };
+    const abi::BvhView<float> alone = packed().view().tree;
+    const std::vector<Vec3> far{{0, 0, 9e8}, {1e6, 0, 0}, {0, -1e5, 0}};
+    for (const Vec3& center : far)
+        add_sphere(scene, center, 1.0, scratch(Rgb(0.5), 50, 0.3));
+    const PackedScene<float> with_far = packed();
+    CHECK(with_far.view().tree.extent == alone.extent);
+    CHECK(with_far.view().spheres.count == 3);
+
+    // Of a moved one the same is true.
+    RayScene<float> moving(scene);
+    scene.objects[0].surface = Sphere{{0, 1e7, 0}, 1.0};
+    const std::int32_t moved[] = {0};
+    (void)moving.update(scene, moved);
+    const Rays<float> rays = many_rays<float>(2000, 3);
+    Results<float> results = trace(scene, rays, {}, Traversal::list);
+    std::vector<float> t(rays.count());
+    std::vector<std::int32_t> object(rays.count());
+    moving.closest_hits(rays.view(), {t.data(), object.data()});
+    CHECK(differing(t, results.t) == 0);
+    CHECK(differing(object, results.object) == 0);
+    const Ray<float> up{{0, 100, 0}, {0, 1, 0}};
+    CHECK(moving.closest_hit(up).object == 0);
+
+    // Where half of all is far away, there is no rest.
+    Scene halves = random_spheres(300, 1);
+    for (int i = 0; i < 150; ++i)
+        halves.objects[static_cast<std::size_t>(i)].surface = Sphere{{0, 0, 1e6}, 1.0};
+    CHECK(count_tree_objects(lower(halves)).all() == 300);
 }
 
 TEST_CASE("objects too far away for a hierarchy overwrite nothing and hide nothing", "[traversal]")

@@ -12,6 +12,7 @@
 #include "lower/lower_shading.hpp"
 #include "lower/lowered_scene.hpp"
 #include "lower/prune.hpp"
+#include "lower/tree_objects.hpp"
 
 // Runs of objects are lowered in parallel, and joined in their order.
 namespace packtrace {
@@ -208,6 +209,7 @@ LoweredScene lower(const Scene& scene, Accuracy accuracy, SelfHits self_hits)
     lower_model_rules(scene, lowered);
     lower_objects(scene, lowered);
     part_anchored_spheres(lowered);
+    lowered.tree_reach = tree_reach(lowered);
     lowered.self_hits = self_hits;
     lowered.casts_shadow = casting_surfaces(scene, lowered);
 

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <limits>
 #include <vector>
 
 #include <packtrace/render.hpp>
@@ -51,7 +52,9 @@ struct LoweredScene : SurfaceLists {
     bool highlights_behind = false;  ///< lights behind a surface make highlights on it too
     double epsilon = 0.0;            ///< start of secondary and shadow rays with SelfHits::note
     SelfHits self_hits = SelfHits::note;
-    double camera_t_min = 0.0;             ///< start of camera rays
+    double camera_t_min = 0.0;  ///< start of camera rays
+    /// Objects that reach further are in no hierarchy (tree_objects.hpp).
+    double tree_reach = std::numeric_limits<double>::infinity();
     std::vector<std::int32_t> eye_inside;  ///< glass objects around the eye, innermost first
     abi::Features features;                ///< `exact` as the accuracy asked for has it
 };

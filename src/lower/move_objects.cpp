@@ -9,17 +9,19 @@
 #include <tbb/blocked_range.h>
 #include <tbb/parallel_for.h>
 
+#include "lower/tree_objects.hpp"
+
 namespace packtrace {
 namespace {
 
 /// Whether the surface stays in a hierarchy after all is lowered.
 template <class Kind>
-bool stays_in_tree(const Kind& surface)
+bool stays_in_tree(const LoweredScene& lowered, const Kind& surface)
 {
     if constexpr (std::is_same_v<Kind, LoweredSphere>)
         if (is_anchored(surface))
             return false;
-    return fits_tree(surface);
+    return is_in_tree(lowered, surface);
 }
 
 /// Objects one after another; its lists keep their memory.
@@ -63,7 +65,8 @@ private:
         if (at.kind != Kind::kind)
             return false;
         Kind& before = surfaces[at.record];
-        if (pieces_of(before) != pieces || !stays_in_tree(before) || !stays_in_tree(now))
+        if (pieces_of(before) != pieces || !stays_in_tree(lowered_, before) ||
+            !stays_in_tree(lowered_, now))
             return false;
         before = std::move(now);
         return true;

@@ -1,27 +1,29 @@
 #include "lower/packed_lists.hpp"
 
+#include "lower/tree_objects.hpp"
+
 namespace packtrace {
 namespace {
 
 /// The objects that no hierarchy holds.
 template <class Object>
-std::vector<const Object*> listed(const std::vector<Object>& objects, bool is_tree)
+std::vector<const Object*> listed(const LoweredScene& lowered, const std::vector<Object>& objects,
+                                  bool is_tree)
 {
     std::vector<const Object*> list;
     for (const Object& object : objects)
-        if (!is_tree || !fits_tree(object))
+        if (!is_tree || !is_in_tree(lowered, object))
             list.push_back(&object);
     return list;
 }
 
 template <class Object, class Record>
-void pack_all(const std::vector<Object>& objects, bool is_tree, AlignedArray<Record>& records,
+void pack_all(const std::vector<const Object*>& objects, AlignedArray<Record>& records,
               Record (*pack)(const Object&))
 {
-    const auto chosen = listed(objects, is_tree);
-    records = AlignedArray<Record>(chosen.size());
-    for (std::size_t i = 0; i < chosen.size(); ++i)
-        records[i] = pack(*chosen[i]);
+    records = AlignedArray<Record>(objects.size());
+    for (std::size_t i = 0; i < objects.size(); ++i)
+        records[i] = pack(*objects[i]);
 }
 
 template <class Record>
@@ -35,13 +37,14 @@ abi::RecordList<Record> list_of(const AlignedArray<Record>& records)
 template <class Real>
 PackedLists<Real>::PackedLists(const LoweredScene& lowered, bool is_tree)
 {
-    pack_spheres(listed(lowered.spheres, is_tree));
-    pack_all(lowered.anchored_spheres, is_tree, anchored_spheres_, pack<Real>);
-    pack_all(lowered.planes, is_tree, planes_, pack<Real>);
-    pack_all(lowered.quadrics, is_tree, quadrics_, pack<Real>);
-    pack_all(lowered.polygons, is_tree, polygons_, pack<Real>);
-    polygon_corners_ = PackedCorners<Real>(listed(lowered.polygons, is_tree),
-                                           {polygons_.data(), polygons_.size()});
+    const auto unheld = [&](const auto& objects) { return listed(lowered, objects, is_tree); };
+    pack_spheres(unheld(lowered.spheres));
+    pack_all(unheld(lowered.anchored_spheres), anchored_spheres_, pack<Real>);
+    pack_all(unheld(lowered.planes), planes_, pack<Real>);
+    pack_all(unheld(lowered.quadrics), quadrics_, pack<Real>);
+    const auto polygons = unheld(lowered.polygons);
+    pack_all(polygons, polygons_, pack<Real>);
+    polygon_corners_ = PackedCorners<Real>(polygons, {polygons_.data(), polygons_.size()});
 }
 
 template <class Real>

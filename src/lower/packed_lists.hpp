@@ -11,7 +11,7 @@ namespace packtrace {
 template <class Real>
 class PackedLists {
 public:
-    /// Of the bounded objects those that `fits_tree` stay out when there `is_tree`.
+    /// Of the objects those that are in the hierarchy stay out when there `is_tree`.
     PackedLists(const LoweredScene& lowered, bool is_tree);
 
     /// Points `view` to the lists, valid as long as this object.

@@ -9,6 +9,7 @@
 #include "core/in_parallel.hpp"
 #include "geometry/object_rules.hpp"
 #include "lower/far_lights.hpp"
+#include "lower/tree_objects.hpp"
 
 namespace packtrace {
 namespace {
@@ -16,6 +17,9 @@ namespace {
 /// From these numbers of objects on a hierarchy is quicker than lists (results/crossover.json).
 /// Streams: camera and shadow rays from 12, bounced ones from 100.
 constexpr std::size_t stream_tree_objects = 32;
+/// Quadrics and polygons with error bounds: camera rays from 40, rays of all directions from 600.
+/// So many count as one sphere.
+constexpr std::size_t bounded_objects_a_sphere = 4;
 /// Frames: their tiles pick from lists what their beams meet, and test it a packet at a time, so
 /// that lists stay ahead for longer the wider the packets are.
 constexpr std::size_t frame_tree_objects(int lanes)
@@ -43,19 +47,27 @@ bool certifiable(const LoweredScene& lowered)
     return all;
 }
 
-Traversal chosen(Traversal traversal, const LoweredScene& lowered, std::size_t tree_objects)
+Traversal chosen(Traversal traversal, std::size_t objects, std::size_t tree_objects)
 {
     if (traversal != Traversal::automatic)
         return traversal;
-    return count_tree_objects(lowered) >= tree_objects ? Traversal::tree : Traversal::list;
+    return objects >= tree_objects ? Traversal::tree : Traversal::list;
+}
+
+/// The objects that a hierarchy could hold, in spheres by what it brings for them.
+template <class Real>
+std::size_t weigh_tree_objects(const LoweredScene& lowered)
+{
+    const TreeObjects objects = count_tree_objects(lowered);
+    const bool with_bounds = sizeof(Real) == sizeof(float) && lowered.features.exact;
+    return objects.spheres + objects.others / (with_bounds ? bounded_objects_a_sphere : 1);
 }
 
 template <class Real>
 PackedTree<Real> pack_tree(const LoweredScene& lowered, Traversal traversal, Bvh* keep)
 {
-    return chosen(traversal, lowered, stream_tree_objects) == Traversal::tree
-               ? PackedTree<Real>(lowered, keep)
-               : PackedTree<Real>();
+    const Traversal by = chosen(traversal, weigh_tree_objects<Real>(lowered), stream_tree_objects);
+    return by == Traversal::tree ? PackedTree<Real>(lowered, keep) : PackedTree<Real>();
 }
 
 /// Below this cosine the highlight is less than the smallest normal number and counts as 0; a
@@ -97,7 +109,7 @@ bool are_objects(const std::vector<abi::MaterialIndex>& surfaces)
 
 Traversal frame_traversal(const LoweredScene& lowered, Traversal traversal, int lanes)
 {
-    return chosen(traversal, lowered, frame_tree_objects(lanes));
+    return chosen(traversal, count_tree_objects(lowered).all(), frame_tree_objects(lanes));
 }
 
 LoweredScene shadow_casters(const LoweredScene& lowered)

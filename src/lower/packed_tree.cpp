@@ -14,6 +14,7 @@
 
 #include "bvh/bvh.hpp"
 #include "core/in_parallel.hpp"
+#include "lower/tree_objects.hpp"
 
 namespace packtrace {
 namespace {
@@ -63,23 +64,24 @@ constexpr ItemKind item_kind = Object::kind == abi::SurfaceKind::sphere    ? sph
 
 /// Writes items of the objects that fit, in order; returns the end of them.
 template <class Object>
-BvhItem* fill_items(const std::vector<Object>& objects, BvhItem* items)
+BvhItem* fill_items(const LoweredScene& lowered, const std::vector<Object>& objects, BvhItem* items)
 {
     for_each_in_parallel(objects, [&](const Object& object) {
         const auto number = static_cast<std::size_t>(&object - objects.data());
         items[number] = make_item(box_of(object), number, item_kind<Object>);
     });
-    return std::remove_if(items, items + objects.size(),
-                          [&](const BvhItem& item) { return !fits_tree(objects[item.number]); });
+    return std::remove_if(items, items + objects.size(), [&](const BvhItem& item) {
+        return !is_in_tree(lowered, objects[item.number]);
+    });
 }
 
 Bvh build_tree(const LoweredScene& lowered)
 {
     const auto items = AlignedArray<BvhItem>::unset(
         lowered.spheres.size() + lowered.quadrics.size() + lowered.polygons.size());
-    BvhItem* end = fill_items(lowered.spheres, items.data());
-    end = fill_items(lowered.quadrics, end);
-    end = fill_items(lowered.polygons, end);
+    BvhItem* end = fill_items(lowered, lowered.spheres, items.data());
+    end = fill_items(lowered, lowered.quadrics, end);
+    end = fill_items(lowered, lowered.polygons, end);
     return build_bvh({items.data(), end});
 }
 
@@ -116,7 +118,7 @@ double worst_slack(const LoweredScene& lowered)
 {
     double condition = 1.0;
     for (const LoweredQuadric& quadric : lowered.quadrics)
-        if (fits_tree(quadric))
+        if (is_in_tree(lowered, quadric))
             condition = std::max(condition, quadric.condition);
     return sphere_slack * condition;
 }
@@ -209,13 +211,6 @@ Box4 box_of_leaf(const std::vector<Object>& objects, const Bvh& bvh, const BvhLe
 }
 
 }  // namespace
-
-std::size_t count_tree_objects(const LoweredScene& lowered)
-{
-    std::size_t count = 0;
-    for_each_surface(lowered, [&](const auto& object) { count += fits_tree(object) ? 1u : 0u; });
-    return count;
-}
 
 void refit_tree(const LoweredScene& lowered, Bvh& bvh)
 {

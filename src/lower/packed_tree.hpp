@@ -7,13 +7,12 @@
 
 namespace packtrace {
 
-/// How many objects of a scene can be in a hierarchy.
-[[nodiscard]] std::size_t count_tree_objects(const LoweredScene& lowered);
-
-/// Gives a hierarchy over those objects the boxes that they have now; each is still of its kind.
+/// Gives a hierarchy over a scene's objects the boxes that they have now; each is still of its
+/// kind.
 void refit_tree(const LoweredScene& lowered, Bvh& bvh);
 
-/// A hierarchy over those objects, in the arrays and the precision the kernels read.
+/// A hierarchy over the objects that are in one (tree_objects.hpp), in the arrays and the precision
+/// the kernels read.
 template <class Real>
 class PackedTree {
 public:

@@ -106,7 +106,7 @@ inline void closest_tile(const abi::TileJob<Real>& job, abi::TileHits<Real>& hit
     take_objects<F>(arena, visible, scene);
     find_objects<F>(visible, camera_cone(job), scene);
     if (!scene.tree.empty()) {
-        auto& bundle = *arena.take<RayBundle<Real>>(1);
+        auto& bundle = *take_bundle<F, Real>(arena);
         gather_camera<F>(job, bundle);
         closest_of_bundle<F>(scene, visible, bundle);
         settle_camera_bundle<F>(scene, bundle);

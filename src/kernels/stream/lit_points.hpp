@@ -21,7 +21,7 @@ struct LitWork {
         Arena arena(scratch);
         take_objects<F>(arena, from_light, casters);
         take_objects<F>(arena, from_points, casters);
-        bundle = arena.template take<RayBundle<Real>>(1);
+        bundle = take_bundle<F, Real>(arena);
         bytes = arena.used();
     }
 };

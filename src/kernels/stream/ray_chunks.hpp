@@ -115,7 +115,7 @@ struct StreamWork {
         if (scene.tree.empty())
             take_objects<F>(arena, from_point, scene);
         else
-            bundle = arena.template take<RayBundle<Real>>(1);
+            bundle = take_bundle<F, Real>(arena);
         bytes = arena.used();
     }
 

@@ -3,6 +3,7 @@
 #include "kernels/shade/shade_context.hpp"
 #include "kernels/stream/sort_rays.hpp"
 #include "kernels/stream/tile_memory.hpp"
+#include "kernels/traverse/leaf_filters.hpp"
 #include "kernels/traverse/object_sets.hpp"
 
 // How a thread's scratch memory is divided. Sizes depend on the scene and on how many tiles are
@@ -34,6 +35,21 @@ private:
     char* block_;
     std::size_t used_ = 0;
 };
+
+/// A bundle, with room for what it keeps.
+template <abi::Features F, class Real>
+inline RayBundle<Real>* take_bundle(Arena& arena)
+{
+    RayBundle<Real>* const bundle = arena.take<RayBundle<Real>>(1);
+    if constexpr (F.exact) {
+        auto* const filters = arena.take<LeafFilters>(1);
+        if (bundle != nullptr) {
+            bundle->filters = filters;
+            filters->begin(nullptr);
+        }
+    }
+    return bundle;
+}
 
 template <class Real>
 inline std::size_t count_shadowed(const abi::SceneView<Real>& scene)
@@ -104,7 +120,7 @@ struct Workspace {
             lacks = arena.take<double>(abi::tile_pixels * tile_count);
         const std::size_t shadowed = count_shadowed(scene);
         if (!scene.tree.empty())
-            bundle = arena.take<RayBundle<Real>>(1);
+            bundle = take_bundle<F, Real>(arena);
         if (!scene.tree.empty() && shadowed > 0) {
             surfaces = arena.take<SurfacePacket<Real>>(chunk_rays / lanes<Real>);
             shadows = arena.take<LightShadows<F, Real>>(lights);

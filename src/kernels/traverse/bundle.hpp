@@ -14,6 +14,8 @@ inline constexpr int bundle_rays = abi::tile_pixels;
 inline constexpr int cell_rays = 16;
 inline constexpr int bundle_cells = bundle_rays / cell_rays;
 
+struct LeafFilters;
+
 /// Rays that are not active have a `t` of minus infinity, and are like their neighbours.
 template <class Real>
 struct alignas(64) RayBundle {
@@ -30,9 +32,10 @@ struct alignas(64) RayBundle {
     std::uint16_t unsure[bundle_cells];
     // With Features::exact, for the objects of the hierarchy.
     Real inverse[bundle_rays];  ///< 1 / |d|
-    float length;        ///< the largest distance of an origin from any centre of a sphere there
-    float center_error;  ///< of the spheres there
-    float moment_error;  ///< likewise, by sphere_filter.hpp
+    float length;          ///< the largest distance of an origin from any centre of a sphere there
+    float center_error;    ///< of the spheres there
+    float moment_error;    ///< likewise, by sphere_filter.hpp
+    LeafFilters* filters;  ///< kept from bundle to bundle of one call (leaf_filters.hpp)
 };
 
 /// Lanes of the packet at `first` become unsure.

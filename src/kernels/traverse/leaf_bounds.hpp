@@ -1,7 +1,6 @@
 #pragma once
 
-#include "kernels/geometry/kinds.hpp"
-#include "kernels/traverse/leaf.hpp"
+#include "kernels/traverse/leaf_filters.hpp"
 
 // Error bounds of the objects of a hierarchy for a bundle of rays, by where those start.
 namespace packtrace::PACKTRACE_ISA {
@@ -63,6 +62,8 @@ inline void bound_origins(RayBundle<float>& bundle, const abi::GeometryView<floa
         distance2 += most * most;
     }
     bundle.length = (__builtin_sqrtf(distance2) + tree.radius) * inflation;
+    if (tree.run_surfaces != nullptr && bundle.filters->run_surfaces != tree.run_surfaces)
+        bundle.filters->begin(tree.run_surfaces);
     bundle.center_error = tree.center_error;
     bundle.moment_error = first_lane<float>(
         moment_error(vreal<float>(tree.center_error), vreal<float>(bundle.length)));
@@ -71,18 +72,6 @@ inline void bound_origins(RayBundle<float>& bundle, const abi::GeometryView<floa
 inline RayScale scale_of(const RayBundle<float>& bundle, int first, const RayPacket<float>& rays)
 {
     return {rays, load(bundle.inverse + first)};
-}
-
-/// The bounds of an object of a run for a bundle's rays.
-template <template <class> class Record>
-inline auto leaf_filter(const Record<float>& record, const Record<double>& wide,
-                        const RayBundle<float>& bundle)
-{
-    Origins origins;
-    for (int axis = 0; axis < 3; ++axis)
-        origins.center[axis] = record.bound[axis];
-    origins.radius = bundle.length;
-    return certain_form<false>(record, wide, origins);
 }
 
 /// The bounds of spheres of a hierarchy for a bundle's rays.
