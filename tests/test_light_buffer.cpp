@@ -7,6 +7,7 @@
 
 #include "catch.hpp"
 #include "lower/packed_scene.hpp"
+#include "render_scene.hpp"
 #include "scenes.hpp"
 
 // A light's own view of the spheres of a hierarchy gives the shadows that lists give, bit for bit.
@@ -56,12 +57,10 @@ bool has_buffer(const Scene& scene)
 
 void check_against_lists(const Scene& scene, SelfHits self_hits)
 {
-    for (const IsaInfo& isa : list_isas()) {
-        if (!isa.supported)
-            continue;
-        INFO(isa.name);
+    for (const std::string& isa : supported_isas()) {
+        INFO(isa);
         RenderOptions options;
-        options.isa = isa.name;
+        options.isa = isa;
         options.self_hits = self_hits;
         options.traversal = Traversal::list;
         const Image<float> by_lists = render<float>(scene, options);

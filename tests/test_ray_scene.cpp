@@ -19,6 +19,7 @@
 #include "catch.hpp"
 #include "packet_ways.hpp"
 #include "reference_scenes.hpp"
+#include "render_scene.hpp"
 
 // Rays of the caller's own: packets against the scalar reference, in double precision.
 namespace packtrace::test {
@@ -124,11 +125,9 @@ TEST_CASE("packets find the closest hits of any rays, with outward normals", "[r
     for (const int count : {1, 3, 16, 1237}) {
         const RayArrays rays = random_rays(count);
         const Closest truth = closest(scalar(), rays);
-        for (const IsaInfo& isa : list_isas()) {
-            if (!isa.supported)
-                continue;
-            CAPTURE(isa.name, count);
-            const Closest found = closest(on(isa.name), rays);
+        for (const std::string& isa : supported_isas()) {
+            CAPTURE(isa, count);
+            const Closest found = closest(on(isa), rays);
             CHECK(found.object == truth.object);
             CHECK(found.mask == truth.mask);
             for (std::size_t i = 0; i < found.t.size(); ++i) {
@@ -151,11 +150,9 @@ TEST_CASE("packets list all hits of a ray in order", "[ray_scene]")
     const RayArrays rays = random_rays(700);
     const AllHits truth = all_hits(scalar(), rays);
     std::size_t most = 0;
-    for (const IsaInfo& isa : list_isas()) {
-        if (!isa.supported)
-            continue;
-        CAPTURE(isa.name);
-        const AllHits found = all_hits(on(isa.name), rays);
+    for (const std::string& isa : supported_isas()) {
+        CAPTURE(isa);
+        const AllHits found = all_hits(on(isa), rays);
         REQUIRE(found.size() == truth.size());
         for (std::size_t ray = 0; ray < found.size(); ++ray) {
             CAPTURE(ray);
@@ -249,10 +246,8 @@ void check_together_as_alone(const RenderOptions& options)
 
 TEST_CASE("rays from one place have the same bits together as alone", "[ray_scene]")
 {
-    for (const IsaInfo& isa : list_isas()) {
-        if (!isa.supported)
-            continue;
-        RenderOptions options = on(isa.name);
+    for (const std::string& isa : supported_isas()) {
+        RenderOptions options = on(isa);
         check_together_as_alone<double>(options);
         for (const Accuracy accuracy : {Accuracy::fast, Accuracy::exact}) {
             options.accuracy = accuracy;
@@ -275,12 +270,10 @@ TEST_CASE("a ray from just above a sphere meets it at once, not on its way out",
                                       -0.44776657223701477f,
                                       0.0f,
                                       std::numeric_limits<float>::infinity()};
-    for (const IsaInfo& isa : list_isas()) {
-        if (!isa.supported)
-            continue;
-        INFO(isa.name);
+    for (const std::string& isa : supported_isas()) {
+        INFO(isa);
         RenderOptions options;
-        options.isa = isa.name;
+        options.isa = isa;
         const RayScene<float> rays(scene, options);
         float t = 0;
         std::int32_t object = -1;
@@ -337,13 +330,11 @@ std::vector<std::uint8_t> blocked_segments(const Scene& scene, const RenderOptio
 TEST_CASE("segments that end at surfaces are blocked as in double precision", "[ray_scene]")
 {
     const Scene scene = generate_random_spheres({.count = 1500, .radius = 0.05});
-    for (const IsaInfo& isa : list_isas()) {
-        if (!isa.supported)
-            continue;
+    for (const std::string& isa : supported_isas()) {
         for (const Traversal traversal : {Traversal::list, Traversal::tree}) {
-            CAPTURE(isa.name, static_cast<int>(traversal));
+            CAPTURE(isa, static_cast<int>(traversal));
             RenderOptions options;
-            options.isa = isa.name;
+            options.isa = isa;
             options.traversal = traversal;
             const std::vector<std::uint8_t> expected = blocked_segments<double>(scene, options);
             CHECK(std::count(expected.begin(), expected.end(), std::uint8_t{0}) > 100);

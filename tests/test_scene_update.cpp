@@ -8,6 +8,7 @@
 #include <packtrace/isa.hpp>
 
 #include "catch.hpp"
+#include "render_scene.hpp"
 #include "scenes.hpp"
 
 // RayScene::update(): moved objects are answered as by a RayScene made anew, bit for bit.
@@ -154,12 +155,10 @@ std::string refusal_of_update(RayScene<double>& rays, const Scene& scene,
 
 TEST_CASE("what moves in small steps is answered as if all were made anew", "[scene_update]")
 {
-    for (const IsaInfo& isa : list_isas()) {
-        if (!isa.supported)
-            continue;
-        CAPTURE(isa.name);
+    for (const std::string& isa : supported_isas()) {
+        CAPTURE(isa);
         RenderOptions options;
-        options.isa = isa.name;
+        options.isa = isa;
         check_steps<float>(options);
         check_steps<double>(options);
         options.accuracy = Accuracy::fast;

@@ -15,6 +15,7 @@
 #include "catch.hpp"
 #include "lower/packed_scene.hpp"
 #include "lower/tree_objects.hpp"
+#include "render_scene.hpp"
 #include "scenes.hpp"
 
 // Through the hierarchy, as beams, cells or single rays, the same is hit as one by one: bit for
@@ -201,16 +202,14 @@ void compare_frames(const Scene& scene, const RenderOptions& given)
 
 void compare_on_every_isa(int scenes, int rays, unsigned seed)
 {
-    for (const IsaInfo& isa : list_isas()) {
-        if (!isa.supported)
-            continue;
+    for (const std::string& isa : supported_isas()) {
         for (int i = 0; i < scenes; ++i) {
             const int objects = 3 + (i * 37) % 190;
-            INFO(isa.name << ", scene " << i << ", " << objects << " objects");
+            INFO(isa << ", scene " << i << ", " << objects << " objects");
             const unsigned number = seed + static_cast<unsigned>(i);
             const Scene scene = mixed_scene(objects, number);
             RenderOptions options;
-            options.isa = isa.name;
+            options.isa = isa;
             options.accuracy = i % 2 == 0 ? Accuracy::fast : Accuracy::exact;
             compare_traversals(scene, many_rays<float>(rays, number), options);
             compare_traversals(scene, many_rays<double>(rays, number), options);
@@ -273,12 +272,10 @@ Scene quadrics_and_polygons(int count)
 TEST_CASE("more quadrics and polygons than bounds are kept of are hit as from lists", "[traversal]")
 {
     const Scene scene = quadrics_and_polygons(700);
-    for (const IsaInfo& isa : list_isas()) {
-        if (!isa.supported)
-            continue;
-        INFO(isa.name);
+    for (const std::string& isa : supported_isas()) {
+        INFO(isa);
         RenderOptions options;
-        options.isa = isa.name;
+        options.isa = isa;
         // From near and from 400 away by turns.
         compare_traversals(scene, many_rays<float>(3000, 5), options);
         compare_frames<float>(scene, options);
@@ -337,12 +334,10 @@ TEST_CASE("objects too far away for a hierarchy overwrite nothing and hide nothi
                 }
             }
             add_plane(scene, {0, 6, 0}, {0.1, -1, 0}, material);
-            for (const IsaInfo& isa : list_isas()) {
-                if (!isa.supported)
-                    continue;
-                INFO(isa.name << ", " << far << ", one in " << apart);
+            for (const std::string& isa : supported_isas()) {
+                INFO(isa << ", " << far << ", one in " << apart);
                 RenderOptions options;
-                options.isa = isa.name;
+                options.isa = isa;
                 compare_traversals(scene, many_rays<float>(500, 7), options);
                 compare_traversals(scene, many_rays<double>(500, 7), options);
             }
@@ -362,11 +357,9 @@ TEST_CASE("caps without end are found through a hierarchy, too", "[traversal]")
     add_object(scene, inside_out, material);
     add_sphere(scene, {0, 0, 6}, 0.5, material);
     add_sphere(scene, {4, 0, 6}, 0.5, material);
-    for (const IsaInfo& isa : list_isas()) {
-        if (!isa.supported)
-            continue;
+    for (const std::string& isa : supported_isas()) {
         RenderOptions options;
-        options.isa = isa.name;
+        options.isa = isa;
         compare_traversals(scene, many_rays<float>(2000, 3), options);
         compare_traversals(scene, many_rays<double>(2000, 3), options);
     }

@@ -43,7 +43,8 @@ inline void keep_of_run(HitPacket<Real>& hit, const abi::BvhView<Real>& tree, in
 {
     with_object_of_run(tree, number, [&](const auto& record, const auto& shape) {
         if constexpr (F.exact)
-            keep_certain<false>(hit, leaf_filter(number, record, shape, bundle), rays, RayScale(rays), own);
+            keep_certain<false>(hit, leaf_filter(number, record, shape, bundle), rays,
+                                RayScale(rays), own);
         else
             keep_closest(hit, record, rays, own);
     });

@@ -53,8 +53,8 @@ inline Occlusion object_occludes(const abi::BvhView<Real>& tree, int number,
 {
     return with_object_of_run(tree, number, [&](const auto& record, const auto& shape) {
         if constexpr (F.exact) {
-            return occludes<false>(leaf_filter(number, record, shape, bundle), rays, RayScale(rays), t_end,
-                                   CertainOthers{own, all_lanes<float>});
+            return occludes<false>(leaf_filter(number, record, shape, bundle), rays, RayScale(rays),
+                                   t_end, CertainOthers{own, all_lanes<float>});
         } else {
             const Body body = body_of(record);
             return Occlusion{

@@ -83,6 +83,13 @@ template <class Real>
         [&](const auto& surface) { return normal_at(surface, own, part); }, body.surface));
 }
 
+/// Where its matrix takes the own origin.
+template <class Real>
+[[nodiscard]] Vec3<Real> place_of(const PlacedBody<Real>& body)
+{
+    return body.placement.point_to_world({});
+}
+
 template <class Real>
 [[nodiscard]] Real value_at(const PlacedBody<Real>& body, const Vec3<Real>& P, Part part)
 {

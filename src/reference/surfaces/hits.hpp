@@ -118,23 +118,11 @@ template <class Real>
     return {-unit(D).value_or(Vec3<Real>()), false};
 }
 
-/// The place that a surface's coordinates are off from: a sphere's centre, a plane's or a
-/// polygon's first point, where a matrix takes the own origin.
+/// The place that the coordinates of an object's surface are off from.
 template <class Real>
 [[nodiscard]] Vec3<Real> place_of(const Bodies<Real>& bodies, int object)
 {
-    const auto [kind, index] = bodies.places[static_cast<std::size_t>(object)];
-    switch (kind) {
-        case BodyKind::sphere:
-            return bodies.spheres[index].center;
-        case BodyKind::plane:
-            return bodies.planes[index].point;
-        case BodyKind::polygon:
-            return bodies.polygons[index].contours[0][0];
-        case BodyKind::placed:
-            break;
-    }
-    return bodies.placed[index].placement.point_to_world({});
+    return with_body(bodies, object, [](const auto& body) { return place_of(body); });
 }
 
 /// `P` in the space the object's surface is defined in.

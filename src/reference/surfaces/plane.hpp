@@ -35,6 +35,13 @@ template <class Real>
     return plane.normal;
 }
 
+/// The place that the surface's coordinates are off from.
+template <class Real>
+[[nodiscard]] Vec3<Real> place_of(const PlaneBody<Real>& plane)
+{
+    return plane.point;
+}
+
 /// What is 0 on the surface, and has normal_at() for its gradient.
 template <class Real>
 [[nodiscard]] Real value_at(const PlaneBody<Real>& plane, const Vec3<Real>& P, Part)

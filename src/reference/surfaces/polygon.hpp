@@ -119,6 +119,13 @@ template <class Real>
     return polygon.normal;
 }
 
+/// The place that the surface's coordinates are off from.
+template <class Real>
+[[nodiscard]] Vec3<Real> place_of(const PolygonBody<Real>& polygon)
+{
+    return polygon.contours[0][0];
+}
+
 /// What is 0 on the surface, and has normal_at() for its gradient.
 template <class Real>
 [[nodiscard]] Real value_at(const PolygonBody<Real>& polygon, const Vec3<Real>& P, Part)

@@ -93,6 +93,13 @@ template <class Real>
     return P - sphere.center;
 }
 
+/// The place that the surface's coordinates are off from.
+template <class Real>
+[[nodiscard]] Vec3<Real> place_of(const SphereBody<Real>& sphere)
+{
+    return sphere.center;
+}
+
 /// What is 0 on the surface, and has normal_at() for its gradient.
 template <class Real>
 [[nodiscard]] Real value_at(const SphereBody<Real>& sphere, const Vec3<Real>& P, Part)
