@@ -15,10 +15,7 @@ constexpr int size = 1024;  ///< pixels along each edge
 template <class Real>
 void packet_frame(benchmark::State& state, const std::string& isa, int threads)
 {
-    RenderOptions options;
-    options.isa = isa;
-    options.threads = threads;
-    const Renderer<Real> renderer(test::four_spheres(size, size), options);
+    const Renderer<Real> renderer(test::four_spheres(size, size), {.isa = isa, .threads = threads});
     Image<Real> image(size, size);
     const auto rays = static_cast<std::int64_t>(renderer.render(image).total());
     for (auto _ : state)

@@ -18,9 +18,7 @@ using namespace bench;
 // The measure of the writers below; argument: threads.
 void render_frame(benchmark::State& state)
 {
-    RenderOptions options;
-    options.threads = static_cast<int>(state.range(0));
-    const Renderer<float> renderer(scene(), options);
+    const Renderer<float> renderer(scene(), {.threads = static_cast<int>(state.range(0))});
     Image<float> image;
     for (auto _ : state)
         benchmark::DoNotOptimize(renderer.render(image));

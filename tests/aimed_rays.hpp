@@ -174,8 +174,7 @@ struct AimedFamily {
 /// A quadric of any kind, turned, stretched and moved.
 [[nodiscard]] inline Object placed_quadric(StressRandom& random, QuadricKind kind)
 {
-    Object object;
-    object.surface = lab::quadric_of(kind);
+    Object object{.surface = packtrace::quadric(kind)};
     const double thin = random.below(2) == 0 ? 1.0 : random.power(1e-3, 1.0);
     Mat4 transform = glm::translate(Mat4(1.0), random.power(0.1, 100.0) * random.unit());
     transform = glm::rotate(transform, random.between(0.0, 6.28), random.unit());

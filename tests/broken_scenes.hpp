@@ -27,9 +27,7 @@ inline Object& last_as(RandomScene& random, const Surface& surface)
 /// A quadric that says nothing but its kind.
 inline Quadric bare(QuadricKind kind)
 {
-    Quadric quadric;
-    quadric.kind = kind;
-    return quadric;
+    return {.kind = kind};
 }
 
 /// Numbers that no key takes.

@@ -91,12 +91,11 @@ template <class Real>
     std::vector<TracedRay<Real>> rays;
     for (int y = 0; y < scene.height; y += abi::tile_size)
         for (int x = 0; x < scene.width; x += abi::tile_size) {
-            abi::TileJob<Real> job;
-            job.scene = &setup.packed.view();
-            job.camera = &setup.camera;
-            job.x = x;
-            job.y = y;
-            job.scratch = scratch.data();
+            abi::TileJob<Real> job{.scene = &setup.packed.view(),
+                                   .camera = &setup.camera,
+                                   .x = x,
+                                   .y = y,
+                                   .scratch = scratch.data()};
             abi::TileHits<Real> hits;
             kernels.closest_tile(job, hits);
             append_tile(rays, setup.camera, job, hits, fused);

@@ -44,10 +44,7 @@ struct ExactHit {
 /// Chooses the first of two roots, t0 <= t1, beyond the ray's t_min.
 [[nodiscard]] inline ExactHit first_beyond(const LongRay& ray, long double t0, long double t1)
 {
-    ExactHit result;
-    result.hit = t1 > ray.t_min;
-    result.t = t0 > ray.t_min ? t0 : t1;
-    return result;
+    return {.hit = t1 > ray.t_min, .t = t0 > ray.t_min ? t0 : t1};
 }
 
 /// How far relative to t the root is from the ray's start, in units of its condition.

@@ -11,17 +11,13 @@ namespace packtrace::test {
 
 [[nodiscard]] inline RayNode reference_tree(const Scene& scene, int x, int y)
 {
-    RenderOptions options;
-    options.kernel = Kernel::scalar;
-    return explain_pixel<double>(scene, x, y, options);
+    return explain_pixel<double>(scene, x, y, {.kernel = Kernel::scalar});
 }
 
 template <class Real>
 [[nodiscard]] RayNode packet_tree(const Scene& scene, int x, int y, const std::string& isa = "auto")
 {
-    RenderOptions options;
-    options.isa = isa;
-    return explain_pixel<Real>(scene, x, y, options);
+    return explain_pixel<Real>(scene, x, y, {.isa = isa});
 }
 
 inline void visit_tree(const RayNode& tree, const std::function<void(const RayNode&)>& visit)

@@ -29,10 +29,7 @@ const char* const kinds = R"(
 
 RenderOptions one_thread(Traversal traversal)
 {
-    RenderOptions options;
-    options.threads = 1;
-    options.traversal = traversal;
-    return options;
+    return {.traversal = traversal, .threads = 1};
 }
 
 Scene spheres()

@@ -17,13 +17,8 @@ namespace packtrace::test {
     std::vector<RenderOptions> ways;
     for (const IsaInfo& isa : list_isas())
         for (const Traversal traversal : {Traversal::list, Traversal::tree})
-            if (isa.supported) {
-                RenderOptions options;
-                options.isa = isa.name;
-                options.traversal = traversal;
-                options.accuracy = accuracy;
-                ways.push_back(options);
-            }
+            if (isa.supported)
+                ways.push_back({.isa = isa.name, .accuracy = accuracy, .traversal = traversal});
     return ways;
 }
 

@@ -13,22 +13,14 @@ namespace packtrace::test {
 
 inline Object sphere(const Vec3& center, double radius, const Material& material = {})
 {
-    Object object;
-    object.surface = Sphere{center, radius};
-    object.material = material;
-    return object;
+    return {.surface = Sphere{center, radius}, .material = material};
 }
 
 inline Object plane(const Vec3& point, const Vec3& normal, const Material& material = {})
 {
-    Plane surface;
-    surface.point = point;
-    surface.normal = glm::normalize(normal);
+    Plane surface{.point = point, .normal = glm::normalize(normal)};
     plane_axes(surface);
-    Object object;
-    object.surface = surface;
-    object.material = material;
-    return object;
+    return {.surface = surface, .material = material};
 }
 
 /// A scratch material without a highlight.
@@ -43,12 +35,7 @@ inline Material matte(const Rgb& color, double reflective = 0.0)
 /// A quadric by its coefficients A … J, in its own space.
 inline Object quadric(const std::array<double, 10>& coefficients, const Material& material = {})
 {
-    Quadric surface;
-    surface.coefficients = coefficients;
-    Object object;
-    object.surface = surface;
-    object.material = material;
-    return object;
+    return {.surface = Quadric{.coefficients = coefficients}, .material = material};
 }
 
 /// A white material of another model.

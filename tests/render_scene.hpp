@@ -30,18 +30,13 @@ template <class Real>
 [[nodiscard]] Image<Real> render_packets(const Scene& scene, const std::string& isa,
                                          int threads = 0)
 {
-    RenderOptions options;
-    options.isa = isa;
-    options.threads = threads;
-    return render<Real>(scene, options);
+    return render<Real>(scene, {.isa = isa, .threads = threads});
 }
 
 template <class Real>
 [[nodiscard]] Image<Real> render_scalar(const Scene& scene)
 {
-    RenderOptions options;
-    options.kernel = Kernel::scalar;
-    return render<Real>(scene, options);
+    return render<Real>(scene, {.kernel = Kernel::scalar});
 }
 
 }  // namespace packtrace::test

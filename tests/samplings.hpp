@@ -15,11 +15,8 @@ struct Sampling {
 [[nodiscard]] inline std::vector<Sampling> samplings()
 {
     RenderOptions once;
-    RenderOptions mean;
-    mean.samples = 3;
-    RenderOptions adaptive;
-    adaptive.samples = 4;
-    adaptive.adaptive = 0.05;
+    const RenderOptions mean{.samples = 3};
+    const RenderOptions adaptive{.samples = 4, .adaptive = 0.05};
     return {{"one sample", once}, {"several", mean}, {"adaptive", adaptive}};
 }
 

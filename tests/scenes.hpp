@@ -35,9 +35,7 @@ inline void add_sphere(Scene& scene, const Vec3& center, double radius, const Ma
 
 inline void add_plane(Scene& scene, const Vec3& point, const Vec3& normal, const Material& material)
 {
-    Plane plane;
-    plane.point = point;
-    plane.normal = glm::normalize(normal);
+    Plane plane{.point = point, .normal = glm::normalize(normal)};
     plane_axes(plane);
     add_object(scene, plane, material);
 }

@@ -84,12 +84,11 @@ template <class Real>
             }
     RandomLanes<Real> random;
     for (int n = 0; n < random_operands; ++n) {
-        Lane<Real> lane;
-        lane.a = random.number(-30, 30);
-        lane.b = random.number(-30, 30);
-        lane.c = random.number(-30, 30);
-        lane.i = random.integer();
-        lane.j = random.integer();
+        Lane<Real> lane{.a = random.number(-30, 30),
+                        .b = random.number(-30, 30),
+                        .c = random.number(-30, 30),
+                        .i = random.integer(),
+                        .j = random.integer()};
         lanes.push_back(lane);
     }
     return lanes;
@@ -144,9 +143,7 @@ template <class Real>
     std::vector<Lane<Real>> lanes;
     RandomLanes<Real> random;
     for (int n = 0; n < random_operands; ++n) {
-        Lane<Real> lane;
-        lane.a = random.number(-63, 63);
-        lane.i = n % 127 - 63;
+        Lane<Real> lane{.a = random.number(-63, 63), .i = n % 127 - 63};
         lanes.push_back(lane);
     }
     return lanes;

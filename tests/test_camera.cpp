@@ -21,8 +21,7 @@ TEST_CASE("the canvas of note 001 spans the viewport", "[camera]")
 
 TEST_CASE("a field of view makes the viewport follow the picture's shape", "[camera]")
 {
-    Camera camera;
-    camera.fov = 90.0;
+    Camera camera{.fov = 90.0};
     const CameraBasis basis = camera_basis(camera, 200, 100);
     CHECK(glm::length(basis.right - Vec3(4.0 / 200, 0, 0)) < 1e-15);
     CHECK(glm::length(basis.up - Vec3(0, 2.0 / 100, 0)) < 1e-15);

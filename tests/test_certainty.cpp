@@ -131,9 +131,7 @@ TEST_CASE("the rays traced again are those of the frame, in lists and hierarchie
             if (!isa.supported)
                 continue;
             for (const Traversal traversal : {Traversal::list, Traversal::tree}) {
-                RenderOptions options;
-                options.isa = isa.name;
-                options.traversal = traversal;
+                const RenderOptions options{.isa = isa.name, .traversal = traversal};
                 const Scene scene = scene_of(objects + lights);
                 CAPTURE(isa.name, scene.objects.size(), traversal == Traversal::tree);
                 const Certainty certainty = find_certainty(scene, options);
@@ -172,8 +170,7 @@ TEST_CASE("every ray of a pixel's tree is counted there", "[certainty]")
 TEST_CASE("certainty does not depend on the number of threads", "[certainty]")
 {
     const Scene scene = scene_of(balls(12) + lights);
-    RenderOptions options;
-    options.threads = 1;
+    RenderOptions options{.threads = 1};
     const Certainty one = find_certainty(scene, options);
     options.threads = 4;
     CHECK(same_pixels(one, find_certainty(scene, options)));
@@ -251,8 +248,7 @@ TEST_CASE("what has no unsure rays is refused", "[certainty]")
     more.pixels.resize(2);
     CHECK_THROWS_AS(certainty_picture(more), std::invalid_argument);
     const Scene scene = four_spheres(16, 16);
-    RenderOptions options;
-    options.kernel = Kernel::scalar;
+    RenderOptions options{.kernel = Kernel::scalar};
     CHECK_THROWS_AS(find_certainty(scene, options), std::invalid_argument);
     options = {};
     options.accuracy = Accuracy::fast;

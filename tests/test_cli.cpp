@@ -121,8 +121,7 @@ TEST_CASE("render writes what the library renders", "[cli]")
 TEST_CASE("render takes the scalar kernel in three precisions", "[cli]")
 {
     const TempFolder folder;
-    RenderOptions scalar;
-    scalar.kernel = Kernel::scalar;
+    const RenderOptions scalar{.kernel = Kernel::scalar};
     const Scene scene = small_scene();
     const std::vector<std::pair<std::string, Image<float>>> expected{
         {"single", render<float>(scene, scalar)},

@@ -301,9 +301,7 @@ TEST_CASE("Rays along planes meet them nowhere, however the planes are turned", 
 TEST_CASE("Scenes of much that coincides have the same bits in every way", "[coincidences]")
 {
     const tbb::global_control threads(tbb::global_control::max_allowed_parallelism, 3);
-    lab::SoakOptions options;
-    options.scenes = 96;
-    options.aligned = true;
+    const lab::SoakOptions options{.scenes = 96, .aligned = true};
     std::string findings;
     const lab::SoakCounts counts = lab::run_soak(options, [&](const lab::SoakReport& report) {
         findings += std::to_string(report.number) + ": " + report.finding.what + "\n";

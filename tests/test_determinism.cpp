@@ -58,11 +58,10 @@ TEST_CASE("the picture is the same for every width and number of threads in ever
                 for (const std::string& isa : fused_isas())
                     for (const int threads : {1, 7}) {
                         CAPTURE(named.name, isa, threads, static_cast<int>(accuracy));
-                        RenderOptions options;
-                        options.isa = isa;
-                        options.threads = threads;
-                        options.accuracy = accuracy;
-                        options.self_hits = self_hits;
+                        RenderOptions options{.isa = isa,
+                                              .accuracy = accuracy,
+                                              .self_hits = self_hits,
+                                              .threads = threads};
                         const Image<float> picture = render<float>(named.scene, options);
                         if (first.rgb.empty())
                             first = picture;
@@ -102,9 +101,7 @@ TEST_CASE("a renderer gives the same picture every time", "[determinism]")
 {
     for (const std::string& isa : supported_isas()) {
         CAPTURE(isa);
-        RenderOptions options;
-        options.isa = isa;
-        const Renderer<float> renderer(four_spheres(117, 85), options);
+        const Renderer<float> renderer(four_spheres(117, 85), {.isa = isa});
         Image<float> first;
         (void)renderer.render(first);
         Image<float> again(117, 85);

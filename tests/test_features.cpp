@@ -20,10 +20,7 @@ namespace {
 template <class Real>
 Image<Real> render_general(const Scene& scene, const std::string& isa)
 {
-    RenderOptions options;
-    options.isa = isa;
-    options.force_general = true;
-    return render<Real>(scene, options);
+    return render<Real>(scene, {.isa = isa, .force_general = true});
 }
 
 template <class Real>
@@ -41,8 +38,7 @@ struct Work {
 Work work_of(const Scene& scene, bool force_general = false, Accuracy accuracy = Accuracy::exact)
 {
     const abi::KernelTable& table = kernels_of(choose_isa().name);
-    RenderOptions options;
-    options.force_general = force_general;
+    const RenderOptions options{.force_general = force_general};
     LoweredScene lowered = lower(scene, accuracy);
     const TileRenderer<float> tiles(scene, lowered, table, options);
     Image<float> image(scene.width, scene.height);

@@ -114,17 +114,16 @@ std::size_t scratch_bytes(const Scene& scene, const std::string& isa)
 TEMPLATE_TEST_CASE("where Ks + Kr = 1 a uniform background is all that is seen", "[glass_physics]",
                    float, double)
 {
-    Scene scene;
-    scene.width = 61;
-    scene.height = 47;
-    scene.illumination = Illumination::sketch;
-    scene.background = {0.75, 0.5, 0.25};
-    scene.max_depth = 8;
-    scene.objects = {sphere({0, 0, 4}, 1.5, conserving(1.5)),
-                     sphere({0.2, 0.1, 4}, 1.2, conserving(1.0)),
-                     sphere({-1.3, 0.3, 3.2}, 0.8, conserving(2.4)),
-                     quadric({1, 1, -1, 0, 0, 0, 0, 0, 0, -0.2}, conserving(1.3)),
-                     plane({0, -2, 0}, {0, 1, 0}, conserving(1.33))};
+    Scene scene{.width = 61,
+                .height = 47,
+                .background = {0.75, 0.5, 0.25},
+                .illumination = Illumination::sketch,
+                .max_depth = 8,
+                .objects = {sphere({0, 0, 4}, 1.5, conserving(1.5)),
+                            sphere({0.2, 0.1, 4}, 1.2, conserving(1.0)),
+                            sphere({-1.3, 0.3, 3.2}, 0.8, conserving(2.4)),
+                            quadric({1, 1, -1, 0, 0, 0, 0, 0, 0, -0.2}, conserving(1.3)),
+                            plane({0, -2, 0}, {0, 1, 0}, conserving(1.33))}};
     scene.objects[3].transform = glm::translate(Mat4(1.0), {1.5, 0.5, 6});
     const double margin = 64 * static_cast<double>(std::numeric_limits<TestType>::epsilon());
     for (const std::string& isa : supported_isas()) {
@@ -166,9 +165,7 @@ TEMPLATE_TEST_CASE("what does not bend light lets even a grazing ray go straight
                      plane({0, 0, -0.5}, {0, 0, 1}, black())};
     for (const std::string& isa : supported_isas())
         CHECK(seen<TestType>(scene, isa) == 0.0);
-    RenderOptions scalar;
-    scalar.kernel = Kernel::scalar;
-    CHECK(render<TestType>(scene, scalar).rgb[0] == 0);
+    CHECK(render<TestType>(scene, {.kernel = Kernel::scalar}).rgb[0] == 0);
 }
 
 TEMPLATE_TEST_CASE("a slab shifts a ray by the analytic amount", "[glass_physics]", float, double)
@@ -211,9 +208,7 @@ TEMPLATE_TEST_CASE("depth 20 with two children a hit renders in little memory an
                    "[glass_physics]", float, double)
 {
     const Scene scene = shells(20);
-    RenderOptions options;
-    options.threads = 1;
-    const Renderer<TestType> renderer(scene, options);
+    const Renderer<TestType> renderer(scene, {.threads = 1});
     Image<TestType> image(2, 2);
     FrameCounts counts;
     // Its streams take 1.6 MB; as many rays at once as there are leaves would take over 100 MB.

@@ -63,8 +63,7 @@ TEST_CASE("a forced instruction set is the one that runs", "[isa]")
         CHECK(choose_isa(isa.name).name == isa.name);
         CHECK(choose_isa(isa.name, isa.lanes_single).name == isa.name);
         CHECK(kernels_of(isa.name).isa == isa.name);
-        RenderOptions options;
-        options.isa = isa.name;
+        const RenderOptions options{.isa = isa.name};
         CHECK(Renderer<float>(Scene{}, options).isa().name == isa.name);
         CHECK(Renderer<double>(Scene{}, options).isa().lanes_double == isa.lanes_double);
     }

@@ -35,9 +35,7 @@ struct Records {
     }
     [[nodiscard]] abi::Observation into() const
     {
-        abi::Observation observation;
-        observation.generations = static_cast<int>(spans.size());
-        return observation;
+        return {.generations = static_cast<int>(spans.size())};
     }
 };
 
@@ -116,8 +114,7 @@ std::vector<Scene> all_sorts()
 template <class Real>
 Image<Real> picture_of(const Scene& scene, const std::string& isa, bool general)
 {
-    RenderOptions options;
-    options.force_general = general;
+    const RenderOptions options{.force_general = general};
     const LoweredScene lowered = lower(scene, accuracy_in<Real>(options));
     ObservedFrame<Real> frame(scene, lowered, kernels_of(isa), options);
     frame.render([](int) { return nullptr; }, [](int, double) {});
@@ -204,8 +201,7 @@ TEST_CASE("the rays counted by generation are the frame's, each once", "[kernel_
             check_rays<float>(scene, isa);
             check_rays<double>(scene, isa);
         }
-    RenderOptions several;
-    several.samples = 3;
+    RenderOptions several{.samples = 3};
     check_rays<float>(four_spheres(50, 35), supported_isas().back(), several);
     several.adaptive = 0.05;
     check_rays<float>(four_spheres(50, 35), supported_isas().back(), several);
@@ -217,9 +213,7 @@ TEST_CASE("reflected rays are tested at most once against each object of a list"
     const Scene scene = four_spheres(50, 35);
     for (const std::string& isa : supported_isas())
         for (const Accuracy accuracy : {Accuracy::fast, Accuracy::exact}) {
-            RenderOptions options;
-            options.accuracy = accuracy;
-            const Counted frame = counted<float>(scene, isa, options);
+            const Counted frame = counted<float>(scene, isa, {.accuracy = accuracy});
             for (int depth = 1; depth <= scene.max_depth; ++depth) {
                 CAPTURE(isa, static_cast<int>(accuracy), depth);
                 const abi::WorkCounts& at = frame.counts[static_cast<std::size_t>(depth)];
@@ -248,8 +242,7 @@ TEST_CASE("rays are not tested against the one body that all of a packet start o
     for (const std::string& isa : supported_isas())
         for (const Accuracy accuracy : {Accuracy::fast, Accuracy::exact}) {
             CAPTURE(isa, static_cast<int>(accuracy));
-            RenderOptions options;
-            options.accuracy = accuracy;
+            const RenderOptions options{.accuracy = accuracy};
             const abi::WorkCounts mirrored = counted<float>(scene, isa, options).counts[1];
             CHECK(packets_of(mirrored, abi::PacketWork::trace).live == 32u * 32u);
             CHECK(all_pairs(mirrored, abi::Role::own) == 32u * 32u);
@@ -278,10 +271,8 @@ TEST_CASE("tests are counted by kind, and shadow rays apart", "[kernel_profile]"
 TEST_CASE("nodes are met only where there is a hierarchy, which saves tests", "[kernel_profile]")
 {
     const Scene scene = random_spheres(150, 7);
-    RenderOptions list;
-    list.traversal = Traversal::list;
-    RenderOptions tree;
-    tree.traversal = Traversal::tree;
+    const RenderOptions list{.traversal = Traversal::list};
+    const RenderOptions tree{.traversal = Traversal::tree};
     for (const std::string& isa : supported_isas()) {
         const Counted in_list = counted<float>(scene, isa, list);
         const Counted in_tree = counted<float>(scene, isa, tree);
@@ -398,8 +389,7 @@ TEST_CASE("the time of a frame is of its pieces' medians", "[kernel_profile]")
 TEST_CASE("stages belong to rays that there are", "[kernel_profile]")
 {
     const std::string file = PACKTRACE_SOURCE_DIR "/scenes/nested_glass.scene";
-    ProfileOptions options;
-    options.repetitions = 3;
+    const ProfileOptions options{.repetitions = 3};
     const Profile result =
         profile<float>(read_text(file), sized(read_scene(file), 96, 64), options);
     const KernelProfile& kernels = result.kernels;
@@ -428,8 +418,7 @@ TEST_CASE("rays traced again in double are a stage, and counted by cause", "[ker
     Scene scene = four_spheres(48, 48);
     std::get<Sphere>(scene.objects[1].surface) = std::get<Sphere>(scene.objects[0].surface);
     std::get<Sphere>(scene.objects[1].surface).radius *= 1.0 + 1e-9;
-    ProfileOptions options;
-    options.repetitions = 2;
+    const ProfileOptions options{.repetitions = 2};
     const KernelProfile single = observe_kernels<float>(scene, options).profile;
     CHECK(std::any_of(single.stages.begin(), single.stages.end(), [](const KernelStage& stage) {
         return stage.name == "unsure rays again in double" && stage.rays == "camera";

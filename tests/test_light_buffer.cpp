@@ -59,10 +59,7 @@ void check_against_lists(const Scene& scene, SelfHits self_hits)
 {
     for (const std::string& isa : supported_isas()) {
         INFO(isa);
-        RenderOptions options;
-        options.isa = isa;
-        options.self_hits = self_hits;
-        options.traversal = Traversal::list;
+        RenderOptions options{.isa = isa, .self_hits = self_hits, .traversal = Traversal::list};
         const Image<float> by_lists = render<float>(scene, options);
         options.traversal = Traversal::tree;
         const Image<float> by_buffer = render<float>(scene, options);

@@ -236,8 +236,7 @@ TEST_CASE("a ball's shadow is where it is worked out by hand", "[lit]")
         light { type = directional  direction = (0, 1, 0)  intensity = 1 }
     )",
                                     "ball", {});
-    RenderOptions scalar;
-    scalar.kernel = Kernel::scalar;
+    const RenderOptions scalar{.kernel = Kernel::scalar};
     std::vector<RenderOptions> ways = packet_ways();
     ways.push_back(scalar);
     for (const RenderOptions& options : ways) {
@@ -300,8 +299,7 @@ TEST_CASE("a moved scene's lights reach what a new one's do, far ones too", "[li
         light { type = point  position = (3e3, -5e3, 1e3)  intensity = 1 }
     )",
                               "moved", {});
-    RenderOptions options;
-    options.traversal = Traversal::tree;
+    const RenderOptions options{.traversal = Traversal::tree};
     RayScene<float> moved(scene, options);
     const auto seen = look(moved, 3000, {0, 0, 0}, 0.5, {0, 0.5, 3}, 1.5);
     for (int i = 0; i < 3; ++i) {
@@ -315,8 +313,7 @@ TEST_CASE("a moved scene's lights reach what a new one's do, far ones too", "[li
 TEST_CASE("lights' own views change no answer, in as many calls as it takes", "[lit]")
 {
     const Scene scene = crowd(300);
-    RenderOptions options;
-    options.traversal = Traversal::list;
+    RenderOptions options{.traversal = Traversal::list};
     const RayScene<float> by_lists(scene, options);
     const auto seen = look(by_lists, 20000, {0, 1, -6}, 2, {0, -1, 6}, 4);
     options.traversal = Traversal::tree;
@@ -390,8 +387,7 @@ TEST_CASE("what casts no shadow is in no light's way", "[lit]")
     Scene scene = crowd(150);
     for (std::size_t i = 0; i < scene.objects.size(); i += 2)
         scene.objects[i].casts_shadow = false;
-    RenderOptions options;
-    options.traversal = Traversal::tree;
+    RenderOptions options{.traversal = Traversal::tree};
     const RayScene<float> rays(scene, options);
     const auto seen = look(rays, 3000, {0, 1, -6}, 2, {0, -1, 6}, 4);
     check_spheres(scene, options, seen, rays);
@@ -418,8 +414,7 @@ TEST_CASE("lights reach where objects are now", "[lit]")
 {
     Scene scene = crowd(150);
     scene.objects[1].casts_shadow = false;
-    RenderOptions options;
-    options.traversal = Traversal::tree;
+    const RenderOptions options{.traversal = Traversal::tree};
     RayScene<float> rays(scene, options);
     const auto before = look(rays, 2000, {0, 1, -6}, 2, {0, -1, 6}, 4);
     const Mask old = lit(rays, before.points(), 0);
@@ -443,8 +438,7 @@ TEST_CASE("several threads may ask about lights at once", "[lit]")
     Scene scene = crowd(300);
     for (std::size_t i = 0; i < scene.objects.size(); i += 10)
         scene.objects[i].casts_shadow = false;
-    RenderOptions options;
-    options.traversal = Traversal::list;
+    RenderOptions options{.traversal = Traversal::list};
     const RayScene<float> by_lists(scene, options);
     const auto seen = look(by_lists, 16384, {0, 1, -6}, 2, {0, -1, 6}, 4);
     const Mask expected = lit(by_lists, seen.points());
@@ -469,8 +463,7 @@ TEST_CASE("several threads may ask about lights at once", "[lit]")
 TEST_CASE("lights that nothing can be in the way of are refused", "[lit]")
 {
     const Scene scene = crowd(3);
-    RenderOptions scalar;
-    scalar.kernel = Kernel::scalar;
+    const RenderOptions scalar{.kernel = Kernel::scalar};
     for (const RenderOptions& options : {RenderOptions(), scalar}) {
         const RayScene<double> rays(scene, options);
         CHECK_THROWS_WITH(one_point(rays, {0, 0, 0}, 1),

@@ -37,12 +37,10 @@ Rgb color_of(int number)
 
 Quadric capped_cylinder()
 {
-    Quadric quadric;
-    quadric.kind = QuadricKind::cylinder;
-    quadric.coefficients = {1, 1, 0, 0, 0, 0, 0, 0, 0, -1};
-    quadric.z_range = ZRange{-1.0, 1.0};
-    quadric.capped = true;
-    return quadric;
+    return {.kind = QuadricKind::cylinder,
+            .coefficients = {1, 1, 0, 0, 0, 0, 0, 0, 0, -1},
+            .z_range = ZRange{-1.0, 1.0},
+            .capped = true};
 }
 
 Surface surface_of(int number)
@@ -156,9 +154,7 @@ TEST_CASE("of several objects without a surface the first is named", "[lowering]
 {
     Scene scene = many_objects();
     for (const std::size_t number : {69'000u, 30'000u, 29'000u, 20'000u}) {
-        Quadric nothing;
-        nothing.coefficients = {1, 1, 1, 0, 0, 0, 0, 0, 0, 1};
-        scene.objects[number].surface = nothing;
+        scene.objects[number].surface = Quadric{.coefficients = {1, 1, 1, 0, 0, 0, 0, 0, 0, 1}};
     }
     CHECK_THROWS_WITH(lower(scene), test::ContainsSubstring("'object 20000'"));
 }
@@ -174,8 +170,7 @@ TEST_CASE("a sphere among many costs a hundred bytes at most", "[lowering]")
     constexpr int count = 50'000;
     for (const double radius : {0.001, 0.01})
         for (const Accuracy accuracy : {Accuracy::fast, Accuracy::exact}) {
-            RenderOptions options;
-            options.accuracy = accuracy;
+            const RenderOptions options{.accuracy = accuracy};
             Scene scene = generate_random_spheres({.count = count, .radius = radius});
             // Too few pixels for lights' own views of the spheres.
             test::set_size(scene, 64, 64);
@@ -220,9 +215,7 @@ TEMPLATE_TEST_CASE("many spheres look as few do, to the bit", "[lowering]", floa
 {
     for (const Accuracy accuracy : {Accuracy::fast, Accuracy::exact})
         for (const SelfHits self_hits : {SelfHits::note, SelfHits::exact}) {
-            RenderOptions options;
-            options.accuracy = accuracy;
-            options.self_hits = self_hits;
+            const RenderOptions options{.accuracy = accuracy, .self_hits = self_hits};
             const auto few = picture_of<TestType>(1000, options);
             const auto many = picture_of<TestType>(1100, options);
             CHECK(same_bytes(few.rgb, many.rgb));
@@ -259,9 +252,8 @@ TEST_CASE("a large sphere is anchored where its surface passes near the origin f
 TEST_CASE("one surface that is clipped at two places is no surface twice", "[lowering]")
 {
     // One unit sphere, whose own space begins at its centre, or below it; clipped to another part.
-    Quadric around_center;
-    around_center.coefficients = {1, 1, 1, 0, 0, 0, 0, 0, 0, -1};
-    around_center.z_range = ZRange{0.0, 0.5};
+    Quadric around_center{.coefficients = {1, 1, 1, 0, 0, 0, 0, 0, 0, -1},
+                          .z_range = ZRange{0.0, 0.5}};
     Quadric from_below = around_center;
     from_below.coefficients = {1, 1, 1, 0, 0, 0, 0, 0, -2, 0};
     Scene scene;

@@ -43,9 +43,7 @@ CutPicture<Real> render_cut(const Scene& scene, double min_weight,
 
 RenderOptions scalar_options()
 {
-    RenderOptions options;
-    options.kernel = Kernel::scalar;
-    return options;
+    return {.kernel = Kernel::scalar};
 }
 
 /// Every note's model, mirrors and glass of every kind, and light without the usual bounds.
@@ -109,8 +107,7 @@ TEST_CASE("no pixel is off by more than the bound of the rays that are not trace
 TEST_CASE("the bound holds where a pixel has several samples", "[min_weight]")
 {
     for (const NamedScene& named : bouncing_scenes()) {
-        RenderOptions options;
-        options.samples = 4;
+        RenderOptions options{.samples = 4};
         check_bound<float>(named, options);
         options.kernel = Kernel::scalar;
         check_bound<double>(named, options);
@@ -143,8 +140,7 @@ TEST_CASE("packets and the scalar reference cut the same rays", "[min_weight]")
             const CutPicture<double> expected =
                 render_cut<double>(named.scene, weight, scalar_options());
             for (const std::string& isa : supported_isas()) {
-                RenderOptions options;
-                options.isa = isa;
+                const RenderOptions options{.isa = isa};
                 const CutPicture<double> picture = render_cut<double>(named.scene, weight, options);
                 CAPTURE(named.name, weight, isa);
                 CHECK(picture.cut.rays == expected.cut.rays);
@@ -160,8 +156,7 @@ TEST_CASE("what is cut depends on no width, number of threads, hierarchy or kern
     if (isas.empty())
         isas = supported_isas();
     for (const NamedScene& named : bouncing_scenes()) {
-        RenderOptions options;
-        options.isa = isas.front();
+        RenderOptions options{.isa = isas.front()};
         const CutPicture<float> first = render_cut<float>(named.scene, 0.02, options);
         const auto check_same = [&](const RenderOptions& other) {
             const CutPicture<float> picture = render_cut<float>(named.scene, 0.02, other);

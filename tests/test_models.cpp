@@ -19,11 +19,8 @@ namespace {
 Quadric named(QuadricKind kind)
 {
     if (kind != QuadricKind::general)
-        return lab::quadric_of(kind);
-    Quadric quadric;
-    quadric.kind = kind;
-    quadric.coefficients = {1.0, 1.4, 0.7, 0.3, -0.4, 0.2, 0.1, -0.2, 0.15, -0.9};
-    return quadric;
+        return packtrace::quadric(kind);
+    return {.kind = kind, .coefficients = {1.0, 1.4, 0.7, 0.3, -0.4, 0.2, 0.1, -0.2, 0.15, -0.9}};
 }
 
 Mat4 placed(const Vec3& at, double turn)
@@ -63,11 +60,8 @@ void add_lights(Scene& scene)
 
 Scene base(Illumination illumination, const Material& body, const Material& floor)
 {
-    Scene scene;
-    scene.width = 93;
-    scene.height = 71;
-    scene.illumination = illumination;
-    scene.background = {0.1, 0.2, 0.3};
+    Scene scene{
+        .width = 93, .height = 71, .background = {0.1, 0.2, 0.3}, .illumination = illumination};
     scene.camera.pixel_sample = {0.4, 0.45};
     scene.camera.viewport = {1.3, 1.0};
     scene.max_depth = 5;
@@ -84,16 +78,12 @@ Scene base(Illumination illumination, const Material& body, const Material& floo
 template <class Real>
 Image<double> packets(const Scene& scene, const std::string& isa)
 {
-    RenderOptions options;
-    options.isa = isa;
-    return convert<double>(render<Real>(scene, options));
+    return convert<double>(render<Real>(scene, {.isa = isa}));
 }
 
 Image<double> scalar(const Scene& scene)
 {
-    RenderOptions options;
-    options.kernel = Kernel::scalar;
-    return render<double>(scene, options);
+    return render<double>(scene, {.kernel = Kernel::scalar});
 }
 
 void check_scene(const Scene& scene)
@@ -154,12 +144,10 @@ TEST_CASE("packets render note 004's shader where its own space is the world's s
 {
     ShaderMaterial body{{0.2, 0.6, 0.5, 12.0}};
     Scene scene = base(Illumination::shader, shaded(body, {0.8, 0.2, 0.9}), shaded(body));
-    Object cylinder;
-    cylinder.surface = named(QuadricKind::cylinder);
-    cylinder.transform =
-        glm::rotate(glm::translate(Mat4(1.0), {1.5, 0.0, 6.0}), 1.0, Vec3(1, 1, 0));
-    cylinder.material = shaded(body, {0.1, 0.9, 0.3});
-    scene.objects.push_back(cylinder);
+    scene.objects.push_back(
+        {.surface = named(QuadricKind::cylinder),
+         .transform = glm::rotate(glm::translate(Mat4(1.0), {1.5, 0.0, 6.0}), 1.0, Vec3(1, 1, 0)),
+         .material = shaded(body, {0.1, 0.9, 0.3})});
     check_scene(scene);
 }
 

@@ -24,8 +24,7 @@ void check_float_error(int size)
 
 FrameCounts count_rays(const Scene& scene, const std::string& isa)
 {
-    RenderOptions options;
-    options.isa = isa;
+    const RenderOptions options{.isa = isa};
     Image<float> image;
     return Renderer<float>(scene, options).render(image);
 }

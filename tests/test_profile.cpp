@@ -73,8 +73,7 @@ TEST_CASE("a profile tells what the first frame of a process pays", "[profile]")
     for (const FirstFrameStep& step : result.first_frame)
         CHECK(step.seconds > 0.0);
     // A picture of 3 MB that nobody has touched before.
-    ProfileOptions once;
-    once.repetitions = 1;
+    const ProfileOptions once{.repetitions = 1};
     const Profile cold = profile<float>(read_text(four_spheres_file), four_spheres(512, 512), once);
     CHECK(cold.first_frame[2].page_faults > cold.first_frame[3].page_faults);
 }
@@ -104,8 +103,7 @@ TEST_CASE("a profile's generations have all rays of the frame, each once", "[pro
 TEST_CASE("a profile's stages follow each other within the whole", "[profile]")
 {
     // Medians of several repetitions need not add up: each may come from another repetition.
-    ProfileOptions once;
-    once.repetitions = 1;
+    const ProfileOptions once{.repetitions = 1};
     const Profile result =
         profile<float>(read_text(four_spheres_file), four_spheres(128, 96), once);
     REQUIRE(result.stages.size() == 5);
@@ -119,9 +117,7 @@ TEST_CASE("a profile's stages follow each other within the whole", "[profile]")
 
 TEST_CASE("what-if rows are frames without the rays of what they lack", "[profile]")
 {
-    ProfileOptions options;
-    options.samples = 4;
-    const Profile result = small_profile(options);
+    const Profile result = small_profile({.samples = 4});
     CHECK(result.rays.shadow > 0);
     CHECK(result.rays.reflected > 0);
     CHECK(row_of(result, "without shadows").rays.shadow == 0);
@@ -143,9 +139,7 @@ TEST_CASE("lanes are filled by all rays of whole tiles, and by fewer after each 
 {
     const auto filled = [](const Scene& scene, const std::string& isa) {
         std::vector<double> shares;
-        ProfileOptions options;
-        options.isa = isa;
-        options.repetitions = 1;
+        const ProfileOptions options{.isa = isa, .repetitions = 1};
         for (const auto& generation :
              profile<float>(read_text(four_spheres_file), scene, options).generations)
             shares.push_back(generation.lanes_filled.value_or(0.0));
@@ -174,8 +168,7 @@ TEST_CASE("lanes are filled by all rays of whole tiles, and by fewer after each 
     }
     Scene glass = read_scene(PACKTRACE_SOURCE_DIR "/scenes/nested_glass.scene");
     set_size(glass, 16, 16);
-    ProfileOptions once;
-    once.repetitions = 1;
+    const ProfileOptions once{.repetitions = 1};
     const std::string text = read_text(PACKTRACE_SOURCE_DIR "/scenes/nested_glass.scene");
     for (const ProfileGeneration& generation : profile<float>(text, glass, once).generations) {
         CHECK((generation.rays.total() == 0) == !generation.lanes_filled.has_value());
@@ -187,10 +180,7 @@ TEST_CASE("lanes are filled by all rays of whole tiles, and by fewer after each 
 TEST_CASE("a profile of adaptive sampling has no generations, and all else", "[profile]")
 {
     const Scene scene = four_spheres(24, 24);
-    ProfileOptions options;
-    options.repetitions = 1;
-    options.samples = 4;
-    options.adaptive = 0.1;
+    const ProfileOptions options{.samples = 4, .adaptive = 0.1, .repetitions = 1};
     const Profile result = profile<float>(read_text(four_spheres_file), scene, options);
     CHECK(result.generations.empty());
     REQUIRE(!result.what_if.empty());
@@ -210,8 +200,7 @@ TEST_CASE("what a part takes is the median of pairs, and never negative", "[prof
 
 TEST_CASE("no time of a profile is negative, however few repetitions", "[profile]")
 {
-    ProfileOptions options;
-    options.repetitions = 1;
+    const ProfileOptions options{.repetitions = 1};
     for (int turn = 0; turn < 5; ++turn) {
         const Profile result =
             profile<float>(read_text(four_spheres_file), four_spheres(32, 24), options);
@@ -271,9 +260,7 @@ TEST_CASE("a profile says what the machine was too busy for, and nothing on an i
 TEST_CASE("traced tiles cover the picture once, and those of a thread do not overlap", "[profile]")
 {
     const Scene scene = four_spheres(100, 50);
-    ProfileOptions options;
-    options.threads = 2;
-    const std::vector<TileSpan> tiles = trace_tiles<float>(scene, options);
+    const std::vector<TileSpan> tiles = trace_tiles<float>(scene, {.threads = 2});
     CHECK(tiles.size() == 7 * 4);
     std::set<std::pair<int, int>> places;
     std::uint64_t rays = 0;

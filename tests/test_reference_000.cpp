@@ -11,20 +11,14 @@ using V = reference::Vec3<double>;
 
 Scene sketch_scene()
 {
-    Scene scene;
-    scene.illumination = Illumination::sketch;
-    scene.max_depth = 4;
-    return scene;
+    return {.illumination = Illumination::sketch, .max_depth = 4};
 }
 
 // The floor y = 0 as seen by a ray to the origin with N.V = 0.8 and flec = (0.6, 0.8, 0).
 Scene floor_scene()
 {
-    SketchMaterial model;
-    model.ambient = Rgb(0.1);
-    model.diffuse = Rgb(0.5);
-    model.specular = Rgb(0.25);
-    model.shininess = 2.0;
+    SketchMaterial model{
+        .ambient = Rgb(0.1), .diffuse = Rgb(0.5), .specular = Rgb(0.25), .shininess = 2.0};
     Scene scene = sketch_scene();
     scene.objects = {plane({0, 0, 0}, {0, 1, 0}, shaded(model, Rgb(1.0, 0.5, 0.0)))};
     scene.lights = {ambient(0.2), directional({0, 3, 0}, 1)};
@@ -36,11 +30,7 @@ const V floor_dir(3, -4, 0);
 
 SketchMaterial glass(double specular, double refractive)
 {
-    SketchMaterial model;
-    model.specular = Rgb(specular);
-    model.refractive = Rgb(refractive);
-    model.ior = 1.5;
-    return model;
+    return {.specular = Rgb(specular), .refractive = Rgb(refractive), .ior = 1.5};
 }
 
 }  // namespace
@@ -100,9 +90,7 @@ TEST_CASE("a mirror shows the light, besides its highlight", "[reference_000]")
 TEST_CASE("depth 5 is the last to be seen, then comes the background", "[reference_000]")
 {
     // Between two facing mirrors each level adds Ka ambi = 0.1.
-    SketchMaterial model;
-    model.ambient = Rgb(0.1);
-    model.specular = Rgb(1);
+    SketchMaterial model{.ambient = Rgb(0.1), .specular = Rgb(1)};
     Scene scene = sketch_scene();
     scene.background = Rgb(0.5);
     scene.objects = {plane({0, 0, 1}, {0, 0, 1}, shaded(model)),

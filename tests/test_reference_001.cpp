@@ -27,15 +27,13 @@ Scene note_spheres()
         material.model = ScratchMaterial{specular, reflective};
         return material;
     };
-    Scene scene;
-    scene.width = 38;
-    scene.height = 38;
-    scene.objects = {sphere({0, -1, 3}, 1, shiny({1, 0, 0}, 500, 0.2)),
-                     sphere({-2, 1, 3}, 1, shiny({0, 0, 1}, 500, 0.3)),
-                     sphere({2, 1, 3}, 1, shiny({0, 1, 0}, 10, 0.4)),
-                     sphere({0, -5001, 0}, 5000, shiny({1, 1, 0}, 1000, 0.5))};
-    scene.lights = {ambient(0.2), point_light({2, 1, 0}, 0.6), directional({1, 4, 4}, 0.2)};
-    return scene;
+    return {.width = 38,
+            .height = 38,
+            .objects = {sphere({0, -1, 3}, 1, shiny({1, 0, 0}, 500, 0.2)),
+                        sphere({-2, 1, 3}, 1, shiny({0, 0, 1}, 500, 0.3)),
+                        sphere({2, 1, 3}, 1, shiny({0, 1, 0}, 10, 0.4)),
+                        sphere({0, -5001, 0}, 5000, shiny({1, 1, 0}, 1000, 0.5))},
+            .lights = {ambient(0.2), point_light({2, 1, 0}, 0.6), directional({1, 4, 4}, 0.2)}};
 }
 
 V light_at(const Scene& scene, const V& P, const V& N, const V& view, double s)
@@ -66,8 +64,7 @@ TEST_CASE("a ray meets a plane at n.(point - O) / n.D, and a parallel one never"
 TEST_CASE("lighting adds ambient, diffuse and highlight of each light", "[reference_001]")
 {
     // Point light: L = (3, 4, 0), N.L/|L| = 0.8, R = (-3, 4, 0), R.V/(|R||V|) = 0.8.
-    Scene scene;
-    scene.lights = {ambient(0.2), point_light({3, 4, 0}, 0.6), directional({0, 5, 0}, 0.2)};
+    Scene scene{.lights = {ambient(0.2), point_light({3, 4, 0}, 0.6), directional({0, 5, 0}, 0.2)}};
     check_color(light_at(scene, {0, 0, 0}, {0, 1, 0}, {0, 3, 0}, -1), Rgb(0.2 + 0.48 + 0.2));
     check_color(light_at(scene, {0, 0, 0}, {0, 1, 0}, {0, 3, 0}, 2),
                 Rgb(0.2 + 0.48 + 0.2 + 0.6 * 0.64 + 0.2));
@@ -75,16 +72,14 @@ TEST_CASE("lighting adds ambient, diffuse and highlight of each light", "[refere
 
 TEST_CASE("a coloured light works on each channel alone", "[reference_001]")
 {
-    Scene scene;
-    scene.lights = {{LightType::directional, Rgb(1.0, 0.5, 0.0), Vec3(3, 4, 0)}};
+    Scene scene{.lights = {{LightType::directional, Rgb(1.0, 0.5, 0.0), Vec3(3, 4, 0)}}};
     check_color(light_at(scene, {0, 0, 0}, {0, 1, 0}, {0, 1, 0}, -1), Rgb(0.8, 0.4, 0.0));
 }
 
 TEST_CASE("the highlight does not ask whether the light is in front", "[reference_001]")
 {
     // N.L = -4, R = (-3, -4, 0), R.V/|R| = 0.6.
-    Scene scene;
-    scene.lights = {directional({3, -4, 0}, 0.5)};
+    Scene scene{.lights = {directional({3, -4, 0}, 0.5)}};
     check_color(light_at(scene, {0, 0, 0}, {0, 1, 0}, {-1, 0, 0}, 1), Rgb(0.3));
 }
 
@@ -98,10 +93,9 @@ TEST_CASE("a ray that meets nothing gets the background", "[reference_001]")
 TEST_CASE("local and reflected colour blend as local*(1-r) + reflected*r", "[reference_001]")
 {
     // Head on the mirror's ray turns back: background, or the green sphere behind the eye.
-    Scene scene;
-    scene.background = Rgb(0.8, 0.4, 0.0);
-    scene.objects = {sphere({0, 0, 3}, 1, matte(Rgb(1), 0.25))};
-    scene.lights = {ambient(0.5)};
+    Scene scene{.background = Rgb(0.8, 0.4, 0.0),
+                .objects = {sphere({0, 0, 3}, 1, matte(Rgb(1), 0.25))},
+                .lights = {ambient(0.5)}};
     check_color(trace(scene, {0, 0, 0}, {0, 0, 1}), Rgb(0.575, 0.475, 0.375));
     scene.objects.push_back(sphere({0, 0, -5}, 1, matte(Rgb(0, 1, 0))));
     check_color(trace(scene, {0, 0, 0}, {0, 0, 1}), Rgb(0.375, 0.5, 0.375));
@@ -109,11 +103,10 @@ TEST_CASE("local and reflected colour blend as local*(1-r) + reflected*r", "[ref
 
 TEST_CASE("at the depth limit the local colour counts whole", "[reference_001]")
 {
-    Scene scene;
-    scene.objects = {sphere({0, 0, 3}, 1, matte(Rgb(1), 0.5)),
-                     sphere({0, 0, -5}, 1, matte(Rgb(0, 1, 0), 0.5))};
-    scene.lights = {ambient(0.5)};
-    scene.max_depth = 0;
+    Scene scene{.max_depth = 0,
+                .objects = {sphere({0, 0, 3}, 1, matte(Rgb(1), 0.5)),
+                            sphere({0, 0, -5}, 1, matte(Rgb(0, 1, 0), 0.5))},
+                .lights = {ambient(0.5)}};
     check_color(trace(scene, {0, 0, 0}, {0, 0, 1}), Rgb(0.5));
     scene.max_depth = 1;
     check_color(trace(scene, {0, 0, 0}, {0, 0, 1}), Rgb(0.25, 0.5, 0.25));
@@ -124,10 +117,9 @@ TEST_CASE("at the depth limit the local colour counts whole", "[reference_001]")
 TEST_CASE("a blocker before the light shadows, one behind a point light does not",
           "[reference_001]")
 {
-    Scene scene;
-    scene.objects = {plane({0, -1, 0}, {0, 1, 0}, matte(Rgb(1))),
-                     sphere({0, 1, 0}, 0.5, matte(Rgb(1)))};
-    scene.lights = {point_light({0, 3, 0}, 1)};
+    Scene scene{.objects = {plane({0, -1, 0}, {0, 1, 0}, matte(Rgb(1))),
+                            sphere({0, 1, 0}, 0.5, matte(Rgb(1)))},
+                .lights = {point_light({0, 3, 0}, 1)}};
     const V O(0, 0, 0);
     const V D(0, -1, 0);
     check_color(trace(scene, O, D), Rgb(0));
@@ -181,8 +173,7 @@ TEST_CASE("a sphere under a matrix keeps t and takes its normal by the inverse t
           "[reference_001]")
 {
     // Semi-axes 2, 1, 1 around (5, 0, 0).
-    Scene scene;
-    scene.objects = {sphere({0, 0, 0}, 1, matte(Rgb(1)))};
+    Scene scene{.objects = {sphere({0, 0, 0}, 1, matte(Rgb(1)))}};
     scene.objects[0].transform[0][0] = 2.0;
     scene.objects[0].transform[3] = {5, 0, 0, 1};
     const reference::Bodies<double> bodies(scene);
@@ -197,8 +188,8 @@ TEST_CASE("a sphere under a matrix keeps t and takes its normal by the inverse t
 
 TEST_CASE("the lower object number wins at equal t, whatever the surfaces", "[reference_001]")
 {
-    Scene scene;
-    scene.objects = {plane({0, 0, 2}, {0, 0, 1}), sphere({0, 0, 3}, 1), sphere({0, 0, 3}, 1)};
+    Scene scene{
+        .objects = {plane({0, 0, 2}, {0, 0, 1}), sphere({0, 0, 3}, 1), sphere({0, 0, 3}, 1)}};
     const reference::Bodies<double> bodies(scene);
     CHECK(closest_intersection(bodies, V(0, 0, 0), V(0, 0, 1), 1.0, inf).object == 0);
     std::swap(scene.objects[0], scene.objects[2]);
@@ -209,8 +200,7 @@ TEST_CASE("the lower object number wins at equal t, whatever the surfaces", "[re
 TEST_CASE("double meets a ground of radius 5000 where long double does", "[reference_001]")
 {
     using Wide = reference::Vec3<long double>;
-    Scene scene;
-    scene.objects = {sphere({0, -5001, 0}, 5000)};
+    Scene scene{.objects = {sphere({0, -5001, 0}, 5000)}};
     const reference::Bodies<double> bodies(scene);
     const reference::Bodies<long double> wide(scene);
     double worst = 0;

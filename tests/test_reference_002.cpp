@@ -11,24 +11,17 @@ using V = reference::Vec3<double>;
 
 WhittedMaterial clear(const Rgb& transmissive)
 {
-    WhittedMaterial model;
-    model.transmissive = transmissive;
-    return model;
+    return {.transmissive = transmissive};
 }
 
 // The floor y = 0 seen from (-3, 4, 0), hit at the origin with V = (-0.6, 0.8, 0).
 Scene whitted_floor()
 {
-    WhittedMaterial model;
-    model.ambient = Rgb(0.5);
-    model.diffuse = Rgb(0.4);
-    model.specular = Rgb(0.3);
-    model.shininess = 3.0;
-    Scene scene;
-    scene.illumination = Illumination::whitted;
-    scene.objects = {plane({0, 0, 0}, {0, 1, 0}, shaded(model, Rgb(1.0, 0.5, 0.0)))};
-    scene.lights = {ambient(0.2), point_light({0, 4, 0}, 1)};
-    return scene;
+    WhittedMaterial model{
+        .ambient = Rgb(0.5), .diffuse = Rgb(0.4), .specular = Rgb(0.3), .shininess = 3.0};
+    return {.illumination = Illumination::whitted,
+            .objects = {plane({0, 0, 0}, {0, 1, 0}, shaded(model, Rgb(1.0, 0.5, 0.0)))},
+            .lights = {ambient(0.2), point_light({0, 4, 0}, 1)}};
 }
 
 }  // namespace
@@ -56,8 +49,7 @@ TEST_CASE("R comes in with ks, T with kt, both white", "[reference_002]")
     // Without bending the transmitted ray goes on to a floor below, which has ambient light.
     auto& model = std::get<WhittedMaterial>(scene.objects[0].material.model);
     model.transmissive = Rgb(0.5);
-    WhittedMaterial glowing;
-    glowing.ambient = Rgb(1);
+    WhittedMaterial glowing{.ambient = Rgb(1)};
     scene.objects.push_back(plane({0, -1, 0}, {0, 1, 0}, shaded(glowing, Rgb(0, 0, 1))));
     check_color(seen(scene), Rgb(0.6536, 0.7036, 0.1536 + 0.5 * 0.2));
 }

@@ -19,11 +19,7 @@ Material reflecting(double r0, double r1, double r2, double r3, const Rgb& color
 
 Scene shader_scene(const std::vector<Object>& objects, const std::vector<Light>& lights)
 {
-    Scene scene;
-    scene.illumination = Illumination::shader;
-    scene.objects = objects;
-    scene.lights = lights;
-    return scene;
+    return {.illumination = Illumination::shader, .objects = objects, .lights = lights};
 }
 
 void scale(Object& object, double x, double y, double z)
@@ -58,9 +54,7 @@ TEST_CASE("nothing shines where R turns from V, whatever the exponent, in packet
     Scene scene = shader_scene({sphere({0, 0, 4}, 1, reflecting(0, 0, 1, 0))},
                                {directional({1, 0, 0.2}, 0.5)});
     scene.width = scene.height = 16;
-    RenderOptions scalar;
-    scalar.kernel = Kernel::scalar;
-    const Image<double> image = render<double>(scene, scalar);
+    const Image<double> image = render<double>(scene, {.kernel = Kernel::scalar});
     CHECK(render<double>(scene).rgb == image.rgb);
     CHECK(std::count(image.rgb.begin(), image.rgb.end(), 0.5) > 30);
 }

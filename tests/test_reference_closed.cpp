@@ -154,8 +154,7 @@ TEMPLATE_TEST_CASE("every ray from inside a capped body leaves it once more than
     for (const CappedKind& kind : capped_kinds())
         for (const bool moved : {false, true}) {
             CAPTURE(kind.name, moved);
-            Scene scene;
-            scene.objects = {capped(kind)};
+            Scene scene{.objects = {capped(kind)}};
             if (moved)
                 scene.objects[0].transform = turned_and_sheared();
             const reference::Affine<TestType> placement(scene.objects[0].transform);
@@ -178,8 +177,7 @@ TEMPLATE_TEST_CASE("a ray mirrored within a capped body stays in it, at rims too
     using Vec = reference::Vec3<TestType>;
     for (const CappedKind& kind : capped_kinds()) {
         CAPTURE(kind.name);
-        Scene scene;
-        scene.objects = {capped(kind)};
+        Scene scene{.objects = {capped(kind)}};
         scene.objects[0].transform = turned_and_sheared();
         const reference::World<TestType> world(scene, SelfHits::exact);
         const reference::Affine<TestType> placement(scene.objects[0].transform);
@@ -213,8 +211,7 @@ TEMPLATE_TEST_CASE("a ray mirrored within a capped body stays in it, at rims too
 
 TEST_CASE("side and cap of a cylinder share their edge", "[reference_closed]")
 {
-    Scene scene;
-    scene.objects = {capped(capped_kinds()[1])};
+    Scene scene{.objects = {capped(capped_kinds()[1])}};
     const reference::Bodies<double> bodies(scene);
     const auto slanted = hits_ahead(bodies, V(0.5, -0.10000000149011612, -0.30000001192092896),
                                     V(0.5, 0.10000000149011612, -0.699999988079071));
@@ -240,8 +237,7 @@ TEST_CASE("side and cap of a cylinder share their edge", "[reference_closed]")
 
 TEST_CASE("a clipped surface without caps has its edges", "[reference_closed]")
 {
-    Scene scene;
-    scene.objects = {capped(capped_kinds()[1])};
+    Scene scene{.objects = {capped(capped_kinds()[1])}};
     std::get<Quadric>(scene.objects[0].surface).capped = false;
     const reference::Bodies<double> bodies(scene);
     CHECK(hits_ahead(bodies, V(2, 0, 2), V(-1, 0, -1)).size() == 2);

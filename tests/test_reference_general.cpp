@@ -16,11 +16,8 @@ using V = reference::Vec3<double>;
 template <class Make>
 Scene glass_scene(Illumination illumination, const Make& make)
 {
-    Scene scene;
-    scene.illumination = illumination;
-    scene.width = 24;
-    scene.height = 18;
-    scene.background = Rgb(0.2, 0.3, 0.4);
+    Scene scene{
+        .width = 24, .height = 18, .background = Rgb(0.2, 0.3, 0.4), .illumination = illumination};
     scene.camera.position = Vec3(0, 0.5, -4);
     scene.camera.pixel_sample = Vec2(0.5, 0.5);
     scene.shadows = ShadowKind::transparent;
@@ -60,18 +57,16 @@ void require_same(const Image<double>& a, const Image<double>& b)
 TEST_CASE("every coefficient has its term", "[reference_general]")
 {
     // At the origin N = (0, 1, 0), V = (-0.6, 0.8, 0), L = (0, 1, 0), R.V = 0.8.
-    GeneralMaterial model;
-    model.ambient = Rgb(0.1, 0, 0);
-    model.diffuse = Rgb(0, 0.2, 0);
-    model.highlight = Rgb(0, 0, 1);
-    model.shininess = 2;
-    model.reflect = Rgb(0.5, 0, 0);
-    model.transmit = Rgb(0, 0.5, 0);
-    Scene scene;
-    scene.illumination = Illumination::general;
-    scene.background = Rgb(1, 1, 1);
-    scene.objects = {plane({0, 0, 0}, {0, 1, 0}, shaded(model, Rgb(7)))};
-    scene.lights = {ambient(2), directional({0, 1, 0}, 0.5)};
+    GeneralMaterial model{.ambient = Rgb(0.1, 0, 0),
+                          .diffuse = Rgb(0, 0.2, 0),
+                          .highlight = Rgb(0, 0, 1),
+                          .reflect = Rgb(0.5, 0, 0),
+                          .transmit = Rgb(0, 0.5, 0),
+                          .shininess = 2};
+    Scene scene{.background = Rgb(1, 1, 1),
+                .illumination = Illumination::general,
+                .objects = {plane({0, 0, 0}, {0, 1, 0}, shaded(model, Rgb(7)))},
+                .lights = {ambient(2), directional({0, 1, 0}, 0.5)}};
     const V org(-3, 4, 0);
     const V dir(3, -4, 0);
     check_color(trace(scene, org, dir), Rgb(0.2 + 0.5, 0.1 + 0.5, 0.32));
@@ -86,18 +81,13 @@ TEST_CASE("total internal reflection gives the mirror what was to be transmitted
           "[reference_general]")
 {
     // From inside the glass below y = 0, at 45 degrees: the reflected ray finds the red floor.
-    GeneralMaterial glass;
-    glass.reflect = Rgb(0.25);
-    glass.transmit = Rgb(0.75);
-    glass.ior = 1.5;
-    GeneralMaterial red;
-    red.ambient = Rgb(1, 0, 0);
-    Scene scene;
-    scene.illumination = Illumination::general;
-    scene.background = Rgb(0, 0, 1);
-    scene.objects = {plane({0, 0, 0}, {0, 1, 0}, shaded(glass)),
-                     plane({0, -2, 0}, {0, 1, 0}, shaded(red))};
-    scene.lights = {ambient(1)};
+    GeneralMaterial glass{.reflect = Rgb(0.25), .transmit = Rgb(0.75), .ior = 1.5};
+    GeneralMaterial red{.ambient = Rgb(1, 0, 0)};
+    Scene scene{.background = Rgb(0, 0, 1),
+                .illumination = Illumination::general,
+                .objects = {plane({0, 0, 0}, {0, 1, 0}, shaded(glass)),
+                            plane({0, -2, 0}, {0, 1, 0}, shaded(red))},
+                .lights = {ambient(1)}};
     scene.camera.position = Vec3(0, -1, 0);
     check_color(trace(scene, {0, -1, 0}, {1, 1, 0}), Rgb(1, 0, 0));
     check_color(trace(scene, {0, -1, 0}, {0.5, 1, 0}), Rgb(0.25, 0, 0.75));

@@ -49,9 +49,7 @@ public:
 private:
     static Scene scene_of(const std::vector<Object>& objects)
     {
-        Scene scene;
-        scene.objects = objects;
-        return scene;
+        return {.objects = objects};
     }
 
     reference::World<double> world_;

@@ -32,8 +32,7 @@ constexpr std::array<double, 10> xy_is_one = {0, 0, 0, 1, 0, 0, 0, 0, 0, -1};
 
 Hits hits_of(const Object& object, const V& org, const V& dir, double t_min = -infinite)
 {
-    Scene scene;
-    scene.objects = {object};
+    Scene scene{.objects = {object}};
     return reference::all_hits(reference::Bodies<double>(scene), org, dir, t_min, infinite);
 }
 
@@ -166,8 +165,7 @@ TEMPLATE_TEST_CASE("any line meets both of two crossing planes", "[reference_qua
     objects[2].transform[1] = {-0.8, 0.6, 0, 0};
     objects[2].transform[3] = {3, -2, 5, 1};
     for (const Object& object : objects) {
-        Scene scene;
-        scene.objects = {object};
+        Scene scene{.objects = {object}};
         const reference::Bodies<TestType> bodies(scene);
         const reference::Affine<TestType> placement(object.transform);
         std::mt19937 random(5);
@@ -222,8 +220,7 @@ TEST_CASE("a ray parallel to a cone's generator meets the cone once, whatever ro
 TEST_CASE("hits of a needle agree with long double", "[reference_quadrics]")
 {
     // Half axes 1, 1e-3, 1e-3, turned, seen from ten lengths away.
-    Scene scene;
-    scene.objects = {quadric(ellipsoid)};
+    Scene scene{.objects = {quadric(ellipsoid)}};
     scene.objects[0].transform[0] = {0.36, 0.48, -0.8, 0};
     scene.objects[0].transform[1] = {-0.8e-3, 0.6e-3, 0, 0};
     scene.objects[0].transform[2] = {0.48e-3, 0.64e-3, 0.6e-3, 0};
@@ -268,8 +265,8 @@ TEST_CASE("coefficients in general position are brought to their axes", "[refere
 
 TEST_CASE("all hits come sorted by t, then object, within the range", "[reference_quadrics]")
 {
-    Scene scene;
-    scene.objects = {sphere({0, 0, 5}, 1), plane({0, 0, 4}, {0, 0, 1}), sphere({0, 0, 5}, 2)};
+    Scene scene{
+        .objects = {sphere({0, 0, 5}, 1), plane({0, 0, 4}, {0, 0, 1}), sphere({0, 0, 5}, 2)}};
     const reference::Bodies<double> bodies(scene);
     const Hits hits = reference::all_hits(bodies, V(0, 0, 0), V(0, 0, 1), 0.0, infinite);
     check_t(hits, {3, 4, 4, 6, 7});
@@ -284,9 +281,7 @@ TEST_CASE("in scratch a sphere's normal stays outside, other normals face the vi
           "[reference_quadrics]")
 {
     // Seen from inside, with a light far beyond the surface: only the sphere is lit by it.
-    Scene scene;
-    scene.shadows = ShadowKind::none;
-    scene.lights = {directional({0, 0, 1}, 1)};
+    Scene scene{.shadows = ShadowKind::none, .lights = {directional({0, 0, 1}, 1)}};
     const V eye(0, 0, 0);
     scene.objects = {sphere({0, 0, 0}, 2, matte(Rgb(1)))};
     check_color(trace(scene, eye, {0, 0, 1}), Rgb(1));

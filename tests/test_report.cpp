@@ -26,16 +26,14 @@ namespace {
 
 ReportOptions short_options()
 {
-    ReportOptions options;
-    options.threads = {1};
-    options.isas = {choose_isa().name};
-    options.min_weights = {0.1, 0.0};
-    options.samples = {1, 4};
-    options.adaptive = {{4, 0.1}};
-    options.repetitions = 2;
-    options.truth_samples = 16;
-    options.classified = 8;
-    return options;
+    return {.threads = {1},
+            .isas = {choose_isa().name},
+            .min_weights = {0.1, 0.0},
+            .samples = {1, 4},
+            .adaptive = {{4, 0.1}},
+            .repetitions = 2,
+            .truth_samples = 16,
+            .classified = 8};
 }
 
 ReportScene small_scene()
@@ -129,16 +127,14 @@ TEST_CASE("a report's errors are those of the pictures against the truth", "[rep
     const SceneReport whole = report(scene, short_options());
     REQUIRE(whole.studies.size() == 4);
     const StudyReport& arithmetic = whole.studies.front();
-    RenderOptions scalar;
-    scalar.kernel = Kernel::scalar;
+    const RenderOptions scalar{.kernel = Kernel::scalar};
     const auto truth = convert<double>(render<long double>(scene.scene, scalar));
     CHECK((arithmetic.pictures.front().image.rgb == truth.rgb));
     for (const ReportRun& run : arithmetic.runs)
         if (run.variant.kernel == Kernel::packet && run.variant.precision == "single") {
-            RenderOptions options;
-            options.isa = run.variant.isa;
-            options.accuracy = run.variant.accuracy;
-            options.self_hits = run.variant.self_hits;
+            const RenderOptions options{.isa = run.variant.isa,
+                                        .accuracy = run.variant.accuracy,
+                                        .self_hits = run.variant.self_hits};
             const auto picture = convert<double>(render<float>(scene.scene, options));
             CHECK(run.error.rmse == compare(picture, truth).rmse);
             CHECK((arithmetic.pictures[run.picture].image.rgb == picture.rgb));
@@ -154,9 +150,7 @@ TEST_CASE("the truth of sampling is the mean of many samples in each pixel", "[r
 {
     const ReportScene scene = small_scene();
     const StudyReport sampling = report(scene, short_options()).studies.back();
-    RenderOptions many;
-    many.kernel = Kernel::scalar;
-    many.samples = 16;
+    const RenderOptions many{.kernel = Kernel::scalar, .samples = 16};
     CHECK((sampling.pictures.front().image.rgb == render<double>(scene.scene, many).rgb));
     CHECK(sampling.truth == "scalar reference, double, 16 samples a pixel");
     CHECK(sampling.runs[1].error.rmse < sampling.runs[0].error.rmse);
@@ -195,8 +189,7 @@ TEST_CASE("known errors come out as they went in", "[report]")
 {
     const Scene scene = four_spheres(16, 16);
     const Truth truth = find_truth(scene, {});
-    ReportOptions options;
-    options.repetitions = 3;
+    const ReportOptions options{.repetitions = 3};
     const StudyReport report =
         run_study(scene, Study::arithmetic, truth,
                   {constant_error(truth.image, 0.0), constant_error(truth.image, 0.25),
@@ -227,10 +220,7 @@ TEST_CASE("the judgement names the cheapest and the most exact run", "[report]")
     CHECK(most_exact_within(study, 0.05).run->variant.name == "middle");
     CHECK(most_exact_within(study, 1.0).run->variant.name == "fine");
     CHECK(most_exact_within(study, 1e-6).run == nullptr);
-    ReportOptions options;
-    options.max_error = 1e-9;
-    options.max_time = 0.05;
-    const auto lines = judgement(study, options);
+    const auto lines = judgement(study, {.max_error = 1e-9, .max_time = 0.05});
     CHECK(lines[0] == "Cheapest with an RMSE of at most 1e-09: none reaches it.");
     CHECK(lines[1] == "Most exact within 50 ms: middle (10 ms, RMSE 0.01).");
 }
@@ -246,9 +236,7 @@ TEST_CASE("runs whose spreads overlap are undecided", "[report]")
     CHECK(cheapest.run->variant.name == "quick");
     CHECK(names_of(cheapest.undecided) == "as quick, ");
     CHECK(names_of(cheapest_within(study, 1e-5).undecided).empty());
-    ReportOptions options;
-    options.max_error = 0.05;
-    options.max_time = 2.0;
+    const ReportOptions options{.max_error = 0.05, .max_time = 2.0};
     CHECK(
         judgement(study, options)[0] ==
         "Cheapest with an RMSE of at most 0.05: undecided, as the spreads of their times overlap, "
@@ -397,8 +385,7 @@ TEST_CASE("a truth is kept, found again, and made anew when it is not whole or n
 {
     const TempFolder folder;
     const Scene scene = four_spheres(24, 20);
-    TruthRequest request;
-    request.cache = folder / "cache";
+    TruthRequest request{.cache = folder / "cache"};
     const Truth made = find_truth(scene, request);
     CHECK_FALSE(made.cached);
     const Truth found = find_truth(scene, request);
@@ -442,8 +429,7 @@ TEST_CASE("a stale truth in the place of the one asked for is found by its key a
 {
     const TempFolder folder;
     const Scene scene = four_spheres(24, 20);
-    TruthRequest request;
-    request.cache = folder / "cache";
+    TruthRequest request{.cache = folder / "cache"};
     const Truth made = find_truth(scene, request);
     const auto file = std::filesystem::directory_iterator(request.cache)->path();
     const TruthKey key = truth_key(scene, request.samples);

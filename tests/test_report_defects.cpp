@@ -19,18 +19,13 @@ namespace {
 
 Variant variant_named(const std::string& name, const Scene& scene)
 {
-    Variant variant;
-    variant.name = name;
-    variant.isa = choose_isa().name;
-    variant.depth = scene.max_depth;
-    return variant;
+    return {.name = name, .isa = choose_isa().name, .depth = scene.max_depth};
 }
 
 /// The report of sound kernels beside those of a defect.
 StudyReport report_beside(const Scene& scene, const Subject& defect)
 {
-    ReportOptions options;
-    options.repetitions = 1;
+    const ReportOptions options{.repetitions = 1};
     const std::string isa = choose_isa().name;
     const std::vector<Subject> subjects{
         packet_subject<float>(scene, lower(scene), kernels_of(isa), variant_named("sound", scene)),
@@ -122,12 +117,11 @@ TEST_CASE("a depth limit that is too low is named", "[report_defects]")
 TEST_CASE("errors of sampling sit where trees of a pixel's samples part", "[report_defects]")
 {
     ReportScene scene{"four spheres", four_spheres(96, 96)};
-    ReportOptions options;
-    options.repetitions = 1;
-    options.samples = {1};
-    options.adaptive = {};
-    options.truth_samples = 64;
-    options.isas = {choose_isa().name};
+    const ReportOptions options{.isas = {choose_isa().name},
+                                .samples = {1},
+                                .adaptive = {},
+                                .repetitions = 1,
+                                .truth_samples = 64};
     const SceneReport whole = report(scene, options);
     const ReportRun& once = whole.studies.back().runs.front();
     REQUIRE(once.variant.samples == 1);

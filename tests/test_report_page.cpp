@@ -15,15 +15,14 @@ namespace {
 /// Writes the report of a small scene, and returns its page.
 std::string write_page(const TempFolder& folder)
 {
-    ReportOptions options;
-    options.threads = {1};
-    options.isas = {choose_isa().name};
-    options.min_weights = {0.1, 0.0};
-    options.samples = {1, 4};
-    options.adaptive = {{4, 0.1}};
-    options.repetitions = 1;
-    options.truth_samples = 8;
-    options.classified = 4;
+    const ReportOptions options{.threads = {1},
+                                .isas = {choose_isa().name},
+                                .min_weights = {0.1, 0.0},
+                                .samples = {1, 4},
+                                .adaptive = {{4, 0.1}},
+                                .repetitions = 1,
+                                .truth_samples = 8,
+                                .classified = 4};
     const SceneReport scene = report({"four <spheres>", four_spheres(96, 64)}, options);
     write_report({scene}, options, {"p", 1, "c", "x", "cmd"}, folder / "out");
     return (folder / "out" / "report.html").string();

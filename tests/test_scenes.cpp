@@ -82,10 +82,8 @@ TEMPLATE_TEST_CASE("packets give one picture of every scene for all widths, trav
             for (const Traversal traversal : {Traversal::list, Traversal::tree})
                 for (const int threads : {1, 2}) {
                     CAPTURE(file.filename().string(), isa, threads, static_cast<int>(traversal));
-                    RenderOptions options;
-                    options.isa = isa;
-                    options.traversal = traversal;
-                    options.threads = threads;
+                    const RenderOptions options{
+                        .isa = isa, .traversal = traversal, .threads = threads};
                     const Image<TestType> picture = render<TestType>(scene, options);
                     if (first.rgb.empty())
                         first = picture;

@@ -20,10 +20,7 @@ namespace {
 
 RenderOptions exact_options(const std::string& isa = "auto")
 {
-    RenderOptions options;
-    options.isa = isa;
-    options.self_hits = SelfHits::exact;
-    return options;
+    return {.isa = isa, .self_hits = SelfHits::exact};
 }
 
 template <class Real>
@@ -40,13 +37,8 @@ Scene glass_balls(ShadowKind shadows)
     scene.illumination = Illumination::whitted;
     scene.shadows = shadows;
     scene.max_depth = 6;
-    WhittedMaterial glass;
-    glass.transmissive = Rgb(0.8);
-    glass.specular = Rgb(0.2);
-    glass.ior = 1.5;
-    WhittedMaterial stone;
-    stone.diffuse = Rgb(0.7);
-    stone.specular = Rgb(0.1);
+    WhittedMaterial glass{.specular = Rgb(0.2), .transmissive = Rgb(0.8), .ior = 1.5};
+    WhittedMaterial stone{.diffuse = Rgb(0.7), .specular = Rgb(0.1)};
     for (const double radius : {1.0, 0.6})
         scene.objects.push_back(lab::sphere_object({0.1, 0.0, 4.0}, radius));
     scene.objects.push_back(lab::sphere_object({0.0, -501.0, 4.0}, 500.0));
@@ -111,8 +103,7 @@ TEST_CASE("by the note's rule nothing shadows a light that is nearer than 0.001"
     set_size(scene, 32, 32);
     scene.illumination = Illumination::whitted;
     scene.max_depth = 0;
-    WhittedMaterial stone;
-    stone.diffuse = Rgb(0.7);
+    WhittedMaterial stone{.diffuse = Rgb(0.7)};
     scene.objects = {lab::plane_object({0, 0, 0}, {0, 1, 0}),
                      lab::sphere_object({0, 0.0012, 0}, 0.0006)};
     for (Object& object : scene.objects)
@@ -121,8 +112,7 @@ TEST_CASE("by the note's rule nothing shadows a light that is nearer than 0.001"
     scene.camera.position = {0, 0.0005, -0.005};
     scene.camera.rotation = look_at(scene.camera.position, {0, 0, 0}, {0, 1, 0});
     scene.camera.fov = 20;
-    RenderOptions options;
-    options.self_hits = SelfHits::note;
+    RenderOptions options{.self_hits = SelfHits::note};
     const Image<double> expected = render_reference<double>(scene, options);
     for (const Traversal traversal : {Traversal::list, Traversal::tree})
         for (const std::string& isa : supported_isas()) {
@@ -211,8 +201,7 @@ TEST_CASE("where the gradient vanishes the normal is against the ray, in every k
 TEST_CASE("a ray that leaves a ball meets it again only from inside, however shallow",
           "[self_hits]")
 {
-    Scene scene;
-    scene.objects = {lab::sphere_object({0, 0, 0}, 1.0)};
+    Scene scene{.objects = {lab::sphere_object({0, 0, 0}, 1.0)}};
     const RayScene<float> balls(scene, exact_options());
     const glm::vec3 top{0, 1, 0};
     for (const float fall : {0.5f, 1e-2f, 1e-4f, 1e-6f}) {
@@ -235,11 +224,8 @@ TEST_CASE("a ray that leaves a ball meets it again only from inside, however sha
 TEST_CASE("a saddle is met again from where it bends away", "[self_hits]")
 {
     Scene scene;
-    Object object;
-    Quadric quadric;
-    quadric.kind = QuadricKind::saddle;
-    quadric.coefficients = {1, -1, 0, 0, 0, 0, 0, 0, -1, 0};
-    object.surface = quadric;
+    Object object{.surface = Quadric{.kind = QuadricKind::saddle,
+                                     .coefficients = {1, -1, 0, 0, 0, 0, 0, 0, -1, 0}}};
     scene.objects = {object};
     const RayScene<float> scenes(scene, exact_options());
     // z = x² - y²: from (1, 0, 1) along -x + 0.5 z: x = 1 - t, z = 1 + t/2, t² - 2.5 t = 0.

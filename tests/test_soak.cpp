@@ -55,8 +55,7 @@ TEST_CASE("random scenes give the answers that are promised in every way", "[soa
 {
     // Some pictures are made by three threads, also where the machine has fewer.
     const tbb::global_control threads(tbb::global_control::max_allowed_parallelism, 3);
-    lab::SoakOptions options;
-    options.scenes = 64;
+    const lab::SoakOptions options{.scenes = 64};
     std::string findings;
     const lab::SoakCounts counts = lab::run_soak(options, [&](const lab::SoakReport& report) {
         findings += std::to_string(report.number) + ": " + report.finding.what + "\n";
@@ -228,8 +227,7 @@ TEST_CASE("the smallest spheres are hit by rays of the shortest directions", "[s
     lab::StressRandom random(434);
     for (int i = 0; i < 20; ++i) {
         const double radius = random.power(1.1e-9, 1e-7);
-        Scene scene;
-        scene.objects = {lab::sphere_object(1e-5 * random.unit(), radius)};
+        Scene scene{.objects = {lab::sphere_object(1e-5 * random.unit(), radius)}};
         lab::round_to_precision<float>(scene);
         const Vec3 center = std::get<Sphere>(scene.objects[0].surface).center;
         std::vector<lab::StressRay> rays;
@@ -255,8 +253,7 @@ TEST_CASE("normals of spheres that are seen from afar are of unit length", "[soa
         const double angle = random.between(0.0, 6.0);
         const Vec3 center =
             radius * distance * Vec3(0.2, 0.98 * std::cos(angle), 0.98 * std::sin(angle));
-        Scene scene;
-        scene.objects = {lab::sphere_object(center, radius)};
+        Scene scene{.objects = {lab::sphere_object(center, radius)}};
         lab::round_to_precision<float>(scene);
         lab::StressGroup group = lab::stress_group(scene);
         for (int i = 0; i < 200; ++i) {
@@ -264,8 +261,7 @@ TEST_CASE("normals of spheres that are seen from afar are of unit length", "[soa
             const double x = random.power(1e6, 1e13);
             const double turn = random.between(0.0, 6.0);
             const double off = radius * random.between(0.0, 0.8);
-            lab::StressRay ray;
-            ray.org = {x, random.between(-4.0, 4.0), random.between(-4.0, 4.0)};
+            lab::StressRay ray{.org = {x, random.between(-4.0, 4.0), random.between(-4.0, 4.0)}};
             ray.dir = {-x, center.y + off * std::cos(turn) - ray.org.y,
                        center.z + off * std::sin(turn) - ray.org.z};
             ray.t_min = 0.0;

@@ -74,22 +74,14 @@ bool check_blocks(const Scene& scene, RenderOptions options)
 
 Scene flake()
 {
-    SphereflakeOptions options;
-    options.depth = 3;
-    options.reflective = 0.5;
-    options.ground = true;
-    Scene scene = generate_sphereflake(options);
+    Scene scene = generate_sphereflake({.depth = 3, .reflective = 0.5, .ground = true});
     set_size(scene, 275, 150);
     return scene;
 }
 
 Scene mirrors()
 {
-    RandomSpheresOptions options;
-    options.count = 2000;
-    options.radius = 0.03;
-    options.reflective = 0.8;
-    Scene scene = generate_random_spheres(options);
+    Scene scene = generate_random_spheres({.count = 2000, .radius = 0.03, .reflective = 0.8});
     scene.max_depth = 6;
     set_size(scene, 130, 260);
     return scene;
@@ -120,8 +112,7 @@ TEST_CASE("sorted mirrored rays give the bits of tiles alone", "[sorted]")
     for (const Scene& scene : {flake(), mirrors(), tinted()})
         for (const std::string& isa : supported_isas()) {
             CAPTURE(isa);
-            RenderOptions options;
-            options.isa = isa;
+            RenderOptions options{.isa = isa};
             CHECK(check_blocks<float>(scene, options));
             options.accuracy = Accuracy::fast;
             CHECK(check_blocks<float>(scene, options));
@@ -132,8 +123,7 @@ TEST_CASE("sorted mirrored rays may be of doubles, by the notes' rule, cut, or m
           "[sorted]")
 {
     Scene scene = flake();
-    RenderOptions options;
-    options.isa = choose_isa().name;
+    RenderOptions options{.isa = choose_isa().name};
     CHECK(check_blocks<double>(scene, options));
     options.samples = 4;
     CHECK(check_blocks<float>(scene, options));
@@ -152,9 +142,7 @@ TEST_CASE("rays of any few objects in a hierarchy can be sorted", "[sorted]")
         Scene scene = FewObjects(seed).scene;
         set_size(scene, 150, 40);
         CAPTURE(seed);
-        RenderOptions options;
-        options.traversal = Traversal::tree;
-        options.isa = choose_isa().name;
+        RenderOptions options{.isa = choose_isa().name, .traversal = Traversal::tree};
         // In the default mode few objects go through registers.
         options.accuracy = Accuracy::fast;
         sorted += check_blocks<float>(scene, options);
@@ -168,8 +156,7 @@ TEST_CASE("rays of any few objects in a hierarchy can be sorted", "[sorted]")
 TEST_CASE("frames are the same for any number of threads, region and rows", "[sorted]")
 {
     const Scene scene = flake();
-    RenderOptions options;
-    options.threads = 1;
+    RenderOptions options{.threads = 1};
     const Image<float> whole = render<float>(scene, options);
     options.threads = 3;
     const Image<float> by_three = render<float>(scene, options);
@@ -207,9 +194,7 @@ TEST_CASE("deep small pictures are those of lists, by tiles alone and together",
     Scene scene = mirrors();
     scene.max_depth = 64;
     set_size(scene, 48, 32);
-    RenderOptions options;
-    options.traversal = Traversal::list;
-    options.threads = 1;
+    RenderOptions options{.traversal = Traversal::list, .threads = 1};
     const Image<float> by_list = render<float>(scene, options);
     options.traversal = Traversal::tree;
     for (const int threads : {1, 2}) {
@@ -228,15 +213,12 @@ TEST_CASE("deep small pictures are those of lists, by tiles alone and together",
 TEST_CASE("what is not mirrored down a hierarchy is not sorted", "[sorted]")
 {
     const auto edge = [](const Scene& scene) {
-        RenderOptions options;
-        options.isa = choose_isa().name;
+        const RenderOptions options{.isa = choose_isa().name};
         return TileRenderer<float>(scene, lower(scene), kernels_of(options.isa), options)
             .block_edge({0, 0, 1024, 1024}, 2);
     };
     CHECK(edge(flake()) == block);
-    SphereflakeOptions matt;
-    matt.depth = 3;
-    CHECK(edge(generate_sphereflake(matt)) == abi::tile_size);
+    CHECK(edge(generate_sphereflake({.depth = 3})) == abi::tile_size);
     Scene glass = tinted();
     std::get<GeneralMaterial>(glass.objects[7].material.model).transmit = Rgb(0.5);
     CHECK(edge(glass) == abi::tile_size);

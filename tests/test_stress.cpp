@@ -76,8 +76,7 @@ std::vector<StressRow> rows_of(const lab::StressOptions& options)
 /// A cylinder, and a ray that is along it to within its own rounding and passes it by.
 Object turned_cylinder()
 {
-    Object cylinder;
-    cylinder.surface = lab::quadric_of(QuadricKind::cylinder);
+    Object cylinder{.surface = packtrace::quadric(QuadricKind::cylinder)};
     cylinder.transform[0] = {-0x1.c5519ep-8, 0x1.0dcd44p-1, 0x1.b9b048p-2, 0.0};
     cylinder.transform[1] = {0x1.f23074p-3, 0x1.2d71f2p-1, -0x1.753a46p-1, 0.0};
     cylinder.transform[2] = {-0x1.c9e65ep-1, 0x1.f19edep-3, -0x1.06e96ep-3, 0.0};
@@ -255,10 +254,8 @@ TEST_CASE("which of two objects is first is decided as far as double can", "[str
 
 TEST_CASE("where a ray along a plane meets it is not decided", "[stress]")
 {
-    const auto at = [](const Vec3& point, const Vec3& normal) {
-        Object object;
-        object.surface = Plane{point, normal};
-        return object;
+    const auto at = [](const Vec3& point, const Vec3& normal) -> Object {
+        return {.surface = Plane{point, normal}};
     };
     // The first plane is met at 4.7 by numbers of which double loses all digits; the range ends
     // before, and the second is met at 1.1.
@@ -279,10 +276,7 @@ TEST_CASE("where a ray along a plane meets it is not decided", "[stress]")
 
 TEST_CASE("every ray hits crossing planes, on their edge as well", "[stress]")
 {
-    Quadric quadric;
-    quadric.coefficients = {1, 0, -1, 0, 0, 0, 0, 0, 0, 0};
-    Object planes;
-    planes.surface = quadric;
+    Object planes{.surface = Quadric{.coefficients = {1, 0, -1, 0, 0, 0, 0, 0, 0, 0}}};
     const Expected edge = expected_of({planes}, endless({0, 0, -5}, {0, 0.04, 0.2}));
     CHECK(edge.object == 0);
     CHECK(static_cast<double>(edge.t) == Approx(25.0));
@@ -300,11 +294,10 @@ TEST_CASE("every ray hits crossing planes, on their edge as well", "[stress]")
 
 TEST_CASE("a ray inside a capped body has to leave it, at its rim as well", "[stress]")
 {
-    Quadric quadric = lab::quadric_of(QuadricKind::cylinder);
+    Quadric quadric = packtrace::quadric(QuadricKind::cylinder);
     quadric.z_range = ZRange{-1.0, 1.0};
     quadric.capped = true;
-    Object cylinder;
-    cylinder.surface = quadric;
+    Object cylinder{.surface = quadric};
     const auto at_rim = [&](double z) {
         Expected expected = expected_of({cylinder}, endless({0, 0, 0}, {1, 0, z}));
         expected.certain = true;
@@ -365,8 +358,7 @@ TEST_CASE("any-hit answers and the first of all hits are held to the truth", "[s
 
 TEST_CASE("a ray along a cone's side has one hit, and none at infinity", "[stress]")
 {
-    Object cone;
-    cone.surface = lab::quadric_of(QuadricKind::cone);
+    Object cone{.surface = packtrace::quadric(QuadricKind::cone)};
     StressRay ray = endless({0, 2, 0}, {0, 1, 1});
     ray.exact = true;
     // y² - z² = (2 + t)² - t² = 4 + 4 t.
@@ -504,11 +496,10 @@ TEST_CASE("a ray that its own rounding turns towards a cylinder is inside the ba
 
 TEST_CASE("packets are right about rays along a cylinder outside the band", "[stress]")
 {
-    lab::StressOptions options;
-    options.rays = 24000;
-    options.kernels = {"packet"};
-    options.precisions = {"single"};
-    options.families = {"cylinder-axis"};
+    const lab::StressOptions options{.families = {"cylinder-axis"},
+                                     .kernels = {"packet"},
+                                     .precisions = {"single"},
+                                     .rays = 24000};
     for (const StressRow& row : rows_of(options)) {
         CAPTURE(row.mode, row.isa);
         CHECK(row.beyond_own_band == 0);
@@ -518,10 +509,8 @@ TEST_CASE("packets are right about rays along a cylinder outside the band", "[st
 
 TEST_CASE("second hits are those of rays from where they start", "[stress]")
 {
-    lab::StressOptions options;
-    options.rays = 8000;
-    options.kernels = {"packet"};
-    options.families = {"cone-apex", "far-quadric"};
+    const lab::StressOptions options{
+        .families = {"cone-apex", "far-quadric"}, .kernels = {"packet"}, .rays = 8000};
     for (const StressRow& row : rows_of(options)) {
         CAPTURE(row.family, row.precision, row.mode, row.isa);
         CHECK(row.second_rays > 1000);
@@ -535,26 +524,18 @@ TEST_CASE("second hits are those of rays from where they start", "[stress]")
 TEST_CASE("no family finds a fault in exact mode and in packets of doubles", "[stress]")
 {
     for (const Traversal traversal : {Traversal::list, Traversal::tree}) {
-        lab::StressOptions options;
-        options.rays = 128;
-        options.traversal = traversal;
-        check_faultless(options);
+        check_faultless({.traversal = traversal, .rays = 128});
     }
 }
 
 TEST_CASE("no family finds a fault in a quarter of a million rays", "[stress][slow]")
 {
-    lab::StressOptions options;
-    options.rays = 4096;
-    options.seed = 5;
-    check_faultless(options);
+    check_faultless({.rays = 4096, .seed = 5});
 }
 
 TEST_CASE("packets are right outside the band of their own precision", "[stress]")
 {
-    lab::StressOptions options;
-    options.rays = 400;
-    options.kernels = {"packet"};
+    lab::StressOptions options{.kernels = {"packet"}, .rays = 400};
     for (const auto& some : {lab::sphere_families(), lab::plane_families(), lab::quadric_families(),
                              lab::scene_families()})
         for (const lab::StressFamily& family : some)
@@ -571,10 +552,9 @@ TEST_CASE("packets are right outside the band of their own precision", "[stress]
 
 TEST_CASE("powers, glass and mirrors keep their bounds", "[stress]")
 {
-    lab::StressOptions options;
-    options.rays = 400;
-    options.families = {"exponents",      "exponent-1",  "exponent-10000",
-                        "critical-angle", "mirror-room", "mirror-ball"};
+    const lab::StressOptions options{.families = {"exponents", "exponent-1", "exponent-10000",
+                                                  "critical-angle", "mirror-room", "mirror-ball"},
+                                     .rays = 400};
     for (const StressRow& row : rows_of(options)) {
         CAPTURE(row.family, row.precision, row.mode, row.isa);
         CHECK(row.rays > 0);
@@ -585,10 +565,7 @@ TEST_CASE("powers, glass and mirrors keep their bounds", "[stress]")
 
 TEST_CASE("the textbook breaks on what packets hold", "[stress]")
 {
-    lab::StressOptions options;
-    options.rays = 1000;
-    options.precisions = {"single"};
-    options.families = {"tiny-far"};
+    lab::StressOptions options{.families = {"tiny-far"}, .precisions = {"single"}, .rays = 1000};
     const auto far = rows_of(options);
     CHECK(row_of(far, "textbook", "").beyond_own_band > 100);
     CHECK(row_of(far, "packet", "fast").beyond_own_band == 0);
@@ -601,9 +578,7 @@ TEST_CASE("the textbook breaks on what packets hold", "[stress]")
 
 TEST_CASE("all instruction sets with fused multiply-add answer alike in every mode", "[stress]")
 {
-    lab::StressOptions options;
-    options.rays = 300;
-    options.kernels = {"packet"};
+    const lab::StressOptions options{.kernels = {"packet"}, .rays = 300};
     const std::vector<std::string> fused = {"sse_fma", "avx2", "avx512"};
     for (const StressRow& row : rows_of(options)) {
         CAPTURE(row.family, row.precision, row.mode, row.isa);

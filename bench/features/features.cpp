@@ -70,11 +70,7 @@ public:
 private:
     static RenderOptions options_of(const std::string& isa, bool general)
     {
-        RenderOptions options;
-        options.isa = isa;
-        options.threads = 1;
-        options.force_general = general;
-        return options;
+        return {.isa = isa, .force_general = general, .threads = 1};
     }
 
     Renderer<float> renderer_;

@@ -61,8 +61,7 @@ double error_of(const Claim& claim)
 Agreement compare_closest(const Scene& scene, const RaySet& rays, const Hits& ours,
                           const Hits& theirs)
 {
-    Agreement sum;
-    sum.rays = rays.size();
+    Agreement sum{.rays = rays.size()};
     for (std::size_t i = 0; i < rays.size(); ++i) {
         const Claim our = claim_of(scene, rays, ours, i);
         const Claim their = claim_of(scene, rays, theirs, i);

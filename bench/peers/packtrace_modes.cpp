@@ -28,9 +28,7 @@ double trace_stream(const RayScene<float>& scene, const RaySet& rays, Query quer
 
 Tracer stream_tracer(const Scene& scene, const PacktraceMode& mode)
 {
-    RenderOptions options;
-    options.isa = mode.isa;
-    options.accuracy = mode.accuracy;
+    const RenderOptions options{.isa = mode.isa, .accuracy = mode.accuracy};
     const auto rays = std::make_shared<const RayScene<float>>(scene, options);
     return {"packtrace " + mode.name + " stream", Side::packtrace, false,
             [rays](const RaySet& set, Query query, Hits& hits) {

@@ -71,9 +71,7 @@ class Race {
 public:
     Race(const Scene& scene, const std::string& isa) : isa_(isa), scene_(scene)
     {
-        RenderOptions options;
-        options.isa = isa;
-        options.threads = 1;
+        RenderOptions options{.isa = isa, .threads = 1};
         for (const Traversal kind : kinds) {
             options.traversal = kind;
             renderers_.emplace_back(scene_, options);

@@ -152,8 +152,7 @@ template <class Real>
 nlohmann::ordered_json run(const Arguments& arguments)
 {
     const Scene scene = scene_of(arguments);
-    RenderOptions options;
-    options.isa = arguments.isa;
+    RenderOptions options{.isa = arguments.isa};
     if (arguments.fast)
         options.accuracy = Accuracy::fast;
     const RaySet camera_set = camera_rays(scene);

@@ -54,8 +54,7 @@ Scene scene_of(const Arguments& arguments)
 nlohmann::ordered_json measure(const Arguments& arguments)
 {
     const Scene scene = scene_of(arguments);
-    RenderOptions options;
-    options.threads = arguments.threads;
+    const RenderOptions options{.threads = arguments.threads};
     nlohmann::ordered_json point{
         {"objects", arguments.objects}, {"size", arguments.size}, {"threads", arguments.threads}};
     const double before = allocated_bytes();

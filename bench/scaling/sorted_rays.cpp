@@ -31,20 +31,12 @@ struct Arguments {
 
 Scene flake(int depth)
 {
-    SphereflakeOptions options;
-    options.depth = depth;
-    options.reflective = 0.5;
-    options.ground = true;
-    return generate_sphereflake(options);
+    return generate_sphereflake({.depth = depth, .reflective = 0.5, .ground = true});
 }
 
 Scene random_mirrors(int count, double radius)
 {
-    RandomSpheresOptions options;
-    options.count = count;
-    options.radius = radius;
-    options.reflective = 0.5;
-    return generate_random_spheres(options);
+    return generate_random_spheres({.count = count, .radius = radius, .reflective = 0.5});
 }
 
 struct NamedScene {

@@ -18,7 +18,7 @@ struct Camera {
     /// Distance of the projection plane from the eye, scene units.
     double distance = 1.0;
     /// Full vertical angle of view, degrees; the viewport then follows the picture's shape.
-    std::optional<double> fov;
+    std::optional<double> fov = {};
     /// Where in the pixel its one sample lies, from the left and top edge, each in [0, 1].
     Vec2 pixel_sample{0.0, 1.0};
 };

@@ -55,20 +55,20 @@ struct ReportScene {
 
 struct ReportOptions {
     std::vector<int> threads{1, 2};
-    std::vector<std::string> isas;  ///< none: all this machine runs
+    std::vector<std::string> isas = {};  ///< none: all this machine runs
     std::vector<double> min_weights{0.1, 0.03, 0.01, 1.0 / 255.0, 0.002, 0.0005, 0.0};
     std::vector<int> samples{1, 4, 16, 64};
     /// Samples and contrast of adaptive sampling.
     std::vector<std::pair<int, double>> adaptive{{16, 0.05}, {16, 0.01}, {20, 0.01}, {64, 0.01}};
-    int repetitions = 9;             ///< of each run, taken in turns
-    int truth_samples = 256;         ///< a pixel, of the truth of Study::sampling
-    double threshold = 1.0 / 255.0;  ///< a pixel further off counts as off
-    int classified = 128;            ///< pixels of a picture whose rays are compared, at most
-    double max_error = 1e-3;         ///< RMSE that the cheapest run is sought for
-    double max_time = 0.02;          ///< seconds that the most exact run is sought for
-    std::filesystem::path cache;     ///< folder of truths; none where empty
+    int repetitions = 9;               ///< of each run, taken in turns
+    int truth_samples = 256;           ///< a pixel, of the truth of Study::sampling
+    double threshold = 1.0 / 255.0;    ///< a pixel further off counts as off
+    int classified = 128;              ///< pixels of a picture whose rays are compared, at most
+    double max_error = 1e-3;           ///< RMSE that the cheapest run is sought for
+    double max_time = 0.02;            ///< seconds that the most exact run is sought for
+    std::filesystem::path cache = {};  ///< folder of truths; none where empty
     /// What is being done, and the share of it done, in [0, 1]. May be called from any thread.
-    std::function<void(const std::string& what, double share)> progress;
+    std::function<void(const std::string& what, double share)> progress = {};
     /// When a stop is requested the report throws StopError, a frame later.
     std::stop_token stop = {};
 };

@@ -20,11 +20,11 @@ enum class ShadowKind { none, opaque, transparent };
 enum class DepthLimit { background, local };
 
 struct Object {
-    std::string name;  ///< "sphere 1", "plane 2", … when the file gives none
-    Surface surface;
+    std::string name = {};  ///< "sphere 1", "plane 2", … when the file gives none
+    Surface surface = {};
     /// From the object's own space to the world, applied after the surface's own placement.
     Mat4 transform{1.0};
-    Material material;
+    Material material = {};
     bool casts_shadow = true;  ///< false: no light is stopped by it
 };
 
@@ -41,10 +41,10 @@ struct Scene {
     double min_weight = 0.0;
     DepthLimit depth_limit = DepthLimit::local;
     ShadowKind shadows = ShadowKind::opaque;
-    Camera camera;
-    std::vector<Object> objects;
-    std::vector<Light> lights;
-    std::optional<Animation> animation;
+    Camera camera = {};
+    std::vector<Object> objects = {};
+    std::vector<Light> lights = {};
+    std::optional<Animation> animation = {};
 };
 
 }  // namespace packtrace

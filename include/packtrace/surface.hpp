@@ -63,7 +63,7 @@ struct Quadric {
     /// equation: see ellipsoid() and the others in build.hpp.
     std::array<double, 10> coefficients{};
     /// Keeps only the part with z in this range, in the quadric's own space.
-    std::optional<ZRange> z_range;
+    std::optional<ZRange> z_range = {};
     /// Closes the clipped ends with the flat pieces of inside (F <= 0) at z = low and z = high.
     bool capped = false;
 

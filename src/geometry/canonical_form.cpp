@@ -139,9 +139,7 @@ CanonicalForm canonical_form(const std::array<double, 10>& coefficients)
     const bool is_aligned = !is_turned && rank_of(eigen.values) >= 2;
     align_linear(eigen, slope);
 
-    CanonicalForm form;
-    form.axes = eigen.vectors;
-    form.square = eigen.values;
+    CanonicalForm form{.axes = eigen.vectors, .square = eigen.values};
     complete_squares(form, slope, J, is_aligned ? 0.0 : negligible);
     // A constant that is only what cancelling squares left over is none.
     const double scale = std::abs(J) + std::abs(form.constant - J);

@@ -11,8 +11,7 @@ namespace packtrace {
 
 int lower_kind(const Object& object, const Plane& plane, std::int32_t surface, SurfaceLists& lists)
 {
-    LoweredPlane result;
-    result.point = Vec3(object.transform * glm::dvec4(plane.point, 1.0));
+    LoweredPlane result{.point = Vec3(object.transform * glm::dvec4(plane.point, 1.0))};
     const Mat3 normal_map = glm::transpose(glm::inverse(Mat3(object.transform)));
     result.normal = glm::normalize(normal_map * plane.normal);
     result.surface = surface;

@@ -153,8 +153,7 @@ std::optional<std::string> quadric_fault(const Quadric& quadric, const Mat4& tra
         return std::nullopt;
     if (const auto reason = why_no_surface(canonical_form(quadric.coefficients)))
         return "the quadric has no surface: " + *reason + "; change its coefficients";
-    Object object;
-    object.transform = transform;
+    Object object{.transform = transform};
     const LoweredQuadric placed = lower_quadric(object, quadric, 0);
     const Vec3 weights(largest_component(placed.square), std::abs(placed.linear),
                        std::abs(placed.constant));
@@ -181,12 +180,11 @@ LoweredQuadric lower_quadric(const Object& object, const Quadric& quadric, std::
     const CanonicalForm form = canonical_form(quadric.coefficients);
     const Mat3 own_from_world = exact_inverse(Mat3(object.transform));
 
-    LoweredQuadric lowered;
-    lowered.center = Vec3(object.transform * glm::dvec4(form.center, 1.0));
-    lowered.inverse = glm::transpose(form.axes) * own_from_world;
-    lowered.square = form.square;
-    lowered.linear = form.linear;
-    lowered.constant = form.constant;
+    LoweredQuadric lowered{.center = Vec3(object.transform * glm::dvec4(form.center, 1.0)),
+                           .inverse = glm::transpose(form.axes) * own_from_world,
+                           .square = form.square,
+                           .linear = form.linear,
+                           .constant = form.constant};
     if (quadric.z_range) {
         lowered.clip = Vec3(0.0, 0.0, 1.0) * own_from_world;
         lowered.clip_base = Vec3(object.transform[3]);
@@ -206,11 +204,8 @@ LoweredQuadric lower_quadric(const Object& object, const Quadric& quadric, std::
 Quadric as_quadric(const Sphere& sphere)
 {
     const Vec3& c = sphere.center;
-    Quadric quadric;
-    quadric.coefficients = {
-        1, 1,        1,        0,        0,
-        0, -2 * c.x, -2 * c.y, -2 * c.z, glm::dot(c, c) - sphere.radius * sphere.radius};
-    return quadric;
+    return {.coefficients = {1, 1, 1, 0, 0, 0, -2 * c.x, -2 * c.y, -2 * c.z,
+                             glm::dot(c, c) - sphere.radius * sphere.radius}};
 }
 
 Exit exit_of(const LoweredQuadric& quadric, const Vec3& eye, const Vec3& forward)

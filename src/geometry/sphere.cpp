@@ -62,10 +62,9 @@ bool lower_sphere(const Sphere& sphere, const Mat4& transform, std::int32_t surf
     const double scale = similarity_scale(transform);
     if (scale == 0.0)
         return false;
-    LoweredSphere result;
-    result.center = Vec3(transform * glm::dvec4(sphere.center, 1.0));
-    result.radius = scale * sphere.radius;
-    result.surface = surface;
+    LoweredSphere result{.center = Vec3(transform * glm::dvec4(sphere.center, 1.0)),
+                         .radius = scale * sphere.radius,
+                         .surface = surface};
     lists.spheres.push_back(result);
     return true;
 }

@@ -33,9 +33,7 @@ bool same(const LoweredMaterial& a, const LoweredMaterial& b)
 LoweredMaterial lower_model(const ScratchMaterial& material, const Rgb& color,
                             const LightSums& lights)
 {
-    LoweredMaterial lowered;
-    lowered.ambient = color * lights.ambient;
-    lowered.diffuse = color;
+    LoweredMaterial lowered{.ambient = color * lights.ambient, .diffuse = color};
     if (material.specular != -1.0) {
         lowered.highlight = color;
         lowered.shininess = material.specular;
@@ -51,15 +49,13 @@ LoweredMaterial lower_model(const ScratchMaterial& material, const Rgb& color,
 LoweredMaterial lower_model(const SketchMaterial& material, const Rgb& color,
                             const LightSums& lights)
 {
-    LoweredMaterial lowered;
-    lowered.ambient = material.ambient * color * lights.ambient;
-    lowered.diffuse = material.diffuse * color;
-    lowered.highlight = material.specular;
-    lowered.reflect = material.specular;
-    lowered.transmit = material.refractive;
-    lowered.shininess = material.shininess;
-    lowered.ior = material.ior;
-    return lowered;
+    return {.ambient = material.ambient * color * lights.ambient,
+            .diffuse = material.diffuse * color,
+            .highlight = material.specular,
+            .reflect = material.specular,
+            .transmit = material.refractive,
+            .shininess = material.shininess,
+            .ior = material.ior};
 }
 
 /// Note 002, as note 000 with other names.
@@ -75,25 +71,21 @@ LoweredMaterial lower_model(const WhittedMaterial& material, const Rgb& color,
 LoweredMaterial lower_model(const ShaderMaterial& material, const Rgb& color,
                             const LightSums& lights)
 {
-    LoweredMaterial lowered;
-    lowered.ambient = material.reflectance[0] * color * lights.all;
-    lowered.diffuse = material.reflectance[1] * color;
-    lowered.highlight = material.reflectance[2] * color;
-    lowered.shininess = material.reflectance[3];
-    return lowered;
+    return {.ambient = material.reflectance[0] * color * lights.all,
+            .diffuse = material.reflectance[1] * color,
+            .highlight = material.reflectance[2] * color,
+            .shininess = material.reflectance[3]};
 }
 
 LoweredMaterial lower_model(const GeneralMaterial& material, const Rgb&, const LightSums& lights)
 {
-    LoweredMaterial lowered;
-    lowered.ambient = material.ambient * lights.ambient;
-    lowered.diffuse = material.diffuse;
-    lowered.highlight = material.highlight;
-    lowered.reflect = material.reflect;
-    lowered.transmit = material.transmit;
-    lowered.shininess = material.shininess;
-    lowered.ior = material.ior;
-    return lowered;
+    return {.ambient = material.ambient * lights.ambient,
+            .diffuse = material.diffuse,
+            .highlight = material.highlight,
+            .reflect = material.reflect,
+            .transmit = material.transmit,
+            .shininess = material.shininess,
+            .ior = material.ior};
 }
 
 LoweredMaterial lower_color(const Object& object, const Rgb& color, const LightSums& lights)
@@ -106,11 +98,9 @@ LoweredMaterial lower_color(const Object& object, const Rgb& color, const LightS
 LoweredChecker lower_checker(const Plane& plane, const Mat4& transform, double size)
 {
     const Mat3 inverse = glm::inverse(Mat3(transform));
-    LoweredChecker checker;
-    checker.point = Vec3(transform * glm::dvec4(plane.point, 1.0));
-    checker.u = (plane.u / size) * inverse;
-    checker.v = (plane.v / size) * inverse;
-    return checker;
+    return {.point = Vec3(transform * glm::dvec4(plane.point, 1.0)),
+            .u = (plane.u / size) * inverse,
+            .v = (plane.v / size) * inverse};
 }
 
 void lower_lights(const Scene& scene, LoweredScene& lowered)

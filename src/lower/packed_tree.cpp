@@ -292,17 +292,15 @@ void PackedTree<Real>::bound_root(const abi::BvhNode& root)
 template <class Real>
 abi::BvhView<double> PackedTree<Real>::wide_view(const abi::ShapesView& shapes) const
 {
-    abi::BvhView<double> wide;
-    wide.nodes = view_.nodes;
-    wide.block_surfaces = view_.block_surfaces;
-    wide.run_surfaces = view_.run_surfaces;
-    wide.quadric_count = view_.quadric_count;
-    wide.shapes = &shapes;
-    wide.node_count = view_.node_count;
-    wide.extent = view_.extent;
-    wide.slack = view_.slack;
-    wide.spread = view_.spread;
-    return wide;
+    return {.nodes = view_.nodes,
+            .block_surfaces = view_.block_surfaces,
+            .run_surfaces = view_.run_surfaces,
+            .quadric_count = view_.quadric_count,
+            .shapes = &shapes,
+            .node_count = view_.node_count,
+            .extent = view_.extent,
+            .slack = view_.slack,
+            .spread = view_.spread};
 }
 
 /// Also points the nodes' leaves to where they are packed.

@@ -160,8 +160,7 @@ void narrow_hits(LoweredScene& lowered)
 
 abi::Features features_of(const LoweredScene& lowered)
 {
-    abi::Features features;
-    features.quadrics = !lowered.quadrics.empty() || !lowered.polygons.empty();
+    abi::Features features{.quadrics = !lowered.quadrics.empty() || !lowered.polygons.empty()};
     const std::vector<bool> used = used_materials(lowered);
     for (std::size_t i = 0; i < used.size(); ++i)
         if (used[i])

@@ -96,17 +96,15 @@ abi::TileJob<Real> TileRenderer<Real>::job_of(const abi::CameraView<Real>& camer
                                               const Region& tile,
                                               abi::Observation* observation) const
 {
-    abi::TileJob<Real> job;
-    job.scene = &packed_.view();
-    job.camera = &camera;
-    job.x = tile.x;
-    job.y = tile.y;
-    job.width = tile.width;
-    job.height = tile.height;
-    job.scratch = scratch_.local().data();
-    job.plan = plan_.data();
-    job.observation = observation;
-    return job;
+    return {.scene = &packed_.view(),
+            .camera = &camera,
+            .x = tile.x,
+            .y = tile.y,
+            .width = tile.width,
+            .height = tile.height,
+            .scratch = scratch_.local().data(),
+            .plan = plan_.data(),
+            .observation = observation};
 }
 
 template <class Real>

@@ -30,9 +30,7 @@ Sphere sphere(const Vec3& center, double radius)
 
 Plane plane(const Vec3& point, const Vec3& normal)
 {
-    Plane result;
-    result.point = point;
-    result.normal = language::unit_vector(normal);
+    Plane result{.point = point, .normal = language::unit_vector(normal)};
     plane_axes(result);
     return result;
 }
@@ -74,15 +72,12 @@ Quadric saddle()
 
 Quadric quadric(const std::array<double, 10>& coefficients)
 {
-    Quadric result;
-    result.coefficients = coefficients;
-    return result;
+    return {.coefficients = coefficients};
 }
 
 Quadric quadric(QuadricKind kind)
 {
-    Quadric result;
-    result.kind = kind;
+    Quadric result{.kind = kind};
     if (const QuadricKindInfo* const info = find_quadric_kind(kind))
         result.coefficients = info->coefficients;
     return result;
@@ -111,11 +106,8 @@ Polygon polygon(std::vector<Vec3> corners)
 
 Object make_object(Surface surface, Material material, std::string name)
 {
-    Object object;
-    object.name = std::move(name);
-    object.surface = std::move(surface);
-    object.material = std::move(material);
-    return object;
+    return {
+        .name = std::move(name), .surface = std::move(surface), .material = std::move(material)};
 }
 
 Object translate(Object object, const Vec3& by)

@@ -23,12 +23,10 @@ Vec2 viewport_of(const Camera& camera, int width, int height)
 CameraBasis camera_basis(const Camera& camera, int width, int height)
 {
     const Vec2 viewport = viewport_of(camera, width, height);
-    CameraBasis basis;
-    basis.origin = camera.position;
-    basis.right = camera.rotation[0] * (viewport.x / width);
-    basis.up = camera.rotation[1] * (viewport.y / height);
-    basis.forward = camera.rotation[2] * camera.distance;
-    return basis;
+    return {.origin = camera.position,
+            .right = camera.rotation[0] * (viewport.x / width),
+            .up = camera.rotation[1] * (viewport.y / height),
+            .forward = camera.rotation[2] * camera.distance};
 }
 
 Mat3 look_at(const Vec3& position, const Vec3& target, const Vec3& up)

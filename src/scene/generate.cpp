@@ -19,9 +19,7 @@ using language::to_text;
 /// view of 45 degrees.
 Scene empty_scene(const Vec3& eye, const Vec3& target, const Vec3& up)
 {
-    Scene scene;
-    scene.width = 1024;
-    scene.height = 1024;
+    Scene scene{.width = 1024, .height = 1024};
     scene.camera.position = eye;
     scene.camera.rotation = look_at(eye, target, up);
     scene.camera.fov = 45.0;
@@ -158,9 +156,7 @@ private:
 
 void add_ground(Scene& scene)
 {
-    Plane plane;
-    plane.point = {0.0, 0.0, -0.5};
-    plane.normal = {0.0, 0.0, 1.0};
+    Plane plane{.point = {0.0, 0.0, -0.5}, .normal = {0.0, 0.0, 1.0}};
     plane_axes(plane);
     Object& object = scene.objects.emplace_back();
     object.name = "plane 1";

@@ -22,9 +22,7 @@ struct MovedShape {
 
 [[nodiscard]] inline MovedShape moved_shape(const Object& object, std::int32_t number)
 {
-    MovedShape shape;
-    shape.object = number;
-    shape.plain = is_plain_sphere(object);
+    MovedShape shape{.object = number, .plain = is_plain_sphere(object)};
     if (shape.plain)
         shape.sphere = std::get<Sphere>(object.surface);
     return shape;

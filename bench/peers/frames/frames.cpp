@@ -48,8 +48,7 @@ void render_frames(const RenderArguments& arguments)
     report["read_seconds"] = seconds_since(start);
     if (arguments.size > 0)
         scene.width = scene.height = arguments.size;
-    RenderOptions options;
-    options.threads = arguments.threads;
+    const RenderOptions options{.threads = arguments.threads};
     start = std::chrono::steady_clock::now();
     const Renderer<float> renderer(scene, options);
     report["prepare_seconds"] = seconds_since(start);

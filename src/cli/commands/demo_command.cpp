@@ -77,10 +77,7 @@ std::vector<DemoEntry> demo_entries(int threads)
 template <class Real>
 double render_packets(const Scene& scene, DemoEntry& entry)
 {
-    RenderOptions options;
-    options.isa = entry.isa;
-    options.threads = entry.threads;
-    const Renderer<Real> renderer(scene, options);
+    const Renderer<Real> renderer(scene, {.isa = entry.isa, .threads = entry.threads});
     Image<Real> image;
     // A renderer's first frame pays for the memory that later ones reuse.
     entry.rays = renderer.render(image).total();
@@ -93,9 +90,7 @@ double render_packets(const Scene& scene, DemoEntry& entry)
 template <class Real>
 double render_scalar(const Scene& scene, DemoEntry& entry)
 {
-    RenderOptions options;
-    options.kernel = Kernel::scalar;
-    options.threads = entry.threads;
+    const RenderOptions options{.kernel = Kernel::scalar, .threads = entry.threads};
     Image<Real> image;
     const double seconds = seconds_of(entry.threads, [&] { image = render<Real>(scene, options); });
     entry.image = convert<double>(image);

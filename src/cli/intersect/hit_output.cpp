@@ -46,9 +46,7 @@ HitOutput::HitOutput(const IntersectArguments& arguments, const std::string& rec
 /// The last entry whose bytes are in the part file.
 HitOutput::Progress HitOutput::find_finished(std::string_view header) const
 {
-    Progress done;
-    done.bytes = header.size();
-    done.rows = checksum(bytes_of(header));
+    Progress done{.bytes = header.size(), .rows = checksum(bytes_of(header))};
     Bytes begun(header.size());
     journal_->read(0, begun);
     if (checksum(begun) != done.rows) {

@@ -143,10 +143,7 @@ RayRange cut_rays(const std::string& file, std::uint64_t index, std::uint64_t co
     const std::uint64_t size = ray_file_size(file);
     // In two steps: a product could exceed 64 bits.
     const auto place = [&](std::uint64_t i) { return size / count * i + size % count * i / count; };
-    RayRange range;
-    range.begin = next_line(file, place(index));
-    range.end = next_line(file, place(index + 1));
-    return range;
+    return {.begin = next_line(file, place(index)), .end = next_line(file, place(index + 1))};
 }
 
 RayRange numbered_rays(const std::string& file, std::uint64_t index, std::uint64_t count)
@@ -154,8 +151,7 @@ RayRange numbered_rays(const std::string& file, std::uint64_t index, std::uint64
     RayRange range = cut_rays(file, index, count);
     if (range.begin == 0)
         return range;
-    RayRange before;
-    before.end = range.begin;
+    RayRange before{.end = range.begin};
     const RayCount counted = count_rays(file, before);
     range.first_line += counted.lines;
     range.first_ray = counted.rays;

@@ -212,8 +212,7 @@ void apply(const AccuracyArguments& arguments, const std::string& kernel,
 
 RenderOptions render_options(const KernelArguments& arguments)
 {
-    RenderOptions options;
-    options.threads = arguments.threads;
+    RenderOptions options{.threads = arguments.threads};
     apply(arguments.accuracy, arguments.kernel, arguments.precision, options);
     if (arguments.kernel == "scalar") {
         options.kernel = Kernel::scalar;

@@ -104,8 +104,7 @@ FrameRecipe::FrameRecipe(const RenderArguments& arguments, const Scene& scene,
 
 std::string FrameRecipe::of(const Camera& camera) const
 {
-    Scene camera_alone;
-    camera_alone.camera = camera;
+    Scene camera_alone{.camera = camera};
     return "packtrace " PACKTRACE_VERSION_STRING ", scene " + scene_ + ", camera " +
            hash_of(camera_alone) + ", " + options_;
 }

@@ -98,8 +98,7 @@ std::optional<Region> region_of(const RenderArguments& arguments, const Scene& s
 {
     if (!arguments.region)
         return std::nullopt;
-    RenderOptions options;
-    options.region = parse_region(*arguments.region);
+    const RenderOptions options{.region = parse_region(*arguments.region)};
     try {
         return checked_region(options, scene);
     } catch (const std::invalid_argument& error) {

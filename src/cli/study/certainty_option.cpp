@@ -101,9 +101,7 @@ std::optional<UnsureSample> sample_unsure(const Scene& scene, const std::string&
         std::min(1.0, static_cast<double>(sample_edge) / std::max(scene.width, scene.height));
     small.width = std::max(1, static_cast<int>(std::lround(shrink * scene.width)));
     small.height = std::max(1, static_cast<int>(std::lround(shrink * scene.height)));
-    RenderOptions options;
-    options.isa = isa;
-    const Certainty certainty = find_certainty(small, options);
+    const Certainty certainty = find_certainty(small, {.isa = isa});
     UnsureSample sample{small.width, small.height, certainty.rays.total(), {}};
     for (std::size_t cause = 0; cause < certainty.unsure.size(); ++cause)
         sample.causes.emplace_back(unsure_causes()[cause], certainty.unsure[cause]);

@@ -54,8 +54,7 @@ void check_inside(const ExplainArguments& arguments, const Scene& scene)
 
 RenderOptions packet_options(const ExplainArguments& arguments)
 {
-    RenderOptions options;
-    options.isa = chosen_isa(arguments.isa).name;
+    RenderOptions options{.isa = chosen_isa(arguments.isa).name};
     apply(arguments.accuracy, "packet", arguments.precision, options);
     return options;
 }

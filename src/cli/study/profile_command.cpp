@@ -39,15 +39,13 @@ ProfileOptions profile_options(const ProfileArguments& arguments)
     RenderOptions sampling;
     apply(arguments.sampling, sampling);
     apply(arguments.accuracy, "packet", arguments.precision, sampling);
-    ProfileOptions options;
-    options.isa = chosen_isa(arguments.isa).name;
-    options.threads = arguments.threads;
-    options.samples = sampling.samples;
-    options.adaptive = sampling.adaptive;
-    options.accuracy = sampling.accuracy;
-    options.self_hits = sampling.self_hits;
-    options.repetitions = arguments.repetitions;
-    return options;
+    return {.isa = chosen_isa(arguments.isa).name,
+            .threads = arguments.threads,
+            .samples = sampling.samples,
+            .adaptive = sampling.adaptive,
+            .accuracy = sampling.accuracy,
+            .self_hits = sampling.self_hits,
+            .repetitions = arguments.repetitions};
 }
 
 template <class Real>

@@ -98,9 +98,7 @@ PacketTree<Real>::PacketTree(const Scene& scene)
 template <class Real>
 abi::Probe<Real> PacketTree<Real>::probe(int pixel)
 {
-    abi::Probe<Real> probe;
-    probe.pixel = pixel;
-    probe.context = this;
+    abi::Probe<Real> probe{.pixel = pixel, .context = this};
     probe.ray = [](void* tree, const abi::ProbedRay<Real>& ray) {
         static_cast<PacketTree*>(tree)->add_ray(ray);
     };
@@ -188,11 +186,8 @@ public:
         const abi::Probe<Real> probe = tree.probe(z_order(column, row));
         Real rgb[3 * abi::tile_pixels];
 
-        abi::TileJob<Real> job;
-        job.scene = &packed_.view();
-        job.camera = &camera_;
-        job.x = x - column;
-        job.y = y - row;
+        abi::TileJob<Real> job{
+            .scene = &packed_.view(), .camera = &camera_, .x = x - column, .y = y - row};
         job.width = std::min(abi::tile_size, scene_.width - job.x);
         job.height = std::min(abi::tile_size, scene_.height - job.y);
         job.rgb = rgb;

@@ -149,8 +149,7 @@ namespace {
 
 RenderOptions options_of(const Variant& variant)
 {
-    RenderOptions options;
-    options.kernel = variant.kernel;
+    RenderOptions options{.kernel = variant.kernel};
     if (variant.kernel == Kernel::packet)
         options.isa = variant.isa;
     options.accuracy = variant.accuracy;

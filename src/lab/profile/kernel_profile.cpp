@@ -47,9 +47,7 @@ std::vector<KernelStage> divide_spans(ObservedFrame<Real>& observed, const SpanT
                                       int generations)
 {
     std::vector<abi::PartLaps> parts(static_cast<std::size_t>(generations));
-    abi::Observation observation;
-    observation.generations = generations;
-    observation.parts = parts.data();
+    abi::Observation observation{.generations = generations, .parts = parts.data()};
     StageSeconds seconds(generations);
     observed.render(
         [&](int) {
@@ -85,9 +83,7 @@ ObservedKernels observe_kernels(const Scene& scene, const ProfileOptions& option
     result.profile.stages = divide_spans(observed, spans, generations);
 
     result.counts.resize(static_cast<std::size_t>(generations));
-    abi::Observation counting;
-    counting.generations = generations;
-    counting.counts = result.counts.data();
+    abi::Observation counting{.generations = generations, .counts = result.counts.data()};
     result.rays = observed.render([&](int) { return &counting; }, [](int, double) {});
     result.profile.rays = ray_rows(result.counts, result.profile.stages);
     result.profile.lanes = lane_rows(result.counts);

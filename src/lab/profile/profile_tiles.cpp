@@ -99,15 +99,13 @@ std::vector<double> pixel_costs(const Scene& scene, const ProfileOptions& option
     const auto camera = camera_view<Real>(scene, lowered, Vec2(0.0));
     const auto& kernels = kernels_for(table, lowered.features);
     AlignedArray<std::byte> scratch(kernels.scratch_bytes(packed.view(), 1));
-    abi::TileSamples<Real> samples;
-    samples.count = copies;
+    abi::TileSamples<Real> samples{.count = copies};
     Real rgb[3 * abi::tile_pixels];
-    abi::TileJob<Real> job;
-    job.scene = &packed.view();
-    job.camera = &camera;
-    job.scratch = scratch.data();
-    job.samples = &samples;
-    job.rgb = rgb;
+    abi::TileJob<Real> job{.scene = &packed.view(),
+                           .camera = &camera,
+                           .rgb = rgb,
+                           .scratch = scratch.data(),
+                           .samples = &samples};
     const Vec2 place = scene.camera.pixel_sample;
     std::vector<double> costs;
     for (int y = 0; y < scene.height; ++y)

@@ -97,10 +97,8 @@ public:
 
     FrameCounts trace()
     {
-        abi::TileJob<Real> job;
-        job.scene = &packed_.view();
-        job.camera = &camera_;
-        job.scratch = scratch_.data();
+        abi::TileJob<Real> job{
+            .scene = &packed_.view(), .camera = &camera_, .scratch = scratch_.data()};
         for (job.y = 0; job.y < height_; job.y += abi::tile_size)
             for (job.x = 0; job.x < width_; job.x += abi::tile_size) {
                 job.width = std::min(abi::tile_size, width_ - job.x);
@@ -160,13 +158,12 @@ RenderOptions render_options(const ProfileOptions& options)
 {
     check_number("threads", options.threads, 1, most_threads);
     check_number("repetitions", options.repetitions, 1, most_repetitions);
-    RenderOptions result;
-    result.isa = options.isa;
-    result.threads = options.threads;
-    result.samples = options.samples;
-    result.adaptive = options.adaptive;
-    result.accuracy = options.accuracy;
-    result.self_hits = options.self_hits;
+    RenderOptions result{.isa = options.isa,
+                         .accuracy = options.accuracy,
+                         .self_hits = options.self_hits,
+                         .threads = options.threads,
+                         .samples = options.samples,
+                         .adaptive = options.adaptive};
     return result;
 }
 

@@ -13,7 +13,7 @@ namespace packtrace {
 /// A ray's first hit as the scalar reference has it in double, and those of rays close by.
 class NeighbourRays {
 public:
-    explicit NeighbourRays(const Scene& scene) : rays_(scene, scalar())
+    explicit NeighbourRays(const Scene& scene) : rays_(scene, {.kernel = Kernel::scalar})
     {
     }
 
@@ -43,13 +43,6 @@ private:
     static constexpr double spread = 1e-4;
     // The ray itself, and one to each side of each axis.
     static constexpr std::size_t ray_count = 7;
-
-    static RenderOptions scalar()
-    {
-        RenderOptions options;
-        options.kernel = Kernel::scalar;
-        return options;
-    }
 
     static Vec3 moved(const Vec3& dir, std::size_t ray)
     {

@@ -70,11 +70,10 @@ std::vector<PlotSeries> series_of(const StudyReport& study)
 
 std::string report_plot(const SceneReport& scene, const StudyReport& study)
 {
-    Plot plot;
-    plot.title = scene.name + ": " + name_of(study.study);
-    plot.x_title = "median time of a frame, ms; bars: its middle half";
-    plot.y_title = "RMSE against the truth";
-    plot.series = series_of(study);
+    Plot plot{.title = scene.name + ": " + name_of(study.study),
+              .x_title = "median time of a frame, ms; bars: its middle half",
+              .y_title = "RMSE against the truth",
+              .series = series_of(study)};
     return draw_svg(plot);
 }
 

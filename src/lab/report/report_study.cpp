@@ -61,10 +61,7 @@ void stop_if_asked(const ReportOptions& options)
 
 Truth truth_of(const Scene& scene, int samples, const ReportOptions& options)
 {
-    TruthRequest request;
-    request.samples = samples;
-    request.cache = options.cache;
-    request.stop = options.stop;
+    TruthRequest request{.samples = samples, .cache = options.cache, .stop = options.stop};
     if (options.progress)
         request.progress = [&](double share) { options.progress("truth", share); };
     return find_truth(scene, request);
@@ -160,9 +157,7 @@ StudyLook StudyErrors::render(const Subject& subject)
 
 void StudyErrors::measure(const Subject& subject, StudyLook& look) const
 {
-    CompareOptions compared;
-    compared.threshold = options_.threshold;
-    look.run.error = compare(look.picture, truth_.image, compared);
+    look.run.error = compare(look.picture, truth_.image, {.threshold = options_.threshold});
     if (study_ == Study::sampling || subject.tree)
         find_shares(look.run, truth_.image, look.picture, options_,
                     classifier_->for_tree(subject.tree));

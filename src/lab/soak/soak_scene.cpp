@@ -136,7 +136,7 @@ Quadric any_quadric(StressRandom& random)
         for (double& coefficient : quadric.coefficients)
             coefficient = chance(random, 0.4) ? 0.0 : random.between(-2.0, 2.0);
     else
-        quadric = quadric_of(static_cast<QuadricKind>(random.below(quadric_kinds)));
+        quadric = packtrace::quadric(static_cast<QuadricKind>(random.below(quadric_kinds)));
     if (chance(random, 0.6)) {
         const double low = random.between(-2.0, 0.5);
         quadric.z_range = ZRange{low, low + random.power(1e-2, 3.0)};
@@ -227,8 +227,7 @@ Object any_neighbour(StressRandom& random, const Object& before)
 /// A sphere so large that it is nearly a plane, as many a scene stands on.
 Object ground_below(const Object& first, const Sizes& sizes, StressRandom& random)
 {
-    Object ground;
-    ground.material = first.material;
+    Object ground{.material = first.material};
     ground.material.checker.reset();
     const double radius = 5000.0 * sizes.scale();
     ground.surface = Sphere{sizes.point(random, 0.0) - Vec3(0.0, 1.0006 * radius, 0.0), radius};
@@ -261,8 +260,7 @@ void add_objects(StressRandom& random, const Sizes& sizes, Scene& scene)
 void add_lights(StressRandom& random, const Sizes& sizes, Scene& scene)
 {
     for (int i = 1 + random.below(4); i > 0; --i) {
-        Light light;
-        light.intensity = any_factor(random, 1.0);
+        Light light{.intensity = any_factor(random, 1.0)};
         light.type = static_cast<LightType>(random.below(3));
         if (light.type == LightType::point)
             light.vector = sizes.point(random, 8.0);
@@ -288,12 +286,11 @@ void add_camera(StressRandom& random, const Sizes& sizes, Scene& scene)
 
 Scene soak_scene(StressRandom& random)
 {
-    Scene scene;
-    scene.width = 3 + random.below(30);
-    scene.height = 3 + random.below(24);
-    scene.illumination = static_cast<Illumination>(random.below(5));
-    scene.max_depth = random.below(6);
-    scene.shadows = static_cast<ShadowKind>(random.below(3));
+    Scene scene{.width = 3 + random.below(30),
+                .height = 3 + random.below(24),
+                .illumination = static_cast<Illumination>(random.below(5)),
+                .max_depth = random.below(6),
+                .shadows = static_cast<ShadowKind>(random.below(3))};
     scene.background = random.box(0.5) + Vec3(0.5);
     if (scene.illumination == Illumination::general)
         scene.depth_limit = static_cast<DepthLimit>(random.below(2));

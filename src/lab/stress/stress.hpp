@@ -20,18 +20,18 @@ inline void run_alone(const Alone& alone, const std::function<void()>& timed)
 }
 
 struct StressOptions {
-    std::vector<std::string> families;     ///< by name; empty: all
-    std::vector<std::string> kernels;      ///< packet, scalar, textbook; empty: all
-    std::vector<std::string> modes;        ///< of stress_modes; empty: all; packets only
-    std::vector<std::string> precisions;   ///< single, double; empty: both
-    std::string isa;                       ///< empty: all that run here
-    SelfHits self_hits = SelfHits::exact;  ///< how second rays keep from their own start
+    std::vector<std::string> families = {};    ///< by name; empty: all
+    std::vector<std::string> kernels = {};     ///< packet, scalar, textbook; empty: all
+    std::vector<std::string> modes = {};       ///< of stress_modes; empty: all; packets only
+    std::vector<std::string> precisions = {};  ///< single, double; empty: both
+    std::string isa = {};                      ///< empty: all that run here
+    SelfHits self_hits = SelfHits::exact;      ///< how second rays keep from their own start
     Traversal traversal = Traversal::automatic;
     int rays = 4096;  ///< of each family and precision
     std::uint64_t seed = 1;
     int first_family = 0;  ///< of those wanted, begin with this one
     int family_step = 1;   ///< and take each so many-th
-    Alone alone;           ///< for what is timed
+    Alone alone = {};      ///< for what is timed
 };
 
 /// How many, and quantiles of their errors.

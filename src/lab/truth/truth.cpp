@@ -78,9 +78,7 @@ std::optional<Truth> kept_truth(const Scene& scene, const TruthRequest& request)
 
 Image<double> truth_rows(const Scene& scene, int samples, int first, int rows)
 {
-    RenderOptions options;
-    options.region = Region{0, first, scene.width, rows};
-    return trace_truth(scene, samples, options);
+    return trace_truth(scene, samples, {.region = Region{0, first, scene.width, rows}});
 }
 
 void keep_truth(const Scene& scene, const TruthRequest& request, Truth& truth)
@@ -97,9 +95,7 @@ Truth find_truth(const Scene& scene, const TruthRequest& request)
 {
     if (std::optional<Truth> kept = kept_truth(scene, request))
         return *kept;
-    RenderOptions options;
-    options.progress = request.progress;
-    options.stop = request.stop;
+    const RenderOptions options{.progress = request.progress, .stop = request.stop};
     Truth truth;
     truth.seconds = seconds_of(options.threads,
                                [&] { truth.image = trace_truth(scene, request.samples, options); });

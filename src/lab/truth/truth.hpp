@@ -19,9 +19,9 @@ struct Truth {
 };
 
 struct TruthRequest {
-    int samples = 1;              ///< a pixel; one is the scene's own
-    std::filesystem::path cache;  ///< folder; nothing is kept where empty
-    std::function<void(double)> progress;
+    int samples = 1;                   ///< a pixel; one is the scene's own
+    std::filesystem::path cache = {};  ///< folder; nothing is kept where empty
+    std::function<void(double)> progress = {};
     std::stop_token stop = {};  ///< as RenderOptions has it
 };
 

@@ -56,17 +56,15 @@ std::string TruthKey::text() const
 
 TruthKey truth_key(const Scene& scene, int samples)
 {
-    TruthKey key;
-    key.version = PACKTRACE_VERSION_STRING;
-    key.sources = built_sources;
-    key.compiler = compiler_name() + ' ' + kernel_flags;
-    key.machine = processor_name() + ", " + c_library();
-    key.precision =
-        samples > 1 ? with_bits<double>("double") : with_bits<long double>("long double");
-    key.self_hits = language::word_of(default_self_hits);
-    key.samples = samples;
-    key.scene = scene_text(scene);
-    return key;
+    return {.version = PACKTRACE_VERSION_STRING,
+            .sources = built_sources,
+            .compiler = compiler_name() + ' ' + kernel_flags,
+            .machine = processor_name() + ", " + c_library(),
+            .precision =
+                samples > 1 ? with_bits<double>("double") : with_bits<long double>("long double"),
+            .self_hits = std::string(language::word_of(default_self_hits)),
+            .samples = samples,
+            .scene = scene_text(scene)};
 }
 
 void write_truth(const std::filesystem::path& file, const std::string& key, const Truth& truth)

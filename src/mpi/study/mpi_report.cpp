@@ -105,8 +105,7 @@ std::vector<ReportJob::Asked> ReportJob::asked_truths()
 {
     std::vector<Asked> asked;
     for (SceneWork& work : works_) {
-        TruthRequest request;
-        request.cache = options_.cache;
+        TruthRequest request{.cache = options_.cache};
         asked.push_back({work, request, work.one});
         request.samples = options_.truth_samples;
         asked.push_back({work, request, work.many});

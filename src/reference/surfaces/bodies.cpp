@@ -19,8 +19,7 @@ PlaneBody<Real> convert_surface(const Plane& plane, int object, SelfHits)
 template <class Real>
 QuadricBody<Real> convert_surface(const Quadric& quadric, int object, SelfHits)
 {
-    QuadricBody<Real> body;
-    body.form = canonical_quadric<Real>(quadric.coefficients);
+    QuadricBody<Real> body{.form = canonical_quadric<Real>(quadric.coefficients)};
     if (quadric.z_range) {
         body.low = static_cast<Real>(quadric.z_range->low);
         body.high = static_cast<Real>(quadric.z_range->high);

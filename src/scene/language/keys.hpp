@@ -315,8 +315,7 @@ inline const Rows<CameraKey> rows<CameraKey>{
 /// The scene that nothing is said of, under this illumination.
 [[nodiscard]] inline Scene default_scene(Illumination illumination)
 {
-    Scene scene;
-    scene.illumination = illumination;
+    Scene scene{.illumination = illumination};
     // Note 001 samples its own integer canvas points.
     if (illumination != Illumination::scratch)
         scene.camera.pixel_sample = {0.5, 0.5};

@@ -47,8 +47,7 @@ public:
         const std::string subject = label_of(kind.word, own_name, number);
         block.set_subject(subject);
 
-        Object object;
-        object.surface = kind.blank;
+        Object object{.surface = kind.blank};
         std::visit([&](auto& surface) { read_rows(block, surface); }, object.surface);
         if (auto* const plane = std::get_if<Plane>(&object.surface))
             plane_axes(*plane);
