@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "catch.hpp"
+#include "refusal.hpp"
 
 // Helpers for the tests of the scene reader.
 namespace packtrace::test {
@@ -19,12 +20,7 @@ inline Scene parse(const std::string& text)
 /// The message that `text` is refused with.
 inline std::string error_of(const std::string& text)
 {
-    try {
-        (void)parse(text);
-    } catch (const SceneError& error) {
-        return error.what();
-    }
-    return "no error";
+    return refusal<SceneError>([&] { return parse(text); });
 }
 
 inline const char* const any_sphere = "sphere { center = (0, 0, 3) radius = 1 }\n";

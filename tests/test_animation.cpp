@@ -9,6 +9,7 @@
 
 #include "catch.hpp"
 #include "image/y4m.hpp"
+#include "refusal.hpp"
 #include "render/frame_numbers.hpp"
 #include "scene_text.hpp"
 
@@ -32,18 +33,6 @@ const char* const four_keys =
     "key { frame = 15  position = (2, 1, -4)  look_at = (0, 0, 3) }\n"
     "key { frame = 40  position = (1, 3, 0)   look_at = (1, 0, 4) }\n"
     "key { frame = 50  position = (0, 4, 1)   look_at = (0, 0, 3)  up = (0, 0, 1) } }\n";
-
-/// The message of the std::invalid_argument that `call` throws.
-template <class Call>
-std::string refusal(const Call& call)
-{
-    try {
-        (void)call();
-    } catch (const std::exception& error) {
-        return error.what();
-    }
-    return "accepted";
-}
 
 }  // namespace
 

@@ -11,6 +11,7 @@
 #include <glm/geometric.hpp>
 
 #include "catch.hpp"
+#include "refusal.hpp"
 #include "run_program.hpp"
 #include "scene_text.hpp"
 
@@ -20,6 +21,7 @@ namespace {
 
 using test::ContainsSubstring;
 using test::read_text;
+using test::refusal;
 using test::run_packtrace;
 using test::TempFolder;
 
@@ -55,16 +57,6 @@ std::size_t check_children(const Scene& scene, std::size_t parent, std::size_t s
             check_children(scene, child, child_size);
     }
     return child_size;
-}
-
-std::string refusal(const auto& generate)
-{
-    try {
-        (void)generate();
-    } catch (const std::exception& error) {
-        return error.what();
-    }
-    return "accepted";
 }
 
 }  // namespace

@@ -10,6 +10,7 @@
 #include <packtrace/read_scene.hpp>
 
 #include "catch.hpp"
+#include "refusal.hpp"
 #include "run_program.hpp"
 #include "samplings.hpp"
 #include "scenes.hpp"
@@ -64,15 +65,9 @@ void check_regions(const RenderOptions& options)
 
 std::string refusal_of_region(const Region& region, Kernel kernel)
 {
-    RenderOptions options;
-    options.kernel = kernel;
-    options.region = region;
-    try {
-        (void)render<float>(quadrics_of_size(64, 48), options);
-    } catch (const std::invalid_argument& error) {
-        return error.what();
-    }
-    return "";
+    const RenderOptions options{.kernel = kernel, .region = region};
+    return refusal<std::invalid_argument>(
+        [&] { return render<float>(quadrics_of_size(64, 48), options); });
 }
 
 }  // namespace
@@ -83,9 +78,7 @@ TEST_CASE("a region of glass has the bits of the whole picture with adaptive sam
     Scene scene = read_scene(PACKTRACE_SOURCE_DIR "/scenes/nested_glass.scene");
     set_size(scene, 96, 72);
     scene.max_depth = 5;
-    RenderOptions options;
-    options.samples = 16;
-    options.adaptive = 0.02;
+    const RenderOptions options{.samples = 16, .adaptive = 0.02};
     const Image<float> whole = render<float>(scene, options);
     for (const Region& region :
          {Region{40, 20, 20, 20}, Region{17, 0, 10, 16}, Region{33, 33, 30, 20}}) {
@@ -110,8 +103,7 @@ TEST_CASE("a region has the pixels of the whole picture, bit for bit", "[region]
 TEST_CASE("a renderer fits its image to the region, and counts its tiles' rays", "[region]")
 {
     const Scene scene = quadrics_of_size(64, 48);
-    RenderOptions options;
-    options.region = Region{20, 20, 4, 4};
+    const RenderOptions options{.region = Region{20, 20, 4, 4}};
     Image<float> image;
     const FrameCounts counts = Renderer<float>(scene, options).render(image);
     CHECK(image.width == 4);
@@ -172,9 +164,7 @@ TEST_CASE("rendering stops where asked to", "[region]")
 TEST_CASE("another thread can stop a render", "[region]")
 {
     std::stop_source source;
-    RenderOptions options;
-    options.stop = source.get_token();
-    options.samples = 1024;
+    const RenderOptions options{.samples = 1024, .stop = source.get_token()};
     const std::jthread stopper([&] { source.request_stop(); });
     CHECK_THROWS_AS((void)render<float>(quadrics_of_size(1024, 1024), options), StopError);
 }

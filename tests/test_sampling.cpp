@@ -9,6 +9,7 @@
 #include "image/contrast.hpp"
 #include "image/pixel_error.hpp"
 #include "packet_scenes.hpp"
+#include "refusal.hpp"
 #include "render_scene.hpp"
 #include "run_program.hpp"
 #include "scene/sample_pattern.hpp"
@@ -18,10 +19,7 @@ namespace {
 
 RenderOptions sampled(int samples, std::optional<double> adaptive = {})
 {
-    RenderOptions options;
-    options.samples = samples;
-    options.adaptive = adaptive;
-    return options;
+    return {.samples = samples, .adaptive = adaptive};
 }
 
 template <class Real>
@@ -223,12 +221,7 @@ TEST_CASE("impossible sampling is refused", "[sampling]")
     for (const Kernel kernel : {Kernel::packet, Kernel::scalar}) {
         const auto message = [&](RenderOptions options) {
             options.kernel = kernel;
-            try {
-                (void)render<float>(scene, options);
-            } catch (const std::invalid_argument& error) {
-                return std::string(error.what());
-            }
-            return std::string();
+            return refusal<std::invalid_argument>([&] { return render<float>(scene, options); });
         };
         CHECK(message(sampled(0)) == "samples: 0; choose from 1 to 1024");
         CHECK(message(sampled(1025)) == "samples: 1025; choose from 1 to 1024");

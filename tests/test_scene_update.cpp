@@ -8,6 +8,7 @@
 #include <packtrace/isa.hpp>
 
 #include "catch.hpp"
+#include "refusal.hpp"
 #include "render_scene.hpp"
 #include "scenes.hpp"
 
@@ -143,12 +144,7 @@ void check_steps(const RenderOptions& options)
 std::string refusal_of_update(RayScene<double>& rays, const Scene& scene,
                               const std::vector<std::int32_t>& moved)
 {
-    try {
-        (void)rays.update(scene, moved);
-    } catch (const std::exception& error) {
-        return error.what();
-    }
-    return "";
+    return refusal([&] { return rays.update(scene, moved); });
 }
 
 }  // namespace
@@ -157,8 +153,7 @@ TEST_CASE("what moves in small steps is answered as if all were made anew", "[sc
 {
     for (const std::string& isa : supported_isas()) {
         CAPTURE(isa);
-        RenderOptions options;
-        options.isa = isa;
+        RenderOptions options{.isa = isa};
         check_steps<float>(options);
         check_steps<double>(options);
         options.accuracy = Accuracy::fast;
@@ -227,13 +222,10 @@ TEST_CASE("an update finds what has moved by itself", "[scene_update]")
 
 TEST_CASE("the scalar kernel and scenes of few objects follow updates", "[scene_update]")
 {
-    Scene scene;
-    scene.objects = {make_object(packtrace::sphere({0, 0, 0}, 1)),
-                     make_object(packtrace::plane({0, -2, 0}, {0, 1, 0}))};
+    Scene scene{.objects = {make_object(packtrace::sphere({0, 0, 0}, 1)),
+                            make_object(packtrace::plane({0, -2, 0}, {0, 1, 0}))}};
     for (const Kernel kernel : {Kernel::packet, Kernel::scalar}) {
-        RenderOptions options;
-        options.kernel = kernel;
-        RayScene<double> moving(scene, options);
+        RayScene<double> moving(scene, {.kernel = kernel});
         Scene moved = scene;
         moved.objects[0] = packtrace::translate(moved.objects[0], {0, 0, 5});
         CHECK(moving.update(moved, std::vector<std::int32_t>{0, 0}).rebuilt);

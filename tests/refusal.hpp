@@ -1,0 +1,20 @@
+#pragma once
+
+#include <exception>
+#include <string>
+
+namespace packtrace::test {
+
+/// What the `Error` says that `call` throws; "accepted" where it throws nothing.
+template <class Error = std::exception>
+[[nodiscard]] std::string refusal(const auto& call)
+{
+    try {
+        static_cast<void>(call());
+    } catch (const Error& error) {
+        return error.what();
+    }
+    return "accepted";
+}
+
+}  // namespace packtrace::test
