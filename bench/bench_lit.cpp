@@ -19,6 +19,7 @@
 #include "names.hpp"
 #include "peers/ray_set.hpp"
 #include "register.hpp"
+#include "render/ray_columns.hpp"
 #include "scenes.hpp"
 
 namespace packtrace::bench {
@@ -40,38 +41,20 @@ struct Points {
     std::vector<Vec3> dir;  ///< of the rays
 };
 
-Vec3 at(const std::array<std::vector<float>, 3>& columns, std::size_t i)
-{
-    return {columns[0][i], columns[1][i], columns[2][i]};
-}
-
 Points points_of(const RayScene<float>& scene, const RaySet& rays)
 {
-    const std::size_t count = rays.size();
-    std::array<std::vector<float>, 13> found;
-    for (auto& column : found)
-        column.resize(count);
-    std::vector<std::int32_t> object(count);
-    std::vector<std::int32_t> surface(count);
-    HitsView<float> hits{found[0].data(), object.data(), found[1].data(), found[2].data(),
-                         found[3].data()};
-    for (std::size_t axis = 0; axis < 3; ++axis) {
-        hits.point[axis] = found[4 + axis].data();
-        hits.outer_start[axis] = found[7 + axis].data();
-        hits.inner_start[axis] = found[10 + axis].data();
-    }
-    hits.surface = surface.data();
-    scene.closest_hits(rays.view(0, count), hits);
+    LeftHitColumns<float> hits(rays.size());
+    scene.closest_hits(rays.view(0, rays.size()), hits.view());
     Points points;
-    for (std::size_t i = 0; i < count; ++i) {
-        if (object[i] < 0)
+    for (std::size_t i = 0; i < rays.size(); ++i) {
+        if (hits.object[i] < 0)
             continue;
         for (std::size_t axis = 0; axis < 3; ++axis) {
-            points.normal[axis].push_back(found[1 + axis][i]);
-            points.point[axis].push_back(found[4 + axis][i]);
-            points.outer[axis].push_back(found[7 + axis][i]);
+            points.normal[axis].push_back(hits.normal[axis][i]);
+            points.point[axis].push_back(hits.point[axis][i]);
+            points.outer[axis].push_back(hits.outer_start[axis][i]);
         }
-        points.surface.push_back(surface[i]);
+        points.surface.push_back(hits.surface[i]);
         points.dir.push_back({rays.dir[0][i], rays.dir[1][i], rays.dir[2][i]});
     }
     return points;
@@ -94,9 +77,9 @@ RaySet mirrored_rays(const Points& points)
 {
     RaySet rays;
     for (std::size_t i = 0; i < points.surface.size(); ++i) {
-        const Vec3 normal = at(points.normal, i);
-        rays.add(at(points.outer, i), points.dir[i] - 2 * glm::dot(points.dir[i], normal) * normal,
-                 endless_ray);
+        const Vec3 normal = vector_at(points.normal, i);
+        rays.add(vector_at(points.outer, i),
+                 points.dir[i] - 2 * glm::dot(points.dir[i], normal) * normal, endless_ray);
     }
     return rays;
 }
@@ -126,14 +109,14 @@ Asked ask(const Scene& scene, std::size_t light, bool mirrored)
     const Light& from = scene.lights[light];
     const bool endless = from.type == LightType::directional;
     for (std::size_t i = 0; i < points.surface.size(); ++i) {
-        const Vec3 way = endless ? from.vector : from.vector - at(points.point, i);
-        if (glm::dot(way, at(points.normal, i)) <= 0)
+        const Vec3 way = endless ? from.vector : from.vector - vector_at(points.point, i);
+        if (glm::dot(way, vector_at(points.normal, i)) <= 0)
             continue;
         for (std::size_t axis = 0; axis < 3; ++axis)
             asked.point[axis].push_back(points.point[axis][i]);
         asked.surface.push_back(points.surface[i]);
         // From the light, where rays share their origin: so they are quickest.
-        const Vec3 start = at(points.outer, i);
+        const Vec3 start = vector_at(points.outer, i);
         if (endless)
             asked.shadow_rays.add(start, from.vector, endless_ray);
         else

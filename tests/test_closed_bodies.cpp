@@ -1,7 +1,6 @@
 // Capped bodies are closed for packets too: rays from inside leave once more than they enter, lines
 // from outside leave as often as they enter, at rims as well.
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <cstdlib>
 #include <limits>
@@ -14,40 +13,22 @@
 #include "catch.hpp"
 #include "lab/stress/stress.hpp"
 #include "reference_scenes.hpp"
+#include "render/ray_columns.hpp"
 #include "render_scene.hpp"
 
 namespace packtrace::test {
 namespace {
-
-template <class Real>
-using Columns = std::array<std::vector<Real>, 8>;
-
-template <class Real>
-RaysView<Real> view_of(const Columns<Real>& c)
-{
-    return {c[0].data(), c[1].data(), c[2].data(), c[3].data(), c[4].data(),
-            c[5].data(), c[6].data(), c[7].data(), c[0].size()};
-}
-
-template <class Real>
-void add_ray(Columns<Real>& columns, const Vec3& org, const Vec3& dir)
-{
-    const double values[8] = {org.x, org.y, org.z, dir.x,
-                              dir.y, dir.z, 0.0,   std::numeric_limits<double>::infinity()};
-    for (std::size_t i = 0; i < 8; ++i)
-        columns[i].push_back(static_cast<Real>(values[i]));
-}
 
 /// How many hits the endless ray has in all.
 template <class Real>
 std::size_t count_hits(const Scene& scene, const RenderOptions& options, const Vec3& org,
                        const Vec3& dir)
 {
-    Columns<Real> rays;
-    add_ray<Real>(rays, org, dir);
+    RayColumns<Real> rays;
+    rays.add(org, dir);
     std::size_t count = 0;
     RayScene<Real>(scene, options)
-        .all_hits(view_of(rays), [&](std::size_t, std::span<const SurfaceHit<Real>> hits) {
+        .all_hits(rays.view(), [&](std::size_t, std::span<const SurfaceHit<Real>> hits) {
             count = hits.size();
         });
     return count;
@@ -65,12 +46,11 @@ Object capped_cylinder()
 /// Every capped kind, from inside and from outside, half of the rays at rims.
 void check_closed(int rays, std::uint64_t seed)
 {
-    lab::StressOptions options;
-    options.rays = rays;
-    options.seed = seed;
-    options.kernels = {"packet", "scalar"};
-    options.modes = {"exact"};
-    options.families = {"closed-bodies", "rims-outside"};
+    const lab::StressOptions options{.families = {"closed-bodies", "rims-outside"},
+                                     .kernels = {"packet", "scalar"},
+                                     .modes = {"exact"},
+                                     .rays = rays,
+                                     .seed = seed};
     lab::run_stress(options, [](const std::vector<lab::StressRow>& rows) {
         for (const lab::StressRow& row : rows) {
             CAPTURE(row.family, row.precision, row.kernel, row.isa, row.example);
@@ -143,91 +123,60 @@ glm::dvec3 near_rim(const Quadric& quadric, std::mt19937_64& random)
 
 /// Rays through places near the rims of one body.
 template <class Real>
-Columns<Real> rays_at_rims(const Object& body, int count, std::mt19937_64& random)
+RayColumns<Real> rays_at_rims(const Object& body, int count, std::mt19937_64& random)
 {
     std::uniform_real_distribution<double> number(-1, 1);
-    Columns<Real> rays;
+    RayColumns<Real> rays;
     for (int i = 0; i < count; ++i) {
         const glm::dvec3 place(body.transform *
                                glm::dvec4(near_rim(std::get<Quadric>(body.surface), random), 1));
         const glm::dvec3 dir =
             glm::normalize(glm::dvec3(number(random), number(random), number(random)));
-        add_ray<Real>(rays, place - (8 + 5 * std::abs(number(random))) * dir, dir);
+        rays.add(place - (8 + 5 * std::abs(number(random))) * dir, dir);
     }
     return rays;
 }
 
-/// The hits of rays with all that rays need which leave them.
-template <class Real>
-struct HitColumns {
-    std::array<std::vector<Real>, 13> real;
-    std::array<std::vector<std::int32_t>, 2> number;
-
-    explicit HitColumns(std::size_t count)
-    {
-        for (auto& column : real)
-            column.resize(count);
-        for (auto& column : number)
-            column.resize(count);
-    }
-    [[nodiscard]] HitsView<Real> view()
-    {
-        const auto at = [&](std::size_t i) { return real[i].data(); };
-        return {at(0),
-                number[0].data(),
-                at(1),
-                at(2),
-                at(3),
-                {at(4), at(5), at(6)},
-                {at(7), at(8), at(9)},
-                {at(10), at(11), at(12)},
-                number[1].data()};
-    }
-    [[nodiscard]] StartsView<Real> starts() const
-    {
-        return {{real[10].data(), real[11].data(), real[12].data()}, number[1].data()};
-    }
-};
-
 /// Follows rays straight on through a body by the surfaces they start on; returns how many enter it
 /// and do not leave it, or leave what they have not entered.
 template <class Real>
-int count_open_paths(const RayScene<Real>& scene, Columns<Real> rays)
+int count_open_paths(const RayScene<Real>& scene, RayColumns<Real> rays)
 {
-    const std::size_t count = rays[0].size();
-    HitColumns<Real> hits(count);
-    scene.closest_hits(view_of(rays), hits.view());
+    const std::size_t count = rays.size();
+    auto& c = rays.columns;
+    LeftHitColumns<Real> hits(count);
+    scene.closest_hits(rays.view(), hits.view());
     std::vector<bool> inside(count, false);
     int open = 0;
     for (int generation = 0; generation < 6; ++generation) {
         for (std::size_t i = 0; i < count; ++i) {
-            if (hits.number[0][i] < 0) {
+            if (hits.object[i] < 0) {
                 open += inside[i];
                 inside[i] = false;
-                hits.number[1][i] = no_start;
-                rays[0][i] = std::numeric_limits<Real>::quiet_NaN();  // hits nothing from now on
+                hits.surface[i] = no_start;
+                c[0][i] = std::numeric_limits<Real>::quiet_NaN();  // hits nothing from now on
                 continue;
             }
-            const Real slope = rays[3][i] * hits.real[1][i] + rays[4][i] * hits.real[2][i] +
-                               rays[5][i] * hits.real[3][i];
+            const Real slope = c[3][i] * hits.normal[0][i] + c[4][i] * hits.normal[1][i] +
+                               c[5][i] * hits.normal[2][i];
             const bool goes_in = slope < 0;
             // A tangent's slope may have either sign: the second hit of a touch is the same place.
             open += goes_in == inside[i] && std::abs(slope) > Real(1e-3);
             inside[i] = !inside[i];
             for (std::size_t axis = 0; axis < 3; ++axis)
-                rays[axis][i] = hits.real[(inside[i] ? 7 : 4) + axis][i];
+                c[axis][i] = (inside[i] ? hits.inner_start : hits.outer_start)[axis][i];
             if (inside[i])
-                hits.number[1][i] = ~hits.number[1][i];
+                hits.surface[i] = ~hits.surface[i];
         }
-        const HitColumns<Real> from = hits;
-        scene.closest_hits(view_of(rays), from.starts(), hits.view());
+        const StartColumns<Real> from{hits.point, hits.surface};
+        scene.closest_hits(rays.view(), from.view(), hits.view());
     }
     return open;
 }
 
 /// Rays from within a body, every second one aimed at a rim.
 template <class Real>
-Columns<Real> rays_from_within(const Object& body, int count, std::mt19937_64& random)
+RayColumns<Real> rays_from_within(const Object& body, int count, std::mt19937_64& random)
 {
     const auto& quadric = std::get<Quadric>(body.surface);
     std::uniform_real_distribution<double> unit(0, 1);
@@ -235,8 +184,8 @@ Columns<Real> rays_from_within(const Object& body, int count, std::mt19937_64& r
     const auto to_world = [&](const glm::dvec3& p) {
         return glm::dvec3(body.transform * glm::dvec4(p, 1));
     };
-    Columns<Real> rays;
-    while (rays[0].size() < static_cast<std::size_t>(count)) {
+    RayColumns<Real> rays;
+    while (rays.size() < static_cast<std::size_t>(count)) {
         const double share = 0.1 + 0.8 * unit(random);
         const double z = glm::mix(quadric.z_range->low, quadric.z_range->high, share);
         const double turn = 6.2831853 * unit(random);
@@ -245,20 +194,20 @@ Columns<Real> rays_from_within(const Object& body, int count, std::mt19937_64& r
         if (r == 0)
             continue;
         const glm::dvec3 from = to_world({r * std::cos(turn), r * std::sin(turn), z});
-        const bool at_rim = rays[0].size() % 2 == 0;
+        const bool at_rim = rays.size() % 2 == 0;
         const glm::dvec3 dir = at_rim ? to_world(near_rim(quadric, random)) - from
                                       : glm::dvec3(number(random), number(random), number(random));
-        add_ray<Real>(rays, from, dir);
+        rays.add(from, dir);
     }
     return rays;
 }
 
 /// How many of the rays leave the body as often as they enter it: none does.
 template <class Real>
-int count_not_left(const RayScene<Real>& scene, const Columns<Real>& rays)
+int count_not_left(const RayScene<Real>& scene, const RayColumns<Real>& rays)
 {
     int wrong = 0;
-    scene.all_hits(view_of(rays), [&](std::size_t, std::span<const SurfaceHit<Real>> hits) {
+    scene.all_hits(rays.view(), [&](std::size_t, std::span<const SurfaceHit<Real>> hits) {
         wrong += hits.size() % 2 == 0;
     });
     return wrong;
@@ -270,10 +219,8 @@ void check_left_from_within(const std::string& isa, int rays_of_each, std::uint6
     constexpr int at_once = 100'000;
     std::mt19937_64 random(seed);
     for (const Object& body : capped_bodies(random)) {
-        Scene scene;
-        scene.objects = {body};
-        RenderOptions options;
-        options.isa = isa;
+        Scene scene{.objects = {body}};
+        const RenderOptions options{.isa = isa};
         const RayScene<float> singles(scene, options);
         const RayScene<double> doubles(scene, options);
         int wrong[2] = {};
@@ -308,12 +255,10 @@ TEST_CASE("paths that go on from hits at rims leave every capped body they enter
     for (const std::string& isa : supported_isas()) {
         std::mt19937_64 random(11);
         for (const Object& body : capped_bodies(random)) {
-            Scene scene;
-            scene.objects = {body};
-            RenderOptions options;
-            options.isa = isa;
-            const Columns<float> singles = rays_at_rims<float>(body, 3000, random);
-            const Columns<double> doubles = rays_at_rims<double>(body, 3000, random);
+            Scene scene{.objects = {body}};
+            const RenderOptions options{.isa = isa};
+            const RayColumns<float> singles = rays_at_rims<float>(body, 3000, random);
+            const RayColumns<double> doubles = rays_at_rims<double>(body, 3000, random);
             CAPTURE(isa, std::get<Quadric>(body.surface).coefficients);
             CHECK(count_open_paths(RayScene<float>(scene, options), singles) == 0);
             CHECK(count_open_paths(RayScene<double>(scene, options), doubles) == 0);
@@ -323,8 +268,7 @@ TEST_CASE("paths that go on from hits at rims leave every capped body they enter
 
 TEST_CASE("a line that only touches a rim has two hits there, or none", "[closed_bodies]")
 {
-    Scene scene;
-    scene.objects = {capped_cylinder()};
+    Scene scene{.objects = {capped_cylinder()}};
     std::vector<RenderOptions> all(1);
     all[0].kernel = Kernel::scalar;
     for (const std::string& isa : supported_isas())

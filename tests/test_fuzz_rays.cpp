@@ -1,5 +1,4 @@
 // Rays of any bit pattern: kernels answer, and what they answer is in range.
-#include <array>
 #include <bit>
 #include <cmath>
 #include <cstdint>
@@ -13,6 +12,7 @@
 #include "lab/stress/placed_quadric.hpp"
 #include "lab/stress/stress_random.hpp"
 #include "reference_scenes.hpp"
+#include "render/ray_columns.hpp"
 
 namespace packtrace::test {
 namespace {
@@ -50,15 +50,12 @@ Real any_value(lab::StressRandom& random)
 }
 
 template <class Real>
-using Columns = std::array<std::vector<Real>, 8>;
-
-template <class Real>
-Columns<Real> any_rays(int count)
+RayColumns<Real> any_rays(int count)
 {
     lab::StressRandom random(99);
-    Columns<Real> rays;
+    RayColumns<Real> rays;
     for (int i = 0; i < count; ++i)
-        for (auto& column : rays)
+        for (auto& column : rays.columns)
             column.push_back(any_value<Real>(random));
     return rays;
 }
@@ -66,22 +63,20 @@ Columns<Real> any_rays(int count)
 /// A surface of every kind; `many` adds enough balls for a hierarchy.
 Scene every_kind(bool many)
 {
-    Scene scene;
-    scene.objects = {sphere({0, 0, 0}, 1.5), plane({0, -2, 0}, {0.2, 1, 0.1}),
-                     sphere({0, -5002, 0}, 5000), sphere({1e5, 0, 0}, 1)};
+    Scene scene{.objects = {sphere({0, 0, 0}, 1.5), plane({0, -2, 0}, {0.2, 1, 0.1}),
+                            sphere({0, -5002, 0}, 5000), sphere({1e5, 0, 0}, 1)}};
     for (int kind = 0; kind < 7; ++kind)
         for (const bool capped : {false, true}) {
-            Quadric surface = lab::quadric_of(static_cast<QuadricKind>(kind));
+            Quadric surface = packtrace::quadric(static_cast<QuadricKind>(kind));
             if (capped)
                 surface.z_range = ZRange{-0.5, 0.5};
             surface.capped = capped;
-            Object object;
-            object.surface = surface;
-            object.transform =
-                glm::scale(glm::rotate(glm::translate(Mat4(1.0), {kind - 3.0, 0.5, 1.0}),
-                                       0.7 * kind, Vec3(1, 2, 3)),
-                           Vec3(1.0, 0.5, kind == 2 ? 1e-3 : 1.0));
-            scene.objects.push_back(object);
+            scene.objects.push_back(
+                {.surface = surface,
+                 .transform =
+                     glm::scale(glm::rotate(glm::translate(Mat4(1.0), {kind - 3.0, 0.5, 1.0}),
+                                            0.7 * kind, Vec3(1, 2, 3)),
+                                Vec3(1.0, 0.5, kind == 2 ? 1e-3 : 1.0))});
         }
     for (int i = 0; many && i < 60; ++i)
         scene.objects.push_back(sphere({i % 8 - 4.0, i / 8 - 4.0, 3.0}, 0.3));
@@ -92,33 +87,29 @@ template <class Real>
 void answers_are_in_range(const Scene& scene, const RenderOptions& options)
 {
     const int n = 3001;
-    const Columns<Real> rays = any_rays<Real>(n);
-    const auto& c = rays;
-    const RaysView<Real> view{c[0].data(), c[1].data(), c[2].data(),
-                              c[3].data(), c[4].data(), c[5].data(),
-                              c[6].data(), c[7].data(), n};
+    const RayColumns<Real> rays = any_rays<Real>(n);
     const RayScene<Real> ray_scene(scene, options);
-    std::vector<Real> t(n), x(n), y(n), z(n);
-    std::vector<std::int32_t> object(n, 12345);
+    HitColumns<Real> hits(n);
+    hits.object.assign(n, 12345);
     std::vector<std::uint8_t> mask(n, 7);
-    ray_scene.closest_hits(view, {t.data(), object.data(), x.data(), y.data(), z.data()});
-    ray_scene.occluded(view, mask.data());
+    ray_scene.closest_hits(rays.view(), hits.view());
+    ray_scene.occluded(rays.view(), mask.data());
     const auto objects = static_cast<std::int32_t>(scene.objects.size());
     for (std::size_t i = 0; i < n; ++i) {
         CAPTURE(i);
-        CHECK(object[i] >= -1);
-        CHECK(object[i] < objects);
+        CHECK(hits.object[i] >= -1);
+        CHECK(hits.object[i] < objects);
         CHECK(mask[i] <= 1);
         bool has_nan = false;
-        for (const auto& column : rays)
+        for (const auto& column : rays.columns)
             has_nan = has_nan || std::isnan(column[i]);
         if (has_nan)
-            CHECK(object[i] == -1);
-        else if (object[i] >= 0)
-            CHECK_FALSE(std::isnan(t[i]));
+            CHECK(hits.object[i] == -1);
+        else if (hits.object[i] >= 0)
+            CHECK_FALSE(std::isnan(hits.t[i]));
     }
-    ray_scene.all_hits(view, [&](std::size_t, std::span<const SurfaceHit<Real>> hits) {
-        for (const SurfaceHit<Real>& hit : hits) {
+    ray_scene.all_hits(rays.view(), [&](std::size_t, std::span<const SurfaceHit<Real>> all) {
+        for (const SurfaceHit<Real>& hit : all) {
             CHECK(hit.object >= 0);
             CHECK(hit.object < objects);
         }
@@ -137,10 +128,8 @@ TEMPLATE_TEST_CASE("rays of any bit pattern get an answer that is in range", "[f
                     if (!isa.supported)
                         continue;
                     CAPTURE(isa.name, static_cast<int>(accuracy), many);
-                    RenderOptions options;
-                    options.isa = isa.name;
-                    options.accuracy = accuracy;
-                    options.self_hits = self_hits;
+                    const RenderOptions options{
+                        .isa = isa.name, .accuracy = accuracy, .self_hits = self_hits};
                     answers_are_in_range<TestType>(every_kind(many), options);
                 }
 }

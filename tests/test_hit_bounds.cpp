@@ -26,22 +26,15 @@ template <class Real>
 class OneRay {
 public:
     OneRay(const Vec3& org, const Vec3& dir, double t_min = 0.0, double t_max = endless)
-        : numbers_{Real(org.x), Real(org.y), Real(org.z), Real(dir.x),
-                   Real(dir.y), Real(dir.z), Real(t_min), Real(t_max)}
     {
-    }
-
-    [[nodiscard]] RaysView<Real> view() const
-    {
-        const Real* n = numbers_;
-        return {n, n + 1, n + 2, n + 3, n + 4, n + 5, n + 6, n + 7, 1};
+        ray_.add(org, dir, t_min, t_max);
     }
 
     /// Of the first hit, which is with that object.
     [[nodiscard]] HitBounds first(const RayScene<Real>& scene, std::int32_t object = 0) const
     {
         HitBounds bounds;
-        scene.bound_closest_hits(view(), &object, &bounds);
+        scene.bound_closest_hits(ray_.view(), &object, &bounds);
         return bounds;
     }
 
@@ -49,15 +42,15 @@ public:
     [[nodiscard]] std::vector<HitBounds> all(const RayScene<Real>& scene) const
     {
         std::vector<HitBounds> bounds;
-        scene.all_hits(view(), [&](std::size_t ray, std::span<const SurfaceHit<Real>> hits) {
+        scene.all_hits(ray_.view(), [&](std::size_t ray, std::span<const SurfaceHit<Real>> hits) {
             bounds.resize(hits.size());
-            scene.bound_all_hits(view(), ray, hits, bounds);
+            scene.bound_all_hits(ray_.view(), ray, hits, bounds);
         });
         return bounds;
     }
 
 private:
-    Real numbers_[8];
+    RayColumns<Real> ray_;
 };
 
 bool holds(const HitBounds& bounds, double t)
@@ -259,10 +252,8 @@ TEST_CASE("bounds stay tight along generators, across scales and for long direct
 TEST_CASE("bounds know nothing of kernels, precisions and modes", "[hit_bounds]")
 {
     const Scene scene = scene_of(hand_scene);
-    RenderOptions scalar;
-    scalar.kernel = Kernel::scalar;
-    RenderOptions fast;
-    fast.accuracy = Accuracy::fast;
+    const RenderOptions scalar{.kernel = Kernel::scalar};
+    const RenderOptions fast{.accuracy = Accuracy::fast};
     const OneRay<float> ray({0.25f, -0.5f, 0}, {0.01f, 0.1f, 1});
     const HitBounds usual = ray.first(RayScene<float>(scene));
     for (const RenderOptions& options : {scalar, fast}) {
@@ -277,15 +268,13 @@ TEST_CASE("a sphere's surface lies between its bounds by exact arithmetic", "[hi
     lab::StressRandom random(7);
     int crossings = 0;
     for (int i = 0; i < 300; ++i) {
-        Sphere sphere;
-        sphere.center = random.box(random.power(1.0, 1e6));
-        sphere.radius = random.power(1e-3, 1e3);
+        Sphere sphere{.center = random.box(random.power(1.0, 1e6)),
+                      .radius = random.power(1e-3, 1e3)};
         const Vec3 org = random.box(random.power(1.0, 1e6));
         // Near the silhouette as often as not.
         const Vec3 target = sphere.center + (i % 2 == 0 ? 0.9 : 1.0 - 1e-9) * sphere.radius *
                                                 lab::across(random, sphere.center - org);
-        Object object;
-        object.surface = sphere;
+        Object object{.surface = sphere};
         const RayScene<double> scene(scene_of(object));
         const OneRay<double> ray(org, target - org);
         for (const HitBounds& bounds : ray.all(scene)) {

@@ -1,3 +1,4 @@
+#include <array>
 #include <charconv>
 #include <cstddef>
 #include <cstdint>
@@ -15,6 +16,7 @@
 
 #include "catch.hpp"
 #include "intersect_program.hpp"
+#include "render/ray_columns.hpp"
 #include "render_scene.hpp"
 
 // `packtrace intersect`: rays in, hits out.
@@ -70,36 +72,27 @@ std::string without_header(const std::string& text)
 // Rays at the ball, the floor and past them, and their text.
 template <class Real>
 struct RandomRays {
-    std::vector<std::vector<Real>> columns{8};
+    RayColumns<Real> columns;
     std::string text;
 
     explicit RandomRays(int count)
     {
         std::mt19937 random(3);
         std::uniform_real_distribution<Real> place(-1, 1);
-        for (int i = 0; i < count; ++i) {
-            add({place(random), place(random), place(random), place(random), place(random), 3});
-            columns[6].push_back(0);
-            columns[7].push_back(std::numeric_limits<Real>::infinity());
-        }
+        for (int i = 0; i < count; ++i)
+            add({place(random), place(random), place(random), place(random), place(random), 3, 0,
+                 std::numeric_limits<Real>::infinity()});
     }
 
-    void add(const std::vector<Real>& ray)
+    void add(const std::array<Real, 8>& ray)
     {
-        for (std::size_t i = 0; i < ray.size(); ++i) {
+        columns.add(ray);
+        for (std::size_t i = 0; i < 6; ++i) {
             char digits[64];
             const auto end = std::to_chars(digits, digits + sizeof digits, ray[i]);
             text.append(digits, end.ptr);
-            text += i + 1 < ray.size() ? ',' : '\n';
-            columns[i].push_back(ray[i]);
+            text += i < 5 ? ',' : '\n';
         }
-    }
-
-    [[nodiscard]] RaysView<Real> view() const
-    {
-        const auto& c = columns;
-        return {c[0].data(), c[1].data(), c[2].data(), c[3].data(), c[4].data(),
-                c[5].data(), c[6].data(), c[7].data(), c[0].size()};
     }
 };
 
@@ -125,7 +118,7 @@ void check_round_trip(const std::string& precision)
     const Scene scene = parse_scene(hand_scene, "hand.scene");
     std::vector<Real> t(5000);
     std::vector<std::int32_t> object(5000);
-    RayScene<Real>(scene).closest_hits(rays.view(), {t.data(), object.data()});
+    RayScene<Real>(scene).closest_hits(rays.columns.view(), {t.data(), object.data()});
 
     std::istringstream rows(without_header(result.out));
     std::string row;

@@ -9,6 +9,7 @@
 
 #include "catch.hpp"
 #include "closest_hits.hpp"
+#include "lab/stress/stress_subject.hpp"
 #include "render_scene.hpp"
 #include "true_hits.hpp"
 
@@ -21,27 +22,6 @@ struct WrongAnswers {
     int t = 0;         ///< more than a unit in the last place off where double is not
     int occluded = 0;  ///< another answer to what is before the ray's end
     std::string examples;
-};
-
-struct ColumnsOfRays {
-    std::vector<float> of[8];
-
-    explicit ColumnsOfRays(const std::vector<StressRay>& rays)
-    {
-        for (const StressRay& ray : rays) {
-            for (int axis = 0; axis < 3; ++axis) {
-                of[axis].push_back(static_cast<float>(ray.org[axis]));
-                of[3 + axis].push_back(static_cast<float>(ray.dir[axis]));
-            }
-            of[6].push_back(static_cast<float>(ray.t_min));
-            of[7].push_back(static_cast<float>(ray.t_max));
-        }
-    }
-    [[nodiscard]] RaysView<float> view() const
-    {
-        return {of[0].data(), of[1].data(), of[2].data(), of[3].data(), of[4].data(),
-                of[5].data(), of[6].data(), of[7].data(), of[0].size()};
-    }
 };
 
 std::string text_of(const StressRay& ray, const AimedTruth& truth, std::int32_t object, float t)
@@ -66,24 +46,24 @@ WrongAnswers wrong_answers(const AimedRays& aimed, const std::vector<AimedTruth>
                            const RenderOptions& options)
 {
     const RayScene<float> scene(aimed.scene, options);
-    ColumnsOfRays columns(aimed.rays);
-    const std::size_t n = aimed.rays.size();
-    std::vector<float> t(n), x(n), y(n), z(n);
-    std::vector<std::int32_t> object(n);
+    RayColumns<float> columns = lab::columns_of<float>(aimed.rays);
+    const std::size_t n = columns.size();
+    HitColumns<float> hits(n);
     std::vector<std::uint8_t> mask(n);
-    scene.closest_hits(columns.view(), {t.data(), object.data(), x.data(), y.data(), z.data()});
+    scene.closest_hits(columns.view(), hits.view());
     for (std::size_t i = 0; i < n; ++i)
-        columns.of[7][i] = truths[i].t_max;
+        columns.columns[7][i] = truths[i].t_max;
     scene.occluded(columns.view(), mask.data());
     WrongAnswers wrong;
     for (std::size_t i = 0; i < n; ++i) {
         const AimedTruth& truth = truths[i];
-        const bool wrong_object = truth.decidable && object[i] != truth.object;
+        const std::int32_t object = hits.object[i];
+        const bool wrong_object = truth.decidable && object != truth.object;
         const bool wrong_t =
-            truth.decidable && object[i] == truth.object && object[i] >= 0 && !right_t(truth, t[i]);
+            truth.decidable && object == truth.object && object >= 0 && !right_t(truth, hits.t[i]);
         const bool wrong_mask = truth.occlusion_decidable && (mask[i] == 1) != truth.occluded;
         if ((wrong_object || wrong_t || wrong_mask) && wrong.object + wrong.t + wrong.occluded < 3)
-            wrong.examples += text_of(aimed.rays[i], truth, object[i], t[i]);
+            wrong.examples += text_of(aimed.rays[i], truth, object, hits.t[i]);
         wrong.object += wrong_object;
         wrong.t += wrong_t;
         wrong.occluded += wrong_mask;
@@ -111,9 +91,7 @@ void check_aimed(const AimedFamily& family, int scenes, int rays, std::uint64_t 
         }
         for (const std::string& isa : supported_isas())
             for (const Traversal traversal : {Traversal::list, Traversal::tree}) {
-                RenderOptions options;
-                options.isa = isa;
-                options.traversal = traversal;
+                const RenderOptions options{.isa = isa, .traversal = traversal};
                 const WrongAnswers wrong = wrong_answers(aimed, truths, options);
                 CAPTURE(family.name, number, isa, static_cast<int>(traversal), wrong.examples);
                 CHECK(wrong.object == 0);
@@ -129,9 +107,7 @@ void check_aimed(const AimedFamily& family, int scenes, int rays, std::uint64_t 
 Scene balls_at_tile_edges(unsigned seed)
 {
     StressRandom random(seed);
-    Scene scene;
-    scene.width = 64;
-    scene.height = 64;
+    Scene scene{.width = 64, .height = 64};
     scene.camera.position = random.box(seed % 2 == 0 ? 1.0 : 1000.0);
     const CameraBasis basis = camera_basis(scene.camera, scene.width, scene.height);
     for (int i = 0; i < 30; ++i) {
@@ -170,23 +146,15 @@ TEST_CASE("a beam leaves out no ball that one of its rays meets", "[margins]")
         for (unsigned seed = 0; seed < 60; ++seed) {
             CAPTURE(isa, seed);
             const Scene scene = balls_at_tile_edges(seed);
-            RenderOptions options;
-            options.isa = isa;
-            const RayScene<float> by_ray(scene, options);
+            const RayScene<float> by_ray(scene, {.isa = isa});
             const TracingSetup<float> setup(scene);
             for (const TracedRay<float>& traced : trace_closest(kernels_of(isa), setup, scene)) {
-                float values[8];
-                for (int axis = 0; axis < 3; ++axis) {
-                    values[axis] = static_cast<float>(traced.ray.org[axis]);
-                    values[3 + axis] = static_cast<float>(traced.ray.dir[axis]);
-                }
-                values[6] = static_cast<float>(traced.ray.t_min);
-                values[7] = std::numeric_limits<float>::infinity();
-                const float* v = values;
+                RayColumns<float> ray;
+                ray.add(Vec3(traced.ray.org), Vec3(traced.ray.dir),
+                        static_cast<double>(traced.ray.t_min));
                 float t = 0.0f;
                 std::int32_t object = -2;
-                by_ray.closest_hits({v, v + 1, v + 2, v + 3, v + 4, v + 5, v + 6, v + 7, 1},
-                                    {&t, &object});
+                by_ray.closest_hits(ray.view(), {&t, &object});
                 CHECK(object == traced.object);
                 hits += object >= 0;
             }

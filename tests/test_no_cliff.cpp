@@ -1,8 +1,6 @@
 // What rays of the caller's own hit hangs on the objects in their way alone: not on where the
 // camera and the lights are, nor on what else is in the scene.
-#include <array>
 #include <cmath>
-#include <limits>
 #include <optional>
 
 #include <packtrace/intersect.hpp>
@@ -24,43 +22,32 @@ constexpr std::size_t ray_count = 2000;
 Scene mixed_scene()
 {
     lab::StressRandom random(5);
-    Scene scene;
-    scene.objects = {
-        lab::sphere_object({0, -1, 3}, 1),     lab::sphere_object({-2, 1, 3}, 1),
-        lab::sphere_object({2, 1, 3}, 1),      lab::sphere_object({0, -5001, 0}, 5000),
-        lab::sphere_object({3, 2, 60}, 0.002), lab::plane_object({0, 0, 90}, {0, 0.6, -0.8})};
+    Scene scene{.objects = {lab::sphere_object({0, -1, 3}, 1), lab::sphere_object({-2, 1, 3}, 1),
+                            lab::sphere_object({2, 1, 3}, 1),
+                            lab::sphere_object({0, -5001, 0}, 5000),
+                            lab::sphere_object({3, 2, 60}, 0.002),
+                            lab::plane_object({0, 0, 90}, {0, 0.6, -0.8})}};
     for (const QuadricKind kind : {QuadricKind::ellipsoid, QuadricKind::cylinder, QuadricKind::cone,
                                    QuadricKind::paraboloid}) {
-        Object object;
-        object.surface = lab::quadric_of(kind);
-        object.transform = lab::any_placement(random, lab::any_stretch(random, 0.05),
-                                              random.box(3.0) + Vec3(0, 2, 8));
-        scene.objects.push_back(object);
+        scene.objects.push_back(
+            {.surface = packtrace::quadric(kind),
+             .transform = lab::any_placement(random, lab::any_stretch(random, 0.05),
+                                             random.box(3.0) + Vec3(0, 2, 8))});
     }
     return scene;
 }
 
-template <class Real>
-using Columns = std::array<std::vector<Real>, 8>;
-
 /// From around the origin, all of them forwards.
 template <class Real>
-Columns<Real> forward_rays()
+RayColumns<Real> forward_rays()
 {
     lab::StressRandom random(11);
-    Columns<Real> rays;
+    RayColumns<Real> rays;
     for (std::size_t i = 0; i < ray_count; ++i) {
         const Vec3 org = random.box(0.5);
-        const double values[8] = {org.x,
-                                  org.y,
-                                  org.z,
-                                  random.between(-1.0, 1.0),
-                                  random.between(-0.6, 0.6),
-                                  1.0,
-                                  0.0,
-                                  std::numeric_limits<double>::infinity()};
-        for (std::size_t c = 0; c < 8; ++c)
-            rays[c].push_back(static_cast<Real>(values[c]));
+        const double right = random.between(-1.0, 1.0);
+        const double up = random.between(-0.6, 0.6);
+        rays.add(org, {right, up, 1.0});
     }
     return rays;
 }
@@ -70,34 +57,24 @@ template <class Real>
 std::vector<double> answers_of(const Scene& scene, const RenderOptions& options)
 {
     const RayScene<Real> rays(scene, options);
-    const Columns<Real> c = forward_rays<Real>();
-    const RaysView<Real> view{c[0].data(), c[1].data(), c[2].data(), c[3].data(), c[4].data(),
-                              c[5].data(), c[6].data(), c[7].data(), ray_count};
-    std::array<std::vector<Real>, 13> out;
-    for (auto& column : out)
-        column.resize(ray_count);
-    std::vector<std::int32_t> object(ray_count);
-    std::vector<std::int32_t> surface(ray_count);
-    rays.closest_hits(view, {out[0].data(),
-                             object.data(),
-                             out[1].data(),
-                             out[2].data(),
-                             out[3].data(),
-                             {out[4].data(), out[5].data(), out[6].data()},
-                             {out[7].data(), out[8].data(), out[9].data()},
-                             {out[10].data(), out[11].data(), out[12].data()},
-                             surface.data()});
+    const RayColumns<Real> forward = forward_rays<Real>();
+    LeftHitColumns<Real> found(ray_count);
+    rays.closest_hits(forward.view(), found.view());
     std::vector<std::uint8_t> occluded(ray_count);
-    rays.occluded(view, occluded.data());
+    rays.occluded(forward.view(), occluded.data());
 
     std::vector<double> answers;
     for (std::size_t i = 0; i < ray_count; ++i) {
-        answers.push_back(object[i]);
+        const bool hit = found.object[i] >= 0;
+        answers.push_back(found.object[i]);
         answers.push_back(occluded[i]);
-        for (const auto& column : out)
-            answers.push_back(object[i] < 0 ? 0.0 : static_cast<double>(column[i]));
+        answers.push_back(hit ? static_cast<double>(found.t[i]) : 0.0);
+        for (const auto* columns :
+             {&found.normal, &found.outer_start, &found.inner_start, &found.point})
+            for (const auto& column : *columns)
+                answers.push_back(hit ? static_cast<double>(column[i]) : 0.0);
     }
-    rays.all_hits(view, [&](std::size_t, std::span<const SurfaceHit<Real>> hits) {
+    rays.all_hits(forward.view(), [&](std::size_t, std::span<const SurfaceHit<Real>> hits) {
         for (const SurfaceHit<Real>& hit : hits) {
             answers.push_back(hit.object);
             answers.push_back(static_cast<double>(hit.t));
@@ -130,10 +107,8 @@ std::vector<Change> changes()
         all.push_back({"eye " + std::to_string(far) + " away", mixed_scene()});
         all.back().scene.camera.position = far * Vec3(0.6, 0.48, -0.64);
         all.push_back({"light " + std::to_string(far) + " away", mixed_scene()});
-        Light light;
-        light.type = LightType::point;
-        light.vector = far * Vec3(-0.48, 0.8, 0.36);
-        all.back().scene.lights.push_back(light);
+        all.back().scene.lights.push_back(
+            {.type = LightType::point, .vector = far * Vec3(-0.48, 0.8, 0.36)});
     }
     for (const int count : {1, 100, 10000}) {
         all.push_back({std::to_string(count) + " objects elsewhere", mixed_scene()});
@@ -173,11 +148,9 @@ Scene lit_from(double distance)
         light { type = ambient  intensity = 0.2 }
     )",
                               "lit", {});
-    Light light;
-    light.type = LightType::point;
-    light.intensity = Rgb(0.7);
-    light.vector = distance * Vec3(-0.48, 0.8, -0.36);
-    scene.lights.push_back(light);
+    scene.lights.push_back({.type = LightType::point,
+                            .intensity = Rgb(0.7),
+                            .vector = distance * Vec3(-0.48, 0.8, -0.36)});
     return scene;
 }
 
@@ -255,10 +228,7 @@ TEST_CASE("camera, lights and objects elsewhere change no digit of a hit", "[no_
     for (const std::string& isa : supported_isas())
         for (const lab::StressMode& mode : lab::stress_modes) {
             CAPTURE(isa, mode.name);
-            RenderOptions options;
-            options.isa = isa;
-            options.accuracy = mode.accuracy;
-            check_no_cliff<float>(options);
+            check_no_cliff<float>({.isa = isa, .accuracy = mode.accuracy});
         }
 }
 
@@ -266,13 +236,9 @@ TEST_CASE("the same in double, and for the scalar kernel", "[no_cliff]")
 {
     for (const std::string& isa : supported_isas()) {
         CAPTURE(isa);
-        RenderOptions options;
-        options.isa = isa;
-        check_no_cliff<double>(options);
+        check_no_cliff<double>({.isa = isa});
     }
-    RenderOptions scalar;
-    scalar.kernel = Kernel::scalar;
-    check_no_cliff<double>(scalar);
+    check_no_cliff<double>({.kernel = Kernel::scalar});
 }
 
 }  // namespace packtrace::test

@@ -160,7 +160,7 @@ template <class Real>
 Fared trace(const Scene& scene, const std::vector<StressRay>& aimed,
             const std::vector<std::set<std::int32_t>>& truth, const RenderOptions& options)
 {
-    const lab::RayColumns<Real> columns(aimed);
+    const RayColumns<Real> columns = lab::columns_of<Real>(aimed);
     const RayScene<Real> rays(scene, options);
     std::vector<std::int32_t> first(aimed.size());
     std::vector<Real> t(aimed.size());
@@ -256,7 +256,7 @@ TEMPLATE_TEST_CASE("a ray through an edge or a corner hits one polygon, the same
         aimed.push_back({Vec3(x, y, 2.0 * x - y) - 3.0 * dir, dir, 0.0,
                          std::numeric_limits<double>::infinity()});
     }
-    const lab::RayColumns<double> columns(aimed);
+    const RayColumns<double> columns = lab::columns_of<double>(aimed);
     std::vector<std::set<std::int32_t>> truth;
     RayScene<double>(scene, {.kernel = Kernel::scalar})
         .all_hits(columns.view(), [&](std::size_t, std::span<const SurfaceHit<double>> hits) {

@@ -39,9 +39,7 @@ using Contours = std::vector<std::vector<Vec3>>;
 
 Object polygon(const Contours& contours)
 {
-    Object object;
-    object.surface = Polygon{contours};
-    return object;
+    return {.surface = Polygon{contours}};
 }
 
 /// The six faces of |x|, |y|, |z| <= 1, each with its normal outwards.
@@ -79,9 +77,7 @@ Object star()
 
 Scene scene_of(std::vector<Object> objects)
 {
-    Scene scene;
-    scene.objects = std::move(objects);
-    return scene;
+    return {.objects = std::move(objects)};
 }
 
 class Random {
@@ -464,8 +460,7 @@ TEST_CASE("the reference hits polygons where 113 bits say", "[polygons]")
 TEST_CASE("bounds of a hit with a polygon hold the true t", "[polygons]")
 {
     Random random(51);
-    RenderOptions scalar;
-    scalar.kernel = Kernel::scalar;
+    const RenderOptions scalar{.kernel = Kernel::scalar};
     int proven = 0;
     for (int i = 0; i < 20; ++i) {
         Object object = star();
@@ -498,8 +493,7 @@ TEST_CASE("bounds of a hit with a polygon hold the true t", "[polygons]")
 TEST_CASE("slivers are hit where they are", "[polygons]")
 {
     Random random(61);
-    RenderOptions scalar;
-    scalar.kernel = Kernel::scalar;
+    const RenderOptions scalar{.kernel = Kernel::scalar};
     for (const double thickness : {1e-3, 1e-5, 1e-7, 1e-9})
         for (int i = 0; i < 40; ++i) {
             const Vec3 along = glm::normalize(random.box(1.0));
@@ -636,11 +630,8 @@ TEST_CASE("packets of doubles draw polygons as the reference does", "[polygons]"
     for (Scene scene : polygon_scenes())
         for (const Traversal traversal : {Traversal::list, Traversal::tree})
             for (const std::string& isa : supported_isas()) {
-                RenderOptions scalar;
-                scalar.kernel = Kernel::scalar;
-                RenderOptions packets;
-                packets.isa = isa;
-                packets.traversal = traversal;
+                const RenderOptions scalar{.kernel = Kernel::scalar};
+                const RenderOptions packets{.isa = isa, .traversal = traversal};
                 CAPTURE(isa);
                 const auto truth = render<double>(scene, scalar);
                 CHECK(compare(render<double>(scene, packets), truth).max_abs <= 1e-9);
@@ -689,7 +680,7 @@ void check_no_leaks(const Scene& scene, const RenderOptions& options, int count,
         const Vec3 at = glm::mix(corners[0], corners[i % 2 == 0 ? 1 : corners.size() - 1], share);
         aimed.push_back({org, at - org, 0.0, std::numeric_limits<double>::infinity()});
     }
-    const lab::RayColumns<Real> columns(aimed);
+    const RayColumns<Real> columns = lab::columns_of<Real>(aimed);
     const RayScene<Real> rays(scene, options);
     int leaks = 0;
     rays.all_hits(columns.view(), [&](std::size_t, std::span<const SurfaceHit<Real>> hits) {
@@ -709,10 +700,8 @@ TEST_CASE("no ray slips between polygons that share an edge", "[polygons]")
         for (const std::string& isa : supported_isas())
             for (const Accuracy accuracy : {Accuracy::exact, Accuracy::fast})
                 for (const Traversal traversal : {Traversal::list, Traversal::tree}) {
-                    RenderOptions options;
-                    options.isa = isa;
-                    options.accuracy = accuracy;
-                    options.traversal = traversal;
+                    const RenderOptions options{
+                        .isa = isa, .accuracy = accuracy, .traversal = traversal};
                     CAPTURE(isa, scene.objects.size());
                     check_no_leaks<float>(scene, options, 2000, random);
                     check_no_leaks<double>(scene, options, 2000, random);

@@ -1,7 +1,6 @@
 #include <array>
 #include <cmath>
 #include <cstdlib>
-#include <limits>
 #include <map>
 #include <string>
 #include <vector>
@@ -14,6 +13,8 @@
 
 #include "broken_scenes.hpp"
 #include "catch.hpp"
+#include "refusal.hpp"
+#include "render/ray_columns.hpp"
 #include "same_scene.hpp"
 #include "scene/language/rows.hpp"
 #include "scene_text.hpp"
@@ -23,22 +24,9 @@
 namespace packtrace::test {
 namespace {
 
-std::string refusal(const auto& use)
-{
-    try {
-        use();
-    } catch (const SceneError& error) {
-        return error.what();
-    }
-    return "accepted";
-}
-
 RenderOptions options_of(Kernel kernel, Accuracy accuracy = Accuracy::exact)
 {
-    RenderOptions options;
-    options.kernel = kernel;
-    options.accuracy = accuracy;
-    return options;
+    return {.kernel = kernel, .accuracy = accuracy};
 }
 
 /// What each way to use a scene says of it.
@@ -47,13 +35,14 @@ std::map<std::string, std::string> refusals(const Scene& scene)
     const RenderOptions packets = options_of(Kernel::packet);
     const RenderOptions scalar = options_of(Kernel::scalar);
     return {
-        {"validate", refusal([&] { validate(scene); })},
-        {"packets of floats", refusal([&] { (void)render<float>(scene, packets); })},
-        {"packets of doubles", refusal([&] { (void)render<double>(scene, packets); })},
-        {"scalar", refusal([&] { (void)render<double>(scene, scalar); })},
-        {"rays by packets", refusal([&] { RayScene<float>(scene, packets); })},
-        {"rays by the scalar kernel", refusal([&] { RayScene<double>(scene, scalar); })},
-        {"text", refusal([&] { (void)scene_text(scene); })},
+        {"validate", refusal<SceneError>([&] { validate(scene); })},
+        {"packets of floats", refusal<SceneError>([&] { (void)render<float>(scene, packets); })},
+        {"packets of doubles", refusal<SceneError>([&] { (void)render<double>(scene, packets); })},
+        {"scalar", refusal<SceneError>([&] { (void)render<double>(scene, scalar); })},
+        {"rays by packets", refusal<SceneError>([&] { RayScene<float>(scene, packets); })},
+        {"rays by the scalar kernel",
+         refusal<SceneError>([&] { RayScene<double>(scene, scalar); })},
+        {"text", refusal<SceneError>([&] { (void)scene_text(scene); })},
     };
 }
 
@@ -83,50 +72,33 @@ void check_broken(unsigned seed, const Break& way)
         FAIL("the reader says " << error_of(language::write_unchecked(scene).text));
 }
 
-struct Rays {
-    std::array<std::vector<double>, 8> columns;
-
-    explicit Rays(RandomScene& random, std::size_t count)
-    {
-        for (std::size_t i = 0; i < count; ++i) {
-            const Vec3 org = random.vector(8.0);
-            const Vec3 dir = Vec3(0, 0, 5) + random.vector(5.0) - 0.5 * org;
-            const double numbers[] = {org.x, org.y, org.z, dir.x,
-                                      dir.y, dir.z, 0.0,   std::numeric_limits<double>::infinity()};
-            for (std::size_t column = 0; column < columns.size(); ++column)
-                columns[column].push_back(numbers[column]);
-        }
+RayColumns<double> scattered_rays(RandomScene& random, std::size_t count)
+{
+    RayColumns<double> rays;
+    for (std::size_t i = 0; i < count; ++i) {
+        const Vec3 org = random.vector(8.0);
+        const Vec3 dir = Vec3(0, 0, 5) + random.vector(5.0) - 0.5 * org;
+        rays.add(org, dir);
     }
+    return rays;
+}
 
-    [[nodiscard]] RaysView<double> view() const
-    {
-        const auto& c = columns;
-        return {c[0].data(), c[1].data(), c[2].data(), c[3].data(), c[4].data(),
-                c[5].data(), c[6].data(), c[7].data(), c[0].size()};
-    }
-};
-
-struct Hits {
-    std::vector<double> t;
-    std::vector<std::int32_t> object;
-
-    Hits(const Scene& scene, Kernel kernel, const Rays& rays)
-        : t(rays.columns[0].size()), object(t.size())
-    {
-        HitsView<double> view;
-        view.t = t.data();
-        view.object = object.data();
-        RayScene<double>(scene, options_of(kernel)).closest_hits(rays.view(), view);
-    }
-};
+std::vector<double> distances(const Scene& scene, Kernel kernel, const RayColumns<double>& rays)
+{
+    std::vector<double> t(rays.size());
+    std::vector<std::int32_t> object(rays.size());
+    RayScene<double>(scene, options_of(kernel))
+        .closest_hits(rays.view(), {t.data(), object.data()});
+    return t;
+}
 
 /// Rays on which the kernels do not agree, which double can't always tell where surfaces cross,
 /// end or are only touched.
-std::size_t disagreements(const Hits& a, const Hits& b)
+std::size_t disagreements(const std::vector<double>& a, const std::vector<double>& b)
 {
     std::size_t count = 0;
-    for (std::size_t i = 0; i < a.t.size(); ++i) {
-        const bool near = a.t[i] == b.t[i] || std::abs(a.t[i] - b.t[i]) <= 1e-7 * (1.0 + b.t[i]);
+    for (std::size_t i = 0; i < a.size(); ++i) {
+        const bool near = a[i] == b[i] || std::abs(a[i] - b[i]) <= 1e-7 * (1.0 + b[i]);
         if (!near)
             ++count;
     }
@@ -160,7 +132,7 @@ double check_valid(unsigned seed)
     RandomScene random(seed);
     const Scene& scene = random.scene;
     INFO("seed " << seed);
-    const std::string words = refusal([&] { validate(scene); });
+    const std::string words = refusal<SceneError>([&] { validate(scene); });
     if (words != "accepted")
         FAIL(words);
     const std::string text = scene_text(scene);
@@ -169,9 +141,9 @@ double check_valid(unsigned seed)
         FAIL("reads back as another scene:\n" << text);
     check_pictures(scene, read);
 
-    const Rays rays(random, 64);
-    const std::size_t apart =
-        disagreements(Hits(scene, Kernel::packet, rays), Hits(scene, Kernel::scalar, rays));
+    const RayColumns<double> rays = scattered_rays(random, 64);
+    const std::size_t apart = disagreements(distances(scene, Kernel::packet, rays),
+                                            distances(scene, Kernel::scalar, rays));
     // An object that one kernel does not see is missed by more.
     if (apart > 3)
         FAIL(apart << " of 64 rays hit something else:\n" << text);

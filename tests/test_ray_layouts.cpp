@@ -1,6 +1,5 @@
 #include <packtrace/intersect.hpp>
 
-#include <array>
 #include <random>
 #include <stop_token>
 #include <vector>
@@ -9,6 +8,8 @@
 #include <packtrace/generate.hpp>
 
 #include "catch.hpp"
+#include "refusal.hpp"
+#include "render/ray_columns.hpp"
 #include "scenes.hpp"
 
 // Rays in structs, in spans and alone are answered as rays in arrays; long queries report and stop.
@@ -35,25 +36,21 @@ std::vector<Ray<Real>> scattered_rays(std::size_t count)
 }
 
 template <class Real>
-struct RayColumns {
-    std::array<std::vector<Real>, 8> columns;
+RayColumns<Real> columns_of(const std::vector<Ray<Real>>& rays)
+{
+    RayColumns<Real> columns;
+    for (const Ray<Real>& ray : rays)
+        columns.add({ray.org[0], ray.org[1], ray.org[2], ray.dir[0], ray.dir[1], ray.dir[2],
+                     ray.t_min, ray.t_max});
+    return columns;
+}
 
-    explicit RayColumns(const std::vector<Ray<Real>>& rays)
-    {
-        for (const Ray<Real>& ray : rays) {
-            const Real numbers[] = {ray.org[0], ray.org[1], ray.org[2], ray.dir[0],
-                                    ray.dir[1], ray.dir[2], ray.t_min,  ray.t_max};
-            for (std::size_t i = 0; i < 8; ++i)
-                columns[i].push_back(numbers[i]);
-        }
-    }
-
-    [[nodiscard]] RaySpans<Real> spans() const
-    {
-        const auto& c = columns;
-        return {c[0], c[1], c[2], c[3], c[4], c[5], c[6], c[7]};
-    }
-};
+template <class Real>
+RaySpans<Real> spans_of(const RayColumns<Real>& rays)
+{
+    const auto& c = rays.columns;
+    return {c[0], c[1], c[2], c[3], c[4], c[5], c[6], c[7]};
+}
 
 Scene ball_scene()
 {
@@ -70,11 +67,11 @@ template <class Real>
 std::vector<SurfaceHit<Real>> closest_of_spans(const RayScene<Real>& scene,
                                                const std::vector<Ray<Real>>& rays)
 {
-    const RayColumns<Real> columns(rays);
+    const RayColumns<Real> columns = columns_of(rays);
     std::vector<Real> t(rays.size()), nx(t), ny(t), nz(t);
     std::vector<std::int32_t> object(rays.size());
     const HitSpans<Real> hits{t, object, nx, ny, nz};
-    scene.closest_hits(columns.spans().view(), hits.view(rays.size()));
+    scene.closest_hits(spans_of(columns).view(), hits.view(rays.size()));
     std::vector<SurfaceHit<Real>> found;
     for (std::size_t i = 0; i < rays.size(); ++i) {
         found.push_back({t[i], object[i], {}});
@@ -119,25 +116,12 @@ void check_structs(const RenderOptions& options)
     CHECK(found < 800);
 }
 
-/// As `refused` says it, or nothing.
-template <class Call>
-std::string refusal_of(const Call& refused)
-{
-    try {
-        refused();
-    } catch (const std::invalid_argument& error) {
-        return error.what();
-    }
-    return "";
-}
-
 }  // namespace
 
 TEST_CASE("rays in structs, with any stride, and alone hit what rays in arrays hit",
           "[ray_layouts]")
 {
-    RenderOptions scalar;
-    scalar.kernel = Kernel::scalar;
+    const RenderOptions scalar{.kernel = Kernel::scalar};
     check_structs<float>({});
     check_structs<double>({});
     check_structs<double>(scalar);
@@ -147,8 +131,8 @@ TEST_CASE("all questions can be asked of rays in structs and of one ray", "[ray_
 {
     const RayScene<double> scene(ball_scene());
     const auto rays = scattered_rays<double>(600);
-    const RayColumns<double> columns(rays);
-    const RaysView<double> view = columns.spans().view();
+    const RayColumns<double> columns = columns_of(rays);
+    const RaysView<double> view = columns.view();
 
     std::vector<std::uint8_t> mask(rays.size()), expected_mask(rays.size());
     scene.occluded(view, expected_mask.data());
@@ -201,18 +185,21 @@ TEST_CASE("arrays that are not as long as the rays are refused by name", "[ray_l
 {
     const RayScene<float> scene(ball_scene());
     const auto rays = scattered_rays<float>(5);
-    RayColumns<float> columns(rays);
+    RayColumns<float> columns = columns_of(rays);
     std::vector<SurfaceHit<float>> hits(4);
-    CHECK(refusal_of([&] { scene.closest_hits(rays, hits); }) ==
+    CHECK(refusal<std::invalid_argument>([&] { scene.closest_hits(rays, hits); }) ==
           "hits has 4 elements, where there are 5 rays; give it one for each ray");
     std::vector<std::uint8_t> mask(6);
-    CHECK_THAT(refusal_of([&] { scene.occluded(rays, mask); }), ContainsSubstring("mask has 6"));
+    CHECK_THAT(refusal<std::invalid_argument>([&] { scene.occluded(rays, mask); }),
+               ContainsSubstring("mask has 6"));
     columns.columns[4].pop_back();
-    CHECK_THAT(refusal_of([&] { (void)columns.spans().view(); }), ContainsSubstring("dir_y has 4"));
+    CHECK_THAT(refusal<std::invalid_argument>([&] { (void)spans_of(columns).view(); }),
+               ContainsSubstring("dir_y has 4"));
     std::vector<float> t(5);
     std::vector<std::int32_t> object(5);
     const HitSpans<float> spans{t, object, std::span(t).first(3)};
-    CHECK_THAT(refusal_of([&] { (void)spans.view(5); }), ContainsSubstring("normal_x has 3"));
+    CHECK_THAT(refusal<std::invalid_argument>([&] { (void)spans.view(5); }),
+               ContainsSubstring("normal_x has 3"));
 }
 
 TEST_CASE("a query reports how far it is, and stops where asked to", "[ray_layouts]")
@@ -231,11 +218,11 @@ TEST_CASE("a query reports how far it is, and stops where asked to", "[ray_layou
     CHECK(std::is_sorted(shares.begin(), shares.end()));
     CHECK(shares.back() == 1.0);
 
-    const RayColumns<float> columns(rays);
+    const RayColumns<float> columns = columns_of(rays);
     std::vector<std::uint8_t> mask(rays.size());
     std::vector<HitBounds> bounds(rays.size());
     const std::vector<std::int32_t> none(rays.size(), -1);
-    const RaysView<float> view = columns.spans().view();
+    const RaysView<float> view = columns.view();
     const std::vector<std::function<void(const QueryWatch&)>> queries = {
         [&](const QueryWatch& w) { scene.closest_hits(rays, hits, w); },
         [&](const QueryWatch& w) { scene.occluded(view, mask.data(), w); },
@@ -246,8 +233,7 @@ TEST_CASE("a query reports how far it is, and stops where asked to", "[ray_layou
         [&](const QueryWatch& w) { scene.bound_closest_hits(rays, none, bounds, w); }};
     for (const auto& query : queries) {
         std::stop_source source;
-        QueryWatch stopping;
-        stopping.stop = source.get_token();
+        QueryWatch stopping{.stop = source.get_token()};
         double reached = 0.0;
         stopping.progress = [&](double share) {
             reached = share;

@@ -1,7 +1,6 @@
 #include <packtrace/intersect.hpp>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <functional>
 #include <limits>
@@ -19,28 +18,20 @@
 #include "catch.hpp"
 #include "packet_ways.hpp"
 #include "reference_scenes.hpp"
+#include "refusal.hpp"
+#include "render/ray_columns.hpp"
+#include "render/ray_pieces.hpp"
 #include "render_scene.hpp"
 
 // Rays of the caller's own: packets against the scalar reference, in double precision.
 namespace packtrace::test {
 namespace {
 
-struct RayArrays {
-    std::array<std::vector<double>, 8> columns;
-
-    [[nodiscard]] RaysView<double> view() const
-    {
-        const auto& c = columns;
-        return {c[0].data(), c[1].data(), c[2].data(), c[3].data(), c[4].data(),
-                c[5].data(), c[6].data(), c[7].data(), c[0].size()};
-    }
-};
-
-RayArrays random_rays(int count)
+RayColumns<double> random_rays(int count)
 {
     std::mt19937 random(7);
     std::uniform_real_distribution<double> place(-4.0, 4.0);
-    RayArrays rays;
+    RayColumns<double> rays;
     for (int i = 0; i < count; ++i) {
         for (std::size_t column = 0; column < 6; ++column)
             rays.columns[column].push_back(place(random));
@@ -52,62 +43,62 @@ RayArrays random_rays(int count)
 
 Scene mixed_scene()
 {
-    Scene scene;
-    scene.objects = {sphere({0, 0, 0}, 1.5), plane({0, -2, 0}, {0.2, 1, 0.1}),
-                     sphere({0, -5002, 0}, 5000), sphere({2, 1, -1}, 0.7)};
+    Scene scene{.objects = {sphere({0, 0, 0}, 1.5), plane({0, -2, 0}, {0.2, 1, 0.1}),
+                            sphere({0, -5002, 0}, 5000), sphere({2, 1, -1}, 0.7)}};
     for (int i = 0; i < 4; ++i) {
-        Quadric surface;
-        surface.coefficients = {1, i == 2 ? -1.0 : 1.0, i == 1 ? -1.0 : 0.0, 0, 0, 0, 0,
-                                0, i == 2 ? -1.0 : 0.0, i == 3 ? -0.5 : -1.0};
-        surface.z_range = ZRange{-1.0, 0.8};
-        surface.capped = i != 2;
-        Object object;
-        object.surface = surface;
-        object.transform = glm::rotate(glm::translate(Mat4(1.0), {i - 1.0, 0.5 * i, 1.0 - i}),
-                                       0.7 * i, Vec3(1, 2, 3));
-        scene.objects.push_back(object);
+        Quadric surface{.coefficients = {1, i == 2 ? -1.0 : 1.0, i == 1 ? -1.0 : 0.0, 0, 0, 0, 0, 0,
+                                         i == 2 ? -1.0 : 0.0, i == 3 ? -0.5 : -1.0},
+                        .z_range = ZRange{-1.0, 0.8},
+                        .capped = i != 2};
+        scene.objects.push_back(
+            {.surface = surface,
+             .transform = glm::rotate(glm::translate(Mat4(1.0), {i - 1.0, 0.5 * i, 1.0 - i}),
+                                      0.7 * i, Vec3(1, 2, 3))});
     }
     return scene;
 }
 
 RenderOptions on(const std::string& isa)
 {
-    RenderOptions options;
-    options.isa = isa;
-    return options;
+    return {.isa = isa};
 }
 
 RenderOptions scalar()
 {
-    RenderOptions options;
-    options.kernel = Kernel::scalar;
-    return options;
+    return {.kernel = Kernel::scalar};
 }
 
-struct Closest {
-    std::vector<double> t, nx, ny, nz;
-    std::vector<std::int32_t> object;
+template <class Real>
+struct RayAnswers {
+    HitColumns<Real> hits;
     std::vector<std::uint8_t> mask;
+
+    bool operator==(const RayAnswers&) const = default;
 };
 
-Closest closest(const RenderOptions& options, const RayArrays& rays)
+/// What so many rays at a time meet.
+template <class Real>
+RayAnswers<Real> answers(const RayScene<Real>& scene, const RayColumns<Real>& rays,
+                         std::size_t at_a_time)
 {
-    const RayScene<double> scene(mixed_scene(), options);
-    const std::size_t n = rays.columns[0].size();
-    Closest result;
-    for (auto* column : {&result.t, &result.nx, &result.ny, &result.nz})
-        column->resize(n);
-    result.object.resize(n);
-    result.mask.resize(n);
-    scene.closest_hits(rays.view(), {result.t.data(), result.object.data(), result.nx.data(),
-                                     result.ny.data(), result.nz.data()});
-    scene.occluded(rays.view(), result.mask.data());
+    const std::size_t count = rays.size();
+    RayAnswers<Real> result{HitColumns<Real>(count), std::vector<std::uint8_t>(count)};
+    for (std::size_t first = 0; first < count; first += at_a_time) {
+        const RaysView<Real> view = rays.view(first, std::min(at_a_time, count - first));
+        scene.closest_hits(view, part_of(result.hits.view(), first));
+        scene.occluded(view, &result.mask[first]);
+    }
     return result;
+}
+
+RayAnswers<double> closest(const RenderOptions& options, const RayColumns<double>& rays)
+{
+    return answers(RayScene<double>(mixed_scene(), options), rays, rays.size());
 }
 
 using AllHits = std::vector<std::vector<SurfaceHit<double>>>;
 
-AllHits all_hits(const RenderOptions& options, const RayArrays& rays)
+AllHits all_hits(const RenderOptions& options, const RayColumns<double>& rays)
 {
     const RayScene<double> scene(mixed_scene(), options);
     AllHits result;
@@ -123,13 +114,13 @@ AllHits all_hits(const RenderOptions& options, const RayArrays& rays)
 TEST_CASE("packets find the closest hits of any rays, with outward normals", "[ray_scene]")
 {
     for (const int count : {1, 3, 16, 1237}) {
-        const RayArrays rays = random_rays(count);
-        const Closest truth = closest(scalar(), rays);
+        const RayColumns<double> rays = random_rays(count);
+        const auto [truth, truth_mask] = closest(scalar(), rays);
         for (const std::string& isa : supported_isas()) {
             CAPTURE(isa, count);
-            const Closest found = closest(on(isa), rays);
+            const auto [found, mask] = closest(on(isa), rays);
             CHECK(found.object == truth.object);
-            CHECK(found.mask == truth.mask);
+            CHECK(mask == truth_mask);
             for (std::size_t i = 0; i < found.t.size(); ++i) {
                 if (truth.object[i] < 0) {
                     CHECK(found.t[i] == rays.columns[7][i]);
@@ -137,9 +128,8 @@ TEST_CASE("packets find the closest hits of any rays, with outward normals", "[r
                 }
                 // A ground of radius 5000 costs packets the last digits of a place on it.
                 CHECK(std::abs(found.t[i] - truth.t[i]) <= 1e-10 * truth.t[i] + 1e-12);
-                CHECK(std::abs(found.nx[i] - truth.nx[i]) < 1e-9);
-                CHECK(std::abs(found.ny[i] - truth.ny[i]) < 1e-9);
-                CHECK(std::abs(found.nz[i] - truth.nz[i]) < 1e-9);
+                for (std::size_t axis = 0; axis < 3; ++axis)
+                    CHECK(std::abs(found.normal[axis][i] - truth.normal[axis][i]) < 1e-9);
             }
         }
     }
@@ -147,7 +137,7 @@ TEST_CASE("packets find the closest hits of any rays, with outward normals", "[r
 
 TEST_CASE("packets list all hits of a ray in order", "[ray_scene]")
 {
-    const RayArrays rays = random_rays(700);
+    const RayColumns<double> rays = random_rays(700);
     const AllHits truth = all_hits(scalar(), rays);
     std::size_t most = 0;
     for (const std::string& isa : supported_isas()) {
@@ -171,57 +161,20 @@ TEST_CASE("packets list all hits of a ray in order", "[ray_scene]")
 
 namespace {
 
-template <class Real>
-using Columns = std::array<std::vector<Real>, 8>;
-
-template <class Real>
-struct RayAnswers {
-    std::array<std::vector<Real>, 4> values;  ///< t and the normal
-    std::vector<std::int32_t> object;
-    std::vector<std::uint8_t> mask;
-
-    bool operator==(const RayAnswers&) const = default;
-};
-
-/// What so many rays at a time meet.
-template <class Real>
-RayAnswers<Real> answers(const RayScene<Real>& scene, const Columns<Real>& rays,
-                         std::size_t at_a_time)
-{
-    const std::size_t count = rays[0].size();
-    RayAnswers<Real> result;
-    for (std::vector<Real>& column : result.values)
-        column.resize(count);
-    result.object.resize(count);
-    result.mask.resize(count);
-    auto& [t, nx, ny, nz] = result.values;
-    for (std::size_t first = 0; first < count; first += at_a_time) {
-        const auto from = [&](std::size_t column) { return rays[column].data() + first; };
-        const RaysView<Real> view{from(0), from(1), from(2),
-                                  from(3), from(4), from(5),
-                                  from(6), from(7), std::min(at_a_time, count - first)};
-        scene.closest_hits(view,
-                           {&t[first], &result.object[first], &nx[first], &ny[first], &nz[first]});
-        scene.occluded(view, &result.mask[first]);
-    }
-    return result;
-}
-
 /// Rays from one place, whose first coordinate is 0 with either sign where `both_zeros`.
 template <class Real>
-Columns<Real> rays_from_one_place(int count, bool both_zeros)
+RayColumns<Real> rays_from_one_place(int count, bool both_zeros)
 {
     std::mt19937 random(11);
     std::uniform_real_distribution<double> way(-1.0, 1.0);
-    Columns<Real> rays;
+    RayColumns<Real> rays;
     for (int i = 0; i < count; ++i) {
-        rays[0].push_back(both_zeros && i % 7 == 6 ? Real(-0.0) : Real(0.0));
-        rays[1].push_back(Real(0.3));
-        rays[2].push_back(Real(-3.1));
-        for (std::size_t column = 3; column < 6; ++column)
-            rays[column].push_back(static_cast<Real>(way(random)));
-        rays[6].push_back(i % 3 == 0 ? Real(0.5) : Real(0));
-        rays[7].push_back(i % 5 == 0 ? Real(2.5) : std::numeric_limits<Real>::infinity());
+        const Vec3 org(both_zeros && i % 7 == 6 ? -0.0 : 0.0, 0.3, -3.1);
+        Vec3 dir;
+        for (int axis = 0; axis < 3; ++axis)
+            dir[axis] = way(random);
+        rays.add(org, dir, i % 3 == 0 ? 0.5 : 0.0,
+                 i % 5 == 0 ? 2.5 : std::numeric_limits<double>::infinity());
     }
     return rays;
 }
@@ -231,10 +184,10 @@ void check_together_as_alone(const RenderOptions& options)
 {
     const RayScene<Real> scene(mixed_scene(), options);
     for (const bool both_zeros : {false, true}) {
-        const Columns<Real> rays = rays_from_one_place<Real>(1237, both_zeros);
+        const RayColumns<Real> rays = rays_from_one_place<Real>(1237, both_zeros);
         const RayAnswers<Real> alone = answers(scene, rays, 1);
         CAPTURE(options.isa, both_zeros);
-        CHECK(std::count(alone.object.begin(), alone.object.end(), -1) > 100);
+        CHECK(std::count(alone.hits.object.begin(), alone.hits.object.end(), -1) > 100);
         CHECK(std::count(alone.mask.begin(), alone.mask.end(), 1) > 100);
         // 64 and more that start at one place are prepared for together.
         for (const std::size_t at_a_time : {64U, 77U, 300U, 1237U})
@@ -259,27 +212,17 @@ TEST_CASE("rays from one place have the same bits together as alone", "[ray_scen
 TEST_CASE("a ray from just above a sphere meets it at once, not on its way out", "[ray_scene]")
 {
     // Single precision puts its start inside: the two roots are -8e-7 and 0.33 by that.
-    Scene scene;
-    scene.objects = {
-        sphere({-2.0317530632019043, 3.1829373836517334, -1.6853139400482178}, 1.5742509365081787)};
-    const std::array<float, 8> ray = {-1.3746360540390015f,
-                                      3.3577628135681152f,
-                                      -0.26549023389816284f,
-                                      0.52764761447906494f,
-                                      0.72186774015426636f,
-                                      -0.44776657223701477f,
-                                      0.0f,
-                                      std::numeric_limits<float>::infinity()};
+    Scene scene{.objects = {sphere({-2.0317530632019043, 3.1829373836517334, -1.6853139400482178},
+                                   1.5742509365081787)}};
+    RayColumns<float> ray;
+    ray.add({-1.3746360540390015f, 3.3577628135681152f, -0.26549023389816284f},
+            {0.52764761447906494f, 0.72186774015426636f, -0.44776657223701477f});
     for (const std::string& isa : supported_isas()) {
         INFO(isa);
-        RenderOptions options;
-        options.isa = isa;
-        const RayScene<float> rays(scene, options);
+        const RayScene<float> rays(scene, {.isa = isa});
         float t = 0;
         std::int32_t object = -1;
-        rays.closest_hits(
-            {&ray[0], &ray[1], &ray[2], &ray[3], &ray[4], &ray[5], &ray[6], &ray[7], 1},
-            {&t, &object, {}, {}, {}});
+        rays.closest_hits(ray.view(), {&t, &object});
         CHECK(object == 0);
         CHECK(t == Approx(1.2321839e-7f));
     }
@@ -290,38 +233,29 @@ namespace {
 /// Segments from a point to places on spheres of a scene, of which some end before and some behind
 /// where they arrive, by as little as single precision can say.
 template <class Real>
-std::array<std::vector<Real>, 8> segments_to_surfaces(const Scene& scene, int count)
+RayColumns<Real> segments_to_surfaces(const Scene& scene, int count)
 {
     std::mt19937 random(11);
     std::uniform_real_distribution<double> value(-1.0, 1.0);
     const Vec3 from(4, 6, -4);
-    std::array<std::vector<Real>, 8> columns;
+    RayColumns<Real> segments;
     for (int i = 0; i < count; ++i) {
         const Object& object = scene.objects[static_cast<std::size_t>(i) % scene.objects.size()];
         const auto& ball = std::get<Sphere>(object.surface);
         const Vec3 out = glm::normalize(Vec3(value(random), value(random), value(random)));
         const Vec3 way = ball.center + ball.radius * out - from;
         const double beyond = i % 7 == 0 ? 0.0 : value(random) * std::pow(10.0, -4 - i % 4);
-        for (int axis = 0; axis < 3; ++axis) {
-            columns[static_cast<std::size_t>(axis)].push_back(static_cast<Real>(from[axis]));
-            columns[static_cast<std::size_t>(axis) + 3].push_back(
-                static_cast<Real>(static_cast<float>(way[axis])));
-        }
-        columns[6].push_back(0);
-        columns[7].push_back(static_cast<Real>(static_cast<float>(1.0 + beyond)));
+        segments.add(from, Vec3(glm::vec3(way)), 0.0, static_cast<float>(1.0 + beyond));
     }
-    return columns;
+    return segments;
 }
 
 template <class Real>
 std::vector<std::uint8_t> blocked_segments(const Scene& scene, const RenderOptions& options)
 {
-    const auto columns = segments_to_surfaces<Real>(scene, 6000);
-    const auto at = [&](std::size_t column) { return columns[column].data(); };
-    std::vector<std::uint8_t> blocked(columns[0].size());
-    RayScene<Real>(scene, options)
-        .occluded({at(0), at(1), at(2), at(3), at(4), at(5), at(6), at(7), blocked.size()},
-                  blocked.data());
+    const RayColumns<Real> segments = segments_to_surfaces<Real>(scene, 6000);
+    std::vector<std::uint8_t> blocked(segments.size());
+    RayScene<Real>(scene, options).occluded(segments.view(), blocked.data());
     return blocked;
 }
 
@@ -333,9 +267,7 @@ TEST_CASE("segments that end at surfaces are blocked as in double precision", "[
     for (const std::string& isa : supported_isas()) {
         for (const Traversal traversal : {Traversal::list, Traversal::tree}) {
             CAPTURE(isa, static_cast<int>(traversal));
-            RenderOptions options;
-            options.isa = isa;
-            options.traversal = traversal;
+            const RenderOptions options{.isa = isa, .traversal = traversal};
             const std::vector<std::uint8_t> expected = blocked_segments<double>(scene, options);
             CHECK(std::count(expected.begin(), expected.end(), std::uint8_t{0}) > 100);
             CHECK(blocked_segments<float>(scene, options) == expected);
@@ -381,12 +313,12 @@ TEMPLATE_TEST_CASE("numbers of objects and surfaces that are not there are refus
 
 TEST_CASE("a ray with a NaN hits nothing", "[ray_scene]")
 {
-    RayArrays rays = random_rays(8);
+    RayColumns<double> rays = random_rays(8);
     for (std::size_t column = 0; column < 8; ++column)
         rays.columns[column][column] = std::numeric_limits<double>::quiet_NaN();
     for (const IsaInfo& isa : list_isas())
         if (isa.supported)
-            CHECK(closest(on(isa.name), rays).object == std::vector<std::int32_t>(8, -1));
+            CHECK(closest(on(isa.name), rays).hits.object == std::vector<std::int32_t>(8, -1));
 }
 
 TEMPLATE_TEST_CASE("a ray that ends at a NaN meets nothing, whatever is asked", "[ray_scene]",
@@ -499,20 +431,15 @@ struct Refused {
 
 Object quadric_with(const std::function<void(Quadric&)>& change)
 {
-    Quadric surface;
-    surface.coefficients = {1, 1, 1, 0, 0, 0, 0, 0, 0, -1};
+    Quadric surface{.coefficients = {1, 1, 1, 0, 0, 0, 0, 0, 0, -1}};
     change(surface);
-    Object object;
-    object.surface = surface;
-    return object;
+    return {.surface = surface};
 }
 
 /// As somebody may write it who thinks that the kind is enough.
 Quadric quadric_kind_alone(QuadricKind kind)
 {
-    Quadric quadric;
-    quadric.kind = kind;
-    return quadric;
+    return {.kind = kind};
 }
 
 Object moved(const Mat4& transform)
@@ -557,31 +484,19 @@ std::vector<Refused> refused_objects()
     };
 }
 
-/// What `call` is refused with.
-std::string message_of(const std::function<void()>& call)
-{
-    try {
-        call();
-    } catch (const std::exception& error) {
-        return error.what();
-    }
-    return "nothing";
-}
-
 /// The message that every kernel, precision and entry refuses the scene with.
 std::string common_message(const Scene& scene)
 {
     std::string message;
     for (const Kernel kernel : {Kernel::scalar, Kernel::packet}) {
-        RenderOptions options;
-        options.kernel = kernel;
+        const RenderOptions options{.kernel = kernel};
         for (const auto& call : std::vector<std::function<void()>>{
                  [&] { (void)render<float>(scene, options); },
                  [&] { (void)render<double>(scene, options); },
                  [&] { (void)RayScene<float>(scene, options); },
                  [&] { (void)RayScene<double>(scene, options); },
                  [&] { (void)explain_pixel<double>(scene, 0, 0, options); }}) {
-            const std::string own = message_of(call);
+            const std::string own = refusal(call);
             if (message.empty())
                 message = own;
             CHECK(own == message);

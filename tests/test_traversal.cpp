@@ -15,6 +15,7 @@
 #include "catch.hpp"
 #include "lower/packed_scene.hpp"
 #include "lower/tree_objects.hpp"
+#include "render/ray_columns.hpp"
 #include "render_scene.hpp"
 #include "scenes.hpp"
 
@@ -77,26 +78,10 @@ Scene mixed_scene(int count, unsigned seed)
     return scene;
 }
 
-template <class Real>
-struct Rays {
-    std::vector<Real> columns[8];
-
-    [[nodiscard]] std::size_t count() const
-    {
-        return columns[0].size();
-    }
-    [[nodiscard]] RaysView<Real> view() const
-    {
-        const auto& c = columns;
-        return {c[0].data(), c[1].data(), c[2].data(), c[3].data(), c[4].data(),
-                c[5].data(), c[6].data(), c[7].data(), count()};
-    }
-};
-
 /// In runs of 64: bundles from a point, parallel ones, along an axis, and every which way; of
 /// any length, from inside and from far away, some ending early, a few of no use at all.
 template <class Real>
-Rays<Real> many_rays(int count, unsigned seed)
+RayColumns<Real> many_rays(int count, unsigned seed)
 {
     std::mt19937 random(seed);
     std::uniform_real_distribution<double> unit(-1.0, 1.0);
@@ -106,7 +91,7 @@ Rays<Real> many_rays(int count, unsigned seed)
         return Vec3(x, y, unit(random));
     };
     constexpr double infinity = std::numeric_limits<double>::infinity();
-    Rays<Real> rays;
+    RayColumns<Real> rays;
     Vec3 origin(0.0);
     Vec3 way(0.0, 0.0, 1.0);
     for (int i = 0; i < count; ++i) {
@@ -123,10 +108,7 @@ Rays<Real> many_rays(int count, unsigned seed)
             dir = std::pow(10.0, 4.0 * unit(random)) * vector();
         if (i % 501 == 500)
             dir.y = std::numeric_limits<double>::quiet_NaN();
-        const double row[8] = {org.x, org.y, org.z,           dir.x,
-                               dir.y, dir.z, i % 9 ? 0 : 0.1, i % 5 ? infinity : 1.0};
-        for (std::size_t column = 0; column < 8; ++column)
-            rays.columns[column].push_back(static_cast<Real>(row[column]));
+        rays.add(org, dir, i % 9 ? 0 : 0.1, i % 5 ? infinity : 1.0);
     }
     return rays;
 }
@@ -151,15 +133,15 @@ struct Results {
 };
 
 template <class Real>
-Results<Real> trace(const Scene& scene, const Rays<Real>& rays, RenderOptions options,
+Results<Real> trace(const Scene& scene, const RayColumns<Real>& rays, RenderOptions options,
                     Traversal traversal)
 {
     options.traversal = traversal;
     const RayScene<Real> traced(scene, options);
     Results<Real> results;
-    results.t.resize(rays.count());
-    results.object.resize(rays.count());
-    results.mask.resize(rays.count());
+    results.t.resize(rays.size());
+    results.object.resize(rays.size());
+    results.mask.resize(rays.size());
     traced.closest_hits(rays.view(), {results.t.data(), results.object.data()});
     traced.occluded(rays.view(), results.mask.data());
     traced.all_hits(rays.view(), [&](std::size_t, std::span<const SurfaceHit<Real>> hits) {
@@ -172,11 +154,12 @@ Results<Real> trace(const Scene& scene, const Rays<Real>& rays, RenderOptions op
 }
 
 template <class Real>
-void compare_traversals(const Scene& scene, const Rays<Real>& rays, const RenderOptions& options)
+void compare_traversals(const Scene& scene, const RayColumns<Real>& rays,
+                        const RenderOptions& options)
 {
     const Results<Real> list = trace(scene, rays, options, Traversal::list);
     const Results<Real> tree = trace(scene, rays, options, Traversal::tree);
-    CHECK(list.hits > rays.count() / 20);
+    CHECK(list.hits > rays.size() / 20);
     CHECK(differing(list.t, tree.t) == 0);
     CHECK(differing(list.object, tree.object) == 0);
     CHECK(differing(list.mask, tree.mask) == 0);
@@ -208,9 +191,8 @@ void compare_on_every_isa(int scenes, int rays, unsigned seed)
             INFO(isa << ", scene " << i << ", " << objects << " objects");
             const unsigned number = seed + static_cast<unsigned>(i);
             const Scene scene = mixed_scene(objects, number);
-            RenderOptions options;
-            options.isa = isa;
-            options.accuracy = i % 2 == 0 ? Accuracy::fast : Accuracy::exact;
+            const RenderOptions options{.isa = isa,
+                                        .accuracy = i % 2 == 0 ? Accuracy::fast : Accuracy::exact};
             compare_traversals(scene, many_rays<float>(rays, number), options);
             compare_traversals(scene, many_rays<double>(rays, number), options);
             compare_frames<float>(scene, options);
@@ -274,8 +256,7 @@ TEST_CASE("more quadrics and polygons than bounds are kept of are hit as from li
     const Scene scene = quadrics_and_polygons(700);
     for (const std::string& isa : supported_isas()) {
         INFO(isa);
-        RenderOptions options;
-        options.isa = isa;
+        const RenderOptions options{.isa = isa};
         // From near and from 400 away by turns.
         compare_traversals(scene, many_rays<float>(3000, 5), options);
         compare_frames<float>(scene, options);
@@ -299,10 +280,10 @@ TEST_CASE("a few objects very far from the rest are in no hierarchy", "[traversa
     scene.objects[0].surface = Sphere{{0, 1e7, 0}, 1.0};
     const std::int32_t moved[] = {0};
     (void)moving.update(scene, moved);
-    const Rays<float> rays = many_rays<float>(2000, 3);
+    const RayColumns<float> rays = many_rays<float>(2000, 3);
     Results<float> results = trace(scene, rays, {}, Traversal::list);
-    std::vector<float> t(rays.count());
-    std::vector<std::int32_t> object(rays.count());
+    std::vector<float> t(rays.size());
+    std::vector<std::int32_t> object(rays.size());
     moving.closest_hits(rays.view(), {t.data(), object.data()});
     CHECK(differing(t, results.t) == 0);
     CHECK(differing(object, results.object) == 0);
@@ -336,8 +317,7 @@ TEST_CASE("objects too far away for a hierarchy overwrite nothing and hide nothi
             add_plane(scene, {0, 6, 0}, {0.1, -1, 0}, material);
             for (const std::string& isa : supported_isas()) {
                 INFO(isa << ", " << far << ", one in " << apart);
-                RenderOptions options;
-                options.isa = isa;
+                const RenderOptions options{.isa = isa};
                 compare_traversals(scene, many_rays<float>(500, 7), options);
                 compare_traversals(scene, many_rays<double>(500, 7), options);
             }
@@ -348,24 +328,21 @@ TEST_CASE("objects too far away for a hierarchy overwrite nothing and hide nothi
 TEST_CASE("caps without end are found through a hierarchy, too", "[traversal]")
 {
     // Outside of the ellipsoid is what the caps close.
-    Quadric inside_out;
-    inside_out.coefficients = {-1, -2, -3, 0, 0, 0, 0, 0, 0, 1};
-    inside_out.z_range = ZRange{-0.5, 0.2};
-    inside_out.capped = true;
+    Quadric inside_out{.coefficients = {-1, -2, -3, 0, 0, 0, 0, 0, 0, 1},
+                       .z_range = ZRange{-0.5, 0.2},
+                       .capped = true};
     Scene scene;
     const Material material = scratch(Rgb(0.5), 50, 0.3);
     add_object(scene, inside_out, material);
     add_sphere(scene, {0, 0, 6}, 0.5, material);
     add_sphere(scene, {4, 0, 6}, 0.5, material);
     for (const std::string& isa : supported_isas()) {
-        RenderOptions options;
-        options.isa = isa;
+        const RenderOptions options{.isa = isa};
         compare_traversals(scene, many_rays<float>(2000, 3), options);
         compare_traversals(scene, many_rays<double>(2000, 3), options);
     }
-    const Rays<double> rays = many_rays<double>(2000, 3);
-    RenderOptions scalar;
-    scalar.kernel = Kernel::scalar;
+    const RayColumns<double> rays = many_rays<double>(2000, 3);
+    const RenderOptions scalar{.kernel = Kernel::scalar};
     const Results<double> expected = trace(scene, rays, scalar, Traversal::automatic);
     const Results<double> packets = trace(scene, rays, {}, Traversal::tree);
     CHECK(packets.hits == expected.hits);
@@ -381,16 +358,12 @@ TEST_CASE("light through glass passes a hierarchy as it passes a list", "[traver
     Scene scene = mixed_scene(60, 3);
     scene.illumination = Illumination::whitted;
     scene.shadows = ShadowKind::transparent;
-    WhittedMaterial glass;
-    glass.diffuse = Rgb(0.4);
-    glass.transmissive = Rgb(0.5);
-    glass.ior = 1.3;
+    WhittedMaterial glass{.diffuse = Rgb(0.4), .transmissive = Rgb(0.5), .ior = 1.3};
     for (Object& object : scene.objects)
         object.material.model = glass;
     Image<double> pictures[2];
     for (int i = 0; i < 2; ++i) {
-        RenderOptions options;
-        options.traversal = i == 0 ? Traversal::list : Traversal::tree;
+        const RenderOptions options{.traversal = i == 0 ? Traversal::list : Traversal::tree};
         Renderer<double>(scene, options).render(pictures[i]);
     }
     double worst = 0.0;

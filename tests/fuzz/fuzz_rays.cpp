@@ -13,14 +13,14 @@ std::size_t count_rays(const std::string& file)
 {
     using namespace packtrace::cli;
     RayBlocks blocks(file);
-    RayArrays<Real> rays;
+    packtrace::RayColumns<Real> rays;
     std::size_t count = 0;
     for (RayBlock block = blocks.next(); !block.text.empty(); block = blocks.next()) {
         read_rays(block.format, block.text, block.first_line, rays);
         for (const auto& column : rays.columns)
             packtrace::fuzz::require(column.size() == rays.columns[0].size(),
                                      "columns of rays are as long as each other");
-        count += rays.columns[0].size();
+        count += rays.size();
     }
     return count;
 }

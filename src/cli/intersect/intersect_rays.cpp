@@ -41,22 +41,14 @@ template <class Real>
 void BlockTracer<Real>::append_closest(std::string& rows, Scratch& s) const
 {
     const RaysView<Real> rays = s.rays.view();
-    for (auto* column : {&s.t, &s.normal_x, &s.normal_y, &s.normal_z})
-        column->resize(rays.count);
-    s.object.resize(rays.count);
-    scene_.closest_hits(rays, {s.t.data(), s.object.data(), s.normal_x.data(), s.normal_y.data(),
-                               s.normal_z.data()});
+    s.hits.resize(rays.count);
+    scene_.closest_hits(rays, s.hits.view());
     const bool bounded = bounds_ == RayBounds::proven;
     s.bounds.resize(bounded ? rays.count : 0);
     if (bounded)
-        scene_.bound_closest_hits(rays, s.object.data(), s.bounds.data());
-    for (std::size_t i = 0; i < rays.count; ++i) {
-        SurfaceHit<Real> hit{s.t[i], s.object[i], {}};
-        hit.normal[0] = s.normal_x[i];
-        hit.normal[1] = s.normal_y[i];
-        hit.normal[2] = s.normal_z[i];
-        rows_.append_closest(rows, hit, bounded ? &s.bounds[i] : nullptr);
-    }
+        scene_.bound_closest_hits(rays, s.hits.object.data(), s.bounds.data());
+    for (std::size_t i = 0; i < rays.count; ++i)
+        rows_.append_closest(rows, s.hits[i], bounded ? &s.bounds[i] : nullptr);
 }
 
 template <class Real>

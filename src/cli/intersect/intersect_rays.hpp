@@ -29,9 +29,8 @@ public:
 private:
     // The memory a thread needs for a block, kept for its next one.
     struct Scratch {
-        RayArrays<Real> rays;
-        std::vector<Real> t, normal_x, normal_y, normal_z;
-        std::vector<std::int32_t> object;
+        RayColumns<Real> rays;
+        HitColumns<Real> hits;
         std::vector<std::uint8_t> mask;
         std::vector<HitBounds> bounds;
     };

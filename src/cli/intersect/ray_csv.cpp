@@ -103,7 +103,7 @@ public:
     {
     }
 
-    void read(const CsvLine& line, RayArrays<Real>& rays) const
+    void read(const CsvLine& line, RayColumns<Real>& rays) const
     {
         const Fields fields = split(line);
         std::array<Real, most_ray_columns> row{};
@@ -112,8 +112,7 @@ public:
             if (column < t_min || !fields[column].empty())
                 row[column] = number(line, column, fields[column]);
         check_direction(line, fields[dx].data(), row);
-        for (std::size_t column = 0; column < row.size(); ++column)
-            rays.columns[column].push_back(row[column]);
+        rays.add(row);
     }
 
 private:
@@ -229,7 +228,7 @@ void learn(RayFormat& format, const CsvLine& first)
 
 template <class Real>
 void read_rays(const RayFormat& format, std::string_view text, std::size_t first_line,
-               RayArrays<Real>& rays)
+               RayColumns<Real>& rays)
 {
     for (std::vector<Real>& column : rays.columns)
         column.clear();
@@ -240,7 +239,7 @@ void read_rays(const RayFormat& format, std::string_view text, std::size_t first
             row.read(*line, rays);
 }
 
-template void read_rays(const RayFormat&, std::string_view, std::size_t, RayArrays<float>&);
-template void read_rays(const RayFormat&, std::string_view, std::size_t, RayArrays<double>&);
+template void read_rays(const RayFormat&, std::string_view, std::size_t, RayColumns<float>&);
+template void read_rays(const RayFormat&, std::string_view, std::size_t, RayColumns<double>&);
 
 }  // namespace packtrace::cli

@@ -86,7 +86,7 @@ template <class Real>
 BoundChecks check_bounds(const StressSubject& subject, const StressGroup& group)
 {
     const RayScene<Real> scene(group.scene, subject.options);
-    const RayColumns<Real> columns(group.rays);
+    const RayColumns<Real> columns = columns_of<Real>(group.rays);
     const RaysView<Real> rays = columns.view();
     std::vector<Real> t(rays.count);
     std::vector<std::int32_t> object(rays.count);

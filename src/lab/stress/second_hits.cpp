@@ -1,7 +1,6 @@
 #include "lab/stress/stress_subject.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <limits>
 
@@ -15,69 +14,6 @@ namespace packtrace::lab {
 namespace {
 
 using reference::dot;
-
-/// Rays in arrays, and where their hits go.
-template <class Real>
-struct Stream {
-    std::array<std::vector<Real>, 8> rays;
-    std::array<std::vector<Real>, 4> hits;    ///< t, normal
-    std::array<std::vector<Real>, 9> starts;  ///< outer, inner, the hit point itself
-    std::vector<std::int32_t> object;
-    std::vector<std::int32_t> surface;
-    // Where these rays themselves start, of rays that leave hits.
-    std::array<std::vector<Real>, 3> own_point;
-    std::vector<std::int32_t> own_surface;
-
-    void add(const Vec3& org, const Vec3& dir, double t_min, double t_max)
-    {
-        const double values[8] = {org.x, org.y, org.z, dir.x, dir.y, dir.z, t_min, t_max};
-        for (std::size_t i = 0; i < 8; ++i)
-            rays[i].push_back(static_cast<Real>(values[i]));
-    }
-
-    void add_start(const Vec3& point, std::int32_t own)
-    {
-        for (int axis = 0; axis < 3; ++axis)
-            own_point[static_cast<std::size_t>(axis)].push_back(static_cast<Real>(point[axis]));
-        own_surface.push_back(own);
-    }
-
-    void trace(const RayScene<Real>& scene)
-    {
-        const std::size_t n = rays[0].size();
-        for (auto& column : hits)
-            column.resize(n);
-        for (auto& column : starts)
-            column.resize(n);
-        object.resize(n);
-        surface.resize(n);
-        const auto& r = rays;
-        auto& s = starts;
-        const RaysView<Real> in{r[0].data(), r[1].data(), r[2].data(),
-                                r[3].data(), r[4].data(), r[5].data(),
-                                r[6].data(), r[7].data(), n};
-        const HitsView<Real> out{hits[0].data(),
-                                 object.data(),
-                                 hits[1].data(),
-                                 hits[2].data(),
-                                 hits[3].data(),
-                                 {s[0].data(), s[1].data(), s[2].data()},
-                                 {s[3].data(), s[4].data(), s[5].data()},
-                                 {s[6].data(), s[7].data(), s[8].data()},
-                                 surface.data()};
-        if (own_surface.empty())
-            return scene.closest_hits(in, out);
-        const auto& p = own_point;
-        scene.closest_hits(in, {{p[0].data(), p[1].data(), p[2].data()}, own_surface.data()}, out);
-    }
-
-    /// Of hit i: 0 the outer start, 1 the inner one, 2 the hit point.
-    [[nodiscard]] Vec3 start(std::size_t i, std::size_t which) const
-    {
-        const std::size_t first = 3 * which;
-        return {starts[first][i], starts[first + 1][i], starts[first + 2][i]};
-    }
-};
 
 /// Decisions nearer to being otherwise than this are not gone on from.
 constexpr double told_apart = 0x1p-20;
@@ -179,33 +115,29 @@ void SecondHits::add(const SecondHits& other)
 
 namespace {
 
+/// Rays that leave hits.
 template <class Real>
-Stream<Real> primary_stream(const StressGroup& group)
-{
-    Stream<Real> primary;
-    for (const StressRay& ray : group.rays)
-        primary.add(ray.org, ray.dir, ray.t_min, ray.t_max);
-    return primary;
-}
+struct Secondary {
+    RayColumns<Real> rays;
+    StartColumns<Real> starts;
+    std::vector<Leaving> leaving;
+};
 
 /// Whether the answer of primary ray i is the expected hit beyond doubt.
 template <class Real>
-bool leaves(const StressGroup& group, const Stream<Real>& primary, std::size_t i)
+bool leaves(const StressGroup& group, const LeftHitColumns<Real>& primary, std::size_t i)
 {
     const Expected& expected = group.expected[i];
     if (expected.object < 0 || !expected.root_decided(told_apart) || expected.normal == Vec3(0.0))
         return false;
-    const Answer answer{primary.object[i], static_cast<double>(primary.hits[0][i]),
-                        Vec3(primary.hits[1][i], primary.hits[2][i], primary.hits[3][i])};
-    return verdict_of(expected, answer, double_band, 0x1p-24) == Verdict::right;
+    return verdict_of(expected, answer_of(primary, i), double_band, 0x1p-24) == Verdict::right;
 }
 
 /// Adds a ray from where primary ray i hit, if that is beyond doubt, and what it should hit. It
 /// starts at the hit point as rounded, which is all that is known of it: so does the truth.
 template <class Real>
-void add_secondary(const StressGroup& group, const Stream<Real>& primary, std::size_t i,
-                   StressRandom& random, double t_min, Stream<Real>& secondary,
-                   std::vector<Leaving>& leaving)
+void add_secondary(const StressGroup& group, const LeftHitColumns<Real>& primary, std::size_t i,
+                   StressRandom& random, double t_min, Secondary<Real>& secondary)
 {
     if (!leaves(group, primary, i))
         return;
@@ -214,8 +146,8 @@ void add_secondary(const StressGroup& group, const Stream<Real>& primary, std::s
     for (int axis = 0; axis < 3; ++axis)
         dir[axis] = static_cast<double>(static_cast<Real>(dir[axis]));
     const bool outside = glm::dot(dir, hit.normal) > 0.0;
-    const Vec3 start = primary.start(i, 2);
-    const Vec3 lifted = primary.start(i, outside ? 0 : 1);
+    const Vec3 start = vector_at(primary.point, i);
+    const Vec3 lifted = vector_at(outside ? primary.outer_start : primary.inner_start, i);
     const StressRay ray{lifted, dir, t_min, std::numeric_limits<double>::infinity()};
     const auto own = static_cast<std::size_t>(hit.object);
 
@@ -242,9 +174,9 @@ void add_secondary(const StressGroup& group, const Stream<Real>& primary, std::s
     const double moved = glm::length(narrow(wide(start) - P));
     const double depth = static_cast<double>(one.own.t) * std::abs(glm::dot(dir, hit.normal)) / 4.0;
     one.shallow = depth < 4.0 * moved;
-    secondary.add(lifted, dir, t_min, std::numeric_limits<double>::infinity());
-    secondary.add_start(start, outside ? primary.surface[i] : ~primary.surface[i]);
-    leaving.push_back(std::move(one));
+    secondary.rays.add(lifted, dir, t_min);
+    secondary.starts.add(start, outside ? primary.surface[i] : ~primary.surface[i]);
+    secondary.leaving.push_back(std::move(one));
 }
 
 /// Holds the hit of one secondary ray against what is expected of it; of shallow chords by the
@@ -292,22 +224,21 @@ SecondHits trace_second_hits(const StressSubject& subject, const StressGroup& gr
     RenderOptions options = subject.options;
     options.self_hits = rule;
     const RayScene<Real> scene(group.scene, options);
-    Stream<Real> primary = primary_stream<Real>(group);
-    primary.trace(scene);
+    LeftHitColumns<Real> primary(group.rays.size());
+    scene.closest_hits(columns_of<Real>(group.rays).view(), primary.view());
 
     StressRandom random(group.rays.size());
-    Stream<Real> secondary;
-    std::vector<Leaving> leaving;
+    Secondary<Real> secondary;
     const double t_min = rule == SelfHits::note ? 0.001 : 0.0;
     const std::size_t step = group.surfaces.size() > 1 ? sparse : 1;
     for (std::size_t i = 0; i < group.rays.size(); i += step)
-        add_secondary(group, primary, i, random, t_min, secondary, leaving);
-    secondary.trace(scene);
+        add_secondary(group, primary, i, random, t_min, secondary);
+    LeftHitColumns<Real> hits(secondary.rays.size());
+    scene.closest_hits(secondary.rays.view(), secondary.starts.view(), hits.view());
 
     SecondHits counts;
-    for (std::size_t i = 0; i < leaving.size(); ++i)
-        count(counts, leaving[i], rule, secondary.object[i],
-              static_cast<double>(secondary.hits[0][i]));
+    for (std::size_t i = 0; i < secondary.leaving.size(); ++i)
+        count(counts, secondary.leaving[i], rule, hits.object[i], static_cast<double>(hits.t[i]));
     return counts;
 }
 

@@ -37,17 +37,14 @@ template <class Real>
 StressRun run_ray_scene(const RenderOptions& options, const StressGroup& group)
 {
     const RayScene<Real> scene(group.scene, options);
-    const RayColumns<Real> columns(group.rays);
+    const RayColumns<Real> columns = columns_of<Real>(group.rays);
     const RaysView<Real> rays = columns.view();
-    const std::size_t n = rays.count;
-    std::vector<Real> t(n), x(n), y(n), z(n);
-    std::vector<std::int32_t> object(n);
-    const HitsView<Real> hits{t.data(), object.data(), x.data(), y.data(), z.data()};
+    HitColumns<Real> hits(rays.count);
     StressRun run;
-    run.seconds = quickest([&] { scene.closest_hits(rays, hits); });
-    for (std::size_t i = 0; i < n; ++i)
-        run.answers.push_back({object[i], t[i], Vec3(x[i], y[i], z[i])});
-    run.occluded.resize(n);
+    run.seconds = quickest([&] { scene.closest_hits(rays, hits.view()); });
+    for (std::size_t i = 0; i < rays.count; ++i)
+        run.answers.push_back(answer_of(hits, i));
+    run.occluded.resize(rays.count);
     scene.occluded(rays, run.occluded.data());
     scene.all_hits(rays, [&](std::size_t, std::span<const SurfaceHit<Real>> all) {
         run.first.push_back(all.empty() ? -1 : all.front().object);
@@ -77,10 +74,8 @@ void add_packets(const StressOptions& options, std::vector<StressSubject>& subje
         for (const IsaInfo& isa : list_isas()) {
             if (!isa.supported || !(options.isa.empty() || options.isa == isa.name))
                 continue;
-            RenderOptions render;
-            render.isa = isa.name;
-            render.accuracy = mode.accuracy;
-            render.traversal = options.traversal;
+            const RenderOptions render{
+                .isa = isa.name, .accuracy = mode.accuracy, .traversal = options.traversal};
             subjects.push_back({"packet", mode.name, isa.name, mode.exact, render});
         }
     }
@@ -99,8 +94,7 @@ std::vector<StressSubject> stress_subjects(const StressOptions& options)
     if (wanted(options.kernels, "textbook"))
         subjects.push_back({"textbook", "", "", false, {}});
     if (wanted(options.kernels, "scalar")) {
-        RenderOptions render;
-        render.kernel = Kernel::scalar;
+        const RenderOptions render{.kernel = Kernel::scalar};
         subjects.push_back({"scalar", "", "", false, render});
     }
     if (wanted(options.kernels, "packet"))

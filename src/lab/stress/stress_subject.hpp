@@ -1,6 +1,5 @@
 #pragma once
 
-#include <array>
 #include <cstdint>
 #include <string>
 #include <vector>
@@ -10,6 +9,7 @@
 #include "lab/stress/stress.hpp"
 #include "lab/stress/stress_family.hpp"
 #include "lab/truth/wide_truth.hpp"
+#include "render/ray_columns.hpp"
 
 // Groups of rays with their truth, the kernels that are tried, and what each is asked of a group.
 namespace packtrace::lab {
@@ -71,30 +71,21 @@ struct StressSubject {
 /// The subjects that the options ask for.
 [[nodiscard]] std::vector<StressSubject> stress_subjects(const StressOptions& options);
 
-/// Rays as the arrays that RayScene takes.
+/// Rays as RayScene takes them.
 template <class Real>
-class RayColumns {
-public:
-    explicit RayColumns(const std::vector<StressRay>& rays)
-    {
-        for (const StressRay& ray : rays) {
-            const double values[8] = {ray.org.x, ray.org.y, ray.org.z, ray.dir.x,
-                                      ray.dir.y, ray.dir.z, ray.t_min, ray.t_max};
-            for (std::size_t i = 0; i < 8; ++i)
-                columns_[i].push_back(static_cast<Real>(values[i]));
-        }
-    }
+[[nodiscard]] RayColumns<Real> columns_of(const std::vector<StressRay>& rays)
+{
+    RayColumns<Real> columns;
+    for (const StressRay& ray : rays)
+        columns.add(ray.org, ray.dir, ray.t_min, ray.t_max);
+    return columns;
+}
 
-    [[nodiscard]] RaysView<Real> view() const
-    {
-        const auto& c = columns_;
-        return {c[0].data(), c[1].data(), c[2].data(), c[3].data(), c[4].data(),
-                c[5].data(), c[6].data(), c[7].data(), c[0].size()};
-    }
-
-private:
-    std::array<std::vector<Real>, 8> columns_;
-};
+template <class Real>
+[[nodiscard]] Answer answer_of(const HitColumns<Real>& hits, std::size_t ray)
+{
+    return {hits.object[ray], hits.t[ray], vector_at(hits.normal, ray)};
+}
 
 /// Answers by ray, and what the closest hits took. The textbook has no more than those.
 struct StressRun {
