@@ -12,9 +12,7 @@ constexpr double full_turn = 6.2831853;
 
 Quadric crossing(const Vec3& square)
 {
-    Quadric quadric;
-    quadric.coefficients = {square.x, square.y, square.z, 0, 0, 0, 0, 0, 0, 0};
-    return quadric;
+    return {.coefficients = {square.x, square.y, square.z, 0, 0, 0, 0, 0, 0, 0}};
 }
 
 /// Rays at the edge where x = ±z meet, turned any way; past it by 1e-12 to 1e-3, or through it.
@@ -33,8 +31,7 @@ StressCase crossing_planes(StressRandom& random)
 
 StressCase known_edge()
 {
-    Object planes;
-    planes.surface = crossing({1.0, 0.0, -1.0});
+    Object planes{.surface = crossing({1.0, 0.0, -1.0})};
     return known_case({planes}, {{0, 0, -5}, {0, 0.04, 0.2}, 0.0, no_end});
 }
 
@@ -44,7 +41,7 @@ Quadric capped(QuadricKind kind, double low, double high)
     if (kind == QuadricKind::general)
         quadric.coefficients = {1.0, 1.5, 0.8, 0.2, 0.1, -0.15, 0.05, 0.0, 0.1, -1.0};
     else
-        quadric = quadric_of(kind);
+        quadric = packtrace::quadric(kind);
     quadric.z_range = ZRange{low, high};
     quadric.capped = true;
     return quadric;
@@ -127,8 +124,7 @@ StressCase closed_body(StressRandom& random)
 
 StressCase known_rim()
 {
-    Object cylinder;
-    cylinder.surface = capped(QuadricKind::cylinder, -1.0, 1.0);
+    Object cylinder{.surface = capped(QuadricKind::cylinder, -1.0, 1.0)};
     return known_case({cylinder}, {{0.5, -0.10000000149011612, -0.30000001192092896},
                                    {0.5, 0.10000000149011612, -0.699999988079071},
                                    0.0,
@@ -154,8 +150,7 @@ Vec3 off_cone(StressRandom& random, const Vec3& way)
 StressCase cone_generators(StressRandom&)
 {
     StressCase result;
-    Object cone;
-    cone.surface = quadric_of(QuadricKind::cone);
+    Object cone{.surface = packtrace::quadric(QuadricKind::cone)};
     result.scene.objects = {cone};
     result.ray = [](StressRandom& r) {
         static const Vec3 ways[] = {{0, 1, 1}, {1, 0, 1}, {3, 4, 5}, {5, 12, 13}, {8, 15, 17}};

@@ -16,12 +16,9 @@ StressCase tiny_sphere(StressRandom& random)
     const double radius = distance * random.power(1e-9, 3e-7);
     const Vec3 org = random.below(2) == 0 ? Vec3(0.0) : random.box(1.0);
     const Vec3 center = org + distance * random.unit();
-    StressCase result;
-    result.scene.objects = {sphere_object(center, radius)};
-    result.ray = [=](StressRandom& r) {
+    return case_of({sphere_object(center, radius)}, [=](StressRandom& r) {
         return ray_towards(org, center + 1.1 * radius * r.between(0.0, 1.0) * r.unit());
-    };
-    return result;
+    });
 }
 
 StressCase known_tiny_sphere()
@@ -33,9 +30,7 @@ StressCase known_tiny_sphere()
 /// The planes z² = 1 of own space.
 Quadric slab()
 {
-    Quadric quadric;
-    quadric.coefficients = {0, 0, 1, 0, 0, 0, 0, 0, 0, -1};
-    return quadric;
+    return {.coefficients = {0, 0, 1, 0, 0, 0, 0, 0, 0, -1}};
 }
 
 /// Rays from afar at the middle of a thin thing that lies across one axis.
@@ -56,10 +51,9 @@ StressCase thin(StressRandom& random, const Quadric& quadric, double least, doub
 
 StressCase known_pancake()
 {
-    Object pancake;
-    pancake.surface = quadric_of(QuadricKind::ellipsoid);
-    pancake.transform =
-        glm::translate(Mat4(1.0), Vec3(0, 0, 50)) * glm::scale(Mat4(1.0), Vec3(1, 1, 1e-6));
+    Object pancake{.surface = packtrace::quadric(QuadricKind::ellipsoid),
+                   .transform = glm::translate(Mat4(1.0), Vec3(0, 0, 50)) *
+                                glm::scale(Mat4(1.0), Vec3(1, 1, 1e-6))};
     return known_case({pancake}, {{0, 0, 0}, {1e-3, 2e-3, 1}, 0.0, no_end});
 }
 
@@ -112,9 +106,9 @@ StressCase ground_eyes(StressRandom& random)
 
 Light far_light(StressRandom& random)
 {
-    Light light;
-    light.type = LightType::point;
-    light.vector = random.power(1.0, 1e6) * glm::normalize(random.unit() + Vec3(0.0, 1.1, 0.0));
+    Light light{
+        .type = LightType::point,
+        .vector = random.power(1.0, 1e6) * glm::normalize(random.unit() + Vec3(0.0, 1.1, 0.0))};
     light.intensity = Rgb(0.001);
     return light;
 }
@@ -139,11 +133,8 @@ StressCase known_lights()
         known_case({sphere_object({0, -1, 3}, 1), sphere_object({-2, 1, 3}, 1),
                     sphere_object({2, 1, 3}, 1), sphere_object({0, -5001, 0}, 5000)},
                    {});
-    Light light;
-    light.type = LightType::point;
-    light.vector = {0, 300, 0};
-    light.intensity = Rgb(0.001);
-    result.scene.lights = {light};
+    result.scene.lights = {
+        Light{.type = LightType::point, .intensity = Rgb(0.001), .vector = {0, 300, 0}}};
     result.ray = [](StressRandom& random) {
         const double x = random.between(-0.5, 0.5);
         const double y = random.between(-0.5, 0.5);
@@ -163,8 +154,7 @@ StressCase telephoto(StressRandom& random)
         result.scene.objects.push_back(sphere_object(centers.back(), random.between(0.3, 0.8)));
     }
     for (const QuadricKind kind : {QuadricKind::ellipsoid, QuadricKind::paraboloid}) {
-        Object object;
-        object.surface = quadric_of(kind);
+        Object object{.surface = packtrace::quadric(kind)};
         centers.push_back(random.box(2.0));
         object.transform = any_placement(random, any_stretch(random, 0.3), centers.back());
         result.scene.objects.push_back(object);
@@ -189,16 +179,13 @@ StressCase silhouette(StressRandom& random)
         return ray_towards(-way * far, miss * across(r, way));
     };
     if (stretch != Vec3(1.0))
-        return placed(quadric_of(QuadricKind::ellipsoid), transform, own_ray);
+        return placed(packtrace::quadric(QuadricKind::ellipsoid), transform, own_ray);
     const Vec3 center(transform[3]);
     const double radius = random.between(0.2, 2.0);
-    StressCase result;
-    result.scene.objects = {sphere_object(center, radius)};
-    result.ray = [=](StressRandom& r) {
+    return case_of({sphere_object(center, radius)}, [=](StressRandom& r) {
         const StressRay own = own_ray(r);
         return StressRay{center + radius * own.org, glm::normalize(own.dir), 0.0, no_end};
-    };
-    return result;
+    });
 }
 
 StressCase known_silhouette()
@@ -214,7 +201,7 @@ StressCase known_silhouette()
 StressCase far_paraboloid(StressRandom& random)
 {
     const Mat4 transform = sometimes_placed(random, 0.5, 2.0);
-    return placed(quadric_of(QuadricKind::paraboloid), transform, [](StressRandom& r) {
+    return placed(packtrace::quadric(QuadricKind::paraboloid), transform, [](StressRandom& r) {
         const Vec3 org = r.box(1.0) + Vec3(0.0, 0.0, 2.0);
         const Vec3 off = r.power(1e-9, 1e-5) * across(r, {0.0, 0.0, 1.0});
         return ray_towards(org, org + Vec3(0.0, 0.0, 1.0) + off);
@@ -225,7 +212,7 @@ StressCase far_paraboloid(StressRandom& random)
 
 std::vector<StressFamily> far_families()
 {
-    const Quadric ellipsoid = quadric_of(QuadricKind::ellipsoid);
+    const Quadric ellipsoid = packtrace::quadric(QuadricKind::ellipsoid);
     return {
         {"tiny-spheres",
          "spheres so small and far that both hits are one float",

@@ -19,7 +19,7 @@ AnyQuadric any_quadric(StressRandom& random, double size, const Vec3& to)
 {
     const QuadricKind kind = random.pick(every_kind);
     AnyQuadric result;
-    Quadric quadric = quadric_of(kind);
+    Quadric quadric = packtrace::quadric(kind);
     const int clipping = random.below(3);
     if (clipping > 0 && kind != QuadricKind::saddle) {
         quadric.z_range = ZRange{-0.75, 1.25};
@@ -107,7 +107,7 @@ StressCase flat_axes(StressRandom& random)
     const QuadricKind kind = random.pick(every_kind);
     const Mat4 transform = any_placement(
         random, {1.0, random.power(1e-5, 1.0), random.power(1.0, 1e3)}, random.box(3.0));
-    return placed(quadric_of(kind), transform, [kind](StressRandom& r) {
+    return placed(packtrace::quadric(kind), transform, [kind](StressRandom& r) {
         const Vec3 aim = own_surface_point(r, kind);
         return ray_towards(aim + r.between(0.5, 5.0) * r.unit(), aim);
     });

@@ -13,10 +13,7 @@ using Contour = std::vector<Vec3>;
 
 Object polygon_object(std::vector<Contour> contours, const Mat4& transform)
 {
-    Object object;
-    object.surface = Polygon{std::move(contours)};
-    object.transform = transform;
-    return object;
+    return {.surface = Polygon{std::move(contours)}, .transform = transform};
 }
 
 /// The six faces of |x|, |y|, |z| <= 1.
@@ -116,16 +113,13 @@ StressCase polygon_edge_on(StressRandom& random)
 {
     const Mat4 transform = any_placement(random, any_stretch(random, 0.3), random.box(2.0));
     const Contour corners = {{-1, -1, 0}, {1.5, -0.5, 0}, {0.2, 1.3, 0}};
-    StressCase result;
-    result.scene.objects.push_back(polygon_object({corners}, transform));
-    result.ray = [=](StressRandom& r) {
+    return case_of({polygon_object({corners}, transform)}, [=](StressRandom& r) {
         const Vec3 own = in_triangle(r, corners);
         const double turn = r.between(0.0, 6.283185307);
         const double up = r.power(1e-12, 1e-2);
         const Vec3 way = r.between(2.0, 6.0) * Vec3(std::cos(turn), std::sin(turn), up);
         return ray_towards(to_world(transform, own + way), to_world(transform, own));
-    };
-    return result;
+    });
 }
 
 }  // namespace

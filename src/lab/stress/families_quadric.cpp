@@ -14,7 +14,7 @@ using Kinds = std::vector<QuadricKind>;
 StressCase shot_at(StressRandom& random, const Kinds& kinds, const Mat4& transform)
 {
     const QuadricKind kind = random.pick(kinds);
-    StressCase result = placed(quadric_of(kind), transform, {});
+    StressCase result = placed(packtrace::quadric(kind), transform, {});
     result.ray = [=](StressRandom& r) {
         const Vec3 aim = own_surface_point(r, kind) * r.between(0.7, 1.3);
         const Vec3 org = Vec3(transform[3]) + r.between(2.0, 10.0) * r.unit();
@@ -30,7 +30,7 @@ StressCase along(StressRandom& random, QuadricKind kind, std::function<Vec3(Stre
                  double least, double most)
 {
     const Mat4 transform = any_placement(random, any_stretch(random, 0.5), random.box(3.0));
-    return placed(quadric_of(kind), transform, [=, way = std::move(way)](StressRandom& r) {
+    return placed(packtrace::quadric(kind), transform, [=, way = std::move(way)](StressRandom& r) {
         const Vec3 d = way(r);
         const double off = r.below(8) == 0 ? 0.0 : r.power(least, most);
         const Vec3 target = r.box(2.0);
@@ -52,7 +52,7 @@ Vec3 asymptote(StressRandom& random)
 StressCase at_apex(StressRandom& random)
 {
     const Mat4 transform = any_placement(random, any_stretch(random, 0.5), random.box(3.0));
-    return placed(quadric_of(QuadricKind::cone), transform, [](StressRandom& r) {
+    return placed(packtrace::quadric(QuadricKind::cone), transform, [](StressRandom& r) {
         return ray_towards(r.between(1.0, 5.0) * r.unit(), r.power(1e-7, 1e-2) * r.unit());
     });
 }
@@ -60,7 +60,7 @@ StressCase at_apex(StressRandom& random)
 StressCase clipped(StressRandom& random, bool capped)
 {
     const QuadricKind kind = every_kind[static_cast<std::size_t>(random.below(6))];
-    Quadric quadric = quadric_of(kind);
+    Quadric quadric = packtrace::quadric(kind);
     quadric.z_range = ZRange{-0.75, 1.25};
     quadric.capped = capped;
     const Mat4 transform = any_placement(random, any_stretch(random, 0.5), random.box(3.0));
@@ -125,7 +125,7 @@ StressCase along_straight_lines(StressRandom& random)
 {
     const QuadricKind kind = random.below(2) == 0 ? QuadricKind::saddle : QuadricKind::hyperboloid;
     const Mat4 transform = sometimes_placed(random, 0.5, 3.0);
-    return placed(quadric_of(kind), transform, [=](StressRandom& r) {
+    return placed(packtrace::quadric(kind), transform, [=](StressRandom& r) {
         const StraightLine line = straight_line(r, kind);
         const double off = r.below(4) == 0 ? 0.0 : r.power(1e-9, 1e-4);
         const Vec3 org = line.point + r.between(-3.0, 3.0) * line.way + off * r.unit();

@@ -15,12 +15,9 @@ using Aim = std::function<StressRay(StressRandom&, const Vec3& center, double ra
 /// One sphere, and rays aimed at it.
 StressCase one_sphere(const Vec3& center, double radius, Aim aim)
 {
-    StressCase result;
-    result.scene.objects = {sphere_object(center, radius)};
-    result.ray = [=, aim = std::move(aim)](StressRandom& random) {
-        return aim(random, center, radius);
-    };
-    return result;
+    return case_of(
+        {sphere_object(center, radius)},
+        [=, aim = std::move(aim)](StressRandom& random) { return aim(random, center, radius); });
 }
 
 /// From a few radii away, at the ball and a little past it.
@@ -116,29 +113,23 @@ StressCase plane_at(StressRandom& random, double far, double least, double most)
 {
     const Vec3 normal = random.unit();
     const Vec3 point = far * random.unit();
-    StressCase result;
-    result.scene.objects = {plane_object(point, normal)};
-    result.ray = [=](StressRandom& r) {
+    return case_of({plane_object(point, normal)}, [=](StressRandom& r) {
         const Vec3 along = across(r, normal);
         const Vec3 org = point + r.sign() * r.between(0.1, 10.0) * normal +
                          10.0 * r.between(-1.0, 1.0) * across(r, normal);
         return ray_towards(org, org + along + r.sign() * r.power(least, most) * normal);
-    };
-    return result;
+    });
 }
 
 StressCase near_plane(StressRandom& random)
 {
     const Vec3 normal = random.unit();
     const Vec3 point = random.box(10.0);
-    StressCase result;
-    result.scene.objects = {plane_object(point, normal)};
-    result.ray = [=](StressRandom& r) {
+    return case_of({plane_object(point, normal)}, [=](StressRandom& r) {
         const Vec3 org = point + r.sign() * r.power(1e-6, 1e-2) * normal +
                          10.0 * r.between(-1.0, 1.0) * across(r, normal);
         return ray_towards(org, org + r.unit());
-    };
-    return result;
+    });
 }
 
 StressFamily sphere_family(const char* name, const char* what, Aim aim)

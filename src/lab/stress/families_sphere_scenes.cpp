@@ -65,16 +65,13 @@ StressCase all_scales(StressRandom& random)
 StressCase short_ranges(StressRandom& random)
 {
     const Vec3 center = random.box(3.0);
-    StressCase result;
-    result.scene.objects = {sphere_object(center, 1.0)};
-    result.ray = [=](StressRandom& r) {
+    return case_of({sphere_object(center, 1.0)}, [=](StressRandom& r) {
         const Vec3 outwards = r.unit();
         const Vec3 org = center + r.between(1.5, 8.0) * outwards;
         StressRay ray = ray_towards(org, center + outwards);
         ray.t_max = 1.0 + r.sign() * r.power(1e-7, 1e-2);
         return ray;
-    };
-    return result;
+    });
 }
 
 }  // namespace

@@ -14,22 +14,15 @@ namespace {
 using boost::multiprecision::abs;
 using reference::dot;
 
-constexpr int glass_scene_count = 16;
-
 /// The camera looks to where rays meet the surface at the critical angle.
 template <class Real>
 Scene glass_scene(StressRandom& random)
 {
     const double ior = static_cast<double>(static_cast<Real>(random.between(1.1, 2.5)));
     Object ball = sphere_object(random.box(3.0), random.between(0.5, 2.0));
-    GeneralMaterial glass;
-    glass.transmit = Rgb(1.0);
-    glass.ior = ior;
-    ball.material.model = glass;
+    ball.material.model = GeneralMaterial{.transmit = Rgb(1.0), .ior = ior};
 
-    Scene scene;
-    scene.illumination = Illumination::general;
-    scene.objects = {ball};
+    Scene scene{.illumination = Illumination::general, .objects = {ball}};
     round_to_precision<Real>(scene);
     const Sphere& sphere = std::get<Sphere>(scene.objects[0].surface);
     const double off = random.between(1.0 / ior, 0.98);
@@ -113,19 +106,8 @@ void evaluate_glass_tree(const Scene& scene, const RayNode& tree, MeasureRun& ru
 template <class Real>
 StressMeasure::Ask prepared(const StressOptions& options)
 {
-    std::vector<Scene> scenes;
-    for (int i = 0; i < glass_scene_count; ++i) {
-        StressRandom random(options.seed * glass_scene_count + static_cast<std::uint64_t>(i));
-        scenes.push_back(glass_scene<Real>(random));
-    }
-    return [=](const StressSubject& subject) {
-        MeasureRun run;
-        for (const Scene& scene : scenes)
-            for_each_tree<Real>(
-                scene, subject, options.rays / glass_scene_count + 1,
-                [&](const RayNode& tree) { evaluate_glass_tree<Real>(scene, tree, run); });
-        return run;
-    };
+    return ask_of_trees<Real>(options.seed, options.rays, glass_scene<Real>,
+                              evaluate_glass_tree<Real>);
 }
 
 }  // namespace

@@ -13,7 +13,6 @@ namespace {
 
 using reference::dot;
 
-constexpr int scene_count = 16;
 constexpr int bounces = 12;
 
 /// A tree of so many bounces takes as long as some hundred rays: there are fewer of them.
@@ -21,9 +20,7 @@ constexpr int sparse_trees = 4;
 
 Object mirror(Object object)
 {
-    GeneralMaterial material;
-    material.reflect = Rgb(1.0);
-    object.material.model = material;
+    object.material.model = GeneralMaterial{.reflect = Rgb(1.0)};
     return object;
 }
 
@@ -35,8 +32,7 @@ Object wall(const Vec3& point, const Vec3& normal)
 template <class Real>
 Scene mirror_scene(StressRandom& random, bool room)
 {
-    Scene scene;
-    scene.illumination = Illumination::general;
+    Scene scene{.illumination = Illumination::general};
     const Vec3 middle = random.box(3.0);
     if (!room)
         scene.objects = {mirror(sphere_object(middle, random.between(0.5, 5.0)))};
@@ -174,19 +170,10 @@ void evaluate_tree(const Scene& scene, const RayNode& tree, MeasureRun& run)
 template <class Real>
 StressMeasure::Ask prepared(const StressOptions& options, bool room)
 {
-    std::vector<Scene> scenes;
-    for (int i = 0; i < scene_count; ++i) {
-        StressRandom random(options.seed * scene_count + static_cast<std::uint64_t>(i));
-        scenes.push_back(mirror_scene<Real>(random, room));
-    }
-    return [=](const StressSubject& subject) {
-        MeasureRun run;
-        for (const Scene& scene : scenes)
-            for_each_tree<Real>(
-                scene, subject, options.rays / (sparse_trees * scene_count) + 1,
-                [&](const RayNode& tree) { evaluate_tree<Real>(scene, tree, run); });
-        return run;
-    };
+    return ask_of_trees<Real>(
+        options.seed, options.rays / sparse_trees,
+        [=](StressRandom& random) { return mirror_scene<Real>(random, room); },
+        evaluate_tree<Real>);
 }
 
 StressMeasure measure(const char* name, const char* what, bool room)

@@ -62,10 +62,7 @@ StressCase placed(const Quadric& quadric, const Mat4& transform,
                   std::function<StressRay(StressRandom&)> own_ray)
 {
     StressCase result;
-    Object object;
-    object.surface = quadric;
-    object.transform = transform;
-    result.scene.objects = {object};
+    result.scene.objects = {Object{.surface = quadric, .transform = transform}};
     result.scene.camera.position = Vec3(transform[3]) + Vec3(0.0, 0.0, -5.0);
     result.ray = [=, own_ray = std::move(own_ray)](StressRandom& random) {
         const StressRay own = own_ray(random);

@@ -4,18 +4,11 @@
 #include <vector>
 
 #include <packtrace/build.hpp>
-#include <packtrace/surface.hpp>
 
 #include "lab/stress/stress_family.hpp"
 
 // Quadrics of a kind, points of them, and random places for them.
 namespace packtrace::lab {
-
-/// The quadric of a kind with its coefficients; not for `general`.
-[[nodiscard]] inline Quadric quadric_of(QuadricKind kind)
-{
-    return quadric(kind);
-}
 
 /// All but `general`.
 inline const std::vector<QuadricKind> every_kind = {

@@ -68,27 +68,27 @@ StressRay ray_towards(const Vec3& org, const Vec3& target)
 
 Object sphere_object(const Vec3& center, double radius)
 {
-    Object object;
-    object.surface = Sphere{center, radius};
-    return object;
+    return {.surface = Sphere{center, radius}};
 }
 
 Object plane_object(const Vec3& point, const Vec3& normal)
 {
-    Plane plane;
-    plane.point = point;
-    plane.normal = normal;
+    Plane plane{.point = point, .normal = normal};
     plane_axes(plane);
-    Object object;
-    object.surface = plane;
-    return object;
+    return {.surface = plane};
+}
+
+StressCase case_of(std::vector<Object> objects, std::function<StressRay(StressRandom&)> ray)
+{
+    StressCase result;
+    result.scene.objects = std::move(objects);
+    result.ray = std::move(ray);
+    return result;
 }
 
 StressCase known_case(std::vector<Object> objects, const StressRay& ray)
 {
-    StressCase result;
-    result.scene.objects = std::move(objects);
-    result.ray = [ray, first = true](StressRandom& random) mutable {
+    return case_of(std::move(objects), [ray, first = true](StressRandom& random) mutable {
         StressRay next = ray;
         if (!first)
             for (int axis = 0; axis < 3; ++axis) {
@@ -97,8 +97,7 @@ StressCase known_case(std::vector<Object> objects, const StressRay& ray)
             }
         first = false;
         return next;
-    };
-    return result;
+    });
 }
 
 Vec3 across(StressRandom& random, const Vec3& v)

@@ -44,6 +44,8 @@ struct StressFamily {
 [[nodiscard]] std::vector<StressFamily> polygon_families();
 [[nodiscard]] std::vector<StressFamily> mixed_families();
 
+[[nodiscard]] StressCase case_of(std::vector<Object> objects,
+                                 std::function<StressRay(StressRandom&)> ray);
 [[nodiscard]] StressRay ray_towards(const Vec3& org, const Vec3& target);
 [[nodiscard]] Object sphere_object(const Vec3& center, double radius);
 [[nodiscard]] Object plane_object(const Vec3& point, const Vec3& normal);

@@ -9,6 +9,7 @@
 #include "dispatch/kernels.hpp"
 #include "lab/harness/ray_trees.hpp"
 #include "lab/stress/evaluate.hpp"
+#include "lab/stress/stress_random.hpp"
 #include "lab/stress/stress_subject.hpp"
 
 // Families that ask something else than what a ray hits first.
@@ -57,15 +58,34 @@ void for_each_tree(const Scene& scene, const StressSubject& subject, int most, c
         take(trees(pixel % scene.width, pixel / scene.width));
 }
 
+/// Asks about trees of scenes made by `make(random)`, together of up to `trees` or a few more
+/// pixels, by `evaluate(scene, tree, run)`.
+template <class Real, class Make, class Evaluate>
+[[nodiscard]] StressMeasure::Ask ask_of_trees(std::uint64_t seed, int trees, const Make& make,
+                                              const Evaluate& evaluate)
+{
+    constexpr int scene_count = 16;
+    std::vector<Scene> scenes;
+    for (int i = 0; i < scene_count; ++i) {
+        StressRandom random(seed * scene_count + static_cast<std::uint64_t>(i));
+        scenes.push_back(make(random));
+    }
+    return [=](const StressSubject& subject) {
+        MeasureRun run;
+        for (const Scene& scene : scenes)
+            for_each_tree<Real>(scene, subject, trees / scene_count + 1,
+                                [&](const RayNode& tree) { evaluate(scene, tree, run); });
+        return run;
+    };
+}
+
 /// A camera at `org` whose picture of measure_edge pixels a side is `spread` wide at distance 1.
 [[nodiscard]] inline Camera measure_camera(const Vec3& org, const Vec3& towards, double spread)
 {
-    Camera camera;
-    camera.position = org;
-    camera.rotation = look_at(org, org + towards, Vec3(towards.y, towards.z, -towards.x));
-    camera.viewport = Vec2(spread);
-    camera.pixel_sample = Vec2(0.5);
-    return camera;
+    return {.position = org,
+            .rotation = look_at(org, org + towards, Vec3(towards.y, towards.z, -towards.x)),
+            .viewport = Vec2(spread),
+            .pixel_sample = Vec2(0.5)};
 }
 
 }  // namespace packtrace::lab
