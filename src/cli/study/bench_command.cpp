@@ -99,11 +99,11 @@ void measure_alone(const std::vector<ReportScene>& scenes, const BenchArguments&
 {
     // Measured here are processor seconds, of which other threads should take none.
     limit_threads(1);
-    BenchOptions options;
+    std::vector<std::string> isas;
     if (arguments.isa)
-        options.isas = {*arguments.isa};
+        isas = {*arguments.isa};
     for (const ReportScene& scene : scenes) {
-        SceneBench bench(scene, options);
+        SceneBench bench(scene, isas);
         bench.measure(arguments.repetitions, [](const BenchLine&) { return true; });
         for (int i = 0; i < confirmations; ++i)
             bench.measure(arguments.repetitions,

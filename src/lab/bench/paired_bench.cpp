@@ -18,11 +18,9 @@ double mean_seconds(const Subject& subject, double least)
     return sum / frames;
 }
 
-std::vector<Variant> variants_of(const ReportScene& scene, const BenchOptions& options)
+std::vector<Variant> variants_of(const ReportScene& scene, const std::vector<std::string>& isas)
 {
-    ReportOptions one_thread;
-    one_thread.threads = {1};
-    one_thread.isas = options.isas;
+    const ReportOptions one_thread{.threads = {1}, .isas = isas};
     std::vector<Variant> variants;
     for (const Variant& variant : report_variants(scene.scene, one_thread))
         if (variant.study == Study::arithmetic && variant.accuracy == Accuracy::exact &&
@@ -39,10 +37,10 @@ std::string line_name(const ReportScene& scene, const Variant& variant)
 
 }  // namespace
 
-SceneBench::SceneBench(const ReportScene& scene, const BenchOptions& options)
+SceneBench::SceneBench(const ReportScene& scene, const std::vector<std::string>& isas)
 {
     // The table begins with the reference in single precision.
-    for (const Variant& variant : variants_of(scene, options)) {
+    for (const Variant& variant : variants_of(scene, isas)) {
         BenchLine& line = subjects_.empty() ? reference_ : lines_.emplace_back();
         line.name = line_name(scene, variant);
         subjects_.push_back(subject_of(scene.scene, variant));

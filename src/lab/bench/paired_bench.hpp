@@ -25,15 +25,12 @@ struct BenchLine {
     }
 };
 
-struct BenchOptions {
-    std::vector<std::string> isas;  ///< none: all this machine runs
-};
-
 /// The lines of a scene, to be measured as often as wanted: every instruction set in both
 /// precisions, and the reference in double.
 class SceneBench {
 public:
-    SceneBench(const ReportScene& scene, const BenchOptions& options);
+    /// On these instruction sets; all this machine runs where none are given.
+    SceneBench(const ReportScene& scene, const std::vector<std::string>& isas);
 
     /// Measures the wanted lines in turns, so that a busy spell falls on all of them. What there
     /// is of earlier calls stays.
