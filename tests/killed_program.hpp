@@ -16,6 +16,17 @@
 
 namespace packtrace::test {
 
+/// Turns this process into a program.
+[[noreturn]] inline void become(const std::vector<std::string>& words)
+{
+    std::vector<char*> arguments;
+    for (const std::string& word : words)
+        arguments.push_back(const_cast<char*>(word.c_str()));
+    arguments.push_back(nullptr);
+    execvp(arguments.front(), arguments.data());
+    _exit(127);
+}
+
 /// Starts a program, and ends it by a signal once `when` holds, which is asked every millisecond;
 /// the program may end before. Returns what waitpid() says.
 [[nodiscard]] inline int kill_program(const std::vector<std::string>& words, int number,
@@ -26,12 +37,7 @@ namespace packtrace::test {
         const int nowhere = open("/dev/null", O_RDWR);
         for (const int handle : {0, 1, 2})
             dup2(nowhere, handle);
-        std::vector<char*> arguments;
-        for (const std::string& word : words)
-            arguments.push_back(const_cast<char*>(word.c_str()));
-        arguments.push_back(nullptr);
-        execvp(arguments.front(), arguments.data());
-        _exit(127);
+        become(words);
     }
     int status = 0;
     while (waitpid(child, &status, WNOHANG) == 0) {

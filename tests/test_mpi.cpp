@@ -120,12 +120,7 @@ int kill_rank(int ranks, const Words& words, const std::filesystem::path& errors
         dup2(nowhere, 0);
         dup2(nowhere, 1);
         dup2(err, 2);
-        std::vector<char*> arguments;
-        for (const std::string& word : all)
-            arguments.push_back(const_cast<char*>(word.c_str()));
-        arguments.push_back(nullptr);
-        execvp(arguments.front(), arguments.data());
-        _exit(127);
+        become(all);
     }
     int status = 0;
     bool killed = false;
