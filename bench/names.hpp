@@ -3,9 +3,8 @@
 #include <initializer_list>
 #include <string>
 #include <type_traits>
-#include <vector>
 
-#include <packtrace/isa.hpp>
+#include "render_scene.hpp"
 
 namespace packtrace::bench {
 
@@ -24,14 +23,6 @@ template <class Real>
     return std::is_same_v<Real, float> ? "float" : "double";
 }
 
-/// Those this machine can run, narrowest first.
-[[nodiscard]] inline std::vector<std::string> supported_isas()
-{
-    std::vector<std::string> names;
-    for (const IsaInfo& isa : list_isas())
-        if (isa.supported)
-            names.push_back(isa.name);
-    return names;
-}
+using test::supported_isas;
 
 }  // namespace packtrace::bench

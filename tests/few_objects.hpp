@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cmath>
+#include <cstdlib>
 #include <utility>
 #include <vector>
 
@@ -9,6 +10,13 @@
 #include "scenes.hpp"
 
 namespace packtrace::test {
+
+/// More scenes than the usual number, where the environment asks for them.
+[[nodiscard]] inline unsigned scene_count(unsigned usual)
+{
+    const char* const asked = std::getenv("PACKTRACE_FUSED_SCENES");
+    return asked != nullptr ? static_cast<unsigned>(std::atoi(asked)) : usual;
+}
 
 /// Scenes of a few spheres, grounds and planes, some with quadrics and polygons, and with whatever
 /// may upset a bound: bodies that overlap or touch, eyes and lights within them, sizes and

@@ -1,5 +1,4 @@
 // A caller's rays that run together hit what each of them hits alone, bit for bit.
-#include <cstdlib>
 #include <cstring>
 #include <limits>
 
@@ -43,13 +42,6 @@ std::vector<Ray<float>> rays_of(const Scene& scene, unsigned seed)
     return rays;
 }
 
-/// More than the usual number, where the environment asks for it.
-unsigned scene_count(unsigned usual)
-{
-    const char* const asked = std::getenv("PACKTRACE_FUSED_SCENES");
-    return asked != nullptr ? static_cast<unsigned>(std::atoi(asked)) : usual;
-}
-
 }  // namespace
 
 TEST_CASE("rays that run together hit what each hits alone", "[common_hits]")
@@ -59,9 +51,7 @@ TEST_CASE("rays that run together hit what each hits alone", "[common_hits]")
         const Scene scene = FewObjects(seed).scene;
         const std::vector<Ray<float>> rays = rays_of(scene, seed);
         for (const std::string& isa : supported_isas()) {
-            RenderOptions options;
-            options.isa = isa;
-            const RayScene<float> together(scene, options);
+            const RayScene<float> together(scene, {.isa = isa});
             std::vector<SurfaceHit<float>> hits(rays.size());
             together.closest_hits(RayStructs<float>{rays.data(), rays.size()},
                                   HitStructs<float>{hits.data(), hits.size()});

@@ -1,5 +1,4 @@
 // Paths that are traced in registers bring what those in streams bring, bit for bit.
-#include <cstdlib>
 #include <cstring>
 
 #include <packtrace/build.hpp>
@@ -35,9 +34,7 @@ struct Frame {
 /// By tiles, which is how frames are made; in streams of the general kernel if asked for.
 Frame render_tiles(const Scene& scene, const std::string& isa, bool streams, int samples = 1)
 {
-    RenderOptions options;
-    options.force_general = streams;
-    options.samples = samples;
+    const RenderOptions options{.force_general = streams, .samples = samples};
     const TileRenderer<float> tiles(scene, lower(scene), kernels_of(isa), options);
     Frame frame{Image<float>(scene.width, scene.height), {}};
     const TileGrid grid({0, 0, scene.width, scene.height});
@@ -49,13 +46,6 @@ Frame render_tiles(const Scene& scene, const std::string& isa, bool streams, int
 bool same_bits(const Image<float>& a, const Image<float>& b)
 {
     return std::memcmp(a.rgb.data(), b.rgb.data(), a.rgb.size() * sizeof(float)) == 0;
-}
-
-/// More than the usual number, where the environment asks for it.
-unsigned scene_count(unsigned usual)
-{
-    const char* const asked = std::getenv("PACKTRACE_FUSED_SCENES");
-    return asked != nullptr ? static_cast<unsigned>(std::atoi(asked)) : usual;
 }
 
 Scene note_scene()
@@ -102,9 +92,7 @@ TEST_CASE("several samples a pixel go through registers, too", "[fused]")
         CHECK(same_bits(render_tiles(scene, isa, false, 4).image,
                         render_tiles(scene, isa, true, 4).image));
     }
-    RenderOptions options;
-    options.samples = 8;
-    options.adaptive = 0.05;
+    RenderOptions options{.samples = 8, .adaptive = 0.05};
     const Image<float> registers = render<float>(scene, options);
     options.force_general = true;
     CHECK(same_bits(registers, render<float>(scene, options)));
