@@ -60,8 +60,7 @@ template <Generation G, abi::Features F>
     } else {
         const FilteredObjects<false>& objects =
             is_far ? objects_from_far(tile, rays.org, active) : tile.plan.from_near;
-        closest_hit<F>(found, objects, rays,
-                       ActiveOwn{start.surface, path_start.at.common, active});
+        closest_hit<F>(found, objects, rays, ActiveOwn{start.surface, path_start.common, active});
     }
     count_unsure(tile.counts, settle_packet<F>(tile.scene, rays, found, start, no_end_yet, active));
     hit.lanes = hit_lanes(found) & active;
@@ -259,10 +258,10 @@ inline void mirror_rays(const FusedTile<F>& tile, PathState<F>& path, PathStart&
     path.weight.reflect(material.packet.reflect);
     path.is_far = hits.is_far;
     path.org = at.point + lift;
-    start.at = at;
+    start.common = at.common;
     if (at.common < 0)
-        start.at.common = static_cast<std::int32_t>(common_number<float>(at.number, path.active));
-    path.is_plain = tile.plan.common.are_all && !hits.is_far && start.at.common >= 0;
+        start.common = static_cast<std::int32_t>(common_number<float>(at.number, path.active));
+    path.is_plain = tile.plan.common.are_all && !hits.is_far && start.common >= 0;
     start.meets_own = (hits.again & path.active) != 0;
     if (!start.meets_own)
         return;
@@ -280,12 +279,13 @@ inline void trace_generation(const FusedTile<F>& tile, const Candidates& candida
 {
     const abi::SceneView<float>& scene = tile.scene;
     const std::uint32_t active = path.active;
-    HitState hit;
+    HitState& hit = start.at;
     CommonHit common;
     constexpr Origin origin = G == Generation::camera ? Origin::shared : Origin::any;
-    const std::int32_t own = G == Generation::camera ? -1 : start.at.common;
-    if (path.is_plain && find_common_hit<origin>(common, tile.plan.common, candidates,
-                                                 rays_of<G>(tile, path), tile.eye, own, active)) {
+    const std::int32_t own = G == Generation::camera ? -1 : start.common;
+    if (path.is_plain &&
+        find_common_hit<Refine::place, origin>(common, tile.plan.common, candidates,
+                                               rays_of<G>(tile, path), tile.eye, own, active)) {
         hit.point = common.point;
         hit.outward = common.outward;
         hit.common = common.surface;

@@ -71,9 +71,10 @@ struct HitState {
     std::uint32_t lanes;
 };
 
-/// What the rays of a packet start on, for those that find_common_hit() can't tell of.
+/// What the rays of a packet start on; the hits of a generation take the place of those before.
 struct PathStart {
     HitState at;
+    std::int32_t common;      ///< the surface that all rays which go on start on; -1 for several
     bool meets_own;           ///< some may meet the same body again, as `second` says
     SecondHit<float> second;  ///< set where meets_own
 };
@@ -111,21 +112,12 @@ struct FusedMemory {
             take_objects<F>(arena, from_far, scene);
         occluders = arena.take<LightObjects<F, float>>(
             static_cast<std::size_t>(scene.lighting.lights.count));
-        for (int i = 0; i < scene.lighting.lights.count; ++i)
-            take_along(arena, scratch != nullptr ? occluders + i : nullptr, scene,
-                       scene.lighting.lights.data[i]);
-        bytes = arena.used();
-    }
-
-private:
-    static void take_along(Arena& arena, LightObjects<F, float>* objects,
-                           const abi::SceneView<float>& scene, const abi::LightRecord<float>& light)
-    {
-        if (!light.casts_shadow || light.sends_rays)
-            return;
         LightObjects<F, float> measured;
-        take_objects<F>(arena, objects != nullptr ? objects->along : measured.along,
-                        casters_of(scene));
+        for (int i = 0; i < scene.lighting.lights.count; ++i)
+            if (!scene.lighting.lights.data[i].sends_rays)
+                take_occluders<F, float>(arena, scratch != nullptr ? occluders[i] : measured, scene,
+                                         scene.lighting.lights.data[i]);
+        bytes = arena.used();
     }
 };
 

@@ -11,7 +11,7 @@ namespace {
 
 /// Finds and stores the hits of a packet where they are on one surface (common_hit.hpp); false
 /// where that can't be told. `eye` is the rays' origin where they share it.
-template <Origin O, class Writer>
+template <Refine R, Origin O, class Writer>
 inline bool store_if_common(Writer& writer, const CommonObjects& common,
                             const StreamPacket<float>& packet, const float (&eye)[3], int at)
 {
@@ -19,7 +19,8 @@ inline bool store_if_common(Writer& writer, const CommonObjects& common,
     const std::uint32_t live = first_lanes<float>(packet.count);
     const std::uint32_t fit = bits(certifiable(rays)) & bits(rays.t_min >= vreal<float>(0.0f));
     CommonHit hit;
-    if ((live & ~fit) != 0 || !find_common_hit<O>(hit, common, all_of(common), rays, eye, -1, live))
+    if ((live & ~fit) != 0 ||
+        !find_common_hit<R, O>(hit, common, all_of(common), rays, eye, -1, live))
         return false;
     // What ends before t_max for sure counts.
     if (hit.lanes != 0 &&
@@ -60,7 +61,7 @@ template <bool Starts, abi::Features F, class Objects, class Real>
 
 /// The same where packets may have a common hit; those that have none, and as many after them as
 /// `pause` says, go through the lists.
-template <abi::Features F, class Objects>
+template <Refine R, abi::Features F, class Objects>
 [[gnu::noinline]] void common_chunk_in_lists(const abi::SceneView<float>& scene,
                                              const Objects& objects, const CommonObjects& common,
                                              CommonPause& pause, const abi::RaysView<float>& view,
@@ -77,8 +78,8 @@ template <abi::Features F, class Objects>
             closest_chunk_in_lists<false, F>(scene, objects, view, listed,
                                              first < end ? first : end, writer);
         for (bool found = true; found && first < end; first += lanes<float>) {
-            found = store_if_common<origin>(writer, common, StreamPacket<float>(view, first), eye,
-                                            first);
+            found = store_if_common<R, origin>(writer, common, StreamPacket<float>(view, first),
+                                               eye, first);
             pause.record(found);
             if (!found)
                 closest_chunk_in_lists<false, F>(
@@ -140,9 +141,12 @@ inline void closest_chunk(const abi::SceneView<Real>& scene, StreamWork<F, Real>
                           int end, HitWriter<F, Real>& writer)
 {
     if constexpr (F.exact)
-        if (work.common.are_all)
-            return common_chunk_in_lists<F>(scene, objects, work.common, work.pause, view, begin,
-                                            end, writer);
+        if (work.common.are_all) {
+            const auto chunk = writer.asks_for_places()
+                                   ? common_chunk_in_lists<Refine::place, F, Objects>
+                                   : common_chunk_in_lists<Refine::t, F, Objects>;
+            return chunk(scene, objects, work.common, work.pause, view, begin, end, writer);
+        }
     closest_chunk_in_lists<false, F>(scene, objects, view, begin, end, writer);
 }
 

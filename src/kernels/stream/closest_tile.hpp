@@ -53,8 +53,8 @@ public:
     {
         CommonHit hit;
         if (!common_.are_all || !all(certifiable(rays)) ||
-            !find_common_hit<Origin::shared>(hit, common_, all_of(common_), rays, eye_, -1,
-                                             all_lanes<float>))
+            !find_common_hit<Refine::t, Origin::shared>(hit, common_, all_of(common_), rays, eye_,
+                                                        -1, all_lanes<float>))
             return false;
         const vmask<float> found = from_bits<float>(hit.lanes);
         store(hits.t + first, select(found, hit.t, vreal<float>(__builtin_inff())));

@@ -111,6 +111,12 @@ public:
     {
     }
 
+    /// Whether points and normals are asked for, besides t.
+    [[nodiscard]] bool asks_for_places() const
+    {
+        return hits_.normal[0] != nullptr;
+    }
+
     /// What a packet of rays, of which `live` are left, hit: to `at` and after.
     void store_hits(const RayPacket<Real>& rays, const HitPacket<Real>& hit,
                     const StartPacket<Real>& start, const vreal<Real>& t_max, int at, int live)
@@ -122,7 +128,7 @@ public:
             store_numbers<Real>(
                 hits_.surface + at,
                 select(missed, vint<Real>(lane_int<Real>{abi::no_start}), hit.surface), live);
-        if (hits_.normal[0] != nullptr)
+        if (asks_for_places())
             store_places<F>(scene_, rays, hit, start, t_max, hits_, at, live);
         else if (hits_.t != nullptr)
             store_t(rays, hit, start, select(missed, t_max, hit.t), found, at, live);

@@ -17,7 +17,7 @@ enum class Origin { shared, any };
 struct CommonHit {
     vreal<float> t;
     Vec3v<float> point;
-    Vec3v<float> outward;  ///< unit normal
+    Vec3v<float> outward;  ///< unit normal; with Refine::t not set
     std::int32_t surface;
     std::uint32_t lanes;  ///< none where nothing is hit
 };
@@ -128,8 +128,10 @@ inline Vec3v<float> place_at(const RayPacket<float>& rays, const float (&eye)[3]
                   madd<double>(wide.t.high + widen_high(dt), wide.dir.high, org.high));
 }
 
-/// Refines hits at a rough root; returns the lanes for which one step of Newton's was enough.
-template <Origin O>
+/// Refines hits at a rough root; returns the lanes for which one step of Newton's was enough. With
+/// Refine::t alone points are rounded a few times, which is_behind() allows for, and there are no
+/// normals.
+template <Refine R, Origin O>
 inline std::uint32_t refine_common(CommonHit& hit, const CommonSphere& sphere,
                                    const RoughCommon& rough, const RayPacket<float>& rays,
                                    const float (&eye)[3])
@@ -141,14 +143,18 @@ inline std::uint32_t refine_common(CommonHit& hit, const CommonSphere& sphere,
     const vreal<float> slope = narrow(dot(low, wide.dir.low), dot(high, wide.dir.high));
     const vreal<float> dt = vreal<float>(-0.5f) * value / slope;
     hit.t = rough.t + dt;
-    hit.outward = scale<float>(vreal<float>(sphere.inverse_radius),
-                               narrow(low, high) + scale<float>(dt, rays.dir));
-    hit.point = place_at(rays, eye, wide, dt);
+    if constexpr (R == Refine::place) {
+        hit.outward = scale<float>(vreal<float>(sphere.inverse_radius),
+                                   narrow(low, high) + scale<float>(dt, rays.dir));
+        hit.point = place_at(rays, eye, wide, dt);
+    } else {
+        hit.point = madd<float>(hit.t, rays.dir, rays.org);
+    }
     return is_surely_enough(rough.t, rays.dir2, slope, dt, rays.t_min);
 }
 
 /// The same on an anchored sphere.
-template <Origin O>
+template <Refine R, Origin O>
 inline std::uint32_t refine_common(CommonHit& hit, const CommonGround& ground,
                                    const RoughCommon& rough, const RayPacket<float>& rays,
                                    const float (&eye)[3])
@@ -165,9 +171,13 @@ inline std::uint32_t refine_common(CommonHit& hit, const CommonGround& ground,
     const vreal<float> slope = narrow(dot(g_low, wide.dir.low), dot(g_high, wide.dir.high));
     const vreal<float> dt = vreal<float>(-0.5f) * value / slope;
     hit.t = rough.t + dt;
-    hit.outward = madd<float>(vreal<float>(ground.curvature), scale<float>(dt, rays.dir),
-                              narrow(g_low, g_high));
-    hit.point = place_at(rays, eye, wide, dt);
+    if constexpr (R == Refine::place) {
+        hit.outward = madd<float>(vreal<float>(ground.curvature), scale<float>(dt, rays.dir),
+                                  narrow(g_low, g_high));
+        hit.point = place_at(rays, eye, wide, dt);
+    } else {
+        hit.point = madd<float>(hit.t, rays.dir, rays.org);
+    }
     return is_surely_enough(rough.t, rough.bend, vreal<float>(ground.side) * slope, dt, rays.t_min);
 }
 
@@ -262,7 +272,7 @@ inline Candidates all_of(const CommonObjects& common)
 }
 
 /// The same among grounds alone, where no sphere is near.
-template <Origin O>
+template <Refine R, Origin O>
 inline bool find_common_ground(CommonHit& hit, const CommonObjects& common,
                                const Candidates& candidates, const RayPacket<float>& rays,
                                const float (&eye)[3], std::int32_t own, std::uint32_t active)
@@ -289,7 +299,7 @@ inline bool find_common_ground(CommonHit& hit, const CommonObjects& common,
         return false;
     hit.lanes = nearest.open;
     hit.surface = first->surface;
-    if ((hit.lanes & ~refine_common<O>(hit, *first, nearest, rays, eye)) != 0)
+    if ((hit.lanes & ~refine_common<R, O>(hit, *first, nearest, rays, eye)) != 0)
         return false;
     for (int i = 0; !is_only && i < candidates.ground_count; ++i) {
         const CommonGround& ground = common.grounds[candidates.grounds[i]];
@@ -301,7 +311,7 @@ inline bool find_common_ground(CommonHit& hit, const CommonObjects& common,
 }
 
 /// The same among spheres and grounds.
-template <Origin O>
+template <Refine R, Origin O>
 inline bool find_common_sphere(CommonHit& hit, const CommonObjects& common,
                                const Candidates& candidates, const RayPacket<float>& rays,
                                const float (&eye)[3], std::int32_t own, std::uint32_t active)
@@ -330,13 +340,13 @@ inline bool find_common_sphere(CommonHit& hit, const CommonObjects& common,
         }
     }
     if (first == nullptr)
-        return find_common_ground<O>(hit, common, candidates, rays, eye, own, active);
+        return find_common_ground<R, O>(hit, common, candidates, rays, eye, own, active);
     const RoughCommon rough = rough_common(*first, rays, open);
     if (rough.sure != rough.open)
         return false;
     hit.lanes = rough.sure;
     hit.surface = first->body.first;
-    if ((hit.lanes & ~refine_common<O>(hit, *first, rough, rays, eye)) != 0)
+    if ((hit.lanes & ~refine_common<R, O>(hit, *first, rough, rays, eye)) != 0)
         return false;
     // Something else is behind what all rays hit, or there is nothing else.
     const bool is_whole = hit.lanes == active;
@@ -373,14 +383,14 @@ inline bool passes_balls(const CommonObjects& common, const Candidates& candidat
 /// is then of no use. Rays start among the origins of `common`, their shared one at `eye`, and are
 /// certifiable(). `own` is the surface that all start on, whose body they don't meet again, or -1
 /// for none.
-template <Origin O>
+template <Refine R, Origin O>
 inline bool find_common_hit(CommonHit& hit, const CommonObjects& common,
                             const Candidates& candidates, const RayPacket<float>& rays,
                             const float (&eye)[3], std::int32_t own, std::uint32_t active)
 {
     hit.lanes = 0;
     return passes_balls(common, candidates, rays, own, active) &&
-           find_common_sphere<O>(hit, common, candidates, rays, eye, own, active);
+           find_common_sphere<R, O>(hit, common, candidates, rays, eye, own, active);
 }
 
 }  // namespace
