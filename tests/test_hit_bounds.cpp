@@ -228,6 +228,20 @@ TEST_CASE("bounds of two hits with one t in single precision are those of each",
     CHECK(apart > 12);
 }
 
+TEST_CASE("bounds of all hits pass over the root where a ray starts on the surface", "[hit_bounds]")
+{
+    // Starts on the side, all but along it, and leaves it at 2^-49.
+    const RayScene<double> drum(scene_of(R"(cylinder {
+        z_range = (0, 1.5)  capped = true
+        matrix = (-4, 0, 0, -2,
+                  0, -8.881784197001252e-16, 3.999999999999999, 2,
+                  0, 3.999999999999999, -8.881784197001252e-16, 3) })"));
+    const auto all = OneRay<double>({-2, 6, -1}, {-1, 1, 0}).all(drum);
+    REQUIRE(all.size() == 1);
+    CHECK(holds(all[0], 0x1p-49));
+    CHECK(all[0].low > 0x1p-50);
+}
+
 TEST_CASE("bounds stay tight along generators, across scales and for long directions",
           "[hit_bounds]")
 {

@@ -1,4 +1,6 @@
+#include <packtrace/build.hpp>
 #include <packtrace/generate.hpp>
+#include <packtrace/intersect.hpp>
 #include <packtrace/read_scene.hpp>
 #include <packtrace/renderer.hpp>
 
@@ -247,6 +249,29 @@ TEST_CASE("a large sphere is anchored where its surface passes near the origin f
         CHECK(glm::length(sphere.anchor - sphere.center) == Approx(sphere.radius));
         CHECK(glm::length(sphere.anchor) < sphere.radius / 64.0);
     }
+}
+
+TEST_CASE("a sphere that is turned and scaled is a sphere, and one that is stretched never",
+          "[lowering]")
+{
+    const Object ball = make_object(sphere({1, 2, 3}, 0.5));
+    Object turned = ball;
+    for (const double degrees : {10.0, 33.3, -77.0})
+        turned = scale(rotate(turned, {1, 0.5, -0.7}, degrees), 1.7);
+    Scene scene;
+    scene.objects = {ball, turned, scale(ball, {-1, 1, 1}), scale(ball, {1, 1, 1 + 0x1p-41})};
+    const LoweredScene lowered = lower(scene);
+    CHECK(surfaces_of(lowered.spheres) == std::vector<std::int32_t>{0, 1, 2});
+    CHECK(lowered.quadrics.size() == 1);
+}
+
+TEST_CASE("how little a sphere is stretched shows in its hits", "[lowering]")
+{
+    Scene scene;
+    scene.objects = {scale(make_object(ellipsoid()), {1, 1, 1 + 0x1p-41})};
+    const RayScene<double> traced(scene);
+    CHECK(traced.closest_hit({.org = {0, 0, -3}, .dir = {0, 0, 1}}).t == 2 - 0x1p-41);
+    CHECK(traced.closest_hit({.org = {0, -3, 0}, .dir = {0, 1, 0}}).t == 2);
 }
 
 TEST_CASE("one surface that is clipped at two places is no surface twice", "[lowering]")

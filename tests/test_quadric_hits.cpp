@@ -130,4 +130,53 @@ TEST_CASE("Hits of quadrics have the same bits from one place, from many and alo
     CHECK(not_among_all_hits(traced, mixed, first) == 0);
 }
 
+TEMPLATE_TEST_CASE("a narrow waist far from its own space's origin keeps its width",
+                   "[quadric_hits]", float, double)
+{
+    // (x - 1024)² + y² - z² = 2^-20, whose waist is 2^-10 wide.
+    const Scene scene = parse_scene(
+        "quadric { coefficients = (1, 1, -1, 0, 0, 0, -2048, 0, 0, 1048575.99999904632568359375) }",
+        "waist", {});
+    for (const RenderOptions& options : packet_ways()) {
+        INFO(options.isa << (options.traversal == Traversal::tree ? " tree" : " list"));
+        const RayScene<TestType> traced(scene, options);
+        CHECK(traced.closest_hit({.org = {1024, -5, 0}, .dir = {0, 1, 0}}).t ==
+              TestType(5 - 0x1p-10));
+        // Through the waist, where a cone would be in the way.
+        const Ray<TestType> inside{.org = {1024, TestType(0x1p-11), -5}, .dir = {0, 0, 1}};
+        CHECK(traced.closest_hit(inside).object == -1);
+        CHECK(!traced.occluded(inside));
+        CHECK(traced.all_hits(inside).empty());
+    }
+}
+
+TEST_CASE("how little a parabolic cylinder bends shows in its hits", "[quadric_hits]")
+{
+    // x² + x = 2^-41 z, at (2^-11, 0, 2^30 + 2^19): not the planes x = 0 and x = -1.
+    const RayScene<double> sheet(parse_scene(
+        "quadric { coefficients = (1, 0, 0, 0, 0, 0, 1, 0, -4.547473508864641189575195e-13, 0) }",
+        "sheet", {}));
+    CHECK(sheet.closest_hit({.org = {0.25, 3, 0x1p30 + 0x1p19}, .dir = {-1, 0, 0}}).t ==
+          Approx(0.25 - 0x1p-11).epsilon(1e-15));
+}
+
+TEST_CASE("a small ball written as a quadric far from the origin is a ball", "[quadric_hits]")
+{
+    const RayScene<double> ball(parse_scene(
+        "quadric { coefficients = (1, 1, 1, 0, 0, 0, -2048, 0, 0, 1048575.99999904632568359375) }",
+        "ball", {}));
+    CHECK(ball.closest_hit({.org = {1024, 0, -5}, .dir = {0, 0, 1}}).t == 5 - 0x1p-10);
+    CHECK(ball.closest_hit({.org = {1024, 0x1p-9, -5}, .dir = {0, 0, 1}}).object == -1);
+}
+
+TEST_CASE("a cone whose numbers are rounded has its apex", "[quadric_hits]")
+{
+    // Not the tiny waist, or gap, that the roundings of 0.1, 0.2 and 0.3 and their squares make.
+    const RayScene<double> cone(parse_scene(
+        "quadric { coefficients = (1, 1, -1, 0, 0, 0, -0.2, -0.4, 0.6, -0.04) }", "cone", {}));
+    const SurfaceHit<double> hit = cone.closest_hit({.org = {0.1, -5, 0.3}, .dir = {0, 1, 0}});
+    CHECK(hit.object == 0);
+    CHECK(hit.t == Approx(5.2).epsilon(1e-14));
+}
+
 }  // namespace packtrace::test

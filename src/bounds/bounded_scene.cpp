@@ -121,9 +121,13 @@ void bounds_of(std::span<const HitInterval> hits, const Range& range, std::span<
                std::span<HitBounds> bounds)
 {
     std::vector<HitInterval> counted;
-    for (const HitInterval& hit : hits)
-        if (may_count(hit, range))
-            counted.insert(counted.end(), static_cast<std::size_t>(hit.hits), hit);
+    for (HitInterval hit : hits) {
+        if (!may_count(hit, range))
+            continue;
+        // A root where the ray starts may well be passed over.
+        hit.certain = surely_counts(hit, range);
+        counted.insert(counted.end(), static_cast<std::size_t>(hit.hits), hit);
+    }
     if (counted.empty()) {
         std::fill(bounds.begin(), bounds.end(), HitBounds{});
         return;

@@ -6,12 +6,20 @@
 #include <glm/geometric.hpp>
 #include <glm/matrix.hpp>
 
+#include "core/quad.hpp"
 #include "scene/vectors.hpp"
 
 namespace packtrace {
 namespace {
 
 constexpr double negligible = 1e-12;
+
+/// A constant of no more than these shares of what it is the rest of is none: along the world's
+/// axes squares are completed without rounding, so that only J itself is off, by the rounding of
+/// who wrote it; along turned axes each square and slope is off by several roundoffs of the
+/// largest.
+constexpr double aligned_rest = 0x1p-50;
+constexpr double turned_rest = 0x1p-46;
 
 struct SymmetricEigen {
     Vec3 values{0.0};
@@ -80,15 +88,16 @@ void sort_axes(SymmetricEigen& eigen, double share)
             }
 }
 
-/// Turns the axes without a square so that the rest of the linear part lies along the last.
-void align_linear(SymmetricEigen& eigen, const Vec3& slope)
+/// Turns the axes without a square so that the rest of the linear part, which is none to within
+/// this share of the whole, lies along the last.
+void align_linear(SymmetricEigen& eigen, const Vec3& slope, double share)
 {
     if (rank_of(eigen.values) >= 2)
         return;
     Vec3 direction = slope;
     if (eigen.values.x != 0.0)
         direction -= eigen.vectors[0] * glm::dot(eigen.vectors[0], slope);
-    if (glm::length(direction) <= negligible * glm::length(slope))
+    if (glm::length(direction) <= share * glm::length(slope))
         return;
     eigen.vectors[2] = glm::normalize(direction);
     if (eigen.values.x == 0.0) {
@@ -101,25 +110,41 @@ void align_linear(SymmetricEigen& eigen, const Vec3& slope)
 }
 
 /// Moves along the axes until no axis has both a square and a slope, which is none to within this
-/// share of the whole.
+/// share of the whole. Far from the centre the constant is a small rest of large numbers, and says
+/// how wide a waist is, or whether there is one: it is computed in 113 bits.
 void complete_squares(CanonicalForm& form, const Vec3& slope, double constant, double share)
 {
     Vec3 shift{0.0};  // along the axes
-    form.constant = constant;
+    Quad rest = constant;
     for (int axis = 0; axis < 3; ++axis) {
         const double half = 0.5 * glm::dot(form.axes[axis], slope);
         if (form.square[axis] != 0.0) {
             shift[axis] = -half / form.square[axis];
-            form.constant -= half * half / form.square[axis];
+            rest -= Quad(half) * half / form.square[axis];
         } else if (axis == 2 && std::abs(half) > share * glm::length(slope)) {
             form.linear = half;
         }
     }
+    form.constant = static_cast<double>(rest);
     if (form.linear != 0.0) {
         shift.z = -form.constant / (2.0 * form.linear);
         form.constant = 0.0;
     }
     form.center = form.axes * shift;
+}
+
+/// How large the numbers are of which the constant is the rest. Those of a square that is far
+/// below the largest count by the largest, as it is off by roundoffs of that.
+double size_of_rest(const CanonicalForm& form, double constant, bool is_turned)
+{
+    const double largest = largest_component(form.square);
+    double size = std::abs(constant);
+    for (int axis = 0; axis < 3; ++axis) {
+        const double shift = glm::dot(form.axes[axis], form.center);
+        if (form.square[axis] != 0.0)
+            size += (is_turned ? largest : std::abs(form.square[axis])) * shift * shift;
+    }
+    return size;
 }
 
 }  // namespace
@@ -135,15 +160,15 @@ CanonicalForm canonical_form(const std::array<double, 10>& coefficients)
     SymmetricEigen eigen = symmetric_eigen(matrix);
     // Numbers along the world's axes are exact, however small.
     const bool is_turned = D != 0.0 || E != 0.0 || F != 0.0;
-    sort_axes(eigen, is_turned ? negligible : 0.0);
-    const bool is_aligned = !is_turned && rank_of(eigen.values) >= 2;
-    align_linear(eigen, slope);
+    const double share = is_turned ? negligible : 0.0;
+    sort_axes(eigen, share);
+    align_linear(eigen, slope, share);
 
     CanonicalForm form{.axes = eigen.vectors, .square = eigen.values};
-    complete_squares(form, slope, J, is_aligned ? 0.0 : negligible);
+    complete_squares(form, slope, J, share);
     // A constant that is only what cancelling squares left over is none.
-    const double scale = std::abs(J) + std::abs(form.constant - J);
-    if (std::abs(form.constant) <= negligible * scale)
+    const double rest = is_turned ? turned_rest : aligned_rest;
+    if (std::abs(form.constant) <= rest * size_of_rest(form, J, is_turned))
         form.constant = 0.0;
     return form;
 }

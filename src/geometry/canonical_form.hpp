@@ -20,7 +20,8 @@ struct CanonicalForm {
 
 /// Brings Ax² + By² + Cz² + Dxy + Exz + Fyz + Gx + Hy + Iz + J = 0 to its canonical form: by the
 /// eigenvectors of the second-order part (Jacobi's method), then by completing squares.
-/// Coefficients within 1e-12 of nothing, against the largest of their order, count as 0.
+/// What rounding could have left over of the constant counts as 0. So do coefficients within 1e-12
+/// of nothing, against the largest of their order, where the axes are not those of the world.
 [[nodiscard]] CanonicalForm canonical_form(const std::array<double, 10>& coefficients);
 
 /// Why the form has no surface a ray can hit (it is empty, a point, a line or a double plane);

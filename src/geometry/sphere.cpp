@@ -19,6 +19,11 @@ constexpr double anchored_ratio = 64.0;
 /// loses no more digits than its neighbours do, and goes into the hierarchy.
 constexpr double smallest_anchored = 4.0;
 
+/// By what share of itself a transform may stretch squares of lengths that no similarity would:
+/// what rounding leaves of a few rotations and factors. A transform that does more makes an
+/// ellipsoid, if one that only double tells from a sphere.
+constexpr double similarity_rounding = 0x1p-49;
+
 /// The point of the surface nearest the world's origin.
 Vec3 anchor_of(const LoweredSphere& sphere)
 {
@@ -37,7 +42,7 @@ double similarity_scale(const Mat4& transform)
     for (int column = 0; column < 3; ++column)
         for (int row = 0; row < 3; ++row) {
             const double expected = column == row ? scale2 : 0.0;
-            if (std::abs(square[column][row] - expected) > 1e-12 * scale2)
+            if (std::abs(square[column][row] - expected) > similarity_rounding * scale2)
                 return 0.0;
         }
     return std::sqrt(scale2);
