@@ -251,6 +251,23 @@ class TestErrors(unittest.TestCase):
         with self.assertRaises(AttributeError):
             ball.wait = 2
 
+    def test_materials_may_be_made_when_they_are_asked_for(self):
+        class Tinted(pt.Object):
+            @property
+            def material(self):
+                return pt.ScratchMaterial(color=self._color)
+
+            @material.setter
+            def material(self, _):
+                pass
+
+        scene = pt.Scene(objects=[Tinted(pt.Sphere((x, 0, 5), 1)) for x in range(65)])
+        colors = [(x / 64, 0.0, 0.0) for x in range(65)]
+        for thing, color in zip(scene.objects, colors):
+            thing._color = color
+        self.assertEqual([thing.material.color
+                          for thing in pt.Scene.from_text(scene.to_text()).objects], colors)
+
     def test_what_is_no_scene(self):
         with self.assertRaisesRegex(ValueError, "use a packtrace.Scene"):
             pt.render("a.scene")
