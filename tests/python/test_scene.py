@@ -196,6 +196,34 @@ class TestErrors(unittest.TestCase):
         self.refuses(r"^illumination is 'dark'; use one of", illumination="dark")
         self.refuses(r"^width is 2.5; use a whole number", width=2.5)
         self.refuses(r"^objects is 7; use a list", objects=7)
+        self.refuses(r"^objects is <list_iterator.*>; use a list", objects=iter([pt.Object(ball)]))
+        self.refuses(r"^objects\[0\]: name is '\\ud800'; use a text",
+                     objects=[pt.Object(ball, name="\ud800")])
+        self.refuses(r"^illumination is '\\ud800'; use one of", illumination="\ud800")
+
+    def test_messages_are_cut_between_characters(self):
+        for letter in "é漢😀":
+            self.refuses(f"^width is 'a{letter * 58}[.]{{3}}; use a whole number$",
+                         width="a" + letter * 100)
+        self.refuses("^width is 'a{58}'; use a whole number$", width="a" * 58)
+
+        class Odd:
+            def __repr__(self):
+                return "\ud800"
+
+        self.refuses(r"^width is \\ud800; use a whole number$", width=Odd())
+
+    def test_a_list_may_shrink_while_it_is_read(self):
+        center = []
+
+        class Shrinking:
+            def __float__(self):
+                center.clear()
+                return 1.0
+
+        center += [Shrinking(), object(), object()]
+        self.refuses(r"^objects\[0\]: center is \[\]; use 3 numbers",
+                     objects=[pt.Object(pt.Sphere(center))])
 
     def test_values_that_no_scene_may_have(self):
         with self.assertRaisesRegex(pt.SceneError, "ball.*radius.*above 0"):
