@@ -1,7 +1,9 @@
 """Scenes: from text, from files, built object by object, and back."""
 
 import copy
+import os
 import pickle
+import tempfile
 import threading
 import unittest
 import warnings
@@ -45,6 +47,22 @@ class TestText(unittest.TestCase):
     def test_file_names_may_be_bytes(self):
         file = SCENES / "four_spheres.scene"
         self.assertEqual(pt.read_scene(str(file).encode()), pt.read_scene(file))
+
+    def test_file_names_need_not_be_utf8(self):
+        with tempfile.TemporaryDirectory() as folder:
+            name = os.fsencode(folder) + b"/\xff.scene"
+            with open(name, "w") as file:
+                file.write(hand_scene().to_text())
+            self.assertEqual(pt.read_scene(name), hand_scene())
+            self.assertEqual(pt.read_scene(os.fsdecode(name)), hand_scene())
+
+    def test_what_is_no_text_is_refused(self):
+        for wrong in (None, 5, ["sphere"]):
+            with self.assertRaisesRegex(ValueError, "^text is .*; use a text$"):
+                pt.Scene.from_text(wrong)
+        for texts in (("\ud800",), ("sphere", "\ud800")):
+            with self.assertRaisesRegex(ValueError, "surrogates"):
+                pt.Scene.from_text(*texts)
 
     def test_wrong_text_is_refused_with_its_place(self):
         with self.assertRaisesRegex(pt.SceneError, r"^mine:1:10: unknown key 'raduis'"):
