@@ -276,6 +276,11 @@ TEST_CASE("joined shards of a stress test have the rows and the verdict of the w
     edited.replace(edited.find("\"wrong\": 0"), 10, "\"wrong\": 5");
     write_text(folder / "edited", edited);
     refused({"join", folder / "0", folder / "edited", folder / "2"}, "is cut or was changed");
+    // JSON that is nested without end.
+    constexpr int deep = 200'000;
+    write_text(folder / "deep", R"({"shard": "1/3", "rows": )" + std::string(deep, '[') +
+                                    std::string(deep, ']') + "}");
+    refused({"join", folder / "0", folder / "deep", folder / "2"}, "is no part");
     join.pop_back();
     refused(join, "is missing");
 }
