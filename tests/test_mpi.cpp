@@ -588,6 +588,17 @@ TEST_CASE("hits have the bytes of one process whatever the ranks", "[mpi]")
             CHECK((read_text(folder / "m.csv") == read_text(folder / "w.csv")));
         }
     }
+    // A header behind comments of more than a piece is no ray.
+    std::string comments;
+    for (int i = 0; i < 4000; ++i)
+        comments += "# a comment of some length\n";
+    write_text(folder / "late.csv", comments + rays);
+    Words late{"intersect", four_spheres_file, folder / "late.csv",
+               "-o",        folder / "w.csv",  "--all"};
+    REQUIRE(run_packtrace(late).exit_code == 0);
+    late[4] = folder / "m.csv";
+    CHECK(run_ranks(2, late).exit_code == 0);
+    CHECK((read_text(folder / "m.csv") == read_text(folder / "w.csv")));
     // The first of two wrong lines is the one that is named.
     rays += "1,2,3,0,0,0\n1,2,3,0,0,four\n";
     write_text(folder / "rays.csv", "1,2,3,0,0,1\n" + rays.substr(rays.find('\n', 10) + 1));
