@@ -541,10 +541,11 @@ TEST_CASE("no rank of a node works while another one times", "[mpi]")
 TEST_CASE("frames are shared by ranks, and a second job renders the missing ones", "[mpi]")
 {
     const TempFolder folder;
-    write_text(folder / "a.scene",
-               "image_size = 19 x 13\nanimation { frames = 7  orbit { center = (0, 0, 3) } }\n"
-               "sphere { center = (0, 1, 3)  radius = 1  color = (200, 40, 30) }\n"
-               "light { type = ambient  intensity = 0.5 }\n");
+    write_text(
+        folder / "a.scene",
+        "image_size = 19 x 13\nanimation { frames = 7  orbit { center = (0, 0, 3) } }\n"
+        "sphere { center = (0, 1, 3)  radius = 1  color = (200, 40, 30)  reflective = 0.3 }\n"
+        "light { type = ambient  intensity = 0.5 }\n");
     const auto words = [&](const std::string& name) {
         return Words{"render", folder / "a.scene", "--frames", "0..6", "-o", folder / name};
     };
@@ -562,6 +563,17 @@ TEST_CASE("frames are shared by ranks, and a second job renders the missing ones
         for (int frame = 0; frame < 7; ++frame)
             std::filesystem::remove(folder / ("m" + std::to_string(frame) + ".pfm"));
     }
+    // What is left out is said of all ranks' frames.
+    Words cut = words("m%d.pfm");
+    cut.insert(cut.end(), {"--min-weight", "0.5"});
+    const std::string said = run_packtrace(cut).err;
+    for (int frame = 0; frame < 7; ++frame)
+        std::filesystem::remove(folder / ("m" + std::to_string(frame) + ".pfm"));
+    const ProgramResult jobs = run_ranks(2, cut);
+    CHECK_THAT(said, ContainsSubstring(" not traced; "));
+    CHECK_THAT(jobs.err, ContainsSubstring(said.substr(said.find('\n') + 1)));
+    for (int frame = 0; frame < 7; ++frame)
+        std::filesystem::remove(folder / ("m" + std::to_string(frame) + ".pfm"));
     std::filesystem::create_directory(folder / "m3.pfm");
     const ProgramResult result = run_ranks(3, words("m%d.pfm"));
     CHECK(result.exit_code == 1);
