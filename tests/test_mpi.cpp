@@ -266,6 +266,19 @@ TEST_CASE("ranks of other versions or without FMA are told from others", "[mpi]"
                ContainsSubstring("rank 1 is version 2.0 and rank 0 is version 1.0"));
 }
 
+TEST_CASE("ranks may have instruction sets and threads of their own, and no other arguments",
+          "[mpi]")
+{
+    const auto shared = [](const Words& words) { return mpi::shared_arguments(words); };
+    const std::string first = shared({"render", "a.scene", "-o", "a.png"});
+    CHECK(shared({"render", "--isa", "sse42", "a.scene", "-o", "a.png", "--threads=3"}) == first);
+    CHECK(shared({"render", "a.scene", "-o", "a.png", "--width", "4"}) == first);
+    CHECK(mpi::why_arguments_differ({first, first, first}).empty());
+    CHECK_THAT(mpi::why_arguments_differ(
+                   {first, first, shared({"render", "a.scene", "-o", "a.png", "--spp", "4"})}),
+               ContainsSubstring("rank 2 and rank 0 have different arguments"));
+}
+
 TEST_CASE("ranks with other instruction sets share no study", "[mpi]")
 {
     CHECK(mpi::why_rows_differ({"sse42, avx2", "sse42, avx2"}).empty());
@@ -666,6 +679,20 @@ TEST_CASE("what a job can't do it says in one line, once", "[mpi]")
         CHECK_FALSE(std::filesystem::exists(picture));
     }
     CHECK(run_ranks(2, {"--version"}).exit_code == 0);
+    // Ranks that are told to do different work, and one that is told what it does not know.
+    for (const Words& other : {Words{"--spp", "4"}, Words{"--gama", "2"}}) {
+        const Words words{"render", four_spheres_file, "-o", picture, "--size", "16x12"};
+        Words job = mpirun(1);
+        job.insert(job.end(), words.begin(), words.end());
+        job.insert(job.end(), {":", "-n", "1", PACKTRACE_MPI});
+        job.insert(job.end(), words.begin(), words.end());
+        job.insert(job.end(), other.begin(), other.end());
+        const ProgramResult result = run_command(job);
+        CHECK(result.exit_code == 2);
+        CHECK_THAT(result.err, ContainsSubstring("rank 1 and rank 0 have different arguments"));
+        CHECK(own_lines(result.err).size() == 1);
+        CHECK_FALSE(std::filesystem::exists(picture));
+    }
 }
 
 TEST_CASE("a job whose results do not fit on standard output ends with exit code 1", "[mpi]")
