@@ -261,6 +261,19 @@ TEST_CASE("ranks of other versions or without FMA are told from others", "[mpi]"
                ContainsSubstring("rank 1 is version 2.0 and rank 0 is version 1.0"));
 }
 
+TEST_CASE("ranks may have instruction sets and threads of their own, and no other arguments",
+          "[mpi]")
+{
+    const auto shared = [](const Words& words) { return mpi::shared_arguments(words); };
+    const std::string first = shared({"render", "a.scene", "-o", "a.png"});
+    CHECK(shared({"render", "--isa", "sse42", "a.scene", "-o", "a.png", "--threads=3"}) == first);
+    CHECK(shared({"render", "a.scene", "-o", "a.png", "--width", "4"}) == first);
+    CHECK(mpi::why_arguments_differ({first, first, first}).empty());
+    CHECK_THAT(mpi::why_arguments_differ(
+                   {first, first, shared({"render", "a.scene", "-o", "a.png", "--spp", "4"})}),
+               ContainsSubstring("rank 2 and rank 0 have different arguments"));
+}
+
 TEST_CASE("ranks with other instruction sets share no study", "[mpi]")
 {
     CHECK(mpi::why_rows_differ({"sse42, avx2", "sse42, avx2"}).empty());
@@ -536,10 +549,11 @@ TEST_CASE("no rank of a node works while another one times", "[mpi]")
 TEST_CASE("frames are shared by ranks, and a second job renders the missing ones", "[mpi]")
 {
     const TempFolder folder;
-    write_text(folder / "a.scene",
-               "image_size = 19 x 13\nanimation { frames = 7  orbit { center = (0, 0, 3) } }\n"
-               "sphere { center = (0, 1, 3)  radius = 1  color = (200, 40, 30) }\n"
-               "light { type = ambient  intensity = 0.5 }\n");
+    write_text(
+        folder / "a.scene",
+        "image_size = 19 x 13\nanimation { frames = 7  orbit { center = (0, 0, 3) } }\n"
+        "sphere { center = (0, 1, 3)  radius = 1  color = (200, 40, 30)  reflective = 0.3 }\n"
+        "light { type = ambient  intensity = 0.5 }\n");
     const auto words = [&](const std::string& name) {
         return Words{"render", folder / "a.scene", "--frames", "0..6", "-o", folder / name};
     };
@@ -557,6 +571,17 @@ TEST_CASE("frames are shared by ranks, and a second job renders the missing ones
         for (int frame = 0; frame < 7; ++frame)
             std::filesystem::remove(folder / ("m" + std::to_string(frame) + ".pfm"));
     }
+    // What is left out is said of all ranks' frames.
+    Words cut = words("m%d.pfm");
+    cut.insert(cut.end(), {"--min-weight", "0.5"});
+    const std::string said = run_packtrace(cut).err;
+    for (int frame = 0; frame < 7; ++frame)
+        std::filesystem::remove(folder / ("m" + std::to_string(frame) + ".pfm"));
+    const ProgramResult jobs = run_ranks(2, cut);
+    CHECK_THAT(said, ContainsSubstring(" not traced; "));
+    CHECK_THAT(jobs.err, ContainsSubstring(said.substr(said.find('\n') + 1)));
+    for (int frame = 0; frame < 7; ++frame)
+        std::filesystem::remove(folder / ("m" + std::to_string(frame) + ".pfm"));
     std::filesystem::create_directory(folder / "m3.pfm");
     const ProgramResult result = run_ranks(3, words("m%d.pfm"));
     CHECK(result.exit_code == 1);
@@ -583,6 +608,17 @@ TEST_CASE("hits have the bytes of one process whatever the ranks", "[mpi]")
             CHECK((read_text(folder / "m.csv") == read_text(folder / "w.csv")));
         }
     }
+    // A header behind comments of more than a piece is no ray.
+    std::string comments;
+    for (int i = 0; i < 4000; ++i)
+        comments += "# a comment of some length\n";
+    write_text(folder / "late.csv", comments + rays);
+    Words late{"intersect", four_spheres_file, folder / "late.csv",
+               "-o",        folder / "w.csv",  "--all"};
+    REQUIRE(run_packtrace(late).exit_code == 0);
+    late[4] = folder / "m.csv";
+    CHECK(run_ranks(2, late).exit_code == 0);
+    CHECK((read_text(folder / "m.csv") == read_text(folder / "w.csv")));
     // The first of two wrong lines is the one that is named.
     rays += "1,2,3,0,0,0\n1,2,3,0,0,four\n";
     write_text(folder / "rays.csv", "1,2,3,0,0,1\n" + rays.substr(rays.find('\n', 10) + 1));
@@ -638,6 +674,20 @@ TEST_CASE("what a job can't do it says in one line, once", "[mpi]")
         CHECK_FALSE(std::filesystem::exists(picture));
     }
     CHECK(run_ranks(2, {"--version"}).exit_code == 0);
+    // Ranks that are told to do different work, and one that is told what it does not know.
+    for (const Words& other : {Words{"--spp", "4"}, Words{"--gama", "2"}}) {
+        const Words words{"render", four_spheres_file, "-o", picture, "--size", "16x12"};
+        Words job = mpirun(1);
+        job.insert(job.end(), words.begin(), words.end());
+        job.insert(job.end(), {":", "-n", "1", PACKTRACE_MPI});
+        job.insert(job.end(), words.begin(), words.end());
+        job.insert(job.end(), other.begin(), other.end());
+        const ProgramResult result = run_command(job);
+        CHECK(result.exit_code == 2);
+        CHECK_THAT(result.err, ContainsSubstring("rank 1 and rank 0 have different arguments"));
+        CHECK(own_lines(result.err).size() == 1);
+        CHECK_FALSE(std::filesystem::exists(picture));
+    }
 }
 
 TEST_CASE("a job whose results do not fit on standard output ends with exit code 1", "[mpi]")

@@ -49,12 +49,13 @@ public:
     {
         return run_packtrace(words(output, more));
     }
-    [[nodiscard]] ProgramResult join(const Words& parts, const std::string& output) const
+    [[nodiscard]] ProgramResult join(const Words& parts, const std::string& output,
+                                     const std::string& environment = "") const
     {
         Words all{"join", "-o", folder / output};
         for (const std::string& part : parts)
             all.push_back(folder / part);
-        return run_packtrace(all);
+        return run_packtrace(all, environment);
     }
     [[nodiscard]] bool same(const std::string& a, const std::string& b) const
     {
@@ -98,6 +99,9 @@ TEST_CASE("more shards than rays leave some empty", "[shard]")
                     .exit_code == 0);
     }
     CHECK(bench.join(parts, "joined.csv").exit_code == 0);
+    CHECK(bench.same("joined.csv", "whole.csv"));
+    // More parts than the system lets a program open files.
+    CHECK(bench.join(parts, "joined.csv", "ulimit -n 20;").exit_code == 0);
     CHECK(bench.same("joined.csv", "whole.csv"));
 }
 
@@ -272,6 +276,11 @@ TEST_CASE("joined shards of a stress test have the rows and the verdict of the w
     edited.replace(edited.find("\"wrong\": 0"), 10, "\"wrong\": 5");
     write_text(folder / "edited", edited);
     refused({"join", folder / "0", folder / "edited", folder / "2"}, "is cut or was changed");
+    // JSON that is nested without end.
+    constexpr int deep = 200'000;
+    write_text(folder / "deep", R"({"shard": "1/3", "rows": )" + std::string(deep, '[') +
+                                    std::string(deep, ']') + "}");
+    refused({"join", folder / "0", folder / "deep", folder / "2"}, "is no part");
     join.pop_back();
     refused(join, "is missing");
 }

@@ -94,8 +94,8 @@ void bind_transforms(py::module_& module)
         return to_python(look_at(value_of<Vec3>(position, "position"),
                                  value_of<Vec3>(target, "target"), value_of<Vec3>(up, "up")));
     });
-    module.def("camera_at", [](py::handle scene, int frame) {
-        return to_python(camera_at(scene_of(scene), frame));
+    module.def("camera_at", [](py::handle scene, py::handle frame) {
+        return to_python(camera_at(scene_of(scene), value_of<int>(frame, "frame")));
     });
 }
 

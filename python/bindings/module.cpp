@@ -2,11 +2,14 @@
 // users see, and what checks arrays, is in ../packtrace.
 #include <pybind11/pybind11.h>
 
+#include <string>
+
 #include <packtrace/image_io.hpp>
 #include <packtrace/read_scene.hpp>
 #include <packtrace/version.hpp>
 
 #include "bindings.hpp"
+#include "scene/language/quote.hpp"
 #include "scene/scene_faults.hpp"
 
 namespace {
@@ -21,15 +24,24 @@ void add_error(py::module_& module, const char* name, PyObject* base, const char
     error.attr("__doc__") = documentation;
 }
 
-/// A scene made in Python is that of its lists: what is wrong is at "lights[0]".
-void name_scene_faults_by_index()
+void raise(const char* name, const std::string& text)
+{
+    const py::object type = py::module_::import("packtrace._packtrace").attr(name);
+    PyErr_SetString(type.ptr(), text.c_str());
+}
+
+/// Errors whose text is not the one that the library's has.
+void translate_texts()
 {
     py::register_exception_translator([](std::exception_ptr thrown) {
         try {
             std::rethrow_exception(thrown);
         } catch (const packtrace::language::SceneFaultError& error) {
-            const py::object type = py::module_::import("packtrace._packtrace").attr("SceneError");
-            PyErr_SetString(type.ptr(), error.fault.text_by_index().c_str());
+            // A scene made in Python is that of its lists: what is wrong is at "lights[0]".
+            raise("SceneError", error.fault.text_by_index());
+        } catch (const packtrace::ImageError& error) {
+            // A file's name need not be UTF-8, which Python's texts are.
+            raise("ImageError", packtrace::language::escape(error.what()));
         }
     });
 }
@@ -43,10 +55,10 @@ PYBIND11_MODULE(_packtrace, module)
     add_error<SceneError>(module, "SceneError", PyExc_ValueError,
                           "A scene that cannot be used: one line that says what, why, and what to "
                           "do; for text, also where.");
-    name_scene_faults_by_index();
     add_error<ImageError>(
         module, "ImageError", PyExc_OSError,
         "A picture that cannot be read or written: one line that names the file.");
+    translate_texts();
     python::bind_scene(module);
     python::bind_pictures(module);
     python::bind_render(module);

@@ -242,8 +242,9 @@ private:
             return default_material_;
         const auto [entry, is_new] = materials_.try_emplace(value.ptr());
         if (is_new)
-            entry->second = about("material", [&] { return new_material(value); });
-        return entry->second;
+            entry->second = {py::reinterpret_borrow<py::object>(value),
+                             about("material", [&] { return new_material(value); })};
+        return entry->second.material;
     }
 
     [[nodiscard]] Material new_material(py::handle value)
@@ -289,11 +290,18 @@ private:
         return result;
     }
 
+    /// Kept, as a property may give each object a new one: in the place of one that is gone Python
+    /// puts the next.
+    struct KeptMaterial {
+        py::object kept;
+        Material material;
+    };
+
     py::module_ module_ = py::module_::import("packtrace.scene");
     py::object identity_ = module_.attr("IDENTITY");
     std::unordered_map<std::string, py::object> classes_;
     Material default_material_;
-    std::unordered_map<PyObject*, Material> materials_;
+    std::unordered_map<PyObject*, KeptMaterial> materials_;
 };
 
 }  // namespace

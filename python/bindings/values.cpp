@@ -53,11 +53,26 @@ py::tuple rows_of(const Matrix& value)
 
 void throw_wrong(const std::string& key, py::handle value, const std::string& use)
 {
-    constexpr std::size_t longest = 60;
-    std::string shown = py::repr(value);
-    if (shown.size() > longest)
-        shown = shown.substr(0, longest) + "...";
-    throw py::value_error(key + " is " + shown + "; use " + use);
+    // Characters: a text that is cut within one is no message.
+    constexpr py::ssize_t longest = 60;
+    const py::object all = py::repr(value);
+    const bool is_long = PyUnicode_GET_LENGTH(all.ptr()) > longest;
+    const py::object begin = all[py::slice(0, longest, 1)];
+    const std::string shown = begin.attr("encode")("utf-8", "backslashreplace").cast<std::string>();
+    throw py::value_error(key + " is " + shown + (is_long ? "..." : "") + "; use " + use);
+}
+
+std::optional<std::string> text_of(py::handle value)
+{
+    if (PyUnicode_Check(value.ptr()) == 0)
+        return std::nullopt;
+    Py_ssize_t size = 0;
+    const char* const text = PyUnicode_AsUTF8AndSize(value.ptr(), &size);
+    if (text == nullptr) {
+        PyErr_Clear();
+        return std::nullopt;
+    }
+    return std::string(text, static_cast<std::size_t>(size));
 }
 
 void read_numbers(py::handle value, const std::string& key, double* to, std::size_t count)
@@ -65,23 +80,24 @@ void read_numbers(py::handle value, const std::string& key, double* to, std::siz
     const std::string use = std::to_string(count) + " numbers";
     if (PyUnicode_Check(value.ptr()) != 0)
         throw_wrong(key, value, use);
-    const auto elements =
-        py::reinterpret_steal<py::object>(PySequence_Fast(value.ptr(), "no sequence"));
+    // A tuple, which stays as it is: an element's __float__ may shorten the list that it is in.
+    const auto elements = py::reinterpret_steal<py::object>(PySequence_Tuple(value.ptr()));
     if (!elements) {
         PyErr_Clear();
         throw_wrong(key, value, use);
     }
-    if (static_cast<std::size_t>(PySequence_Fast_GET_SIZE(elements.ptr())) != count)
+    if (static_cast<std::size_t>(PyTuple_GET_SIZE(elements.ptr())) != count)
         throw_wrong(key, value, use);
     for (std::size_t i = 0; i < count; ++i)
-        if (!read_number(PySequence_Fast_GET_ITEM(elements.ptr(), static_cast<Py_ssize_t>(i)),
-                         to[i]))
+        if (!read_number(PyTuple_GET_ITEM(elements.ptr(), static_cast<Py_ssize_t>(i)), to[i]))
             throw_wrong(key, value, use);
 }
 
 std::vector<py::object> elements_of(py::handle value, const std::string& key)
 {
-    if (PyUnicode_Check(value.ptr()) != 0 || !py::isinstance<py::iterable>(value))
+    // An iterator would be empty the next time.
+    if (PyUnicode_Check(value.ptr()) != 0 || PyIter_Check(value.ptr()) != 0 ||
+        !py::isinstance<py::iterable>(value))
         throw_wrong(key, value, "a list");
     std::vector<py::object> elements;
     for (const py::handle element : py::reinterpret_borrow<py::iterable>(value))
@@ -117,9 +133,10 @@ void from_python(py::handle value, const std::string& key, bool& to)
 
 void from_python(py::handle value, const std::string& key, std::string& to)
 {
-    if (PyUnicode_Check(value.ptr()) == 0)
+    const std::optional<std::string> text = text_of(value);
+    if (!text)
         throw_wrong(key, value, "a text");
-    to = value.cast<std::string>();
+    to = *text;
 }
 
 void from_python(py::handle value, const std::string& key, Vec2& to)

@@ -19,6 +19,9 @@ namespace py = pybind11;
 /// "radius is 'big'; use a number".
 [[noreturn]] void throw_wrong(const std::string& key, py::handle value, const std::string& use);
 
+/// A text as UTF-8; nothing for anything else, and for a text that has none (a surrogate alone).
+[[nodiscard]] std::optional<std::string> text_of(py::handle value);
+
 void from_python(py::handle value, const std::string& key, double& to);
 void from_python(py::handle value, const std::string& key, int& to);
 void from_python(py::handle value, const std::string& key, bool& to);
@@ -31,7 +34,7 @@ void from_python(py::handle value, const std::string& key, Mat4& to);
 /// `count` numbers of any sequence.
 void read_numbers(py::handle value, const std::string& key, double* to, std::size_t count);
 
-/// The elements of any sequence.
+/// The elements of any sequence; an iterator is none.
 [[nodiscard]] std::vector<py::object> elements_of(py::handle value, const std::string& key);
 
 /// A colour: three numbers, or one for all channels.

@@ -20,8 +20,8 @@ using language::word_of;
 template <class Enum>
 [[nodiscard]] Enum word_value(py::handle value, const std::string& key)
 {
-    if (PyUnicode_Check(value.ptr()) != 0)
-        if (const auto found = language::find_word<Enum>(value.cast<std::string>()))
+    if (const std::optional<std::string> word = text_of(value))
+        if (const auto found = language::find_word<Enum>(*word))
             return *found;
     throw_wrong(key, value, "one of " + joined(spellings(Enum{}), ", ", [](const auto& spelling) {
                                 return "'" + std::string(spelling.word) + "'";

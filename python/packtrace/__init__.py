@@ -11,18 +11,18 @@ scene units, angles in degrees, colours linear with 1.0 for full.
 
 from __future__ import annotations
 
-import operator
-from typing import Any, Dict, List, Union
+from typing import Dict, List, Union
 
 from ._packtrace import ImageError, SceneError, __version__
 from . import _packtrace
+from .arguments import Path, file_name, number as _number, whole as _whole
 from .picture import (Comparison, Picture, PixelError, compare, heatmap, read_image, render, to_png,
                       write_image)
 from .rays import AllHits, Hits, RayScene, SceneUpdate, Starts
 from .report import report
 from .scene import (Animation, Camera, CameraKey, Checker, GeneralMaterial, Light, Material, Object,
-                    Orbit, Path, Plane, Polygon, Quadric, Scene, ScratchMaterial, ShaderMaterial,
-                    SketchMaterial, Sphere, WhittedMaterial, file_name)
+                    Orbit, Plane, Polygon, Quadric, Scene, ScratchMaterial, ShaderMaterial,
+                    SketchMaterial, Sphere, WhittedMaterial)
 
 __all__ = [
     "AllHits", "Animation", "Camera", "CameraKey", "Checker", "Comparison", "GeneralMaterial", "Hits",
@@ -64,20 +64,3 @@ def generate_lattice(edge: int = 10, *, radius: float = 0.3, reflective: float =
     """edge × edge × edge spheres in the middles of the unit cube's cells; the radius is in cells."""
     return _packtrace.generate_lattice(_whole("edge", edge), _number("radius", radius),
                                        _number("reflective", reflective))
-
-
-def _whole(name: str, value: Any, most: int = 2**31 - 1) -> int:
-    try:
-        number = operator.index(value)
-    except TypeError:
-        raise ValueError(f"{name} is {value!r}; use a whole number") from None
-    if not 0 <= number <= most:
-        raise ValueError(f"{name} is {number}; use a whole number from 0 to {most}")
-    return number
-
-
-def _number(name: str, value: Any) -> float:
-    try:
-        return float(value)
-    except (TypeError, ValueError):
-        raise ValueError(f"{name} is {value!r}; use a number") from None

@@ -8,7 +8,8 @@ from typing import Any, Callable, List, Literal, Optional, Tuple, Union
 import numpy as np
 
 from . import _packtrace
-from .scene import Array, Path, Scene, file_name
+from .arguments import Path, file_name, number, whole
+from .scene import Array, Scene
 
 
 @dataclass
@@ -101,7 +102,8 @@ def render(scene: Scene, *, width: Optional[int] = None, height: Optional[int] =
 def compare(a: Array, b: Array, *, threshold: float = 1 / 255, worst: int = 5) -> Comparison:
     """Compares two pictures (height, width, 3) of one size and dtype, float32 or float64, which are
     copied. A pixel with an error above `threshold` counts as off; the `worst` ones are listed."""
-    numbers, pixels = _packtrace.compare(*_two_pictures(a, b), threshold, worst)
+    numbers, pixels = _packtrace.compare(*_two_pictures(a, b), number("threshold", threshold),
+                                         whole("worst", worst))
     return Comparison(*numbers, [PixelError(*pixel) for pixel in pixels])
 
 
@@ -120,12 +122,13 @@ def read_image(file: Path) -> Picture:
 def write_image(file: Path, picture: Array, *, gamma: float = 1.0) -> None:
     """Writes a picture (height, width, 3) by the file's extension: .png (8 bits, raised to 1 / gamma),
     .pfm (float32) or .hdr. The file appears whole or not at all. Raises ImageError."""
-    _packtrace.write_image(file_name(file), _picture(picture, "picture"), gamma)
+    _packtrace.write_image(file_name(file), _picture(picture, "picture"),
+                           number("gamma", gamma))
 
 
 def to_png(picture: Array, *, gamma: float = 1.0) -> bytes:
     """The bytes of an 8-bit PNG file of a picture (height, width, 3)."""
-    return _packtrace.to_png(_picture(picture, "picture"), gamma)
+    return _packtrace.to_png(_picture(picture, "picture"), number("gamma", gamma))
 
 
 def _picture_dtype(dtype: Any) -> np.dtype[Any]:

@@ -10,13 +10,13 @@ copied, as float64. All work runs without the GIL.
 
 from __future__ import annotations
 
-import operator
 from dataclasses import dataclass
 from typing import Any, Dict, List, Literal, Optional, Tuple, Union
 
 import numpy as np
 
 from . import _packtrace
+from .arguments import whole
 from .scene import Array, Scene
 
 NO_START = -(2**31)
@@ -196,10 +196,9 @@ class RayScene:
         if hits is not None and surface is not None and surface.size != mask.size:
             raise ValueError(f"hits.surface has {surface.size} elements and hits.point "
                              f"{mask.size} points; give both as closest gave them")
-        number = operator.index(light)
-        if number < 0:
-            raise ValueError(f"lights[{number}]; lights count from 0, and none from the end")
-        self._native.lit(places.reshape(-1, 3), surface, number, mask.reshape(-1))
+        if isinstance(light, (int, np.integer)) and light < 0:
+            raise ValueError(f"lights[{light}]; lights count from 0, and none from the end")
+        self._native.lit(places.reshape(-1, 3), surface, whole("light", light), mask.reshape(-1))
         return mask
 
     def all_hits(self, origins: Any, directions: Any, t_min: Any = 0.0,
@@ -260,7 +259,7 @@ class _Rays:
                 if t is None:  # which NumPy takes for a NaN
                     raise TypeError
                 array = np.asarray(t, self.dtype)
-            except (TypeError, ValueError):
+            except (TypeError, ValueError, OverflowError):
                 raise ValueError(f"{name} is {t!r}; use a number or an array of numbers") from None
         if array.ndim > 0 and array.shape != self.shape:
             raise ValueError(f"{name} has shape {array.shape}; use a number or the rays' shape "
@@ -274,7 +273,7 @@ def _array(value: Any, beside: Any = None) -> Array:
     is_single = isinstance(beside, np.ndarray) and beside.dtype == np.float32
     try:
         return np.asarray(value, np.float32 if is_single else np.float64)
-    except (TypeError, ValueError):
+    except (TypeError, ValueError, OverflowError):
         raise ValueError(f"{value!r} is no array of vectors; use a NumPy array of shape (..., 3)"
                          ) from None
 

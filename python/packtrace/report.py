@@ -38,6 +38,6 @@ def report(scenes: Union[Scene, Mapping[str, Scene]], *, threads: Sequence[int] 
     named = scenes if isinstance(scenes, Mapping) else {"scene": scenes}
     rows: List[Row] = []
     for name, scene in named.items():
-        rows += _packtrace.report(scene, name, list(threads), list(isas), min_weights, samples,
-                                  adaptive, repetitions, truth_samples, threshold, progress)
+        rows += _packtrace.report(scene, name, threads, isas, min_weights, samples, adaptive,
+                                  repetitions, truth_samples, threshold, progress)
     return rows

@@ -8,7 +8,6 @@ Classes here hold values and check their fields' names alone: `Scene.validate`, 
 from __future__ import annotations
 
 import difflib
-import os
 import threading
 from dataclasses import dataclass, field, replace
 from typing import Any, ClassVar, Dict, List, Literal, Optional, Sequence, Tuple, Union
@@ -17,9 +16,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from . import _packtrace
+from .arguments import text as utf8
 
 Array = NDArray[Any]
-Path = Union[str, bytes, "os.PathLike[str]", "os.PathLike[bytes]"]
 #: Three numbers, of any sequence or array.
 Vector = Union[Sequence[float], Array]
 #: Rows of numbers, of sequences or an array.
@@ -35,15 +34,6 @@ IDENTITY = ((1.0, 0.0, 0.0, 0.0), (0.0, 1.0, 0.0, 0.0), (0.0, 0.0, 1.0, 0.0), (0
 
 #: Held while objects of a file become Python's own.
 _TAKING = threading.RLock()
-
-
-def file_name(file: Path) -> str:
-    """A file's name as text. Raises ValueError where it has a zero byte, which ends names for a
-    system."""
-    name = os.fsdecode(file)
-    if "\0" in name:
-        raise ValueError(f"the file name {name!r} has a zero byte; use a name without")
-    return name
 
 
 def _same(a: Any, b: Any) -> bool:
@@ -311,7 +301,7 @@ class Scene(_Part):
     def from_text(text: str, name: str = "scene") -> Scene:
         """The scene that a text in the scene language describes; `name` stands for the file in
         messages. Raises SceneError: "scene:1:10: what, why, what to do"."""
-        return _packtrace.parse_scene(text, name)
+        return _packtrace.parse_scene(utf8("text", text), utf8("name", name))
 
     def to_text(self) -> str:
         """The scene in the scene language. Reading it gives the same scene, number for number."""

@@ -1,4 +1,5 @@
 // packtrace-mpi: the work of packtrace on many ranks.
+#include <algorithm>
 #include <csignal>
 #include <cstdio>
 #include <cstdlib>
@@ -82,6 +83,18 @@ int report_parse_end(const World& world, const CLI::App& app, const CLI::ParseEr
     return cli::exit_usage;
 }
 
+/// Throws JobFailed where ranks were told to do different work: a picture would be made of several,
+/// and ranks would wait for each other in different places.
+void check_same_arguments(const World& world, int argc, char** argv)
+{
+    const std::vector<std::string> arguments(argv + std::min(argc, 1), argv + argc);
+    const std::string why = why_arguments_differ(world.gather(shared_arguments(arguments)));
+    world.together([&] {
+        if (!why.empty())
+            throw CLI::ValidationError(why);
+    });
+}
+
 /// Runs the subcommand on all ranks.
 int parse_and_run(const World& world, CLI::App& app, int argc, char** argv)
 {
@@ -106,6 +119,7 @@ int run(const World& world, int argc, char** argv)
     cli::report_size_limits_as_errors();
     cli::ask_for_subcommand(app);
     try {
+        check_same_arguments(world, argc, argv);
         const int exit_code = parse_and_run(world, app, argc, argv);
         if (exit_code == cli::exit_ok)
             world.together([&] {

@@ -2,6 +2,7 @@
 #include <chrono>
 #include <memory>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "cli/interrupts.hpp"
@@ -63,11 +64,17 @@ public:
         before_.resize(2 * count_);
         MPI_Allreduce(counts.data(), before_.data(), static_cast<int>(counts.size()), MPI_UINT64_T,
                       MPI_SUM, MPI_COMM_WORLD);
-        std::uint64_t sums[2] = {};
-        for (std::size_t i = 0; i < before_.size(); ++i) {
-            const std::uint64_t own = before_[i];
-            before_[i] = sums[i % 2];
-            sums[i % 2] += own;
+        std::uint64_t lines = 0;
+        std::uint64_t rays = 0;
+        for (std::size_t i = 0; i < before_.size(); i += 2) {
+            const std::uint64_t end = lines + before_[i];
+            const std::uint64_t own_rays = before_[i + 1];
+            before_[i] = std::exchange(lines, end);
+            before_[i + 1] = rays;
+            // Behind comments longer than a piece the header was counted as a ray.
+            const bool has_header =
+                i > 0 && format_.header_line > before_[i] && format_.header_line <= end;
+            rays += own_rays - (has_header ? 1 : 0);
         }
     }
 

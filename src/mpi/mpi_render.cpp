@@ -162,6 +162,15 @@ void render_picture(const World& world, const RenderJobArguments& arguments, con
                  seconds_since(start));
 }
 
+/// On rank 0, what all ranks have left out.
+CutRays sum_of_ranks(const CutRays& mine)
+{
+    CutRays all;
+    MPI_Reduce(&mine.rays, &all.rays, 1, MPI_UINT64_T, MPI_SUM, 0, MPI_COMM_WORLD);
+    MPI_Reduce(&mine.bound, &all.bound, 1, MPI_DOUBLE, MPI_MAX, 0, MPI_COMM_WORLD);
+    return all;
+}
+
 void render_frames(const World& world, const RenderJobArguments& arguments, const Scene& scene,
                    const RenderOptions& options)
 {
@@ -202,6 +211,9 @@ void render_frames(const World& world, const RenderJobArguments& arguments, cons
         std::cerr << language::escape(arguments.output) << ": " << all[1]
                   << " frames were there already, " << all[2]
                   << " were rendered in place of other pictures\n";
+    const CutRays cut = sum_of_ranks(tally.cut);
+    if (world.is_first() && !arguments.quiet && all[0] > 0)
+        cli::print_cut_rays(arguments.output, scene, options, cut);
     print_report(world, arguments.job, arguments.quiet, arguments.output, "frames", reports,
                  seconds_since(start));
 }

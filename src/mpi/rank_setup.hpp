@@ -49,4 +49,30 @@ enum class Mixing { refused, allowed };
     return {};
 }
 
+/// A rank's arguments without those that ranks may have of their own: what its processor can do.
+[[nodiscard]] inline std::string shared_arguments(const std::vector<std::string>& arguments)
+{
+    std::string shared;
+    for (std::size_t i = 0; i < arguments.size(); ++i) {
+        const std::string& word = arguments[i];
+        const std::string name = word.substr(0, word.find('='));
+        if (name != "--isa" && name != "--width" && name != "--threads")
+            shared += word + '\n';
+        else if (name == word)
+            ++i;  // its value
+    }
+    return shared;
+}
+
+/// Why ranks with these shared arguments may not work together, in one line; empty if they may.
+[[nodiscard]] inline std::string why_arguments_differ(const std::vector<std::string>& arguments)
+{
+    for (std::size_t rank = 1; rank < arguments.size(); ++rank)
+        if (arguments[rank] != arguments.front())
+            return "rank " + std::to_string(rank) +
+                   " and rank 0 have different arguments; give all ranks the same, except for "
+                   "--isa, --width and --threads";
+    return {};
+}
+
 }  // namespace packtrace::mpi

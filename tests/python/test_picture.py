@@ -1,5 +1,6 @@
 """Pictures: what render gives, files, comparison, and what notebooks show."""
 
+import os
 import signal
 import struct
 import tempfile
@@ -174,6 +175,20 @@ class TestCompare(unittest.TestCase):
         with self.assertRaisesRegex(ValueError, "5.*4.*5.*3|size"):
             pt.compare(a, a[:3])
 
+    def test_wrong_numbers_are_refused_in_one_line(self):
+        a = np.zeros((4, 5, 3), np.float32)
+        calls = {"gamma is 'a'; use a number": lambda: pt.to_png(a, gamma="a"),
+                 "gamma is None; use a number": lambda: pt.write_image("a.png", a, gamma=None),
+                 "gamma is beyond double": lambda: pt.to_png(a, gamma=10**400),
+                 "threshold is '1'; use a number": lambda: pt.compare(a, a, threshold="1"),
+                 "worst is 1.5; use a whole number": lambda: pt.compare(a, a, worst=1.5),
+                 "worst is -1; use a whole number": lambda: pt.compare(a, a, worst=-1),
+                 "depth is 1.5; use a whole number": lambda: pt.generate_sphereflake(1.5),
+                 "frame is 1.5; use a whole number": lambda: hand_scene().camera_at(1.5)}
+        for message, call in calls.items():
+            with self.subTest(message), self.assertRaisesRegex(ValueError, f"^{message}[^\n]*$"):
+                call()
+
 
 class TestFiles(unittest.TestCase):
     def test_files_hold_the_picture(self):
@@ -187,6 +202,16 @@ class TestFiles(unittest.TestCase):
                 picture.save(f"{folder}/a.gif")
             with self.assertRaisesRegex(OSError, "none.png"):
                 pt.read_image(f"{folder}/none.png")
+
+    def test_names_need_not_be_utf8(self):
+        picture = pt.render(lit_scene(), width=30, height=20)
+        with tempfile.TemporaryDirectory() as folder:
+            name = os.fsencode(folder) + b"/\xff.pfm"
+            picture.save(name)
+            self.assertEqual(os.listdir(os.fsencode(folder)), [b"\xff.pfm"])
+            np.testing.assert_array_equal(pt.read_image(os.fsdecode(name)), picture)
+            with self.assertRaisesRegex(pt.ImageError, r"\\xfe\.png: can't read"):
+                pt.read_image(os.fsencode(folder) + b"/\xfe.png")
 
     def test_notebooks_show_pictures(self):
         picture = pt.render(lit_scene(), width=30, height=20, dtype=np.float64)
@@ -234,6 +259,8 @@ class TestReport(unittest.TestCase):
             pt.report(hand_scene(), adaptive=[(1, 2, 3)])
         with self.assertRaisesRegex(ValueError, "threads is 'two'; use"):
             pt.report(hand_scene(), threads=["two"])
+        with self.assertRaisesRegex(ValueError, "^threads is 1; use a list$"):
+            pt.report(hand_scene(), threads=1)
 
 
 if __name__ == "__main__":

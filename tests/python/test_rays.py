@@ -135,6 +135,9 @@ class TestAnswers(unittest.TestCase):
         for light in (1, 3, -1):
             with self.assertRaisesRegex(ValueError, rf"^lights\[{light}\]"):
                 rays.lit(hits, light)
+        for light in (1.5, "a", None, 2**70):
+            with self.assertRaisesRegex(ValueError, "^light is .*; use a whole number"):
+                rays.lit(hits, light)
         with self.assertRaisesRegex(ValueError, 'detail="start"'):
             rays.lit(rays.closest(origins, directions), 0)
         with self.assertRaisesRegex(ValueError, "shape"):
@@ -224,6 +227,12 @@ class TestArrays(unittest.TestCase):
         starts = self.rays.closest(origins, directions, detail="start")
         with self.assertRaisesRegex(ValueError, "these hits need"):
             starts.leave(directions[:5])
+        for wrong in ((10**400, 0, 0), "abc", {}):
+            with self.assertRaisesRegex(ValueError, "is no array of vectors"):
+                self.rays.closest(wrong, directions)
+        for wrong in (10**400, "a", 1j):
+            with self.assertRaisesRegex(ValueError, "^t_max is .*; use a number"):
+                self.rays.closest(origins, directions, 0, wrong)
         with self.assertRaisesRegex(ValueError, "zero byte"):
             pt.read_scene("a\0b")
 

@@ -1,7 +1,9 @@
 """Scenes: from text, from files, built object by object, and back."""
 
 import copy
+import os
 import pickle
+import tempfile
 import threading
 import unittest
 import warnings
@@ -45,6 +47,22 @@ class TestText(unittest.TestCase):
     def test_file_names_may_be_bytes(self):
         file = SCENES / "four_spheres.scene"
         self.assertEqual(pt.read_scene(str(file).encode()), pt.read_scene(file))
+
+    def test_file_names_need_not_be_utf8(self):
+        with tempfile.TemporaryDirectory() as folder:
+            name = os.fsencode(folder) + b"/\xff.scene"
+            with open(name, "w") as file:
+                file.write(hand_scene().to_text())
+            self.assertEqual(pt.read_scene(name), hand_scene())
+            self.assertEqual(pt.read_scene(os.fsdecode(name)), hand_scene())
+
+    def test_what_is_no_text_is_refused(self):
+        for wrong in (None, 5, ["sphere"]):
+            with self.assertRaisesRegex(ValueError, "^text is .*; use a text$"):
+                pt.Scene.from_text(wrong)
+        for texts in (("\ud800",), ("sphere", "\ud800")):
+            with self.assertRaisesRegex(ValueError, "surrogates"):
+                pt.Scene.from_text(*texts)
 
     def test_wrong_text_is_refused_with_its_place(self):
         with self.assertRaisesRegex(pt.SceneError, r"^mine:1:10: unknown key 'raduis'"):
@@ -196,6 +214,34 @@ class TestErrors(unittest.TestCase):
         self.refuses(r"^illumination is 'dark'; use one of", illumination="dark")
         self.refuses(r"^width is 2.5; use a whole number", width=2.5)
         self.refuses(r"^objects is 7; use a list", objects=7)
+        self.refuses(r"^objects is <list_iterator.*>; use a list", objects=iter([pt.Object(ball)]))
+        self.refuses(r"^objects\[0\]: name is '\\ud800'; use a text",
+                     objects=[pt.Object(ball, name="\ud800")])
+        self.refuses(r"^illumination is '\\ud800'; use one of", illumination="\ud800")
+
+    def test_messages_are_cut_between_characters(self):
+        for letter in "é漢😀":
+            self.refuses(f"^width is 'a{letter * 58}[.]{{3}}; use a whole number$",
+                         width="a" + letter * 100)
+        self.refuses("^width is 'a{58}'; use a whole number$", width="a" * 58)
+
+        class Odd:
+            def __repr__(self):
+                return "\ud800"
+
+        self.refuses(r"^width is \\ud800; use a whole number$", width=Odd())
+
+    def test_a_list_may_shrink_while_it_is_read(self):
+        center = []
+
+        class Shrinking:
+            def __float__(self):
+                center.clear()
+                return 1.0
+
+        center += [Shrinking(), object(), object()]
+        self.refuses(r"^objects\[0\]: center is \[\]; use 3 numbers",
+                     objects=[pt.Object(pt.Sphere(center))])
 
     def test_values_that_no_scene_may_have(self):
         with self.assertRaisesRegex(pt.SceneError, "ball.*radius.*above 0"):
@@ -250,6 +296,23 @@ class TestErrors(unittest.TestCase):
         self.assertNotEqual(ball, Ball((0, 0, 5), 1))
         with self.assertRaises(AttributeError):
             ball.wait = 2
+
+    def test_materials_may_be_made_when_they_are_asked_for(self):
+        class Tinted(pt.Object):
+            @property
+            def material(self):
+                return pt.ScratchMaterial(color=self._color)
+
+            @material.setter
+            def material(self, _):
+                pass
+
+        scene = pt.Scene(objects=[Tinted(pt.Sphere((x, 0, 5), 1)) for x in range(65)])
+        colors = [(x / 64, 0.0, 0.0) for x in range(65)]
+        for thing, color in zip(scene.objects, colors):
+            thing._color = color
+        self.assertEqual([thing.material.color
+                          for thing in pt.Scene.from_text(scene.to_text()).objects], colors)
 
     def test_what_is_no_scene(self):
         with self.assertRaisesRegex(ValueError, "use a packtrace.Scene"):

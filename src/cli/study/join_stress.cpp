@@ -28,9 +28,25 @@ struct Part {
     throw FileError(language::escape(name) + ": " + why);
 }
 
+/// The JSON of a part; nothing where it is none. Deeper than stress writes it, it is not kept: it
+/// is written again by a function that calls itself.
+Json parse_part(const std::string& text)
+{
+    constexpr int deepest = 8;
+    bool is_too_deep = false;
+    Json json = Json::parse(
+        text,
+        [&](int depth, Json::parse_event_t, const Json&) {
+            is_too_deep = is_too_deep || depth > deepest;
+            return depth <= deepest;
+        },
+        false);
+    return is_too_deep ? Json() : json;
+}
+
 Part read_part(const std::string& name)
 {
-    Part part{name, {}, Json::parse(read_file(name), nullptr, false)};
+    Part part{name, {}, parse_part(read_file(name))};
     const bool whole = part.json.is_object() && part.json.contains("shard") &&
                        part.json["shard"].is_string() && part.json.contains("rows") &&
                        part.json["rows"].is_array();
