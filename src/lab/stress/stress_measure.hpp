@@ -61,8 +61,8 @@ void for_each_tree(const Scene& scene, const StressSubject& subject, int most, c
 /// Asks about trees of scenes made by `make(random)`, together of up to `trees` or a few more
 /// pixels, by `evaluate(scene, tree, run)`.
 template <class Real, class Make, class Evaluate>
-[[nodiscard]] StressMeasure::Ask ask_of_trees(std::uint64_t seed, int trees, const Make& make,
-                                              const Evaluate& evaluate)
+[[nodiscard]] StressMeasure::Ask ask_of_trees(std::uint64_t seed, int trees, Make make,
+                                              Evaluate evaluate)
 {
     constexpr int scene_count = 16;
     std::vector<Scene> scenes;
