@@ -17,15 +17,14 @@ inline std::uint32_t on_others(const HitState& at, std::uint32_t among, const Bo
 }
 
 /// The lanes of `wanted` for which the planes in front of a light's large objects tell nothing.
-inline std::uint32_t behind_planes(const ClearTests& tests, const NeededTests& needed,
-                                   const HitState& at, std::uint32_t wanted)
+inline std::uint32_t behind_planes(const NeededTests& needed, const HitState& at,
+                                   std::uint32_t wanted)
 {
     std::uint32_t open = 0;
-    for (int i = 0; i < needed.plane_count; ++i) {
-        const FrontPlane& plane = tests.planes[needed.planes[i]];
-        const vreal<float> level = dot(broadcast(plane.normal), at.point);
+    for (const FrontPlane* plane : needed.planes) {
+        const vreal<float> level = dot(broadcast(plane->normal), at.point);
         open |=
-            on_others(at, wanted & ~bits(level > vreal<float>(plane.offset)), Body{plane.behind});
+            on_others(at, wanted & ~bits(level > vreal<float>(plane->offset)), Body{plane->behind});
     }
     return open;
 }
@@ -43,13 +42,13 @@ inline QuickShadow shadow_along(const ClearTests& tests, const HitState& at,
 {
     const NeededTests& needed = tests.needed[at.common];
     QuickShadow shadow;
-    shadow.open = behind_planes(tests, needed, at, wanted);
-    if (needed.sphere_count == 0)
+    shadow.open = behind_planes(needed, at, wanted);
+    if (needed.across.empty())
         return shadow;
     const vreal<float> first = dot(broadcast(tests.axis[0]), at.point);
     const vreal<float> second = dot(broadcast(tests.axis[1]), at.point);
-    for (int i = 0; i < needed.sphere_count; ++i) {
-        const AcrossSphere& sphere = tests.across[needed.spheres[i]];
+    for (const AcrossSphere* across : needed.across) {
+        const AcrossSphere& sphere = *across;
         const vreal<float> x = first - vreal<float>(sphere.center[0]);
         const vreal<float> y = second - vreal<float>(sphere.center[1]);
         const vreal<float> distance2 = madd(x, x, y * y);
@@ -74,9 +73,9 @@ inline QuickShadow shadow_towards(const ClearTests& tests, const HitState& at,
     const NeededTests& needed = tests.needed[at.common];
     const std::uint32_t too_near = wanted & ~bits(length2 > vreal<float>(tests.least_distance2));
     QuickShadow shadow;
-    shadow.open = behind_planes(tests, needed, at, wanted);
-    for (int i = 0; i < needed.sphere_count; ++i) {
-        const ConeSphere& sphere = tests.cones[needed.spheres[i]];
+    shadow.open = behind_planes(needed, at, wanted);
+    for (const ConeSphere* cone : needed.cones) {
+        const ConeSphere& sphere = *cone;
         const vreal<float> cosine = negated(dot(broadcast(sphere.to), to_light));
         std::uint32_t near = wanted & ~bits(cosine < vreal<float>(sphere.edge) * length);
         if (near == 0)

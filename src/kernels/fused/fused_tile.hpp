@@ -49,43 +49,40 @@ inline void make_plan(const abi::SceneView<float>& scene, const abi::CameraView<
     fill_plan(*plan, scene, camera);
 }
 
-/// The objects that camera rays through a tile may meet.
+/// Finds the objects that camera rays through a tile may meet.
 template <abi::Features F>
-inline Candidates find_visible(const FusedTile<F>& tile, const Cone<float>& cone)
+inline void find_visible(const FusedTile<F>& tile, const Cone<float>& cone)
 {
     const FramePlan<F>& plan = tile.plan;
     FusedMemory<F>& memory = tile.memory;
-    Candidates visible{memory.visible_spheres, memory.visible_grounds, memory.visible_balls};
+    CommonLists& candidates = memory.candidates;
     for_each_met(cone, tile.scene.spheres, [&](int first, std::uint32_t kept, const Vec3v<float>&) {
         for (; kept != 0; kept &= kept - 1)
-            memory.visible_spheres[visible.sphere_count++] =
-                static_cast<std::uint8_t>(first + __builtin_ctz(kept));
+            candidates.spheres.next() = plan.common.spheres.first[first + __builtin_ctz(kept)];
     });
-    int number = 0;
     // In the order of the plan's grounds.
+    const CommonGround* ground = plan.common.grounds.first;
     const auto add = [&](const auto& list) {
-        for (int i = 0; i < list.count; ++i, ++number)
+        for (int i = 0; i < list.count; ++i, ++ground)
             if (!leaves_behind(cone, list.data[i]))
-                memory.visible_grounds[visible.ground_count++] = static_cast<std::uint8_t>(number);
+                candidates.grounds.next() = *ground;
     };
     add(list_of<AnchoredSphere>(plan.from_camera));
     add(list_of<Plane>(plan.from_camera));
     if constexpr (F.quadrics) {
-        int ball = 0;
+        const CommonBall* ball = plan.common.balls.first;
         for_each_other(tile.scene, [&](const auto& record) {
             if (!out_of_reach(cone, record))
-                memory.visible_balls[visible.ball_count++] = static_cast<std::uint8_t>(ball);
+                candidates.balls.next() = *ball;
             ++ball;
         });
         find_objects<F>(memory.visible, cone, tile.scene);
     }
-    return visible;
 }
 
 /// Traces the paths of a packet of camera rays, from number `first` on; returns their colours.
 template <abi::Features F>
-inline Vec3v<float> trace_paths(const FusedTile<F>& tile, const Candidates& visible,
-                                const Candidates& all, const RayPacket<float>& rays,
+inline Vec3v<float> trace_paths(const FusedTile<F>& tile, const RayPacket<float>& rays,
                                 std::uint32_t active)
 {
     PathState<F> path;
@@ -97,9 +94,9 @@ inline Vec3v<float> trace_paths(const FusedTile<F>& tile, const Candidates& visi
     path.is_far = false;
     // Mirrors keep lengths but for a little.
     path.is_plain = tile.plan.common.are_all && (active & ~bits(certifiable(rays))) == 0;
-    trace_generation<Generation::camera>(tile, visible, path, start, 0);
+    trace_generation<Generation::camera>(tile, tile.memory.candidates, path, start, 0);
     for (int depth = 1; path.active != 0; ++depth)
-        trace_generation<Generation::mirrored>(tile, all, path, start, depth);
+        trace_generation<Generation::mirrored>(tile, tile.plan.common, path, start, depth);
     return path.color;
 }
 
@@ -116,21 +113,19 @@ inline abi::RayCounts trace_fused_tile(const abi::TileJob<float>& job)
     const float(&eye)[3] = job.camera->origin;
     const FusedTile<F> tile{
         scene, plan, memory, counts, {eye[0], eye[1], eye[2]}, job.camera->t_min};
-    const Candidates visible = find_visible(tile, camera_cone(job));
-    if (visible.sphere_count + visible.ground_count + visible.ball_count == 0 &&
-        !(scene.lighting.seen_within > 0)) {
+    find_visible(tile, camera_cone(job));
+    if (memory.candidates.empty() && !(scene.lighting.seen_within > 0)) {
         fill_pixels(memory.color, scene.rules.background);
         write_tile(job, memory.color);
         return counts;
     }
-    const Candidates all = all_of(plan.common);
     const TileCamera<float> camera(job);
     for (int first = 0; first < abi::tile_pixels; first += lanes<float>) {
         const std::uint32_t active = lanes_inside(job, first);
         if (active == 0)
             continue;
         const RayPacket<float> rays = camera_rays(camera, first, scene.rules.units);
-        const Vec3v<float> color = trace_paths(tile, visible, all, rays, active);
+        const Vec3v<float> color = trace_paths(tile, rays, active);
         store_pixels(memory.color + pixel_elements * first, color.x, color.y, color.z);
     }
     write_tile(job, memory.color);

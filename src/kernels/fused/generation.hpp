@@ -83,6 +83,7 @@ struct LitHits {
     std::uint32_t leaving;    ///< lanes that come from the inside
     std::uint32_t again;      ///< lanes that may see their own body again
     bool is_far;              ///< some are beyond the plan's origins
+    bool are_plain;           ///< no lane is one of these
 };
 
 inline SurfacePacket<float> lit_surface(const LitHits& hits, const Vec3v<float>& dir,
@@ -132,46 +133,43 @@ template <abi::Features F>
 
 /// The lanes of `packet.wanted` that see a light.
 template <abi::Features F>
-inline std::uint32_t lit_lanes(const FusedTile<F>& tile, int number, const LitHits& hits,
-                               const Vec3v<float>& dir, const LightPacket<float>& packet,
-                               const vreal<float>& length2, std::uint32_t lit_side)
+inline std::uint32_t lit_lanes(const FusedTile<F>& tile, const PlanLight& light,
+                               const LitHits& hits, const Vec3v<float>& dir,
+                               const LightPacket<float>& packet, const vreal<float>& length2,
+                               std::uint32_t lit_side)
 {
-    const abi::LightRecord<float>& light = tile.scene.lighting.lights.data[number];
-    const ClearTests& tests = tile.plan.clear[number];
     const std::uint32_t wanted = packet.wanted;
     tile.counts.shadow += static_cast<unsigned>(__builtin_popcount(wanted));
     tile.counts.stages |= abi::stage_blockers | abi::stage_shadow_rays;
     QuickShadow shadow{0, wanted};
-    if (tests.complete && !hits.is_far && (wanted & ~lit_side) == 0 && hits.again == 0)
-        shadow = light.kind == abi::LightKind::point
-                     ? shadow_towards(tests, hits.at, packet.to_light, length2,
+    if (light.clear.complete && hits.are_plain && (wanted & ~lit_side) == 0)
+        shadow = light.record.kind == abi::LightKind::point
+                     ? shadow_towards(light.clear, hits.at, packet.to_light, length2,
                                       length2 * packet.inverse_length, wanted)
-                     : shadow_along(tests, hits.at, packet.to_light, wanted);
+                     : shadow_along(light.clear, hits.at, packet.to_light, wanted);
     const std::uint32_t clear = wanted & ~shadow.open & ~shadow.blocked;
     if (shadow.open == 0)
         return clear;
     const LightObjects<F, float>* occluders = tile.plan.occluders;
     if (hits.is_far)
-        occluders = occluders_from_far(tile, number, Vec3v<float>(hits.at.point), hits.at.lanes);
+        occluders =
+            occluders_from_far(tile, light.number, Vec3v<float>(hits.at.point), hits.at.lanes);
     const SurfacePacket<float> surface = lit_surface(hits, dir, tile.scene.rules.start_error);
     const LightPacket<float> copy = packet;
-    return clear | trace_to_light(tile, number, occluders, surface, copy, shadow.open);
+    return clear | trace_to_light(tile, light.number, occluders, surface, copy, shadow.open);
 }
 
 /// Adds the light of one source at a packet of hits, in the lanes that see it.
 template <abi::Features F>
-inline void add_light(const FusedTile<F>& tile, int number, const LitHits& hits,
+inline void add_light(const FusedTile<F>& tile, const PlanLight& light, const LitHits& hits,
                       const PathState<F>& path, const PlanMaterial& material, Vec3v<float>& color)
 {
     const vreal<float> zero(0.0f);
-    const abi::SceneView<float>& scene = tile.scene;
-    const abi::LightRecord<float>& light = scene.lighting.lights.data[number];
-    const ClearTests& tests = tile.plan.clear[number];
     const std::uint32_t active = hits.at.lanes;
-    const bool is_point = light.kind == abi::LightKind::point;
+    const bool is_point = light.record.kind == abi::LightKind::point;
     LightPacket<float> packet;
-    packet.to_light = broadcast(light.vector);
-    vreal<float> length2(tests.length2);
+    packet.to_light = broadcast(light.record.vector);
+    vreal<float> length2(light.clear.length2);
     if (is_point) {
         packet.to_light = packet.to_light - hits.at.point;
         length2 = dot(packet.to_light, packet.to_light);
@@ -185,7 +183,7 @@ inline void add_light(const FusedTile<F>& tile, int number, const LitHits& hits,
     if ((lit_side | shining) == 0)
         return;
     packet.inverse_length =
-        is_point ? vreal<float>(1.0f) / sqrt(length2) : vreal<float>(tests.inverse_length);
+        is_point ? vreal<float>(1.0f) / sqrt(length2) : vreal<float>(light.clear.inverse_length);
     packet.diffuse = max(normal_light, zero) * packet.inverse_length;
     packet.has_highlight = 0;
     packet.highlight = zero;
@@ -193,17 +191,17 @@ inline void add_light(const FusedTile<F>& tile, int number, const LitHits& hits,
         packet.highlight = mirror * packet.inverse_length * (vreal<float>(1.0f) / sqrt(path.dir2));
         packet.has_highlight =
             bits((packet.highlight > zero) & (packet.highlight >= material.packet.highlight_floor) &
-                 (normal_light > vreal<float>(scene.lighting.highlight_above))) &
+                 (normal_light > vreal<float>(tile.scene.lighting.highlight_above))) &
             shining;
     }
     packet.wanted = lit_side | packet.has_highlight;
     std::uint32_t lit = packet.wanted;
     if (lit == 0)
         return;
-    if (light.casts_shadow)
-        lit = lit_lanes(tile, number, hits, path.dir, packet, length2, lit_side);
+    if (light.record.casts_shadow)
+        lit = lit_lanes(tile, light, hits, path.dir, packet, length2, lit_side);
     if (lit != 0)
-        color = color + lit_color<F>(light, packet, material.packet, lit, tile.counts);
+        color = color + lit_color<F>(light.record, packet, material.packet, lit, tile.counts);
 }
 
 /// Adds the light at a packet of hits to the pixels.
@@ -261,11 +259,10 @@ inline void mirror_rays(const FusedTile<F>& tile, PathState<F>& path, PathStart&
     start.common = at.common;
     if (at.common < 0)
         start.common = static_cast<std::int32_t>(common_number<float>(at.number, path.active));
-    path.is_plain = tile.plan.common.are_all && !hits.is_far && start.common >= 0;
+    path.is_plain = tile.plan.common.are_all && hits.are_plain && start.common >= 0;
     start.meets_own = (hits.again & path.active) != 0;
     if (!start.meets_own)
         return;
-    path.is_plain = false;
     path.org =
         select(from_bits<float>(~hits.leaving & all_lanes<float>), path.org, at.point - lift);
     const Vec3v<float> dir = path.dir;
@@ -274,7 +271,7 @@ inline void mirror_rays(const FusedTile<F>& tile, PathState<F>& path, PathStart&
 
 /// Traces a generation of a packet, adds what it brings, and puts mirrored rays in its place.
 template <Generation G, abi::Features F>
-inline void trace_generation(const FusedTile<F>& tile, const Candidates& candidates,
+inline void trace_generation(const FusedTile<F>& tile, const CommonLists& candidates,
                              PathState<F>& path, PathStart& start, int depth)
 {
     const abi::SceneView<float>& scene = tile.scene;
@@ -302,11 +299,9 @@ inline void trace_generation(const FusedTile<F>& tile, const Candidates& candida
         return;
     tile.counts.stages |= abi::stage_hits | abi::stage_normals | abi::stage_refined;
 
-    const PlanMaterial* material = nullptr;
+    const PlanMaterial* material = tile.plan.surfaces[hit.common].material;
     PlanMaterial mixed;
-    if (hit.common >= 0 && scene.materials.of_surface[hit.common].checker < 0) {
-        material = tile.plan.materials + scene.materials.of_surface[hit.common].first;
-    } else {
+    if (material == nullptr) {
         const HitState copy = hit;
         fetch_mixed(mixed, tile, copy);
         material = &mixed;
@@ -317,11 +312,12 @@ inline void trace_generation(const FusedTile<F>& tile, const Candidates& candida
                  dot(hit.outward, path.dir),
                  material->floor2 * path.dir2,
                  0,
-                 F.quadrics && tile.plan.met_again[hit.common] ? hit.lanes : 0,
-                 (far_lanes(tile.plan.common, hit.point) & hit.lanes) != 0};
+                 F.quadrics && tile.plan.surfaces[hit.common].met_again ? hit.lanes : 0,
+                 (far_lanes(tile.plan.common, hit.point) & hit.lanes) != 0,
+                 false};
     if ((bits(hits.normal_dir > vreal<float>(0.0f)) & hit.lanes) != 0) {
         const HitState copy = hit;
-        LitHits turned{copy, hits.normal, hits.normal_dir, hits.floor_dir2, 0, 0, hits.is_far};
+        LitHits turned{copy, hits.normal, hits.normal_dir, hits.floor_dir2, 0, 0, false, false};
         const Vec3v<float> dir = path.dir;
         turn_normals(turned, tile, dir);
         hits.normal = turned.normal;
@@ -329,8 +325,9 @@ inline void trace_generation(const FusedTile<F>& tile, const Candidates& candida
         hits.leaving = turned.leaving;
         hits.again |= turned.leaving;
     }
+    hits.are_plain = hits.again == 0 && !hits.is_far;
     Vec3v<float> color = material->packet.ambient;
-    for (int light = 0; light < scene.lighting.lights.count; ++light)
+    for (const PlanLight& light : tile.plan.lights)
         add_light(tile, light, hits, path, *material, color);
     if (depth < scene.rules.max_depth) {
         add_hits<G>(path, color * material->packet.local, hit.lanes);

@@ -12,9 +12,9 @@ inline constexpr double clear_turn = 0x1p-9;
 inline constexpr double clear_distance = 1.0 / 1024.0;
 
 /// What is in front of a plane through `point` with the unit normal `normal`, as seen from a light.
-inline void add_front_plane(ClearTests& tests, FrontPlane* planes, const double (&point)[3],
-                            const double (&normal)[3], const abi::LightRecord<float>& light,
-                            double extent, std::int32_t behind)
+inline void add_front_plane(ClearTests& tests, const double (&point)[3], const double (&normal)[3],
+                            const abi::LightRecord<float>& light, double extent,
+                            std::int32_t behind)
 {
     const bool is_point = light.kind == abi::LightKind::point;
     double size = extent;
@@ -33,7 +33,7 @@ inline void add_front_plane(ClearTests& tests, FrontPlane* planes, const double 
         tests.complete = false;
         return;
     }
-    FrontPlane& plane = planes[tests.plane_count++];
+    FrontPlane& plane = tests.planes.next();
     for (int axis = 0; axis < 3; ++axis)
         plane.normal[axis] = static_cast<float>(normal[axis]);
     plane.offset = above(level + slack + 0x1p-22 * __builtin_fabs(level));
@@ -41,9 +41,9 @@ inline void add_front_plane(ClearTests& tests, FrontPlane* planes, const double 
 }
 
 /// Planes that touch anchored spheres where these are nearest to a light, or to all that is near.
-inline void add_anchored(ClearTests& tests, FrontPlane* planes,
-                         const abi::SceneView<float>& casters, const abi::LightRecord<float>& light,
-                         const Origins& origins, double extent)
+inline void add_anchored(ClearTests& tests, const abi::SceneView<float>& casters,
+                         const abi::LightRecord<float>& light, const Origins& origins,
+                         double extent)
 {
     const auto& list = casters.wide->anchored_spheres;
     for (int i = 0; i < list.count; ++i) {
@@ -63,11 +63,11 @@ inline void add_anchored(ClearTests& tests, FrontPlane* planes,
             normal[axis] = (to[axis] - sphere.center[axis]) / distance;
             point[axis] = sphere.center[axis] + sphere.radius * normal[axis];
         }
-        add_front_plane(tests, planes, point, normal, light, extent, sphere.surface);
+        add_front_plane(tests, point, normal, light, extent, sphere.surface);
     }
 }
 
-inline void add_planes(ClearTests& tests, FrontPlane* planes, const abi::SceneView<float>& casters,
+inline void add_planes(ClearTests& tests, const abi::SceneView<float>& casters,
                        const abi::LightRecord<float>& light, double extent)
 {
     const auto& list = casters.wide->planes;
@@ -81,15 +81,15 @@ inline void add_planes(ClearTests& tests, FrontPlane* planes, const abi::SceneVi
         const double side = height < 0 ? -1.0 : 1.0;
         const double normal[3] = {side * plane.normal[0], side * plane.normal[1],
                                   side * plane.normal[2]};
-        add_front_plane(tests, planes, plane.point, normal, light, extent, plane.surface);
+        add_front_plane(tests, plane.point, normal, light, extent, plane.surface);
     }
 }
 
-inline void add_across(ClearTests& tests, AcrossSphere* spheres, const RoundedBall& ball,
-                       const double (&light)[3], double extent, bool fills)
+inline void add_across(ClearTests& tests, const RoundedBall& ball, const double (&light)[3],
+                       double extent, bool fills)
 {
     const double outer = clear_radius(ball, extent);
-    AcrossSphere& sphere = spheres[tests.sphere_count++];
+    AcrossSphere& sphere = tests.across.next();
     double along = 0;
     double length2 = 0;
     double across[2] = {};
@@ -112,10 +112,10 @@ inline void add_across(ClearTests& tests, AcrossSphere* spheres, const RoundedBa
     sphere.body = ball.body;
 }
 
-inline void add_cone(ClearTests& tests, ConeSphere* spheres, const RoundedBall& ball,
-                     const float (&light)[3], double extent, bool fills)
+inline void add_cone(ClearTests& tests, const RoundedBall& ball, const float (&light)[3],
+                     double extent, bool fills)
 {
-    ConeSphere& sphere = spheres[tests.sphere_count++];
+    ConeSphere& sphere = tests.cones.next();
     double distance2 = 0;
     for (int axis = 0; axis < 3; ++axis) {
         const double to = double{ball.center[axis]} - double{light[axis]};
@@ -196,19 +196,16 @@ inline void make_clear_tests(ClearTests& tests, const abi::SceneView<float>& sce
     tests.least_distance2 = static_cast<float>(clear_distance * extent * clear_distance * extent);
     tests.complete = is_moderate(extent) && casters.certifiable &&
                      (light.kind == abi::LightKind::point || is_moderate(length2));
-    // The arrays are the plan's own.
-    auto* const planes = const_cast<FrontPlane*>(tests.planes);
-    add_anchored(tests, planes, casters, light, origins, extent);
-    add_planes(tests, planes, casters, light, extent);
+    add_anchored(tests, casters, light, origins, extent);
+    add_planes(tests, casters, light, extent);
     if (light.kind == abi::LightKind::point)
         return add_balls(tests, casters, [&](const RoundedBall& ball, bool fills) {
-            add_cone(tests, const_cast<ConeSphere*>(tests.cones), ball, light.vector, extent,
-                     fills);
+            add_cone(tests, ball, light.vector, extent, fills);
         });
     const double direction[3] = {light.vector[0], light.vector[1], light.vector[2]};
     set_axes(tests.axis, direction);
     add_balls(tests, casters, [&](const RoundedBall& ball, bool fills) {
-        add_across(tests, const_cast<AcrossSphere*>(tests.across), ball, direction, extent, fills);
+        add_across(tests, ball, direction, extent, fills);
     });
 }
 
@@ -324,17 +321,15 @@ inline void find_needed(ClearTests& tests, const abi::SceneView<float>& scene,
 {
     NeededTests& needed = tests.needed[surface];
     const SurfaceBall ball = surface < 0 ? SurfaceBall{} : surface_ball(scene, surface);
-    for (int i = 0; i < tests.plane_count; ++i)
-        if (tests.planes[i].behind != surface && !is_in_front(tests.planes[i], ball))
-            needed.planes[needed.plane_count++] = static_cast<std::uint8_t>(i);
-    for (int i = 0; i < tests.sphere_count; ++i) {
-        const bool is_point = light.kind == abi::LightKind::point;
-        const Body& other = is_point ? tests.cones[i].body : tests.across[i].body;
-        const bool past = is_point ? is_past(tests.cones[i], ball, light.vector)
-                                   : is_past(tests, tests.across[i], ball, light.vector);
-        if (!is_on(other, surface) && !past)
-            needed.spheres[needed.sphere_count++] = static_cast<std::uint8_t>(i);
-    }
+    for (const FrontPlane& plane : tests.planes)
+        if (plane.behind != surface && !is_in_front(plane, ball))
+            needed.planes.next() = &plane;
+    for (const AcrossSphere& sphere : tests.across)
+        if (!is_on(sphere.body, surface) && !is_past(tests, sphere, ball, light.vector))
+            needed.across.next() = &sphere;
+    for (const ConeSphere& sphere : tests.cones)
+        if (!is_on(sphere.body, surface) && !is_past(sphere, ball, light.vector))
+            needed.cones.next() = &sphere;
 }
 
 template <abi::Features F>
@@ -347,13 +342,17 @@ inline void find_all_needed(ClearTests& tests, const abi::SceneView<float>& scen
 }
 
 template <abi::Features F>
-inline void find_met_again(FramePlan<F>& plan, const abi::SceneView<float>& scene)
+inline void fill_surfaces(FramePlan<F>& plan, const abi::SceneView<float>& scene)
 {
-    plan.met_again[-1] = false;
-    FramePlan<F>::for_each_surface(scene, [&](std::int32_t surface) {
-        plan.met_again[surface] =
-            hit_again(scene.shapes, scene.shapes.index[surface]) == HitAgain::from_anywhere;
-        plan.met_again[-1] |= plan.met_again[surface];
+    PlanSurface& any = plan.surfaces[-1] = {};
+    FramePlan<F>::for_each_surface(scene, [&](std::int32_t number) {
+        PlanSurface& surface = plan.surfaces[number] = {};
+        const abi::MaterialIndex& index = scene.materials.of_surface[number];
+        if (index.checker < 0)
+            surface.material = plan.materials + index.first;
+        surface.met_again =
+            hit_again(scene.shapes, scene.shapes.index[number]) == HitAgain::from_anywhere;
+        any.met_again |= surface.met_again;
     });
 }
 
@@ -367,12 +366,15 @@ inline void fill_plan(FramePlan<F>& plan, const abi::SceneView<float>& scene,
     find_objects<F>(plan.from_near, plan.origins, scene);
     fill_common(plan.common, scene, plan.origins, camera.origin);
     fill_materials(plan, scene);
-    find_met_again(plan, scene);
+    fill_surfaces(plan, scene);
     const abi::SceneView<float>& casters = casters_of(scene);
     for (int i = 0; i < scene.lighting.lights.count; ++i) {
         const abi::LightRecord<float>& light = scene.lighting.lights.data[i];
-        make_clear_tests(plan.clear[i], scene, light, plan.origins);
-        find_all_needed<F>(plan.clear[i], scene, light);
+        PlanLight& planned = plan.lights.first[i];
+        planned.record = light;
+        planned.number = i;
+        make_clear_tests(planned.clear, scene, light, plan.origins);
+        find_all_needed<F>(planned.clear, scene, light);
         if (!light.casts_shadow)
             continue;
         if (light.sends_rays)

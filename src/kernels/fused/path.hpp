@@ -88,11 +88,9 @@ inline vint<float> numbers_of(const HitState& hit)
 template <abi::Features F>
 struct FusedMemory {
     float* color = nullptr;
-    std::uint8_t* visible_spheres = nullptr;  ///< from the eye through the tile, by their numbers
-    std::uint8_t* visible_grounds = nullptr;  ///< in the plan
-    std::uint8_t* visible_balls = nullptr;    ///< likewise
-    FilteredObjects<true> visible;            ///< likewise, where tests are dear
-    FilteredObjects<false> from_far;          ///< for mirrored rays beyond the plan's origins
+    CommonLists candidates;                       ///< what the eye may see through the tile
+    FilteredObjects<true> visible;                ///< likewise, where tests are dear
+    FilteredObjects<false> from_far;              ///< for mirrored rays beyond the plan's origins
     LightObjects<F, float>* occluders = nullptr;  ///< likewise, by light that sends no rays
     std::size_t bytes = 0;
 
@@ -101,11 +99,7 @@ struct FusedMemory {
     {
         Arena arena(scratch);
         color = arena.take<float>(tile_elements);
-        visible_spheres = arena.take<std::uint8_t>(static_cast<std::size_t>(scene.spheres.count));
-        visible_grounds = arena.take<std::uint8_t>(
-            static_cast<std::size_t>(scene.anchored_spheres.count + scene.planes.count));
-        visible_balls = arena.take<std::uint8_t>(
-            static_cast<std::size_t>(scene.quadrics.count + scene.polygons.count));
+        candidates.take(arena, scene);
         if constexpr (F.quadrics)
             take_objects<F>(arena, visible, scene);
         if (scene.rules.max_depth > 0)

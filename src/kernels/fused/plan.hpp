@@ -45,26 +45,29 @@ struct ConeSphere {
 
 /// Which of a light's tests points on one surface need: the others can't fail for any point of it.
 struct NeededTests {
-    std::uint8_t* planes = nullptr;
-    std::uint8_t* spheres = nullptr;
-    int plane_count = 0;
-    int sphere_count = 0;
+    BorrowedList<const FrontPlane*> planes;
+    BorrowedList<const AcrossSphere*> across;
+    BorrowedList<const ConeSphere*> cones;
 };
 
 /// What can be told of shadow rays without an interval (clear_way.hpp), of points in the plan's
 /// `origins`.
 struct ClearTests {
-    const FrontPlane* planes = nullptr;
-    const AcrossSphere* across = nullptr;  ///< of a directional light
-    const ConeSphere* cones = nullptr;     ///< of a point light
-    int plane_count = 0;
-    int sphere_count = 0;
-    float axis[2][3] = {};  ///< of the plane across a directional light
-    float length2 = 0;      ///< of its vector, and the inverse root
+    BorrowedList<FrontPlane> planes;
+    BorrowedList<AcrossSphere> across;  ///< of a directional light
+    BorrowedList<ConeSphere> cones;     ///< of a point light
+    float axis[2][3] = {};              ///< of the plane across a directional light
+    float length2 = 0;                  ///< of its vector, and the inverse root
     float inverse_length = 0;
     float least_distance2 = 0;  ///< points nearer to a point light than its root are not told of
     NeededTests* needed = nullptr;  ///< by surface; [-1] for points on any
     bool complete = false;          ///< these tests know all objects that may be in the way
+};
+
+struct PlanLight {
+    abi::LightRecord<float> record;
+    int number;
+    ClearTests clear;
 };
 
 /// A material in all lanes.
@@ -72,6 +75,11 @@ struct PlanMaterial {
     MaterialPacket<float> packet;
     vreal<float> floor2;  ///< squared cosine below which nothing shines, less what rounding may do
     bool mirrors;
+};
+
+struct PlanSurface {
+    const PlanMaterial* material = nullptr;  ///< null where hits have more than one
+    bool met_again = false;                  ///< rays that leave it outside may meet its body again
 };
 
 /// PlanMaterial::floor2: rounding can't make a shine of a cosine that is below its root.
@@ -89,63 +97,61 @@ struct FramePlan {
     FilteredObjects<false> from_near;  ///< from `origins`
     Origins origins;
     LightObjects<F, float>* occluders = nullptr;  ///< by light; if it sends no rays from `origins`
-    ClearTests* clear = nullptr;                  ///< by light
+    BorrowedList<PlanLight> lights;               ///< by number
     CommonObjects common;                         ///< likewise from `origins`
     PlanMaterial* materials = nullptr;            ///< by number
-    /// By surface, whether rays that leave it outside may meet its body again; [-1]: of any.
-    bool* met_again = nullptr;
+    PlanSurface* surfaces = nullptr;              ///< by number; [-1] for hits on several
     std::size_t bytes = 0;
 
     /// With no `memory`, only `bytes` is of use.
     FramePlan(void* memory, const abi::SceneView<float>& scene)
     {
         const abi::SceneView<float>& casters = casters_of(scene);
-        const int lights = scene.lighting.lights.count;
+        const auto light_count = static_cast<std::size_t>(scene.lighting.lights.count);
         Arena arena(memory);
         arena.take<FramePlan>(1);
         take_objects<F>(arena, from_camera, scene);
         take_objects<F>(arena, from_near, scene);
         common.take(arena, scene);
         materials = arena.take<PlanMaterial>(material_count(scene));
-        met_again = arena.take<bool>(1 + surface_count(scene));
+        surfaces = arena.take<PlanSurface>(1 + surface_count(scene));
         if (memory != nullptr)
-            ++met_again;
-        occluders = arena.take<LightObjects<F, float>>(static_cast<std::size_t>(lights));
-        clear = arena.take<ClearTests>(static_cast<std::size_t>(lights));
+            ++surfaces;
+        occluders = arena.take<LightObjects<F, float>>(light_count);
+        lights.take(arena, light_count);
         LightObjects<F, float> measured;
-        for (int i = 0; i < lights; ++i) {
+        for (std::size_t i = 0; i < light_count; ++i) {
             take_occluders<F, float>(arena, memory != nullptr ? occluders[i] : measured, scene,
                                      scene.lighting.lights.data[i]);
-            take_clear(arena, memory != nullptr ? clear + i : nullptr, casters, scene);
+            take_clear(arena, memory != nullptr ? &(lights.next() = {}).clear : nullptr,
+                       scene.lighting.lights.data[i], casters, scene);
         }
         bytes = arena.used();
     }
 
 private:
-    static void take_clear(Arena& arena, ClearTests* tests, const abi::SceneView<float>& casters,
-                           const abi::SceneView<float>& scene)
+    static void take_clear(Arena& arena, ClearTests* tests, const abi::LightRecord<float>& light,
+                           const abi::SceneView<float>& casters, const abi::SceneView<float>& scene)
     {
-        const auto spheres = static_cast<std::size_t>(
-            casters.spheres.count + casters.quadrics.count + casters.polygons.count);
+        const bool is_point = light.kind == abi::LightKind::point;
+        const auto balls = static_cast<std::size_t>(casters.spheres.count + casters.quadrics.count +
+                                                    casters.polygons.count);
         const auto flats =
             static_cast<std::size_t>(casters.planes.count + casters.anchored_spheres.count);
+        const auto take_all = [&](auto& of) {
+            of.planes.take(arena, flats);
+            of.across.take(arena, is_point ? 0 : balls);
+            of.cones.take(arena, is_point ? balls : 0);
+        };
         const std::size_t surfaces = 1 + surface_count(scene);
-        FrontPlane* const planes = arena.take<FrontPlane>(flats);
-        AcrossSphere* const across = arena.take<AcrossSphere>(spheres);
-        ConeSphere* const cones = arena.take<ConeSphere>(spheres);
+        ClearTests measured;
+        take_all(tests != nullptr ? *tests : measured);
         NeededTests* const needed = arena.take<NeededTests>(surfaces);
-        std::uint8_t* const numbers = arena.take<std::uint8_t>(surfaces * (flats + spheres));
-        if (tests == nullptr)
-            return;
-        *tests = {};
-        tests->planes = planes;
-        tests->across = across;
-        tests->cones = cones;
-        tests->needed = needed + 1;
-        for (std::size_t i = 0; i < surfaces; ++i) {
-            needed[i].planes = numbers + i * (flats + spheres);
-            needed[i].spheres = needed[i].planes + flats;
-        }
+        if (tests != nullptr)
+            tests->needed = needed + 1;
+        NeededTests none;
+        for (std::size_t i = 0; i < surfaces; ++i)
+            take_all(tests != nullptr ? needed[i] : none);
     }
 
 public:

@@ -256,6 +256,8 @@ inline bool leaves_behind(const Cone<float>& cone, const AnchoredFilter& sphere)
 struct AnchoredSphere : KindOf<abi::Primitive::anchored_sphere, abi::SurfaceKind::anchored_sphere> {
     template <class Real>
     using FromPoint = ObjectArray<SharedOriginAnchored<Real>>;
+    template <class Real>
+    using Selected = SelectedRecords<abi::AnchoredSphere<Real>>;
     using Certain = ObjectArray<AnchoredFilter>;
 
     template <class Real>

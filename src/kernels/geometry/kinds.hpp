@@ -8,8 +8,8 @@
 
 // The kinds of objects: a new one is a file, and its name in Kinds. Its file says, with the names
 // that the files of the others have:
-// - What lists hold of it: the scene's record, its form for rays from one point (share_origin), its
-//   form with error bounds (certain_form).
+// - What lists hold of it: the scene's record, all or some (Selected), its form for rays from one
+//   point (share_origin), its form with error bounds (certain_form).
 // - What a cone of rays leaves out of a list: out_of_reach, leaves_behind.
 // - Its tests: keep_closest, occluding_lanes and visit_crossings, or quadratic_of for all three.
 // - Its tests with error bounds: keep_certain, occludes.

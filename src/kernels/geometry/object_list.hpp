@@ -57,10 +57,22 @@ struct ObjectArray {
     int count = 0;
 };
 
+/// Some of a scene's records.
+template <class Record>
+struct SelectedRecords {
+    const Record** data = nullptr;
+    int count = 0;
+};
+
 template <class Object>
 inline const Object& object_at(const ObjectArray<Object>& list, int index)
 {
     return list.data[index];
+}
+template <class Record>
+inline const Record& object_at(const SelectedRecords<Record>& list, int index)
+{
+    return *list.data[index];
 }
 template <class Record>
 inline const Record& object_at(const abi::RecordList<Record>& list, int index)
@@ -72,6 +84,11 @@ template <class Arena, class Object>
 inline void take_room(Arena& arena, ObjectArray<Object>& list, int count)
 {
     list.data = arena.template take<Object>(static_cast<std::size_t>(count));
+}
+template <class Arena, class Record>
+inline void take_room(Arena& arena, SelectedRecords<Record>& list, int count)
+{
+    list.data = arena.template take<const Record*>(static_cast<std::size_t>(count));
 }
 
 /// Whether no ray of a cone reaches an object, by its record alone: by its bound, if it has one.
@@ -107,6 +124,17 @@ inline void find_from_point(ObjectArray<Form>& list, const Cone<Real>& cone,
         if (!leaves_behind(cone, form))
             list.data[list.count++] = form;
     }
+}
+
+/// Fills `list` with what rays of `cone` may meet.
+template <class Real, class Record>
+inline void find_met(SelectedRecords<Record>& list, const Cone<Real>& cone,
+                     const abi::RecordList<Record>& records)
+{
+    list.count = 0;
+    for (int i = 0; i < records.count; ++i)
+        if (!out_of_reach(cone, records.data[i]))
+            list.data[list.count++] = &records.data[i];
 }
 
 /// Fills `list` with the error bounds of what rays from `origins` may meet; `cone` bounds them.

@@ -320,6 +320,8 @@ inline bool leaves_behind(const Cone<float>& cone, const PlaneFilter& plane)
 struct Plane : KindOf<abi::Primitive::plane, abi::SurfaceKind::plane> {
     template <class Real>
     using FromPoint = ObjectArray<SharedOriginPlane<Real>>;
+    template <class Real>
+    using Selected = SelectedRecords<abi::PlaneRecord<Real>>;
     using Certain = ObjectArray<PlaneFilter>;
 
     template <class Real>

@@ -347,6 +347,8 @@ inline Occlusion occludes(const PolygonFilter& filter, const RayPacket<float>& r
 struct Polygon : KindOf<abi::Primitive::polygon, abi::SurfaceKind::polygon, 1, true> {
     template <class Real>
     using FromPoint = ObjectArray<abi::PolygonRecord<Real>>;
+    template <class Real>
+    using Selected = SelectedRecords<abi::PolygonRecord<Real>>;
     using Certain = ObjectArray<PolygonFilter>;
 
     template <class Real>

@@ -182,6 +182,37 @@ inline Body body_of(const SharedOriginQuadric<Real>& quadric)
     return body_of(*quadric.record);
 }
 
+template <class Real>
+inline const abi::QuadricRecord<Real>& record_of(const abi::QuadricRecord<Real>& quadric)
+{
+    return quadric;
+}
+template <class Real>
+inline const abi::QuadricRecord<Real>& record_of(const SharedOriginQuadric<Real>& quadric)
+{
+    return *quadric.record;
+}
+
+/// What rounding may do to the square of a moment, of its size, with a margin of a thousand.
+template <class Real>
+inline constexpr Real moment2_slack = sizeof(Real) == sizeof(float) ? Real(2e-10) : Real(2e-27);
+
+/// The lanes whose lines come near the ball around a quadric: of the others its own test, which is
+/// dear, need not tell.
+template <class Real>
+inline std::uint32_t near_ball(const abi::QuadricRecord<Real>& quadric, const RayPacket<Real>& rays)
+{
+    const Real radius = quadric.bound_radius;
+    if (!(radius < static_cast<Real>(__builtin_inf())))
+        return all_lanes<Real>;
+    const Vec3v<Real> w = rays.org - broadcast(quadric.bound);
+    const Vec3v<Real> moment = cross(w, rays.dir);
+    const vreal<Real> outer2 = madd(vreal<Real>(moment2_slack<Real>), dot(w, w),
+                                    vreal<Real>(Real(1.001) * radius * radius));
+    // A NaN tells nothing.
+    return ~bits(dot(moment, moment) > outer2 * rays.dir2) & all_lanes<Real>;
+}
+
 template <class Object, class Real>
 concept IsQuadric = std::is_same_v<Object, abi::QuadricRecord<Real>> ||
     std::is_same_v<Object, SharedOriginQuadric<Real>>;
@@ -193,7 +224,10 @@ inline void keep_closest(HitPacket<Real>& hit, const Object& quadric, const RayP
                          const Own& own)
 {
     const Body body = body_of(quadric);
-    const std::uint32_t others = own.template lanes_on_others<Real>(body.first, body.pieces);
+    const std::uint32_t others = near_ball(record_of(quadric), rays) &
+                                 own.template lanes_on_others<Real>(body.first, body.pieces);
+    if (others == 0)
+        return;
     visit_crossings(quadric, rays, [&](vmask<Real> valid, const vreal<Real>& t, int piece) {
         std::uint32_t counts = others & bits(valid & (t > rays.t_min));
         // A ray that touches the rim enters by the cap where the cap was visited first.
@@ -209,11 +243,14 @@ requires IsQuadric<Object, Real>
 inline std::uint32_t occluding_lanes(const RayEnd<Real>& end, const Object& quadric,
                                      const RayPacket<Real>& rays)
 {
+    const std::uint32_t near = near_ball(record_of(quadric), rays);
     std::uint32_t blocked = 0;
+    if (near == 0)
+        return blocked;
     visit_crossings(quadric, rays, [&](vmask<Real> valid, const vreal<Real>& t, int) {
         blocked |= bits(valid & end.blocked_at(t, rays));
     });
-    return blocked;
+    return blocked & near;
 }
 
 }  // namespace

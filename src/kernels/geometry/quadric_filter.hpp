@@ -180,6 +180,8 @@ inline Occlusion occludes(const QuadricFilter& filter, const RayPacket<float>& r
 struct Quadric : KindOf<abi::Primitive::quadric, abi::SurfaceKind::quadric_side, 3, true> {
     template <class Real>
     using FromPoint = ObjectArray<SharedOriginQuadric<Real>>;
+    template <class Real>
+    using Selected = SelectedRecords<abi::QuadricRecord<Real>>;
     using Certain = ObjectArray<QuadricFilter>;
 
     template <class Real>

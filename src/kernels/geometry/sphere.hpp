@@ -121,23 +121,29 @@ inline void find_from_point(SharedOriginSpheres<Real>& list, const Cone<Real>& c
     });
 }
 
-/// The spheres that parallel rays from several points may meet, in the room of a list for rays that
-/// share their origin: centres in place of origins.
+/// Some spheres of a scene: all, or copies in the room of a list for rays that share their origin,
+/// with centres in place of origins.
 template <class Real>
-inline void find_parallel_candidates(SharedOriginSpheres<Real>& list, const Cone<Real>& cone,
-                                     const abi::SphereListView<Real>& spheres)
-{
-    list.count = 0;
-    for_each_met(cone, spheres, [&](int first, std::uint32_t kept, const Vec3v<Real>& center) {
-        append_sphere(list, spheres, first, kept, center);
-    });
-}
+struct SelectedSpheres : abi::SphereListView<Real> {
+    SharedOriginSpheres<Real> room;
+};
 
-/// A list that find_parallel_candidates() filled.
+/// Fills `list` with the spheres that rays of `cone` may meet.
 template <class Real>
-inline abi::SphereListView<Real> parallel_candidates(const SharedOriginSpheres<Real>& list)
+inline void find_met(SelectedSpheres<Real>& list, const Cone<Real>& cone,
+                     const abi::SphereListView<Real>& spheres)
 {
-    return {list.x, list.y, list.z, nullptr, list.radius2, nullptr, list.surface, list.count};
+    abi::SphereListView<Real>& view = list;
+    if (!cone.bounded) {
+        view = spheres;
+        return;
+    }
+    SharedOriginSpheres<Real>& room = list.room;
+    room.count = 0;
+    for_each_met(cone, spheres, [&](int first, std::uint32_t kept, const Vec3v<Real>& center) {
+        append_sphere(room, spheres, first, kept, center);
+    });
+    view = {room.x, room.y, room.z, nullptr, room.radius2, nullptr, room.surface, room.count};
 }
 
 /// A sphere of a list, whichever form that has.

@@ -340,6 +340,12 @@ inline void take_room(Arena& arena, SharedOriginSpheres<Real>& list, int count)
     share_block(arena, arrays, padded(count));
     list.surface = arena.template take<lane_int<Real>>(padded(count));
 }
+template <class Arena, class Real>
+inline void take_room(Arena& arena, SelectedSpheres<Real>& list, int count)
+{
+    take_room(arena, list.room, count);
+}
+
 template <class Arena>
 inline void take_room(Arena& arena, SphereFilters& list, int count)
 {
@@ -355,6 +361,8 @@ inline void take_room(Arena& arena, SphereFilters& list, int count)
 struct Sphere : KindOf<abi::Primitive::sphere, abi::SurfaceKind::sphere> {
     template <class Real>
     using FromPoint = SharedOriginSpheres<Real>;
+    template <class Real>
+    using Selected = SelectedSpheres<Real>;
     using Certain = SphereFilters;
 
     template <class Real>

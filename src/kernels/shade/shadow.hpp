@@ -141,13 +141,8 @@ template <abi::Features F, class Real, class Visit>
 inline auto with_light_objects(const ShadeContext<F, Real>& context, int light, const Visit& visit)
 {
     const LightObjects<F, Real>& objects = context.occluders[light];
-    if (context.scene->lighting.lights.data[light].sends_rays)
-        return visit(objects.from_point);
-    if constexpr (F.exact)
-        return visit(objects.along);
-    else
-        return visit(ParallelObjects<Real>{
-            casters_of(*context.scene), parallel_candidates(list_of<Sphere>(objects.from_point))});
+    return context.scene->lighting.lights.data[light].sends_rays ? visit(objects.from_point)
+                                                                 : visit(objects.along);
 }
 
 /// The lanes of `open` that anything but their own surface keeps from a light.
@@ -209,8 +204,8 @@ inline void visit_light_occluders(const ShadeContext<F, Real>& context, int ligh
     });
 }
 
-/// Whether no object but their own may be in the way of a light, for the lanes of `open`, and
-/// bounds hold for the segments: with a margin, as rays start off their surfaces.
+/// Whether no object may be in the way of a light for the lanes of `open`; in exact mode but their
+/// own, and only if bounds hold for the segments: with a margin, as rays start off their surfaces.
 template <abi::Features F, class Real>
 inline bool nothing_between(const ShadeContext<F, Real>& context, int light,
                             const LightPacket<Real>& packet, const SurfacePacket<Real>& surface,
@@ -227,7 +222,8 @@ inline bool nothing_between(const ShadeContext<F, Real>& context, int light,
                    (objects.empty() || (objects.count == 1 && own.all_on(objects.one)));
         });
     } else {
-        return false;
+        return with_light_objects(context, light,
+                                  [](const auto& objects) { return objects.empty(); });
     }
 }
 

@@ -38,15 +38,8 @@ inline void find_occluders(const TileRun<F, Real>& run)
         const abi::SceneView<Real>& casters = casters_of(scene);
         if (light.sends_rays)
             find_objects<F>(occluders.from_point, segment_cone(light.vector, box), casters);
-        else if constexpr (F.exact)
-            filter_objects<F, false>(occluders.along, origins_in(box.low, box.high),
-                                     light.kind == abi::LightKind::point
-                                         ? cone_to(light.vector, box)
-                                         : parallel_cone(light.vector, box),
-                                     casters);
         else
-            find_parallel_candidates(list_of<Sphere>(occluders.from_point),
-                                     parallel_cone(light.vector, box), casters.spheres);
+            find_along<F>(occluders.along, box, light, casters);
     }
 }
 

@@ -19,8 +19,7 @@ inline bool store_if_common(Writer& writer, const CommonObjects& common,
     const std::uint32_t live = first_lanes<float>(packet.count);
     const std::uint32_t fit = bits(certifiable(rays)) & bits(rays.t_min >= vreal<float>(0.0f));
     CommonHit hit;
-    if ((live & ~fit) != 0 ||
-        !find_common_hit<R, O>(hit, common, all_of(common), rays, eye, -1, live))
+    if ((live & ~fit) != 0 || !find_common_hit<R, O>(hit, common, common, rays, eye, -1, live))
         return false;
     // What ends before t_max for sure counts.
     if (hit.lanes != 0 &&
@@ -100,8 +99,8 @@ template <bool Starts, abi::Features F, class Real>
         store_rays(bundle, first, packet.rays);
         if constexpr (Starts) {
             const StartPacket<Real> start = start_of(scene, view, begin + first, packet.rays);
-            start_rays<F>(bundle, first, start_of_search(start, packet.t_max), start.surface,
-                          active);
+            start_rays<F>(bundle, first, start_of_search(start, packet.t_max),
+                          start.surface, active);
         } else {
             start_rays<F>(bundle, first, no_hit<Real>(packet.t_max), no_surface<Real>(), active);
         }

@@ -40,9 +40,9 @@ class EyeObjects {
 public:
     EyeObjects(const abi::SceneView<float>& scene, const float (&eye)[3]) : eye_(eye)
     {
-        common_.spheres = spheres_;
-        common_.grounds = grounds_;
-        common_.balls = balls_;
+        common_.spheres.use(spheres_);
+        common_.grounds.use(grounds_);
+        common_.balls.use(balls_);
         if (has_few_objects(scene))
             fill_common(common_, scene, near_origins(scene, eye, eye), eye);
     }
@@ -53,8 +53,8 @@ public:
     {
         CommonHit hit;
         if (!common_.are_all || !all(certifiable(rays)) ||
-            !find_common_hit<Refine::t, Origin::shared>(hit, common_, all_of(common_), rays, eye_,
-                                                        -1, all_lanes<float>))
+            !find_common_hit<Refine::t, Origin::shared>(hit, common_, common_, rays, eye_, -1,
+                                                        all_lanes<float>))
             return false;
         const vmask<float> found = from_bits<float>(hit.lanes);
         store(hits.t + first, select(found, hit.t, vreal<float>(__builtin_inff())));

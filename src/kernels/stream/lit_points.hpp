@@ -112,10 +112,10 @@ inline void find_from_points(LitWork<F, Real>& work, const abi::SceneView<Real>&
 {
     if constexpr (F.exact) {
         const RayBundle<Real>& bundle = *work.bundle;
-        const float* const org[3] = {bundle.org[0], bundle.org[1], bundle.org[2]};
-        find_objects<F>(work.from_points, origins_of(org, count), casters);
+        const Box<float> box = box_of(bundle.org, count);
+        find_objects<F>(work.from_points, origins_in(box.low, box.high), casters);
     } else {
-        work.from_points.scene = &casters;
+        find_objects<F>(work.from_points, Cone<Real>{}, casters);
     }
 }
 

@@ -176,7 +176,7 @@ inline void find_nearby_of(StreamWork<F, Real>& work, const abi::SceneView<Real>
     }
     if constexpr (F.exact) {
         // Where all objects are in the hierarchy, that has bounds of its own.
-        if (!scene.tree.empty() && !has_objects<F>(AllObjects<float>{&scene}))
+        if (!scene.tree.empty() && !has_objects<F>(scene))
             return;
         PacketBox<float> origins;
         for (int ray = 0; ray < count; ray += lanes<float>)
@@ -186,7 +186,7 @@ inline void find_nearby_of(StreamWork<F, Real>& work, const abi::SceneView<Real>
         if (work.looks_for_common(view, begin, count))
             fill_common(work.common, scene, near_origins(scene, box.low, box.high), first);
     } else {
-        work.nearby.scene = &scene;
+        find_objects<F>(work.nearby, Cone<Real>{}, scene);
     }
 }
 

@@ -271,8 +271,9 @@ inline void trace_secondary_bundle(const abi::SceneView<Real>& scene,
     for (int first = begin; first < end; first += lanes<Real>) {
         const TracedRays<Real> from = load_stream(scene, stream, first);
         store_rays(bundle, first - begin, from.rays);
-        start_rays<F>(bundle, first - begin, start_of_search(from.start, no_end_yet),
-                      from.start.surface, first_lanes<Real>(end - first));
+        start_rays<F>(bundle, first - begin,
+                      start_of_search(from.start, no_end_yet), from.start.surface,
+                      first_lanes<Real>(end - first));
     }
     end_bundle(bundle, end - begin);
     closest_of_bundle<F>(scene, nearby, bundle);

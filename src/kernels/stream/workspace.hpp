@@ -79,9 +79,9 @@ inline void take_occluders(Arena& arena, LightObjects<F, Real>& objects,
 {
     if (!light.casts_shadow)
         return;
-    if (light.sends_rays || !F.exact)
+    if (light.sends_rays)
         take_objects<F>(arena, objects.from_point, casters_of(scene));
-    if (!light.sends_rays || !F.exact)
+    else
         take_objects<F>(arena, objects.along, casters_of(scene));
 }
 

@@ -244,44 +244,16 @@ inline bool is_behind(const CommonObjects& common, const CommonGround& ground,
     return (hits & ~above & ~bits(stays_above(line, further))) == 0;
 }
 
-/// What rays may meet, by the numbers of CommonObjects.
-struct Candidates {
-    const std::uint8_t* spheres;
-    const std::uint8_t* grounds;
-    const std::uint8_t* balls;
-    int sphere_count = 0;
-    int ground_count = 0;
-    int ball_count = 0;
-};
-
-struct ObjectNumbers {
-    std::uint8_t number[most_common_objects] = {};
-
-    constexpr ObjectNumbers()
-    {
-        for (int i = 0; i < most_common_objects; ++i)
-            number[i] = static_cast<std::uint8_t>(i);
-    }
-};
-inline constexpr ObjectNumbers object_numbers;
-
-inline Candidates all_of(const CommonObjects& common)
-{
-    return {object_numbers.number, object_numbers.number, object_numbers.number,
-            common.sphere_count,   common.ground_count,   common.ball_count};
-}
-
 /// The same among grounds alone, where no sphere is near.
 template <Refine R, Origin O>
 inline bool find_common_ground(CommonHit& hit, const CommonObjects& common,
-                               const Candidates& candidates, const RayPacket<float>& rays,
+                               const CommonLists& candidates, const RayPacket<float>& rays,
                                const float (&eye)[3], std::int32_t own, std::uint32_t active)
 {
     const CommonGround* first = nullptr;
     bool is_only = true;
     RoughCommon nearest;
-    for (int i = 0; i < candidates.ground_count; ++i) {
-        const CommonGround& ground = common.grounds[candidates.grounds[i]];
+    for (const CommonGround& ground : candidates.grounds) {
         if (ground.surface == own)
             continue;
         const RoughCommon rough = rough_common(ground, rays, active);
@@ -301,27 +273,26 @@ inline bool find_common_ground(CommonHit& hit, const CommonObjects& common,
     hit.surface = first->surface;
     if ((hit.lanes & ~refine_common<R, O>(hit, *first, nearest, rays, eye)) != 0)
         return false;
-    for (int i = 0; !is_only && i < candidates.ground_count; ++i) {
-        const CommonGround& ground = common.grounds[candidates.grounds[i]];
+    if (is_only)
+        return true;
+    for (const CommonGround& ground : candidates.grounds)
         if (ground.surface != own && &ground != first &&
             !is_behind<O>(common, ground, hit.point, hit.t, rays, active))
             return false;
-    }
     return true;
 }
 
 /// The same among spheres and grounds.
 template <Refine R, Origin O>
 inline bool find_common_sphere(CommonHit& hit, const CommonObjects& common,
-                               const Candidates& candidates, const RayPacket<float>& rays,
+                               const CommonLists& candidates, const RayPacket<float>& rays,
                                const float (&eye)[3], std::int32_t own, std::uint32_t active)
 {
     const CommonSphere* first = nullptr;
     const CommonSphere* second = nullptr;
     std::uint32_t open = 0;
     vreal<float> nearness = rays.dir2;
-    for (int i = 0; i < candidates.sphere_count; ++i) {
-        const CommonSphere& sphere = common.spheres[candidates.spheres[i]];
+    for (const CommonSphere& sphere : candidates.spheres) {
         if (sphere.body.first == own)
             continue;
         vreal<float> b = nearness;
@@ -352,8 +323,7 @@ inline bool find_common_sphere(CommonHit& hit, const CommonObjects& common,
     const bool is_whole = hit.lanes == active;
     if (second != nullptr && !(is_whole && is_behind(common, *second, hit.point, rays, active)))
         return false;
-    for (int i = 0; i < candidates.ground_count; ++i) {
-        const CommonGround& ground = common.grounds[candidates.grounds[i]];
+    for (const CommonGround& ground : candidates.grounds) {
         if (ground.surface == own ||
             is_behind<O>(common, ground, hit.point, hit.t, rays, hit.lanes)) {
             // The lanes that miss the sphere have to miss the ground, too.
@@ -368,14 +338,12 @@ inline bool find_common_sphere(CommonHit& hit, const CommonObjects& common,
 }
 
 /// Whether a packet passes all balls but that of the body its rays start on.
-inline bool passes_balls(const CommonObjects& common, const Candidates& candidates,
-                         const RayPacket<float>& rays, std::int32_t own, std::uint32_t active)
+inline bool passes_balls(const CommonLists& candidates, const RayPacket<float>& rays,
+                         std::int32_t own, std::uint32_t active)
 {
-    for (int i = 0; i < candidates.ball_count; ++i) {
-        const CommonBall& ball = common.balls[candidates.balls[i]];
+    for (const CommonBall& ball : candidates.balls)
         if (!is_on(ball.body, own) && lanes_near(ball, rays, active) != 0)
             return false;
-    }
     return true;
 }
 
@@ -385,11 +353,11 @@ inline bool passes_balls(const CommonObjects& common, const Candidates& candidat
 /// for none.
 template <Refine R, Origin O>
 inline bool find_common_hit(CommonHit& hit, const CommonObjects& common,
-                            const Candidates& candidates, const RayPacket<float>& rays,
+                            const CommonLists& candidates, const RayPacket<float>& rays,
                             const float (&eye)[3], std::int32_t own, std::uint32_t active)
 {
     hit.lanes = 0;
-    return passes_balls(common, candidates, rays, own, active) &&
+    return passes_balls(candidates, rays, own, active) &&
            find_common_sphere<R, O>(hit, common, candidates, rays, eye, own, active);
 }
 

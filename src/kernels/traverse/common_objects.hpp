@@ -2,6 +2,7 @@
 
 #include "kernels/geometry/kinds.hpp"
 #include "kernels/precision/lone_sphere.hpp"
+#include "kernels/traverse/borrowed_list.hpp"
 
 // Spheres, anchored spheres and planes with bounds for the origins of a group of rays and with what
 // refining needs of them, for packets that mostly hit one object (common_hit.hpp), and balls around
@@ -41,28 +42,38 @@ struct CommonGround {
     std::int32_t surface;
 };
 
-/// The objects of a scene for the origins of a group, in the order of its lists.
-struct CommonObjects {
-    CommonSphere* spheres = nullptr;
-    CommonGround* grounds = nullptr;  ///< anchored spheres, then planes
-    CommonBall* balls = nullptr;      ///< around quadrics, then polygons
-    int sphere_count = 0;
-    int ground_count = 0;
-    int ball_count = 0;
-    float center[3] = {};  ///< of the origins
-    float near2 = 0;       ///< square of their radius, and a little less
-    bool are_all = false;  ///< bounds hold, and these are all objects of the scene
+/// Objects of a scene, in the order of its lists.
+struct CommonLists {
+    BorrowedList<CommonSphere> spheres;
+    BorrowedList<CommonGround> grounds;  ///< anchored spheres, then planes
+    BorrowedList<CommonBall> balls;      ///< around quadrics, then polygons
 
-    /// Room for those of a scene.
+    /// Room for all of a scene.
     template <class Arena>
     void take(Arena& arena, const abi::GeometryView<float>& scene)
     {
-        spheres = arena.template take<CommonSphere>(static_cast<std::size_t>(scene.spheres.count));
-        grounds = arena.template take<CommonGround>(
-            static_cast<std::size_t>(scene.anchored_spheres.count + scene.planes.count));
-        balls = arena.template take<CommonBall>(
-            static_cast<std::size_t>(scene.quadrics.count + scene.polygons.count));
+        spheres.take(arena, static_cast<std::size_t>(scene.spheres.count));
+        grounds.take(arena,
+                     static_cast<std::size_t>(scene.anchored_spheres.count + scene.planes.count));
+        balls.take(arena, static_cast<std::size_t>(scene.quadrics.count + scene.polygons.count));
     }
+    void clear()
+    {
+        spheres.clear();
+        grounds.clear();
+        balls.clear();
+    }
+    [[nodiscard]] bool empty() const
+    {
+        return spheres.empty() && grounds.empty() && balls.empty();
+    }
+};
+
+/// The objects of a scene for the origins of a group.
+struct CommonObjects : CommonLists {
+    float center[3] = {};  ///< of the origins
+    float near2 = 0;       ///< square of their radius, and a little less
+    bool are_all = false;  ///< bounds hold, and these are all objects of the scene
 };
 
 /// A relative margin for whatever rounds in tests of points, and for places that rays start or end
@@ -330,21 +341,19 @@ inline void fill_common(CommonObjects& common, const abi::SceneView<float>& scen
                      certifiable(origins) && is_moderate(extent_of(origins));
     if (!common.are_all)
         return;
-    common.sphere_count = scene.spheres.count;
-    common.ground_count = 0;
-    common.ball_count = 0;
-    for (int i = 0; i < common.sphere_count; ++i) {
-        fill_sphere(common.spheres[i], scene, i, origins);
+    common.clear();
+    for (int i = 0; i < scene.spheres.count; ++i) {
+        fill_sphere(common.spheres.next(), scene, i, origins);
         common.are_all &= scene.spheres.radius[i] > least_common_radius;
     }
     for_each_other(scene, [&](const auto& record) {
         const RoundedBall ball = ball_of(record);
-        fill_ball(common.balls[common.ball_count++], ball, origins);
+        fill_ball(common.balls.next(), ball, origins);
         common.are_all &= ball.radius < __builtin_inff();
     });
     const auto fill = [&](const auto& list, const auto* shapes) {
         for (int i = 0; i < list.count; ++i) {
-            CommonGround& ground = common.grounds[common.ground_count++];
+            CommonGround& ground = common.grounds.next();
             ground.surface = list.data[i].surface;
             fill_ground(ground, shapes[scene.shapes.index[ground.surface].record], origins, eye);
         }

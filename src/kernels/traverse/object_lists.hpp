@@ -1,7 +1,5 @@
 #pragma once
 
-#include <type_traits>
-
 #include "kernels/geometry/kinds.hpp"
 
 // The objects that rays are tested against, a list of each kind: all of a scene, or those that a
@@ -39,17 +37,16 @@ struct FilteredObjects<Shared, KindList<Kind...>> : ListOfKind<Kind, typename Ki
     }
 };
 
-/// The objects of a scene as parallel rays see them: some of its spheres, and all others.
-template <class Real>
-struct ParallelObjects {
-    const abi::GeometryView<Real>& scene;
-    abi::SphereListView<Real> spheres;
-};
-
-/// The lists of a scene as they are.
-template <class Real>
-struct AllObjects {
-    const abi::GeometryView<Real>* scene = nullptr;
+/// Some objects of a scene, as its lists have them.
+template <class Real, class List = Kinds>
+struct SelectedObjects;
+template <class Real, class... Kind>
+struct SelectedObjects<Real, KindList<Kind...>>
+    : ListOfKind<Kind, typename Kind::template Selected<Real>>... {
+    bool empty() const
+    {
+        return (list_of<Kind>(*this).count + ...) == 0;
+    }
 };
 
 template <class Kind, class Real>
@@ -58,17 +55,9 @@ inline const auto& objects_of(const abi::GeometryView<Real>& scene)
     return Kind::list(scene);
 }
 template <class Kind, class Real>
-inline const auto& objects_of(const AllObjects<Real>& objects)
+inline const auto& objects_of(const SelectedObjects<Real>& objects)
 {
-    return Kind::list(*objects.scene);
-}
-template <class Kind, class Real>
-inline const auto& objects_of(const ParallelObjects<Real>& objects)
-{
-    if constexpr (std::is_same_v<Kind, Sphere>)
-        return objects.spheres;
-    else
-        return Kind::list(objects.scene);
+    return list_of<Kind>(objects);
 }
 template <class Kind, class Real>
 inline const auto& objects_of(const SharedOriginObjects<Real>& objects)
@@ -100,6 +89,17 @@ inline void find_objects(SharedOriginObjects<Real>& objects, const Cone<Real>& c
 {
     for_each_kind<F>([&](auto kind) {
         find_from_point(list_of<decltype(kind)>(objects), cone, kind.list(scene));
+        return true;
+    });
+}
+
+/// Fills `objects` with what rays of `cone` may meet.
+template <abi::Features F, class Real>
+inline void find_objects(SelectedObjects<Real>& objects, const Cone<Real>& cone,
+                         const abi::GeometryView<Real>& scene)
+{
+    for_each_kind<F>([&](auto kind) {
+        find_met(list_of<decltype(kind)>(objects), cone, kind.list(scene));
         return true;
     });
 }
@@ -145,18 +145,14 @@ inline void find_objects(FilteredObjects<false>& objects, const Origins& origins
 template <abi::Features F, class Objects, class Arena, class Real>
 inline void take_objects(Arena& arena, Objects& objects, const abi::GeometryView<Real>& scene)
 {
-    if constexpr (std::is_same_v<Objects, AllObjects<Real>>) {
-        objects.scene = &scene;
-    } else {
-        for_each_kind<abi::Features{.quadrics = true}>([&](auto kind) {
-            list_of<decltype(kind)>(objects).count = 0;
-            return true;
-        });
-        for_each_kind<F>([&](auto kind) {
-            take_room(arena, list_of<decltype(kind)>(objects), kind.list(scene).count);
-            return true;
-        });
-    }
+    for_each_kind<abi::Features{.quadrics = true}>([&](auto kind) {
+        list_of<decltype(kind)>(objects).count = 0;
+        return true;
+    });
+    for_each_kind<F>([&](auto kind) {
+        take_room(arena, list_of<decltype(kind)>(objects), kind.list(scene).count);
+        return true;
+    });
 }
 
 }  // namespace

@@ -13,7 +13,7 @@ namespace {
 template <abi::Features F, class Real>
 using FromPoint = std::conditional_t<F.exact, FilteredObjects<true>, SharedOriginObjects<Real>>;
 template <abi::Features F, class Real>
-using FromAnywhere = std::conditional_t<F.exact, FilteredObjects<false>, AllObjects<Real>>;
+using FromAnywhere = std::conditional_t<F.exact, FilteredObjects<false>, SelectedObjects<Real>>;
 
 /// What may stand between a light and hits: one of the two, by the light's kind.
 template <abi::Features F, class Real>
@@ -23,78 +23,84 @@ struct LightObjects {
 };
 
 /// Where a run of rays starts.
-inline Origins origins_of(const float* const (&org)[3], int count)
+template <class Real>
+inline Box<Real> box_of_run(const Real* const (&org)[3], int count)
 {
-    float low[3];
-    float high[3];
+    Box<Real> box;
     for (int axis = 0; axis < 3; ++axis)
-        extent(org[axis], count, low[axis], high[axis]);
-    return origins_in(low, high);
+        extent(org[axis], count, box.low[axis], box.high[axis]);
+    return box;
 }
 
 /// The sum of a run of values.
-inline float sum_of(const float* values, int count)
+template <class Real>
+inline Real sum_of(const Real* values, int count)
 {
-    vreal<float> total(0.0f);
+    vreal<Real> total(Real(0));
     int i = 0;
-    for (; i + lanes<float> <= count; i += lanes<float>)
+    for (; i + lanes<Real> <= count; i += lanes<Real>)
         total = total + load(values + i);
     if (i < count)
-        total = select(from_bits<float>(first_lanes<float>(count - i)), total + load(values + i),
-                       total);
-    alignas(64) float by_lane[lanes<float>];
+        total =
+            select(from_bits<Real>(first_lanes<Real>(count - i)), total + load(values + i), total);
+    alignas(64) Real by_lane[lanes<Real>];
     store(by_lane, total);
-    float sum = 0;
-    for (const float value : by_lane)
+    Real sum = 0;
+    for (const Real value : by_lane)
         sum += value;
     return sum;
 }
 
 /// Directions further apart than this from their middle bound next to nothing.
-inline constexpr float least_cosine2 = 0.02f;
+template <class Real>
+inline constexpr Real least_cosine2 = Real(0.02);
 /// How much the square of a cosine may be off through rounding, with a margin.
-inline constexpr float cosine2_slack = 2e-6f;
+template <class Real>
+inline constexpr Real cosine2_slack = Real(2e-6);
 
 /// The least square of the cosine between the directions and a unit axis; below `least_cosine2` if
 /// that is so of any, or if it is no number.
-inline float narrowest_cosine2(const float* const (&dir)[3], int count, const float (&axis)[3])
+template <class Real>
+inline Real narrowest_cosine2(const Real* const (&dir)[3], int count, const Real (&axis)[3])
 {
-    const Vec3v<float> middle = broadcast(axis);
-    vreal<float> least(1.0f);
-    for (int i = 0; i < count; i += lanes<float>) {
-        const Vec3v<float> d{load(dir[0] + i), load(dir[1] + i), load(dir[2] + i)};
-        const vreal<float> along = dot(middle, d);
-        const vreal<float> cosine2 = along * abs(along) / dot(d, d);
-        const std::uint32_t live = first_lanes<float>(count - i);
-        if ((live & ~bits(cosine2 >= vreal<float>(least_cosine2))) != 0)
-            return 0.0f;
-        least = select(from_bits<float>(live), min(least, cosine2), least);
+    const Vec3v<Real> middle = broadcast(axis);
+    vreal<Real> least(Real(1));
+    for (int i = 0; i < count; i += lanes<Real>) {
+        const Vec3v<Real> d{load(dir[0] + i), load(dir[1] + i), load(dir[2] + i)};
+        const vreal<Real> along = dot(middle, d);
+        const vreal<Real> cosine2 = along * abs(along) / dot(d, d);
+        const std::uint32_t live = first_lanes<Real>(count - i);
+        if ((live & ~bits(cosine2 >= vreal<Real>(least_cosine2<Real>))) != 0)
+            return Real(0);
+        least = select(from_bits<Real>(live), min(least, cosine2), least);
     }
-    float low;
-    float high;
-    extent_of_lanes<float>(least, least, low, high);
+    Real low;
+    Real high;
+    extent_of_lanes<Real>(least, least, low, high);
     return low;
 }
 
-/// The cone of a run of rays from `origins`.
-inline Cone<float> cone_of(const Origins& origins, const float* const (&dir)[3], int count)
+/// The cone of a run of rays from a ball.
+template <class Real>
+inline Cone<Real> cone_of(const Real (&center)[3], Real radius, const Real* const (&dir)[3],
+                          int count)
 {
-    Cone<float> cone;
+    Cone<Real> cone;
     for (int axis = 0; axis < 3; ++axis) {
-        cone.base[axis] = origins.center[axis];
+        cone.base[axis] = center[axis];
         cone.axis[axis] = sum_of(dir[axis], count);
     }
-    cone.radius = origins.radius;
-    const float length = square_root(cone.axis[0] * cone.axis[0] + cone.axis[1] * cone.axis[1] +
-                                     cone.axis[2] * cone.axis[2]);
-    for (float& component : cone.axis)
+    cone.radius = radius;
+    const Real length = square_root(cone.axis[0] * cone.axis[0] + cone.axis[1] * cone.axis[1] +
+                                    cone.axis[2] * cone.axis[2]);
+    for (Real& component : cone.axis)
         component /= length;
-    const float cosine2 = narrowest_cosine2(dir, count, cone.axis) - cosine2_slack;
-    if (!(cosine2 >= least_cosine2 - cosine2_slack))
+    const Real cosine2 = narrowest_cosine2(dir, count, cone.axis) - cosine2_slack<Real>;
+    if (!(cosine2 >= least_cosine2<Real> - cosine2_slack<Real>))
         return cone;
     cone.cosine = square_root(cosine2);
-    cone.sine = square_root(1.0f - cosine2);
-    cone.reach = __builtin_inff();
+    cone.sine = square_root(Real(1) - cosine2);
+    cone.reach = static_cast<Real>(__builtin_inf());
     cone.bounded = true;
     return cone;
 }
@@ -115,12 +121,28 @@ template <abi::Features F, class Real>
 inline void find_nearby(FromAnywhere<F, Real>& objects, const Real* const (&org)[3],
                         const Real* const (&dir)[3], int count, const abi::SceneView<Real>& scene)
 {
+    const Box<Real> box = box_of_run(org, count);
     if constexpr (F.exact) {
-        const Origins origins = origins_of(org, count);
-        filter_objects<F, false>(objects, origins, cone_of(origins, dir, count), scene);
+        const Origins origins = origins_in(box.low, box.high);
+        filter_objects<F, false>(objects, origins,
+                                 cone_of(origins.center, origins.radius, dir, count), scene);
     } else {
-        objects.scene = &scene;
+        const Ball<Real> ball = ball_around(box);
+        find_objects<F>(objects, cone_of(ball.center, ball.radius, dir, count), scene);
     }
+}
+
+/// Prepares the objects for rays from a box to a light that sends none.
+template <abi::Features F, class Real>
+inline void find_along(FromAnywhere<F, Real>& objects, const Box<Real>& box,
+                       const abi::LightRecord<Real>& light, const abi::SceneView<Real>& casters)
+{
+    const Cone<Real> cone = light.kind == abi::LightKind::point ? cone_to(light.vector, box)
+                                                                : parallel_cone(light.vector, box);
+    if constexpr (F.exact)
+        filter_objects<F, false>(objects, origins_in(box.low, box.high), cone, casters);
+    else
+        find_objects<F>(objects, cone, casters);
 }
 
 }  // namespace
