@@ -4,6 +4,7 @@
 #include <string>
 #include <utility>
 
+#include <packtrace/compare.hpp>
 #include <packtrace/intersect.hpp>
 #include <packtrace/read_scene.hpp>
 #include <packtrace/render.hpp>
@@ -226,6 +227,79 @@ TEST_CASE("Surfaces in one place do not shadow each other, seen from however far
             CHECK(darkened(options) == 0.0);
         }
     }
+}
+
+namespace {
+
+/// Glass that stands on a floor or on other glass, `floor` high.
+Scene standing_glass(const std::string& floor, const std::string& bodies)
+{
+    return parse_scene(R"(
+        illumination = whitted
+        image_size = 80 x 80
+        background = rgb(0.2, 0.3, 0.6)
+        camera { position = (0, 2, 0)  look_at = (0, -0.5, 5)  fov = 40 }
+        light { type = ambient  intensity = 1 }
+        plane { point = (0, 0, 0)  normal = (0, 1, 0)  translate = (0, )" +
+                           floor + R"(, 0)  ambient = 1 }
+    )" + bodies,
+                       "glass", {});
+}
+
+/// A capped quadric upright on the floor.
+std::string glass_on(const std::string& floor, const std::string& what, const std::string& ior)
+{
+    return what + "  capped = yes  rotate = (1, 0, 0, -90)  translate = (0.1, " + floor +
+           ", 5)  transmissive = 0.9  ior = " + ior + " }\n";
+}
+
+}  // namespace
+
+TEST_CASE("Where a body of glass stands on another body the first in the scene is hit",
+          "[coincidences]")
+{
+    for (const std::string floor : {"-1", "-0.7"}) {
+        const std::string cylinder = "cylinder { z_range = (0, 0.6)";
+        const std::string stacked = "cylinder { z_range = (0.6, 1.3)";
+        const std::string scenes[] = {
+            glass_on(floor, cylinder, "1.5"),
+            glass_on(floor, cylinder, "1.5") + glass_on(floor, stacked, "1.3"),
+            glass_on(floor, stacked, "1.3") + glass_on(floor, cylinder, "1.5"),
+            glass_on(floor, "cone { z_range = (-1, 0)  scale = (1, 1, -1)", "1.5"),
+            glass_on(floor, "ellipsoid { z_range = (0, 1)", "1.5")};
+        for (const std::string& bodies : scenes) {
+            const Scene scene = standing_glass(floor, bodies);
+            const Image<float> truth =
+                convert<float>(render<long double>(scene, {.kernel = Kernel::scalar}));
+            for (const RenderOptions& options : packet_ways()) {
+                CAPTURE(bodies, options.isa, options.traversal);
+                const Image<float> image = render<float>(scene, options);
+                CHECK(compare(image, truth, {.threshold = 1e-3}).pixels_off <= 2);
+            }
+        }
+    }
+}
+
+TEST_CASE("A quadric is seen in its own place, though that is no number of single precision",
+          "[coincidences]")
+{
+    // Such numbers are 0.06 apart there.
+    const Scene scene = parse_scene(R"(
+        illumination = whitted
+        image_size = 64 x 64
+        camera { position = (1000000, 0, 0)  look_at = (1000000.03, 0, 0.2)  fov = 20 }
+        light { type = ambient  intensity = 1 }
+        ellipsoid { scale = (0.02, 0.02, 0.018)  translate = (1000000.03, 0, 0.2)  ambient = 1 }
+    )",
+                                    "far", {});
+    const Image<float> truth = convert<float>(render<double>(scene, {.kernel = Kernel::scalar}));
+    for (RenderOptions options : packet_ways())
+        for (const bool force_general : {false, true}) {
+            options.force_general = force_general;
+            CAPTURE(options.isa, options.traversal, force_general);
+            CHECK(compare(render<float>(scene, options), truth, {.threshold = 1e-3}).pixels_off ==
+                  0);
+        }
 }
 
 TEST_CASE("Rays of the smallest directions are not blocked by what they pass", "[coincidences]")

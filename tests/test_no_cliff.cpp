@@ -2,6 +2,7 @@
 // camera and the lights are, nor on what else is in the scene.
 #include <cmath>
 #include <optional>
+#include <string>
 
 #include <packtrace/intersect.hpp>
 #include <packtrace/read_scene.hpp>
@@ -128,9 +129,9 @@ void check_no_cliff(const RenderOptions& options)
 }
 
 /// A floor, what stands on it, and one light `distance` away.
-Scene lit_from(double distance)
+Scene lit_from(double distance, const std::string& more = "")
 {
-    Scene scene = parse_scene(R"(
+    Scene scene = parse_scene(more + R"(
         image_size = 96 x 72
         camera { position = (0, 2.5, -7)  look_at = (0, 0.6, 0) }
         plane { point = (0, 0, 0)  normal = (0, 1, 0) }
@@ -189,6 +190,22 @@ TEST_CASE("shadows stay where they are however far a light is", "[no_cliff]")
                 CHECK((fused->rgb == image.rgb));
             }
     }
+}
+
+TEST_CASE("the same where a quadric has no bounds", "[no_cliff]")
+{
+    const std::string endless[] = {"saddle { translate = (0, 0, -30)  scale = (1, 1, 0.2) }",
+                                   "cylinder { scale = 0.2  rotate = (1, 0, 0, 90)  "
+                                   "translate = (0.5, 0, 1) }"};
+    for (const std::string& quadric : endless)
+        for (const double distance : {1e4, 1e6, 1e8}) {
+            const Scene scene = lit_from(distance, quadric);
+            const Image<double> truth = render_scalar<double>(scene);
+            for (const RenderOptions& options : packet_ways()) {
+                CAPTURE(quadric, distance, options.isa, options.traversal);
+                CHECK(pixels_off(render<float>(scene, options), truth) <= 2);
+            }
+        }
 }
 
 TEST_CASE("a light near one body and far from another keeps the near one's shadow", "[no_cliff]")

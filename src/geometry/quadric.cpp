@@ -306,7 +306,11 @@ abi::QuadricRecord<Real> pack(const LoweredQuadric& quadric)
     packed.clip_low = static_cast<Real>(quadric.clip_low);
     packed.clip_high = static_cast<Real>(quadric.clip_high);
     round_to(packed.bound, quadric.bound);
-    packed.bound_radius = static_cast<Real>(quadric.bound_radius);
+    // Rounding moves the centre.
+    const Vec3 size = glm::abs(quadric.bound);
+    const double moved = 4.0 * static_cast<double>(std::numeric_limits<Real>::epsilon()) *
+                         (size.x + size.y + size.z + quadric.bound_radius);
+    packed.bound_radius = static_cast<Real>(quadric.bound_radius + moved);
     set_sizes(packed, quadric);
     packed.clipped = quadric.clipped() ? 1 : 0;
     packed.capped = quadric.capped ? 1 : 0;

@@ -6,6 +6,7 @@
 
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
+#include <glm/gtc/matrix_access.hpp>
 
 namespace packtrace {
 namespace {
@@ -36,7 +37,7 @@ struct Bodies {
     }
 };
 
-/// How far a point is from what has no bounds; nothing tells of quadrics.
+/// How far a point is from what has no bounds, at least.
 double distance_to(const LoweredPlane& plane, const Vec3& point)
 {
     return std::abs(glm::dot(plane.normal, point - plane.point));
@@ -45,10 +46,37 @@ double distance_to(const LoweredAnchoredSphere& sphere, const Vec3& point)
 {
     return std::abs(glm::length(point - sphere.center) - sphere.radius);
 }
+/// On a way δ a quadric's F changes by |∇F| |δ| + bend |δ|² at most, where bend is the sum of its
+/// squares' sizes: the way to F = 0 is no shorter than the root of that.
+double distance_to_side(const LoweredQuadric& quadric, const Vec3& point)
+{
+    const Vec3 p = quadric.inverse * (point - quadric.center);
+    const Vec3 half_slope = quadric.square * p + Vec3(0.0, 0.0, quadric.linear);
+    const double value =
+        std::abs(glm::dot(half_slope + Vec3(0.0, 0.0, quadric.linear), p) + quadric.constant);
+    const double slope = 2.0 * glm::length(half_slope * quadric.inverse);
+    double bend = 0.0;
+    for (int axis = 0; axis < 3; ++axis)
+        bend += std::abs(quadric.square[axis]) *
+                glm::dot(glm::row(quadric.inverse, axis), glm::row(quadric.inverse, axis));
+    const double steepest = slope + std::sqrt(slope * slope + 4.0 * bend * value);
+    return steepest > 0.0 ? 2.0 * value / steepest : 0.0;
+}
+double distance_to(const LoweredQuadric& quadric, const Vec3& point)
+{
+    double distance = distance_to_side(quadric, point);
+    if (quadric.capped) {
+        const double height = glm::dot(quadric.clip, point - quadric.clip_base);
+        const double size = glm::length(quadric.clip);
+        for (const double cap : {quadric.clip_low, quadric.clip_high})
+            distance = std::min(distance, std::abs(height - cap) / size);
+    }
+    return distance;
+}
 template <class Surface>
 double distance_to(const Surface&, const Vec3&)
 {
-    return 0.0;
+    return infinite;
 }
 
 }  // namespace

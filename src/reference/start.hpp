@@ -59,6 +59,33 @@ template <class Real, class Body>
                                        : roots_of(body, start.org, D);
 }
 
+/// Whether a ray meets its own body again before `other`, another one's hit. Near each other that
+/// is looked for from the point itself, too, as the own body is: in one place the first object is
+/// met, whatever rounding makes of either t.
+template <class Real>
+[[nodiscard]] bool meets_own_first(const Bodies<Real>& bodies, const Start<Real>& start,
+                                   const Vec3<Real>& D, const Hit<Real>& own,
+                                   const Hit<Real>& other)
+{
+    const Real near = Real(0x1p-12) * own.t;
+    if (!(std::abs(other.t - own.t) <= near))
+        return own.t < other.t;
+    constexpr Real one_place = 256 * std::numeric_limits<Real>::epsilon();
+    Real apart = other.t - own.t;
+    visit_bodies(bodies, [&](const auto& body) {
+        if (body.object != other.object)
+            return true;
+        Real nearest = 4 * near;
+        for (const auto& root : roots_of(body, start.on, D))
+            if (root.part == other.part && std::abs(root.t - own.t) < nearest) {
+                apart = root.t - own.t;
+                nearest = std::abs(apart);
+            }
+        return false;
+    });
+    return std::abs(apart) <= one_place * own.t ? own.object < other.object : apart > 0;
+}
+
 /// The nearest meeting from `start` on, as closest_intersection has it.
 template <class Real>
 [[nodiscard]] Hit<Real> closest_from(const Bodies<Real>& bodies, const Start<Real>& start,
@@ -66,15 +93,19 @@ template <class Real>
 {
     if (start.object < 0)
         return closest_intersection(bodies, start.org, D, start.t_min, t_max);
-    Hit<Real> closest;
+    Hit<Real> own;
+    Hit<Real> other;
     visit_bodies(bodies, [&](const auto& body) {
+        Hit<Real>& closest = body.object == start.object ? own : other;
         for (const auto& root : roots_from(body, start, D))
             if (root.t >= start.t_min && root.t <= t_max &&
                 (root.t < closest.t || (root.t == closest.t && body.object < closest.object)))
                 closest = {root.t, body.object, root.part, root.leaving};
         return true;
     });
-    return closest;
+    if (own.object < 0 || other.object < 0)
+        return own.object < 0 ? other : own;
+    return meets_own_first(bodies, start, D, own, other) ? own : other;
 }
 
 /// The point of a hit: the own body was solved from the start itself.

@@ -55,6 +55,24 @@ inline void keep_closer(HitPacket<Real>& hit, batch_bool<Real> valid, batch<Real
     hit.surface = select(take, number, hit.surface);
 }
 
+/// A packet of vectors, to be read lane by lane.
+template <class Real>
+struct LaneVectors {
+    alignas(64) Real axis[3][lanes<Real>];
+
+    explicit LaneVectors(const Vec3v<Real>& v)
+    {
+        store(axis[0], v.x);
+        store(axis[1], v.y);
+        store(axis[2], v.z);
+    }
+    void copy(int lane, Real (&to)[3]) const
+    {
+        for (int i = 0; i < 3; ++i)
+            to[i] = axis[i][lane];
+    }
+};
+
 // A packet of floats as two of doubles.
 
 inline RayPacket<double> with_square(const Vec3v<double>& org, const Vec3v<double>& dir,

@@ -40,9 +40,21 @@ inline StartPacket<Real> no_start()
     return {{zero, zero, zero}, no_surface<Real>(), no_second_hit<Real>()};
 }
 
-/// What a search that passes over the own surface has found before it begins.
+/// How far the place where rays start may move what lies where they meet their own body again: by
+/// the lift off their surface, which other surfaces are met from (origin_offset), and rounding.
+inline vreal<float> met_again_error(const StartPacket<float>& start, const vreal<float>& dir2)
+{
+    const Vec3v<float>& at = start.point;
+    const vreal<float> size = abs(at.x) + abs(at.y) + abs(at.z);
+    return madd(vreal<float>(0x1p-21f) * size, rough_inverse_sqrt(dir2),
+                vreal<float>(0x1p-20f) * start.second.t);
+}
+
+/// What a search that passes over the own surface has found before it begins. What may lie in the
+/// same place leaves rays unsure: retracing tells which is hit.
 template <class Real>
-inline HitPacket<Real> start_of_search(const StartPacket<Real>& start, const vreal<Real>& t_max)
+inline HitPacket<Real> start_of_search(const StartPacket<Real>& start, const vreal<Real>& dir2,
+                                       const vreal<Real>& t_max)
 {
     const vreal<Real> never(static_cast<Real>(__builtin_inf()));
     const vreal<Real>& second = start.second.t;
@@ -52,10 +64,14 @@ inline HitPacket<Real> start_of_search(const StartPacket<Real>& start, const vre
     hit.other = never;
     hit.surface = select(again, start.second.surface, no_surface<Real>());
     if constexpr (sizeof(Real) == sizeof(float)) {
-        hit.t = select(again, rounded_high(second), t_max);
-        hit.t_low = select(again, rounded_low(second), t_max);
+        if (none(again))
+            return hit;
+        const vreal<float> error = met_again_error(start, dir2);
+        hit.t = select(again, second + error, t_max);
+        hit.t_low = select(again, second - error, t_max);
     } else {
-        hit.t = select(again, second, t_max);
+        // What is in the same place is looked for a little further on, too (met_again.hpp).
+        hit.t = select(again, min(second * vreal<Real>(1.0 + 0x1p-40), t_max), t_max);
     }
     return hit;
 }

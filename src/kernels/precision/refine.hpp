@@ -154,6 +154,27 @@ inline std::uint32_t refine_by_newton(RefinedHits<float>& hits, const abi::Shape
     hits.normal = select(same, narrow(a.normal, b.normal), hits.normal);
 }
 
+/// |x| + |y| + |z|.
+inline vreal<double> size_of(const Vec3v<double>& v)
+{
+    return abs(v.x) + abs(v.y) + abs(v.z);
+}
+
+/// Points of one surface that were found along rays, moved onto it: the rounding of t leaves them
+/// further off than what lies in the same place is told apart by. No further than `most`, which is
+/// what rounding does, so that no apex throws them away.
+inline Vec3v<double> on_surface(const abi::ShapesView& shapes, const abi::SurfaceIndex& index,
+                                const vreal<double>& most, const Vec3v<double>& point,
+                                const Vec3v<double>& normal)
+{
+    if (index.kind == abi::SurfaceKind::none)
+        return point;
+    const vreal<double> height = with_shape(shapes, index, [&](const auto& shape, unsigned piece) {
+        return height_over(shape, piece, point);
+    });
+    return select(abs(height) <= most, point - scale<double>(height, normal), point);
+}
+
 /// Hits on the bodies that rays start on, whose t is known.
 [[gnu::noinline]] inline void refine_second(RefinedHits<float>& hits, const abi::ShapesView& shapes,
                                             const StartPacket<float>& start,
@@ -163,18 +184,26 @@ inline std::uint32_t refine_by_newton(RefinedHits<float>& hits, const abi::Shape
                           const vreal<double>& t) { return madd<double>(t, dir, from); };
     const Vec3v<double> low_dir = widen_low(rays.dir);
     const Vec3v<double> high_dir = widen_high(rays.dir);
-    const Vec3v<double> low = half(widen_low(start.point), low_dir, widen_low(start.second.t));
-    const Vec3v<double> high = half(widen_high(start.point), high_dir, widen_high(start.second.t));
-    const vmask<float> lanes_again = from_bits<float>(again);
-    hits.t = select(lanes_again, start.second.t, hits.t);
-    hits.point = select(lanes_again, narrow(low, high), hits.point);
+    const vreal<double> low_t = widen_low(start.second.t);
+    const vreal<double> high_t = widen_high(start.second.t);
+    const Vec3v<double> low = half(widen_low(start.point), low_dir, low_t);
+    const Vec3v<double> high = half(widen_high(start.point), high_dir, high_t);
+    // What t was rounded by, and as much again.
+    const vreal<double> share(0x1p-23);
+    const vreal<double> low_most = share * low_t * size_of(low_dir);
+    const vreal<double> high_most = share * high_t * size_of(high_dir);
+    hits.t = select(from_bits<float>(again), start.second.t, hits.t);
     for_each_distinct<float>(
         start.second.surface, again, [&](std::int32_t number, vmask<float> same) {
             const abi::SurfaceIndex& index = shapes.index[number];
-            const Vec3v<float> normal =
-                narrow(surface_normal<double>(shapes, index, low, low_dir),
-                       surface_normal<double>(shapes, index, high, high_dir));
-            hits.normal = select(from_bits<float>(bits(same) & again), normal, hits.normal);
+            const vmask<float> lanes_of = from_bits<float>(bits(same) & again);
+            const Vec3v<double> low_normal = surface_normal<double>(shapes, index, low, low_dir);
+            const Vec3v<double> high_normal = surface_normal<double>(shapes, index, high, high_dir);
+            hits.normal = select(lanes_of, narrow(low_normal, high_normal), hits.normal);
+            hits.point = select(lanes_of,
+                                narrow(on_surface(shapes, index, low_most, low, low_normal),
+                                       on_surface(shapes, index, high_most, high, high_normal)),
+                                hits.point);
         });
 }
 
@@ -225,26 +254,6 @@ inline void refine_others(RefinedHits<float>& hits, const abi::ShapesView& shape
     });
 }
 
-/// Points of one surface that packets of doubles found along their rays, moved onto it: rounding a
-/// long way leaves them further off than what lies in the same place is told apart by. No further
-/// than rounding brings them, so that no apex throws them away.
-inline Vec3v<double> on_surface(const abi::ShapesView& shapes, const abi::SurfaceIndex& index,
-                                const RayPacket<double>& rays, const vreal<double>& t,
-                                const Vec3v<double>& point, const Vec3v<double>& normal)
-{
-    if (index.kind == abi::SurfaceKind::none)
-        return point;
-    const vreal<double> height = with_shape(shapes, index, [&](const auto& shape, unsigned piece) {
-        return height_over(shape, piece, point);
-    });
-    const Vec3v<double> o = rays.org;
-    const Vec3v<double> d = rays.dir;
-    const vreal<double> way =
-        madd(abs(t), abs(d.x) + abs(d.y) + abs(d.z), abs(o.x) + abs(o.y) + abs(o.z));
-    const auto by_rounding = abs(height) <= vreal<double>(0x1p-46) * way;
-    return select(by_rounding, point - scale<double>(height, normal), point);
-}
-
 /// The places of the hits of `active`. Those on a ray's own body are where its start says.
 template <abi::Features F, Refine R, class Real>
 inline RefinedHits<Real> refined(const abi::ShapesView& shapes, const RayPacket<Real>& rays,
@@ -273,10 +282,14 @@ inline RefinedHits<Real> refined(const abi::ShapesView& shapes, const RayPacket<
                     const Vec3v<Real> normal =
                         surface_normal<Real>(shapes, index, hits.point, rays.dir);
                     hits.normal = select(same, normal, hits.normal);
-                    if constexpr (sizeof(Real) == sizeof(double))
-                        hits.point = select(
-                            same, on_surface(shapes, index, rays, hits.t, hits.point, normal),
-                            hits.point);
+                    if constexpr (sizeof(Real) == sizeof(double)) {
+                        const vreal<double> way =
+                            madd(abs(hits.t), size_of(rays.dir), size_of(rays.org));
+                        hits.point = select(same,
+                                            on_surface(shapes, index, vreal<double>(0x1p-46) * way,
+                                                       hits.point, normal),
+                                            hits.point);
+                    }
                 });
         }
     }

@@ -16,24 +16,6 @@ struct PathPacket {
     vint<Real> id;  ///< abi::PathId; only kernels with a probe keep it
 };
 
-/// A packet of vectors, to be read lane by lane.
-template <class Real>
-struct LaneVectors {
-    alignas(64) Real axis[3][lanes<Real>];
-
-    explicit LaneVectors(const Vec3v<Real>& v)
-    {
-        store(axis[0], v.x);
-        store(axis[1], v.y);
-        store(axis[2], v.z);
-    }
-    void copy(int lane, Real (&to)[3]) const
-    {
-        for (int i = 0; i < 3; ++i)
-            to[i] = axis[i][lane];
-    }
-};
-
 template <class Real>
 struct LaneIntegers {
     alignas(64) lane_int<Real> value[lanes<Real>];

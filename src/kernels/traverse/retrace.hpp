@@ -2,7 +2,7 @@
 
 #include <limits>
 
-#include "kernels/precision/leave_surface.hpp"
+#include "kernels/precision/met_again.hpp"
 #include "kernels/traverse/bundle.hpp"
 
 // Rays in single precision that are unsure of their hit, traced again in double, together however
@@ -22,6 +22,7 @@ inline constexpr abi::Features wide_features{.quadrics = F.quadrics};
 /// Rays of a bundle of floats as a bundle of doubles.
 struct WideBundle {
     RayBundle<double> rays;
+    MetAgain again[bundle_rays];
     std::uint8_t from[bundle_rays];  ///< their numbers in the bundle of floats
     int count = 0;
 
@@ -31,9 +32,9 @@ struct WideBundle {
             cell = 0;
     }
 
-    /// `t` and `surface` are what the search begins with.
-    void add(int ray, const float (&org)[3], const float (&dir)[3], float t_min, float t,
-             std::int32_t surface, std::int32_t own)
+    /// Other surfaces are looked for up to a little beyond where the own body is met again.
+    void add(int ray, const float (&org)[3], const float (&dir)[3], float t_min, float t_max,
+             const MetAgain& met, std::int32_t own)
     {
         for (int axis = 0; axis < 3; ++axis) {
             rays.org[axis][count] = org[axis];
@@ -42,8 +43,13 @@ struct WideBundle {
         rays.t_min[count] = t_min;
         // What single precision has no number for is no hit.
         constexpr float largest = std::numeric_limits<float>::max();
-        rays.t[count] = t < largest ? t : largest;
-        rays.surface[count] = surface;
+        const double t_end = t_max < largest ? t_max : largest;
+        const double little_beyond = met.t * (1.0 + nearly_met<float>);
+        rays.t[count] = little_beyond < t_end ? little_beyond : t_end;
+        rays.surface[count] = -1;
+        again[count] = met;
+        if (!(met.t < t_max))
+            again[count].t = __builtin_inf();
         rays.own[count] = own;
         rays.t_low[count] = rays.other[count] = __builtin_inf();
         rays.active[count / cell_rays] |= static_cast<std::uint16_t>(1u << count % cell_rays);
@@ -56,7 +62,7 @@ inline void add_lanes(WideBundle& bundle, int first, const RayPacket<float>& ray
                       const StartPacket<float>& start, const vreal<float>& t_max,
                       std::uint32_t unsure)
 {
-    alignas(64) float value[9][lanes<float>];
+    alignas(64) float value[12][lanes<float>];
     alignas(64) std::int32_t own[lanes<float>];
     alignas(64) std::int32_t met_again[lanes<float>];
     store(value[0], rays.org.x);
@@ -68,15 +74,18 @@ inline void add_lanes(WideBundle& bundle, int first, const RayPacket<float>& ray
     store(value[6], rays.t_min);
     store(value[7], t_max);
     store(value[8], start.second.t);
+    store(value[9], start.point.x);
+    store(value[10], start.point.y);
+    store(value[11], start.point.z);
     store(own, start.surface);
     store(met_again, start.second.surface);
     for (; unsure != 0; unsure &= unsure - 1) {
         const int lane = __builtin_ctz(unsure);
-        const bool again = value[8][lane] < value[7][lane];
+        const MetAgain again{
+            {value[9][lane], value[10][lane], value[11][lane]}, value[8][lane], met_again[lane]};
         bundle.add(first + lane, {value[0][lane], value[1][lane], value[2][lane]},
-                   {value[3][lane], value[4][lane], value[5][lane]}, value[6][lane],
-                   again ? value[8][lane] : value[7][lane], again ? met_again[lane] : -1,
-                   own[lane]);
+                   {value[3][lane], value[4][lane], value[5][lane]}, value[6][lane], value[7][lane],
+                   again, own[lane]);
     }
 }
 

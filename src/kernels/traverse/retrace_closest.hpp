@@ -1,5 +1,6 @@
 #pragma once
 
+#include "kernels/precision/refine.hpp"
 #include "kernels/traverse/bvh_closest.hpp"
 #include "kernels/traverse/retrace.hpp"
 
@@ -15,9 +16,27 @@ inline float found_at(double t)
     return madd(roundoffs(2.0f), rounded < 0 ? -rounded : rounded, rounded);
 }
 
-/// Finds their closest hits in double, and calls `take(ray, t, surface)` for each.
+/// Finds the closest hits of rays in double.
+template <abi::Features F>
+inline void find_closest(const abi::SceneView<float>& scene, const WideBundle& bundle,
+                         RayBundle<double>& rays)
+{
+    closest_of_bundle<wide_features<F>>(*scene.wide, *scene.wide, rays);
+    for (int ray = 0; ray < bundle.count; ++ray) {
+        const MetAgain& again = bundle.again[ray];
+        if (again.t < __builtin_inf() &&
+            meets_own_first(scene.shapes, again,
+                            {rays.dir[0][ray], rays.dir[1][ray], rays.dir[2][ray]}, rays.t[ray],
+                            rays.surface[ray])) {
+            rays.t[ray] = again.t;
+            rays.surface[ray] = again.surface;
+        }
+    }
+}
+
+/// The same of a bundle; calls `take(ray, t, surface)` for each.
 template <abi::Features F, class Take>
-inline void find_wide(const abi::GeometryView<double>& wide, WideBundle& bundle, const Take& take)
+inline void find_wide(const abi::SceneView<float>& scene, WideBundle& bundle, const Take& take)
 {
     const RetraceScope retracing;
     end_bundle(bundle.rays, bundle.count);
@@ -25,11 +44,11 @@ inline void find_wide(const abi::GeometryView<double>& wide, WideBundle& bundle,
         if (asks_for_undecided())
             count_undecided_of(bundle.rays, bundle,
                                [&](RayBundle<double>& rays, std::uint64_t* surface) {
-                                   closest_of_bundle<wide_features<F>>(wide, wide, rays);
+                                   find_closest<F>(scene, bundle, rays);
                                    for (int i = 0; i < bundle.count; ++i)
                                        surface[i] = static_cast<std::uint64_t>(rays.surface[i]);
                                });
-    closest_of_bundle<wide_features<F>>(wide, wide, bundle.rays);
+    find_closest<F>(scene, bundle, bundle.rays);
     for (int i = 0; i < bundle.count; ++i)
         take(bundle.from[i], found_at(bundle.rays.t[i]),
              static_cast<std::int32_t>(bundle.rays.surface[i]));
@@ -51,12 +70,49 @@ template <abi::Features F>
     });
     WideBundle bundle;
     add_lanes(bundle, 0, rays, start, t_max, unsure);
-    find_wide<F>(*scene.wide, bundle, [&](int lane, float closest, std::int32_t number) {
+    find_wide<F>(scene, bundle, [&](int lane, float closest, std::int32_t number) {
         t[lane] = closest;
         surface[lane] = number;
     });
     hit.t = load(t);
     hit.surface = load(surface);
+}
+
+/// Puts right what packets of doubles hit whose rays meet their own body again near it.
+inline void settle_met_again(const abi::ShapesView& shapes, const RayPacket<double>& rays,
+                             HitPacket<double>& hit, const StartPacket<double>& start,
+                             const vreal<double>& t_max, std::uint32_t active)
+{
+    const std::uint32_t again = bits(start.second.t < t_max) & active;
+    if (again == 0)
+        return;
+    const std::uint32_t own = again & bits(int_equal(hit.surface, start.second.surface));
+    const vreal<double> near = vreal<double>(nearly_met<double>) * start.second.t;
+    std::uint32_t open = again & ~own & bits(abs(hit.t - start.second.t) <= near);
+    std::uint32_t by_own = own;
+    if (open != 0) {
+        const LaneVectors<double> from(start.point);
+        const LaneVectors<double> dir(rays.dir);
+        alignas(64) double t[2][lanes<double>];
+        alignas(64) std::int64_t surface[2][lanes<double>];
+        store(t[0], hit.t);
+        store(t[1], start.second.t);
+        store(surface[0], hit.surface);
+        store(surface[1], start.second.surface);
+        for (; open != 0; open &= open - 1) {
+            const int lane = __builtin_ctz(open);
+            const MetAgain met{{from.axis[0][lane], from.axis[1][lane], from.axis[2][lane]},
+                               t[1][lane],
+                               static_cast<std::int32_t>(surface[1][lane])};
+            if (meets_own_first(shapes, met,
+                                {dir.axis[0][lane], dir.axis[1][lane], dir.axis[2][lane]},
+                                t[0][lane], surface[0][lane]))
+                by_own |= 1u << lane;
+        }
+    }
+    const vmask<double> keeps = from_bits<double>(by_own);
+    hit.t = select(keeps, start.second.t, hit.t);
+    hit.surface = select(keeps, start.second.surface, hit.surface);
 }
 
 /// Puts right what a packet hit where it is unsure; counts those lanes.
@@ -70,9 +126,10 @@ inline std::uint32_t settle_packet(const abi::SceneView<Real>& scene, const RayP
         if (unsure != 0)
             retrace_packet<F>(scene, rays, hit, start, t_max, unsure);
         return unsure;
-    } else {
-        return 0;
+    } else if constexpr (sizeof(Real) == sizeof(double)) {
+        settle_met_again(scene.shapes, rays, hit, start, t_max, active);
     }
+    return 0;
 }
 
 /// The closest hits of the rays of `unsure` of a bundle, by double; returns their number.
@@ -93,7 +150,7 @@ template <abi::Features F, class StartOf, class EndOf>
         count_unsure_ray(again.from[i], bundle.surface[again.from[i]], [&](std::int32_t number) {
             return scene.materials.of_surface[number].object;
         });
-    find_wide<F>(*scene.wide, again, [&](int ray, float t, std::int32_t surface) {
+    find_wide<F>(scene, again, [&](int ray, float t, std::int32_t surface) {
         bundle.t[ray] = t;
         bundle.surface[ray] = surface;
     });
@@ -121,9 +178,20 @@ inline int settle_bundle(const abi::SceneView<Real>& scene, RayBundle<Real>& bun
             any_unsure |= lanes_of;
         }
         return any_unsure == 0 ? 0 : retrace_bundle<F>(scene, bundle, unsure, start_of, t_max_of);
-    } else {
-        return 0;
+    } else if constexpr (sizeof(Real) == sizeof(double)) {
+        for (int first = 0; first < bundle_rays; first += lanes<Real>) {
+            const std::uint32_t active = active_lanes(bundle, first);
+            const StartPacket<Real> start = active != 0 ? start_of(first) : no_start<Real>();
+            if ((bits(start.second.t < t_max_of(first)) & active) == 0)
+                continue;
+            HitPacket<Real> hit = load_hits(bundle, first);
+            settle_met_again(scene.shapes, load_rays(bundle, first), hit, start, t_max_of(first),
+                             active);
+            store(bundle.t + first, hit.t);
+            store(bundle.surface + first, hit.surface);
+        }
     }
+    return 0;
 }
 
 }  // namespace
