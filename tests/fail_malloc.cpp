@@ -1,11 +1,19 @@
 // Preloaded into a program, it lets one allocation fail: the one whose number, counted from the
 // start of main(), the variable FAIL_MALLOC_AT names. With FAIL_MALLOC_AT=count none fails, and the
-// end of standard error says how many there were. Programs that are linked with it choose for
-// themselves, and count what they have not freed (fail_malloc.hpp).
+// end of standard error says how many there were. With FAIL_MALLOC_AT=FIRST..LAST..STEP, main()
+// runs once for each of these numbers, in a process of its own, which takes half as long as to
+// start the program as often: in the folder NUMBER, with NUMBER.err as standard error; of each that
+// ends, a line `NUMBER STATUS` says with which exit code, or 128 and the signal. Programs that are
+// linked with it choose for themselves, and count what they have not freed (fail_malloc.hpp).
 #include "fail_malloc.hpp"
 
 #include <dlfcn.h>
+#include <fcntl.h>
+#include <sys/stat.h>
+#include <sys/wait.h>
+#include <unistd.h>
 
+#include <array>
 #include <atomic>
 #include <cerrno>
 #include <cstddef>
@@ -51,12 +59,50 @@ void print_count()
     std::fprintf(stderr, "%ld\n", enough - left.load());
 }
 
+/// The copy of this process in which that allocation fails.
+void begin_run(long number)
+{
+    std::array<char, 32> name{};
+    std::snprintf(name.data(), name.size(), "%ld.err", number);
+    const int errors = open(name.data(), O_WRONLY | O_CREAT | O_TRUNC, 0600);
+    std::snprintf(name.data(), name.size(), "%ld", number);
+    if (errors < 0 || dup2(errors, STDERR_FILENO) < 0 || close(errors) != 0 ||
+        mkdir(name.data(), 0700) != 0 || chdir(name.data()) != 0)
+        _exit(125);
+    left = number;
+}
+
+/// Returns whether this is the copy of the process for one of the numbers, and not the one that is
+/// done with all.
+bool is_run(long first, long last, long step)
+{
+    for (long number = first; number <= last; number += step) {
+        std::fflush(stdout);
+        const pid_t process = fork();
+        if (process == 0) {
+            begin_run(number);
+            return true;
+        }
+        int status = 0;
+        if (process < 0 || waitpid(process, &status, 0) != process)
+            _exit(125);
+        std::printf("%ld %d\n", number,
+                    WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status));
+    }
+    return false;
+}
+
 int counted_main(int count, char** words, char** environment)
 {
     const char* const at = std::getenv("FAIL_MALLOC_AT");
     const bool counts = at != nullptr && std::strcmp(at, "count") == 0;
     if (counts)
         std::atexit(print_count);
+    long first = 0;
+    long last = 0;
+    long step = 0;
+    if (at != nullptr && std::sscanf(at, "%ld..%ld..%ld", &first, &last, &step) == 3)
+        return is_run(first, last, step) ? real_main(count, words, environment) : 0;
     left = counts ? enough : at == nullptr ? 0 : std::atol(at);
     return real_main(count, words, environment);
 }

@@ -21,12 +21,21 @@ if("sse42" IN_LIST PACKTRACE_KERNELS)
     foreach(isa IN LISTS PACKTRACE_KERNELS)
         set(objects $<TARGET_OBJECTS:packtrace_kernels_${isa}>)
         packtrace_script_test(instructions.${isa} fast check_instructions.sh ${CMAKE_OBJDUMP}
-                              ${isa} ${objects})
+                              ${CMAKE_OBJCOPY} ${isa} ${objects})
     endforeach()
-    packtrace_script_test(instructions.host fast check_instructions.sh ${CMAKE_OBJDUMP} host
-                          $<FILTER:$<TARGET_OBJECTS:packtrace_objects>,EXCLUDE,\\.[gp]ch$>)
-    packtrace_script_test(instructions.library fast check_instructions.sh ${CMAKE_OBJDUMP} library
-                          $<TARGET_FILE:packtrace>)
+    # Those of the library, in the order in which it holds them.
+    set(host_objects $<FILTER:$<TARGET_OBJECTS:packtrace_objects>,EXCLUDE,\\.[gp]ch$>)
+    if(TARGET packtrace_stamp)
+        list(APPEND host_objects $<TARGET_OBJECTS:packtrace_stamp>)
+    endif()
+    set(library_objects ${host_objects})
+    foreach(isa IN LISTS PACKTRACE_KERNELS)
+        list(APPEND library_objects $<TARGET_OBJECTS:packtrace_kernels_${isa}>)
+    endforeach()
+    packtrace_script_test(instructions.host fast check_instructions.sh ${CMAKE_OBJDUMP}
+                          ${CMAKE_OBJCOPY} host ${host_objects})
+    packtrace_script_test(instructions.library fast check_library.sh ${CMAKE_AR}
+                          $<TARGET_FILE:packtrace> ${library_objects})
 endif()
 
 if("sse42" IN_LIST PACKTRACE_KERNELS AND "avx2" IN_LIST PACKTRACE_KERNELS)

@@ -1,5 +1,6 @@
 // packtrace-mpi: the bytes of one process, whatever the number of ranks; ranks that die.
 #include <algorithm>
+#include <array>
 #include <cstdlib>
 #include <filesystem>
 #include <map>
@@ -388,6 +389,8 @@ TEST_CASE("a picture has the bytes of one process whatever the ranks", "[mpi]")
 TEST_CASE("every scene has the bytes of one process in either precision", "[mpi][slow]")
 {
     // Bands are written by one function for each format, whatever the scene: each scene has one.
+    // And who renders a band does not depend on the precision: each has half of the numbers of
+    // ranks.
     const std::string endings[] = {".png", ".pfm", ".hdr"};
     std::set<std::filesystem::path> scenes;
     for (const auto& entry : std::filesystem::directory_iterator(PACKTRACE_SOURCE_DIR "/scenes"))
@@ -412,7 +415,7 @@ TEST_CASE("every scene has the bytes of one process in either precision", "[mpi]
                         folder / ("w" + ending)};
             REQUIRE(run_packtrace(words).exit_code == 0);
             words.back() = folder / ("m" + ending);
-            for (const int ranks : ranks_tested) {
+            for (const int ranks : precision == "double" ? std::array{1, 3} : std::array{2, 5}) {
                 CAPTURE(scene.string(), ending, precision, ranks);
                 CHECK(run_ranks(ranks, words).exit_code == 0);
                 CHECK((read_text(folder / ("m" + ending)) == read_text(folder / ("w" + ending))));

@@ -26,7 +26,7 @@ public:
     [[nodiscard]] Words words(const std::string& picture, const Words& more = {"--resume"},
                               const std::string& scene = "one.scene") const
     {
-        Words all{"render", (folder / scene).string(),  "--size", "1000x8300",
+        Words all{"render", (folder / scene).string(),  "--size", "500x8300",
                   "-o",     (folder / picture).string()};
         all.insert(all.end(), more.begin(), more.end());
         return all;
@@ -39,9 +39,10 @@ public:
     }
 
     /// Kills a run with --resume once it has finished `bands`, and makes sure that it was not done.
+    /// One thread leaves it time enough.
     void interrupt(const std::string& picture, long bands, int signal = SIGKILL) const
     {
-        Words all = words(picture);
+        Words all = words(picture, {"--resume", "--threads", "1"});
         all.insert(all.begin(), PACKTRACE_CLI);
         const auto part = folder / (picture + ".part");
         // The picture's file comes after the head of its journal.
@@ -249,10 +250,10 @@ TEST_CASE("pictures killed at random moments are resumed to the same bytes", "[r
     REQUIRE(studio.render("whole.hdr", {"-q"}).exit_code == 0);
     std::uint32_t random = 1;
     for (int i = 0; i < 50; ++i) {
-        Words all = studio.words("a.hdr");
+        Words all = studio.words("a.hdr", {"--resume", "--threads", "1"});
         all.insert(all.begin(), PACKTRACE_CLI);
         random = random * 1664525u + 1013904223u;
-        const auto end = std::chrono::steady_clock::now() + std::chrono::milliseconds(random >> 22);
+        const auto end = std::chrono::steady_clock::now() + std::chrono::milliseconds(random >> 23);
         (void)kill_program(all, i % 2 == 0 ? SIGKILL : SIGTERM,
                            [&] { return std::chrono::steady_clock::now() > end; });
         if (i % 4 != 3)

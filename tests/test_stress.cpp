@@ -404,9 +404,9 @@ TEST_CASE("known findings come first in their families", "[stress]")
 
 TEST_CASE("the square root of 113 bits is right to the last", "[stress]")
 {
-    for (const double x : {4.0, 2.0, 1e-300, 3e300, 0.1}) {
+    for (const double x : {4.0, 2.0, 1e-300, 3e300, 4e-308, 0.1}) {
         const lab::Wide root = lab::square_root(lab::Wide(x));
-        const lab::Wide off = abs(root * root - x) / x;
+        const lab::Wide off = magnitude(root * root - x) / x;
         CHECK(static_cast<double>(off) < 0x1p-110);
     }
     CHECK(lab::square_root(lab::Wide(9)) == 3);

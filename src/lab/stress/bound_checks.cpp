@@ -66,7 +66,7 @@ private:
     static bool holds(const HitBounds& bounds, const TrueHit& hit)
     {
         // The truth is rounded, too.
-        const Wide slack = Wide(hit.spread) * 0x1p-104 + abs(hit.t) * 0x1p-104;
+        const Wide slack = Wide(hit.spread) * 0x1p-104 + magnitude(hit.t) * 0x1p-104;
         return bounds.low <= hit.t + slack && bounds.high >= hit.t - slack;
     }
 

@@ -11,7 +11,6 @@
 namespace packtrace::lab {
 namespace {
 
-using boost::multiprecision::abs;
 using reference::dot;
 
 /// The camera looks to where rays meet the surface at the critical angle.
@@ -63,7 +62,7 @@ Bend bend_at(const Sphere& sphere, double ior, const RayNode& ray)
     const Wide change = 2 * eta * eta * (1 - cosine * cosine + cosine + moved);
     Bend bend;
     bend.total = out2 < 0;
-    bend.margin = static_cast<double>(abs(out2) / change);
+    bend.margin = static_cast<double>(magnitude(out2) / change);
     if (!bend.total) {
         const Wide out = square_root(out2);
         bend.dir = eta * d + (out - eta * cosine) * normal;

@@ -2,6 +2,8 @@
 #include <cmath>
 #include <memory>
 
+#include <boost/multiprecision/cpp_bin_float.hpp>
+
 #include "core/seconds_since.hpp"
 #include "dispatch/kernels.hpp"
 #include "lab/stress/stress_measure.hpp"
@@ -15,10 +17,13 @@ namespace {
 /// results/highlight_power.json.
 constexpr double smallest_counted = 1e-4;
 
+/// 113 bits, with a power function.
+using Exact = boost::multiprecision::cpp_bin_float_quad;
+
 template <class Real>
 struct Powers {
     std::vector<Real> x, n;
-    std::vector<Wide> exact;
+    std::vector<Exact> exact;
 };
 
 template <class Real>
@@ -33,7 +38,7 @@ Powers<Real> make_powers(const StressOptions& options, double least, double most
         const auto x = static_cast<Real>(std::pow(y, 1.0 / static_cast<double>(n)));
         powers.x.push_back(x);
         powers.n.push_back(n);
-        powers.exact.push_back(pow(Wide(x), Wide(n)));
+        powers.exact.push_back(pow(Exact(x), Exact(n)));
     }
     return powers;
 }
@@ -54,7 +59,7 @@ MeasureRun ask(const Powers<Real>& powers, const StressSubject& subject, const A
     run.errors.rays = run.errors.hits = y.size();
     const double unit = std::numeric_limits<Real>::epsilon();
     for (std::size_t i = 0; i < y.size(); ++i) {
-        const Wide error = abs(Wide(y[i]) - powers.exact[i]);
+        const Exact error = abs(Exact(y[i]) - powers.exact[i]);
         const double last_place =
             std::ldexp(unit, std::ilogb(static_cast<double>(powers.exact[i])));
         run.errors.ulp.push_back(static_cast<float>(static_cast<double>(error) / last_place));

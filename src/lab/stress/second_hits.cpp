@@ -73,7 +73,7 @@ TrueHit own_hit(const WideSurface& surface, const WideVec& P, const WideVec& d, 
 {
     const WideVec v = surface.direction_to_own(d);
     const Wide a = dot(surface.second_order(v), v);
-    const Wide size = abs(dot(surface.gradient(surface.point_to_own(P)), v));
+    const Wide size = magnitude(dot(surface.gradient(surface.point_to_own(P)), v));
     const Wide b = outside ? size : Wide(-size);
     TrueHit hit;
     hit.object = surface.object;

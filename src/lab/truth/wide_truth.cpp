@@ -10,7 +10,6 @@
 namespace packtrace::lab {
 namespace {
 
-using boost::multiprecision::abs;
 using reference::dot;
 
 constexpr double never = std::numeric_limits<double>::infinity();
