@@ -40,6 +40,11 @@ inline StartPacket<Real> no_start()
     return {{zero, zero, zero}, no_surface<Real>(), no_second_hit<Real>()};
 }
 
+/// The share of a t within which another surface is compared once more with what is met again
+/// (met_again.hpp).
+template <class Real>
+inline constexpr double nearly_met = sizeof(Real) == sizeof(float) ? 0x1p-12 : 0x1p-40;
+
 /// How far the place where rays start may move what lies where they meet their own body again: by
 /// the lift off their surface, which other surfaces are met from (origin_offset), and rounding.
 inline vreal<float> met_again_error(const StartPacket<float>& start, const vreal<float>& dir2)
@@ -70,8 +75,9 @@ inline HitPacket<Real> start_of_search(const StartPacket<Real>& start, const vre
         hit.t = select(again, second + error, t_max);
         hit.t_low = select(again, second - error, t_max);
     } else {
-        // What is in the same place is looked for a little further on, too (met_again.hpp).
-        hit.t = select(again, min(second * vreal<Real>(1.0 + 0x1p-40), t_max), t_max);
+        // What is in the same place is looked for a little further on, too.
+        const vreal<Real> little_beyond = second * vreal<Real>(1.0 + nearly_met<Real>);
+        hit.t = select(again, min(little_beyond, t_max), t_max);
     }
     return hit;
 }

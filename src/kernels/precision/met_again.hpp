@@ -13,10 +13,6 @@ struct MetAgain {
     std::int32_t surface;
 };
 
-/// The share of a t within which another surface is compared with what is met again once more.
-template <class Real>
-inline constexpr double nearly_met = sizeof(Real) == sizeof(float) ? 0x1p-12 : 0x1p-40;
-
 /// The share of a t within which double can't tell two surfaces apart that lie in one place.
 inline constexpr double one_place = 0x1p-44;
 
