@@ -1,6 +1,5 @@
 #pragma once
 
-#include "kernels/precision/refine.hpp"
 #include "kernels/traverse/bvh_closest.hpp"
 #include "kernels/traverse/retrace.hpp"
 
