@@ -1,7 +1,6 @@
 #include "context.hpp"
 
-#include <exception>
-#include <iostream>
+#include <nlohmann/json.hpp>
 
 #include "core/text.hpp"
 #include "lab/harness/machine.hpp"
@@ -27,29 +26,6 @@ nlohmann::ordered_json context_json()
 void add_load_after(nlohmann::ordered_json& context)
 {
     context["load_after"] = fixed(load_now(), 2);
-}
-
-std::string command_line(const std::string& program, int argc, const char* const* argv)
-{
-    std::string line = program;
-    for (int i = 1; i < argc; ++i)
-        line += std::string(" ") + argv[i];
-    return line;
-}
-
-int run_program(CLI::App& app, const std::string& program, int argc, char** argv,
-                const std::function<void()>& work)
-{
-    try {
-        app.parse(argc, argv);
-        work();
-    } catch (const CLI::ParseError& end) {
-        return app.exit(end) == 0 ? 0 : 2;
-    } catch (const std::exception& error) {
-        std::cerr << program << ": " << error.what() << '\n';
-        return 1;
-    }
-    return 0;
 }
 
 }  // namespace packtrace::bench

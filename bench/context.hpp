@@ -1,12 +1,10 @@
 #pragma once
 
-#include <functional>
 #include <string>
 #include <utility>
 #include <vector>
 
-#include <CLI/CLI.hpp>
-#include <nlohmann/json.hpp>
+#include <nlohmann/json_fwd.hpp>
 
 namespace packtrace::bench {
 
@@ -19,14 +17,5 @@ namespace packtrace::bench {
 
 /// Adds the machine's load now to a context, at the end of a measurement.
 void add_load_after(nlohmann::ordered_json& context);
-
-/// A program's name, without the folder, and what it was called with.
-[[nodiscard]] std::string command_line(const std::string& program, int argc,
-                                       const char* const* argv);
-
-/// Parses a program's arguments and does its work; returns what it exits with: 2 for arguments that
-/// are wrong, 1 where the work throws, which is printed behind the program's name.
-[[nodiscard]] int run_program(CLI::App& app, const std::string& program, int argc, char** argv,
-                              const std::function<void()>& work);
 
 }  // namespace packtrace::bench

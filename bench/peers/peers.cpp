@@ -11,6 +11,7 @@
 #include "embree_modes.hpp"
 #include "names.hpp"
 #include "packtrace_modes.hpp"
+#include "program.hpp"
 #include "raced_scenes.hpp"
 #include "report.hpp"
 

@@ -21,6 +21,7 @@
 #include "lab/harness/stopwatch.hpp"
 #include "names.hpp"
 #include "peers/ray_set.hpp"
+#include "program.hpp"
 
 namespace packtrace {
 namespace {

@@ -16,6 +16,7 @@
 
 #include "context.hpp"
 #include "core/seconds_since.hpp"
+#include "program.hpp"
 
 namespace packtrace {
 namespace {

@@ -1,6 +1,5 @@
 // packtrace_sorted: frames of large scenes with mirrors on one thread, by blocks of tiles whose
 // mirrored rays are sorted, against tile by tile, as JSON.
-#include <exception>
 #include <iostream>
 #include <string>
 #include <vector>
@@ -15,6 +14,7 @@
 #include "dispatch/kernels.hpp"
 #include "lab/harness/statistics.hpp"
 #include "lab/harness/stopwatch.hpp"
+#include "program.hpp"
 #include "render/tile_loop.hpp"
 #include "render/tile_renderer.hpp"
 
@@ -113,13 +113,8 @@ int main(int argc, char** argv)
         ->check(CLI::Range(16, 4096));
     app.add_option("--repetitions", arguments.repetitions, "Turns (default 9)")
         ->check(CLI::Range(1, 1000));
-    CLI11_PARSE(app, argc, argv);
-    try {
-        packtrace::print_report(arguments,
-                                packtrace::bench::command_line("packtrace_sorted", argc, argv));
-    } catch (const std::exception& error) {
-        std::cerr << "packtrace_sorted: " << error.what() << '\n';
-        return 1;
-    }
-    return 0;
+    const std::string program = "packtrace_sorted";
+    return packtrace::bench::run_program(app, program, argc, argv, [&] {
+        packtrace::print_report(arguments, packtrace::bench::command_line(program, argc, argv));
+    });
 }

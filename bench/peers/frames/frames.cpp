@@ -14,6 +14,7 @@
 #include "core/atomic_file.hpp"
 #include "core/seconds_since.hpp"
 #include "export.hpp"
+#include "program.hpp"
 
 namespace packtrace::peers {
 namespace {
