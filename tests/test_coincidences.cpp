@@ -3,6 +3,7 @@
 #include <cmath>
 #include <string>
 #include <utility>
+#include <vector>
 
 #include <packtrace/compare.hpp>
 #include <packtrace/intersect.hpp>
@@ -20,6 +21,14 @@ namespace packtrace::test {
 namespace {
 
 constexpr Accuracy both[] = {Accuracy::exact, Accuracy::fast};
+
+/// The models of illumination, and a material for each that has no highlight to speak of.
+constexpr std::pair<const char*, const char*> matt_in_each_model[] = {
+    {"scratch", ""},
+    {"sketch", "diffuse = 0.6"},
+    {"whitted", "diffuse = 0.6"},
+    {"shader", "reflectance = (0.1, 0.6, 0.3, 20)"},
+    {"general", "diffuse = 0.6"}};
 
 }  // namespace
 
@@ -206,13 +215,7 @@ Scene carpet_on_floor(const std::string& illumination, const std::string& materi
 
 TEST_CASE("Surfaces in one place do not shadow each other, seen from however far", "[coincidences]")
 {
-    const std::pair<const char*, const char*> models[] = {
-        {"scratch", ""},
-        {"sketch", "diffuse = 0.6"},
-        {"whitted", "diffuse = 0.6"},
-        {"shader", "reflectance = (0.1, 0.6, 0.3, 20)"},
-        {"general", "diffuse = 0.6"}};
-    for (const auto& [illumination, material] : models) {
+    for (const auto& [illumination, material] : matt_in_each_model) {
         const Scene scene = carpet_on_floor(illumination, material);
         Scene unshadowed = scene;
         unshadowed.shadows = ShadowKind::none;
@@ -227,6 +230,64 @@ TEST_CASE("Surfaces in one place do not shadow each other, seen from however far
             CHECK(darkened(options) == 0.0);
         }
     }
+}
+
+namespace {
+
+/// A ball on a floor in the light of a lamp at (0, `height`, 3), below, on or in a surface that has
+/// its lowest or, seen from inside, its highest point at height 2 there.
+Scene lit_from(const std::string& height, const std::string& surface,
+               const std::string& illumination, const std::string& material)
+{
+    return parse_scene("illumination = " + illumination + R"(
+        image_size = 48 x 48
+        camera { position = (0, 0, 0.75)  look_at = (0, 0, 3)  fov = 60 }
+        light { type = point  intensity = 0.8  position = (0, )" +
+                           height + R"(, 3) }
+        sphere { center = (0, -0.5, 3)  radius = 0.5  )" +
+                           material + R"( }
+        plane { point = (0, -1, 0)  normal = (0, 1, 0)  )" +
+                           material + " }\n" + surface + material + " }",
+                       "lamp", {});
+}
+
+}  // namespace
+
+TEST_CASE("A lamp on a surface lights what is before it as one a little off it does",
+          "[coincidences]")
+{
+    const std::string surfaces[] = {
+        "plane { point = (0, 2, 0)  normal = (0, 1, 0)  ",
+        "plane { point = (0, 2, 0)  normal = (0, -1, 0)  ",
+        "sphere { center = (0, -1, 3)  radius = 3  ",
+        "sphere { center = (0, 2.5, 3)  radius = 0.5  ",
+        "ellipsoid { scale = (1, 0.5, 1)  translate = (0, 2.5, 3)  ",
+        "paraboloid { rotate = (1, 0, 0, -90)  translate = (0, 2, 3)  ",
+        "cylinder { z_range = (0, 1)  capped = yes  rotate = (1, 0, 0, -90)  translate = (0, 2, 3) "
+        " ",
+        "polygon { vertices = (-2, 2, 1), (2, 2, 1), (2, 2, 5), (-2, 2, 5)  "};
+    const RenderOptions scalar{.kernel = Kernel::scalar};
+    for (const std::string& surface : surfaces)
+        for (const auto& [illumination, material] : matt_in_each_model) {
+            std::vector<Image<float>> truths;
+            for (const char* const height : {"2", "1.9995", "2.0005"}) {
+                const Scene scene = lit_from(height, surface, illumination, material);
+                CAPTURE(surface, illumination, height);
+                truths.push_back(convert<float>(render<long double>(scene, scalar)));
+                const auto off = [&](const Image<float>& image) {
+                    return compare(image, truths.back(), {.threshold = 0.02}).pixels_off;
+                };
+                CHECK(off(convert<float>(render<double>(scene, scalar))) <= 2);
+                CHECK(off(render<float>(scene, scalar)) <= 2);
+                for (const RenderOptions& options : packet_ways()) {
+                    CAPTURE(options.isa, options.traversal);
+                    CHECK(off(convert<float>(render<double>(scene, options))) <= 2);
+                    CHECK(off(render<float>(scene, options)) <= 2);
+                }
+            }
+            CAPTURE(surface, illumination);
+            CHECK(compare(truths[0], truths[1], {.threshold = 0.02}).pixels_off <= 40);
+        }
 }
 
 namespace {

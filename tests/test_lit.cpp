@@ -382,6 +382,44 @@ TEST_CASE("points on every kind of surface are lit as rays that leave them see i
     }
 }
 
+TEST_CASE("a lamp in the wall of a dome lights all of it, and one behind the wall nothing", "[lit]")
+{
+    for (const std::string dome : {"sphere { center = (0, -1, 3)  radius = 3 }",
+                                   "ellipsoid { scale = (3, 3, 4)  translate = (0, -1, 3) }",
+                                   "cylinder { z_range = (-4, 2)  capped = yes  scale = (4, 4, 1)"
+                                   "  rotate = (1, 0, 0, -90)  translate = (0, 0, 3) }"}) {
+        const Scene scene = parse_scene(dome + R"(
+            light { type = point  position = (0, 2, 3)  intensity = 1 }
+            light { type = point  position = (0, 1.9999, 3)  intensity = 1 }
+            light { type = point  position = (0, 2.0001, 3)  intensity = 1 }
+        )",
+                                        "dome", {});
+        const auto check = [&](const auto& rays) {
+            const auto seen = look(rays, 2000, {0, 0.5, 2}, 0.5, {0, -1, 3}, 2);
+            int reached[3] = {};
+            int hits = 0;
+            for (std::size_t light = 0; light < 3; ++light) {
+                const Mask mask = lit(rays, seen.points(), light);
+                for (std::size_t i = 0; i < seen.count(); ++i) {
+                    // A cap that high has the light behind it, on its outer side, which it lights.
+                    const bool counts = seen.object[i] >= 0 && seen.point[1][i] < 1.9;
+                    hits += light == 0 && counts ? 1 : 0;
+                    reached[light] += counts ? mask[i] : 0;
+                }
+            }
+            CHECK(hits > 1000);
+            CHECK(reached[0] == hits);
+            CHECK(reached[1] == hits);
+            CHECK(reached[2] == 0);
+        };
+        for (const RenderOptions& options : packet_ways()) {
+            CAPTURE(dome, options.isa, options.traversal);
+            check(RayScene<double>(scene, options));
+            check(RayScene<float>(scene, options));
+        }
+    }
+}
+
 TEST_CASE("what casts no shadow is in no light's way", "[lit]")
 {
     Scene scene = crowd(150);

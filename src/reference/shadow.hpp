@@ -1,6 +1,11 @@
 #pragma once
 
+#include <algorithm>
+#include <cmath>
+#include <optional>
+
 #include "reference/glass.hpp"
+#include "reference/start.hpp"
 #include "reference/world.hpp"
 
 // What lies between a hit and a light, and the share of the light that passes it.
@@ -11,7 +16,7 @@ template <class Real>
 struct WayToLight {
     Vec3<Real> L;  ///< unit
     Real distance;
-    bool light_casts_shadow;
+    const LightSource<Real>& light;
 };
 
 /// `light` must not be ambient.
@@ -19,19 +24,43 @@ template <class Real>
 [[nodiscard]] WayToLight<Real> way_to_light(const LightSource<Real>& light, const Vec3<Real>& P)
 {
     if (light.type == LightType::directional)
-        return {light.unit, infinity<Real>, light.casts_shadow};
+        return {light.unit, infinity<Real>, light};
     const Vec3<Real> v = light.vector - P;
     const Real distance = length(v);
-    return {v / distance, distance, light.casts_shadow};
+    return {v / distance, distance, light};
 }
 
+/// Where a light is that surfaces in its own place are not in the way of: a point light, but by
+/// SelfHits::note.
 template <class Real>
-[[nodiscard]] bool any_within(const Roots<Real>& roots, Real t_min, Real t_max)
+[[nodiscard]] std::optional<Vec3<Real>> place_of_light(const World<Real>& world,
+                                                       const LightSource<Real>& light)
 {
-    for (const auto& root : roots)
-        if (root.t >= t_min && root.t <= t_max)
-            return true;
-    return false;
+    if (light.type != LightType::point || world.self_hits == SelfHits::note)
+        return std::nullopt;
+    return light.vector;
+}
+
+/// Whether a body is in the way from `start` to `start` + `t_end` D. Where a light at the end lies
+/// on it, the root nearest to that does not count: rounding leaves some before the end, and some
+/// behind it.
+template <class Real, class Body>
+[[nodiscard]] bool is_in_way(const Body& body, const Start<Real>& start, const Vec3<Real>& D,
+                             Real t_end, const std::optional<Vec3<Real>>& light)
+{
+    const Roots<Real> roots = roots_from(body, start, D);
+    const auto is_within = [&](const auto& root) {
+        return root.t >= start.t_min && root.t <= t_end;
+    };
+    const auto within = std::count_if(roots.begin(), roots.end(), is_within);
+    if (within == 0 || !light)
+        return within != 0;
+    const auto nearest =
+        std::min_element(roots.begin(), roots.end(), [&](const auto& a, const auto& b) {
+            return std::abs(a.t - t_end) < std::abs(b.t - t_end);
+        });
+    const bool at_light = value_at(body, *light, nearest->part) == 0;
+    return within > (at_light && is_within(*nearest) ? 1 : 0);
 }
 
 /// The share of a light that reaches the point of a hit: one where nothing is in the way, nothing
@@ -42,11 +71,12 @@ template <class Real>
                                       const SurfacePoint<Real>& at, const WayToLight<Real>& way)
 {
     Color<Real> share(1, 1, 1);
-    if (world.shadows == ShadowKind::none || !way.light_casts_shadow)
+    if (world.shadows == ShadowKind::none || !way.light.casts_shadow)
         return share;
     const Start<Real> start = start_at(world, at.back().along(way.L), at.P);
+    const auto place = place_of_light(world, way.light);
     visit_bodies(world.blockers, [&](const auto& body) {
-        if (!any_within(roots_from(body, start, way.L), start.t_min, way.distance))
+        if (!is_in_way(body, start, way.L, way.distance, place))
             return true;
         const bool opaque = world.shadows == ShadowKind::opaque;
         share = opaque ? Color<Real>()

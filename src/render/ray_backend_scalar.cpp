@@ -4,6 +4,7 @@
 #include <optional>
 #include <vector>
 
+#include "reference/shadow.hpp"
 #include "reference/surfaces/bodies.hpp"
 #include "reference/surfaces/hits.hpp"
 #include "render/ray_backend.hpp"
@@ -123,11 +124,19 @@ private:
             return false;
         if (!shadows_ || !light.casts_shadow)
             return true;
-        const Real least = std::numeric_limits<Real>::min();
-        const Real end = light.type == LightType::point ? std::nextafter(Real(1), Real(0))
-                                                        : std::numeric_limits<Real>::max();
-        return !reference::closest_intersection(casters_ ? *casters_ : bodies_, point, way, least,
-                                                end);
+        const bool is_point = light.type == LightType::point;
+        const Real end =
+            is_point ? std::nextafter(Real(1), Real(0)) : std::numeric_limits<Real>::max();
+        std::optional<reference::Vec3<Real>> place;
+        if (is_point)
+            place = reference::Vec3<Real>(light.vector);
+        const reference::Start<Real> start{point, point, std::numeric_limits<Real>::min()};
+        bool blocked = false;
+        visit_bodies(casters_ ? *casters_ : bodies_, [&](const auto& body) {
+            blocked = is_in_way(body, start, way, end, place);
+            return !blocked;
+        });
+        return !blocked;
     }
 
     reference::Bodies<Real> bodies_;

@@ -67,7 +67,8 @@ inline Vec3v<Real> unit_normal(const abi::QuadricRecord<double>& quadric, unsign
                                  dir);
 }
 
-/// 0 for two planes that cross, whose gradient is not that of one equation.
+/// Infinite off two planes that cross, whose gradient is not that of one equation: on which side a
+/// point is counts all the same.
 inline vreal<double> height_over(const abi::QuadricRecord<double>& quadric, unsigned piece,
                                  const Vec3v<double>& point)
 {
@@ -78,11 +79,12 @@ inline vreal<double> height_over(const abi::QuadricRecord<double>& quadric, unsi
         return inverse * (piece == 2 ? height - vreal<double>(quadric.clip_high)
                                      : vreal<double>(quadric.clip_low) - height);
     }
-    if (crossing_planes(quadric))
-        return vreal<double>(0.0);
     const Vec3v<double> p = apply_inverse(quadric, point - broadcast(quadric.center));
+    const vreal<double> value = quadric_value<double>(quadric, p);
+    if (crossing_planes(quadric))
+        return vreal<double>(__builtin_inf()) * value;
     const Vec3v<double> gradient = side_gradient<double>(quadric, p);
-    return vreal<double>(0.5) * quadric_value<double>(quadric, p) / sqrt(dot(gradient, gradient));
+    return vreal<double>(0.5) * value / sqrt(dot(gradient, gradient));
 }
 
 /// What a residual may be off by, of the size of its terms.

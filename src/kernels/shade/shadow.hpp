@@ -72,6 +72,35 @@ inline Real way_end(const abi::LightRecord<Real>& light)
     return light.kind == abi::LightKind::directional ? static_cast<Real>(__builtin_inf()) : Real(1);
 }
 
+/// How near the end of its way a ray has to meet its own body again for the light's side of that to
+/// be looked at: far more than rounding moves either.
+inline constexpr double near_light = 0x1p-12;
+
+/// Lanes of `near`, which meet their own body again near a point light, for which that is behind
+/// it: outside where they come from inside, or inside. What lies on the body is on neither side.
+template <class Real>
+[[gnu::noinline]] std::uint32_t behind_own_body(const abi::ShapesView& shapes,
+                                                const vint<Real>& surface,
+                                                const abi::LightRecord<Real>& light,
+                                                std::uint32_t outside, std::uint32_t near)
+{
+    const double place[3] = {double{light.vector[0]}, double{light.vector[1]},
+                             double{light.vector[2]}};
+    std::uint32_t behind = 0;
+    for_each_distinct<Real>(surface, near, [&](lane_int<Real> number, vmask<Real> same) {
+        const double height =
+            with_shape(shapes, shapes.index[number], [&](const auto& shape, unsigned piece) {
+                return first_lane<double>(height_over(shape, piece, broadcast(place)));
+            });
+        const std::uint32_t lanes_of = bits(same) & near;
+        if (height > 0)
+            behind |= lanes_of & ~outside;
+        if (height < 0)
+            behind |= lanes_of & outside;
+    });
+    return behind;
+}
+
 /// Lanes of `wanted` that their own body keeps from a light, by SelfHits::exact.
 template <class Real>
 inline std::uint32_t own_shadow(const abi::SceneView<Real>& scene,
@@ -82,11 +111,19 @@ inline std::uint32_t own_shadow(const abi::SceneView<Real>& scene,
     if (!(scene.rules.start_error > 0))
         return 0;
     const std::uint32_t outside = ~bits(dot(surface.lift, packet.to_light) < vreal<Real>(Real(0)));
-    const vreal<Real> again =
-        second_hit<Real>(casters_of(scene).shapes, surface.number, surface.point, packet.to_light,
-                         vreal<Real>(Real(0)), outside, wanted)
-            .t;
-    return bits(again < vreal<Real>(way_end(light))) & wanted;
+    const abi::ShapesView& shapes = casters_of(scene).shapes;
+    const SecondHit<Real> again =
+        second_hit<Real>(shapes, surface.number, surface.point, packet.to_light,
+                         vreal<Real>(Real(0)), outside, wanted);
+    const vreal<Real> end(way_end(light));
+    const std::uint32_t before = bits(again.t < end) & wanted;
+    if (light.kind == abi::LightKind::directional)
+        return before;
+    const std::uint32_t near =
+        bits(abs(again.t - end) < vreal<Real>(static_cast<Real>(near_light))) & wanted;
+    if (near == 0)
+        return before;
+    return (before & ~near) | behind_own_body<Real>(shapes, again.surface, light, outside, near);
 }
 
 /// Where the way from a point to a light begins that sends no rays: behind the point itself, so

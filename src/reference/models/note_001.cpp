@@ -1,6 +1,6 @@
 #include "reference/models/note_001.hpp"
 
-#include "reference/world.hpp"
+#include "reference/shadow.hpp"
 
 #include <cmath>
 
@@ -34,7 +34,7 @@ Color<Real> Note001<Real, Recorder>::compute_lighting(const Vec3<Real>& P, const
         const Real t_max = is_point ? Real(1) : infinity<Real>;
 
         // The listing kept only the `continue` of its shadow check.
-        if (record_.blocked(light.number, light.casts_shadow && in_shadow(on, P, L, t_max)))
+        if (record_.blocked(light.number, light.casts_shadow && in_shadow(on, P, L, light, t_max)))
             continue;
 
         // Diffuse
@@ -55,13 +55,20 @@ Color<Real> Note001<Real, Recorder>::compute_lighting(const Vec3<Real>& P, const
 
 template <class Real, class Recorder>
 bool Note001<Real, Recorder>::in_shadow(const Departure<Real>& on, const Vec3<Real>& P,
-                                        const Vec3<Real>& L, Real t_max) const
+                                        const Vec3<Real>& L, const LightSource<Real>& light,
+                                        Real t_max) const
 {
     if (world_.shadows == ShadowKind::none)
         return false;
     const Start<Real> start = start_at(world_, on.along(L), P);
-    const auto shadow_sphere = closest_from(world_.blockers, start, L, t_max);
-    return static_cast<bool>(shadow_sphere);
+    const auto place = place_of_light(world_, light);
+    // The note looks for the closest sphere, though any one will do.
+    bool shadow_sphere = false;
+    visit_bodies(world_.blockers, [&](const auto& body) {
+        shadow_sphere = is_in_way(body, start, L, t_max, place);
+        return !shadow_sphere;
+    });
+    return shadow_sphere;
 }
 
 // The note has only spheres and lets N point away from the centre even when seen from inside.

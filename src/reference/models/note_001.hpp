@@ -43,7 +43,8 @@ public:
 
 private:
     [[nodiscard]] bool in_shadow(const Departure<Real>& on, const Vec3<Real>& P,
-                                 const Vec3<Real>& L, Real t_max) const;
+                                 const Vec3<Real>& L, const LightSource<Real>& light,
+                                 Real t_max) const;
     [[nodiscard]] const Vec3<Real>& normal(const SurfacePoint<Real>& at) const;
 
     [[no_unique_address]] Recorder record_;

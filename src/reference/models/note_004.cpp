@@ -1,6 +1,6 @@
 #include "reference/models/note_004.hpp"
 
-#include "reference/world.hpp"
+#include "reference/shadow.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -111,7 +111,7 @@ Color<Real> Note004<Real, Recorder>::shader(const Tuple& intersection, const Vec
         const Vec3<Real> P =
             on_surface(world_.bodies, {t0, k, part}, object.placement.point_to_world(I),
                        length(e) + t0 * length(d));
-        blocked = shadowed_exactly(on, P, object.placement.vector_to_world(S), distance);
+        blocked = shadowed_exactly(on, P, object.placement.vector_to_world(S), light, distance);
     } else if (light.casts_shadow) {
         blocked = shadowed(object, I, S, distance);
     }
@@ -145,16 +145,15 @@ bool Note004<Real, Recorder>::shadowed(const PlacedBody<Real>& shaded, const Vec
 
 template <class Real, class Recorder>
 bool Note004<Real, Recorder>::shadowed_exactly(const Departure<Real>& on, const Vec3<Real>& P,
-                                               const Vec3<Real>& S, Real distance) const
+                                               const Vec3<Real>& S, const LightSource<Real>& light,
+                                               Real distance) const
 {
     if (world_.shadows == ShadowKind::none)
         return false;
     const Start<Real> start = start_at(world_, on.along(S), P);
+    const auto place = place_of_light(world_, light);
     return std::any_of(blockers_.begin(), blockers_.end(), [&](const auto& object) {
-        const Roots<Real> roots = roots_from(object, start, S);
-        return std::any_of(roots.begin(), roots.end(), [&](const auto& root) {
-            return root.t >= start.t_min && root.t <= distance;
-        });
+        return is_in_way(object, start, S, distance, place);
     });
 }
 

@@ -48,7 +48,8 @@ public:
     /// The same by SelfHits::exact, for a point of the world: nothing is moved by an epsilon, and
     /// the piece of surface that P is on is not found by looking.
     [[nodiscard]] bool shadowed_exactly(const Departure<Real>& on, const Vec3<Real>& P,
-                                        const Vec3<Real>& S, Real distance) const;
+                                        const Vec3<Real>& S, const LightSource<Real>& light,
+                                        Real distance) const;
 
 private:
     struct Material {
