@@ -118,12 +118,14 @@ pkg_config() {
     libraries=$(pkg-config --variable=libdir packtrace)
     # Flags are words.
     # shellcheck disable=SC2046
-    quietly "$cxx" "$consumer/main.cpp" -o "$folder/shared" $(pkg-config --cflags --libs packtrace)
+    quietly "$cxx" -c "$consumer/main.cpp" -o "$folder/main.o" $(pkg-config --cflags packtrace)
+    # shellcheck disable=SC2046
+    quietly "$cxx" "$folder/main.o" -o "$folder/shared" $(pkg-config --libs packtrace)
     LD_LIBRARY_PATH=$libraries
     export LD_LIBRARY_PATH
     runs "$folder/shared" 1
     # shellcheck disable=SC2046
-    quietly "$cxx" "$consumer/main.cpp" -o "$folder/static" $(pkg-config --cflags packtrace) \
+    quietly "$cxx" "$folder/main.o" -o "$folder/static" \
         "$libraries/libpacktrace.a" -Wl,--as-needed $(pkg-config --static --libs packtrace)
     runs "$folder/static" 0
     # From a folder with a blank in its name, which pkg-config writes for a shell to read.

@@ -19,7 +19,7 @@ def rational(vector):
 
 
 def dot(a, b):
-    return sum(x * y for x, y in zip(a, b))
+    return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
 
 
 def along(org, t, direction):
@@ -56,8 +56,8 @@ class Sphere:
 
     def meets(self, org, direction):
         w = [x - c for x, c in zip(org, self.center)]
-        a, size = dot(direction, direction), dot(w, w) + self.radius**2
-        return crossings(a, dot(w, direction), dot(w, w) - self.radius**2, a * size)
+        a, w2, radius2 = dot(direction, direction), dot(w, w), self.radius**2
+        return crossings(a, dot(w, direction), w2 - radius2, a * (w2 + radius2))
 
     def meets_again(self, point, direction, rounding):
         """Of a ray from a point of the sphere, which was rounded by so much a coordinate; None
@@ -123,10 +123,11 @@ class Polygon:
         odd = False
         for contour in self.contours:
             for (u0, v0), (u1, v1) in zip(contour, contour[1:] + contour[:1]):
+                if not min(v0, v1) - margin <= point[1] <= max(v0, v1) + margin:
+                    continue
                 length = abs(u1 - u0) + abs(v1 - v0)
                 turn = (u1 - u0) * (point[1] - v0) - (v1 - v0) * (point[0] - u0)
-                if (min(v0, v1) - margin <= point[1] <= max(v0, v1) + margin
-                        and abs(turn) <= margin * length):
+                if abs(turn) <= margin * length:
                     return None
                 if (v0 <= point[1]) != (v1 <= point[1]):
                     odd ^= (turn > 0) == (v1 > v0)
