@@ -34,4 +34,16 @@ namespace packtrace::test {
     return scene;
 }
 
+/// The same with a sixth of the pixels where rays branch a dozen times: each has thousands of rays,
+/// and in small_scene() they take ten times as long as all other scenes together.
+[[nodiscard]] inline Scene small_or_deep_scene(const std::filesystem::path& file)
+{
+    Scene scene = small_scene(file);
+    if (scene.max_depth > 10) {
+        const int height = 21;
+        set_size(scene, (height * scene.width / scene.height) | 1, height);
+    }
+    return scene;
+}
+
 }  // namespace packtrace::test

@@ -47,11 +47,12 @@ if("sse42" IN_LIST PACKTRACE_KERNELS AND "avx2" IN_LIST PACKTRACE_KERNELS)
                           ${PROJECT_SOURCE_DIR}/scenes/four_spheres.scene "[without_avx],[isa]"
                           ${fail_on_none})
     # Emulation takes tens of times longer: the families that call each part of the library once.
-    # The others run the same code on more rays.
+    # The others run the same code on more rays, and so do cases tagged [bulk] on more of what the
+    # other cases of their family have.
     set(emulated "")
     foreach(family IN ITEMS read_scene read_camera read_material read_surface read_transform camera
                             image bvh lowering features onedim onedim_kernel onedim_notation)
-        list(APPEND emulated "[${family}]~[slow]~[unchecked_avx]")
+        list(APPEND emulated "[${family}]~[slow]~[bulk]~[unchecked_avx]")
     endforeach()
     list(JOIN emulated "," emulated)
     packtrace_script_test(without_avx.slow slow ${without_avx} ${PROJECT_SOURCE_DIR}/scenes

@@ -58,8 +58,14 @@ inline void write_text(const std::filesystem::path& file, std::string_view text)
 
 [[nodiscard]] inline std::string read_text(const std::filesystem::path& file)
 {
+    // By blocks: one character after the other takes seconds of a picture of many bands.
     std::ifstream input(file, std::ios::binary);
-    return {std::istreambuf_iterator<char>(input), {}};
+    std::string text;
+    std::string block(std::size_t{1} << 16, '\0');
+    while (input.read(block.data(), static_cast<std::streamsize>(block.size())) ||
+           input.gcount() > 0)
+        text.append(block, 0, static_cast<std::size_t>(input.gcount()));
+    return text;
 }
 
 }  // namespace packtrace::test

@@ -264,7 +264,7 @@ TEST_CASE("the cost of a hierarchy grows as its items scatter", "[bvh]")
     CHECK(surface_area_cost(bvh) > 5.0 * built);
 }
 
-TEST_CASE("a hierarchy does not depend on the number of threads", "[bvh]")
+TEST_CASE("a hierarchy does not depend on the number of threads", "[bvh][bulk]")
 {
     const auto built_with = [](int threads) {
         std::vector<BvhItem> items = scattered(100000, 1);

@@ -514,7 +514,7 @@ TEST_CASE("a long render shows its progress on a terminal only", "[cli][slow]")
 {
     const TempFolder folder;
     const Words words{"render",      four_spheres, "-o",        folder / "a.png",
-                      "--size",      "1800x1800",  "--kernel",  "scalar",
+                      "--size",      "1200x1200",  "--kernel",  "scalar",
                       "--precision", "extended",   "--threads", "1"};
     const ProgramResult piped = run_packtrace(words);
     CHECK(is_one_line(piped.err));
@@ -525,7 +525,7 @@ TEST_CASE("a long render shows its progress on a terminal only", "[cli][slow]")
     CHECK_THAT(shown, ContainsSubstring(" %"));
     // The bar is cleared before the summary.
     CHECK_THAT(shown,
-               ContainsSubstring("\r\033[K" + (folder / "a.png").string() + ": 1800 x 1800"));
+               ContainsSubstring("\r\033[K" + (folder / "a.png").string() + ": 1200 x 1200"));
 
     Words quiet = words;
     quiet.push_back("--quiet");

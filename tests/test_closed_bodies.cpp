@@ -50,7 +50,9 @@ void check_closed(int rays, std::uint64_t seed)
                                      .kernels = {"packet", "scalar"},
                                      .modes = {"exact"},
                                      .rays = rays,
-                                     .seed = seed};
+                                     .seed = seed,
+                                     .second_hits = false,
+                                     .bounds = false};
     lab::run_stress(options, [](const std::vector<lab::StressRow>& rows) {
         for (const lab::StressRow& row : rows) {
             CAPTURE(row.family, row.precision, row.kernel, row.isa, row.example);

@@ -27,50 +27,51 @@ double distance(const Rgb& color, const double* pixel)
     return glm::length(color - Rgb(pixel[0], pixel[1], pixel[2]));
 }
 
-/// Both trees of some pixels, with both pictures.
-void check_pixels(const Scene& scene, const std::string& isa)
-{
-    const Image<double> scalar = render_scalar<double>(scene);
-    const Image<double> packets = render_packets<double>(scene, isa);
-    for (int i = 0; i < columns * rows; ++i) {
-        const int x = spread(i % columns, columns, scene.width);
-        const int y = spread(i / columns, rows, scene.height);
-        CAPTURE(isa, x, y);
-        const RayNode reference = reference_tree(scene, x, y);
-        const RayNode tree = packet_tree<double>(scene, x, y, isa);
-        CHECK(first_difference(reference, tree) == "none");
-        CHECK(distance(sum_of(reference), scalar.pixel(x, y)) <= 1e-9);
-        CHECK(distance(sum_of(tree), packets.pixel(x, y)) <= 1e-9);
-    }
-}
-
 bool is_partial(const Rgb& share)
 {
     return share.x > 0.0 && share.x < 1.0;
 }
 
-/// Kinds of things the trees of a scene's pixels hold, in words.
-std::set<std::string> contents_of(const Scene& scene)
+/// Kinds of things that a tree holds at one of its rays, in words.
+void add_contents(const RayNode& ray, std::set<std::string>& found)
 {
+    const char* const kinds[] = {"camera", "mirrored", "refracted"};
+    found.insert(std::string(kinds[static_cast<int>(ray.kind)]) +
+                 (ray.object < 0 ? " miss" : " hit"));
+    for (const LightShare& light : ray.lights)
+        if (!light.share)
+            found.insert("a light from behind");
+        else if (is_partial(*light.share))
+            found.insert("a partial share");
+        else
+            found.insert(light.share->x > 0.0 ? "a light" : "a shadow");
+    if (ray.object >= 0 && ray.brought != Rgb(0.0))
+        found.insert("a depth limit");
+}
+
+/// Both trees of some pixels, with both pictures. Returns what the packets' trees hold.
+std::set<std::string> check_pixels(const Scene& scene)
+{
+    const Image<double> scalar = render_scalar<double>(scene);
+    std::vector<Image<double>> packets;
+    for (const std::string& isa : supported_isas())
+        packets.push_back(render_packets<double>(scene, isa));
     std::set<std::string> found;
-    const auto look = [&found](const RayNode& ray) {
-        const char* const kinds[] = {"camera", "mirrored", "refracted"};
-        found.insert(std::string(kinds[static_cast<int>(ray.kind)]) +
-                     (ray.object < 0 ? " miss" : " hit"));
-        for (const LightShare& light : ray.lights)
-            if (!light.share)
-                found.insert("a light from behind");
-            else if (is_partial(*light.share))
-                found.insert("a partial share");
-            else
-                found.insert(light.share->x > 0.0 ? "a light" : "a shadow");
-        if (ray.object >= 0 && ray.brought != Rgb(0.0))
-            found.insert("a depth limit");
-    };
-    for (int i = 0; i < columns * rows; ++i)
-        visit_tree(packet_tree<double>(scene, spread(i % columns, columns, scene.width),
-                                       spread(i / columns, rows, scene.height)),
-                   look);
+    for (int i = 0; i < columns * rows; ++i) {
+        const int x = spread(i % columns, columns, scene.width);
+        const int y = spread(i / columns, rows, scene.height);
+        const RayNode reference = reference_tree(scene, x, y);
+        CAPTURE(x, y);
+        CHECK(distance(sum_of(reference), scalar.pixel(x, y)) <= 1e-9);
+        for (std::size_t k = 0; k < packets.size(); ++k) {
+            const std::string isa = supported_isas()[k];
+            CAPTURE(isa);
+            const RayNode tree = packet_tree<double>(scene, x, y, isa);
+            CHECK(first_difference(reference, tree) == "none");
+            CHECK(distance(sum_of(tree), packets[k].pixel(x, y)) <= 1e-9);
+            visit_tree(tree, [&found](const RayNode& ray) { add_contents(ray, found); });
+        }
+    }
     return found;
 }
 
@@ -104,43 +105,40 @@ std::string planted(const std::function<void(Scene&)>& change,
 
 }  // namespace
 
-TEST_CASE("trees of double packets are the reference's, and add up to both pictures", "[explain]")
+TEST_CASE(
+    "trees of double packets are the reference's, add up to both pictures, and hold every kind "
+    "of ray, light and end",
+    "[explain]")
 {
     std::set<Illumination> models;
+    std::set<std::string> found;
     for (const auto& file : scene_files()) {
-        const Scene scene = small_scene(file);
+        const Scene scene = small_or_deep_scene(file);
         models.insert(scene.illumination);
         CAPTURE(file.filename().string());
-        for (const std::string& isa : supported_isas())
-            check_pixels(scene, isa);
+        found.merge(check_pixels(scene));
     }
     CHECK(models.size() == 5);
+    CHECK(found == std::set<std::string>{"camera hit", "camera miss", "mirrored hit",
+                                         "mirrored miss", "refracted hit", "refracted miss",
+                                         "a light from behind", "a partial share", "a light",
+                                         "a shadow", "a depth limit"});
 }
 
 TEST_CASE("trees of float packets add up to the picture of floats", "[explain]")
 {
     for (const auto& file : scene_files()) {
-        const Scene scene = small_scene(file);
+        const Scene scene = small_or_deep_scene(file);
+        const int y = scene.height / 2;
         for (const std::string& isa : supported_isas()) {
             const auto picture = convert<double>(render_packets<float>(scene, isa));
-            for (int x = 3; x < scene.width; x += 11) {
+            for (int x = 3; x < scene.width; x += scene.width / 6) {
                 CAPTURE(file.filename().string(), isa, x);
-                const RayNode tree = packet_tree<float>(scene, x, 25, isa);
-                CHECK(distance(sum_of(tree), picture.pixel(x, 25)) <= 2e-5);
+                const RayNode tree = packet_tree<float>(scene, x, y, isa);
+                CHECK(distance(sum_of(tree), picture.pixel(x, y)) <= 2e-5);
             }
         }
     }
-}
-
-TEST_CASE("the trees of the scenes hold every kind of ray, light and end", "[explain]")
-{
-    std::set<std::string> found;
-    for (const auto& file : scene_files())
-        found.merge(contents_of(small_scene(file)));
-    CHECK(found == std::set<std::string>{"camera hit", "camera miss", "mirrored hit",
-                                         "mirrored miss", "refracted hit", "refracted miss",
-                                         "a light from behind", "a partial share", "a light",
-                                         "a shadow", "a depth limit"});
 }
 
 TEST_CASE("the pixels of an empty scene are camera rays that miss", "[explain]")

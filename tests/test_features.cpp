@@ -100,7 +100,8 @@ TEMPLATE_TEST_CASE("special kernels and the general one give the same bits", "[f
         }
 }
 
-TEST_CASE("scenes that do without something are rendered as the reference has them", "[features]")
+TEST_CASE("scenes that do without something are rendered as the reference has them",
+          "[features][bulk]")
 {
     std::vector<NamedScene> scenes = feature_scenes();
     scenes.push_back({"a forest", forest_scene()});

@@ -167,7 +167,7 @@ TEST_CASE("objects of one material share its record", "[lowering]")
     CHECK(lowered.materials.size() == 1);
 }
 
-TEST_CASE("a sphere among many costs a hundred bytes at most", "[lowering]")
+TEST_CASE("a sphere among many costs a hundred bytes at most", "[lowering][bulk]")
 {
     constexpr int count = 50'000;
     for (const double radius : {0.001, 0.01})

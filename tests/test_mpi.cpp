@@ -389,8 +389,8 @@ TEST_CASE("a picture has the bytes of one process whatever the ranks", "[mpi]")
 TEST_CASE("every scene has the bytes of one process in either precision", "[mpi][slow]")
 {
     // Bands are written by one function for each format, whatever the scene: each scene has one.
-    // And who renders a band does not depend on the precision: each has half of the numbers of
-    // ranks.
+    // And who renders a band does not depend on the scene or the precision: scenes take turns with
+    // the numbers of ranks, each with several ranks in one precision at least.
     const std::string endings[] = {".png", ".pfm", ".hdr"};
     std::set<std::filesystem::path> scenes;
     for (const auto& entry : std::filesystem::directory_iterator(PACKTRACE_SOURCE_DIR "/scenes"))
@@ -398,6 +398,7 @@ TEST_CASE("every scene has the bytes of one process in either precision", "[mpi]
             scenes.insert(entry.path());
     std::size_t number = 0;
     for (const std::filesystem::path& scene : scenes) {
+        const bool odd = number % 2 == 1;
         const std::string& of_scene = endings[number++ % std::size(endings)];
         for (const std::string precision : {"single", "double"}) {
             const std::string ending = precision == "double" ? ".pfm" : of_scene;
@@ -415,11 +416,10 @@ TEST_CASE("every scene has the bytes of one process in either precision", "[mpi]
                         folder / ("w" + ending)};
             REQUIRE(run_packtrace(words).exit_code == 0);
             words.back() = folder / ("m" + ending);
-            for (const int ranks : precision == "double" ? std::array{1, 3} : std::array{2, 5}) {
-                CAPTURE(scene.string(), ending, precision, ranks);
-                CHECK(run_ranks(ranks, words).exit_code == 0);
-                CHECK((read_text(folder / ("m" + ending)) == read_text(folder / ("w" + ending))));
-            }
+            const int ranks = precision == "double" ? (odd ? 1 : 3) : (odd ? 2 : 5);
+            CAPTURE(scene.string(), ending, precision, ranks);
+            CHECK(run_ranks(ranks, words).exit_code == 0);
+            CHECK((read_text(folder / ("m" + ending)) == read_text(folder / ("w" + ending))));
         }
     }
     CHECK(number > std::size(endings));

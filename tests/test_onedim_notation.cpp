@@ -86,7 +86,7 @@ TEST_CASE("what is written is read again", "[onedim_notation]")
     }
 }
 
-TEST_CASE("a list may be nested a million deep", "[onedim_notation]")
+TEST_CASE("a list may be nested a million deep", "[onedim_notation][bulk]")
 {
     const std::vector<Surface> system(1'000'000, test::all_surfaces()[20]);
     Systems systems;

@@ -499,7 +499,9 @@ TEST_CASE("packets are right about rays along a cylinder outside the band", "[st
     const lab::StressOptions options{.families = {"cylinder-axis"},
                                      .kernels = {"packet"},
                                      .precisions = {"single"},
-                                     .rays = 24000};
+                                     .rays = 24000,
+                                     .second_hits = false,
+                                     .bounds = false};
     for (const StressRow& row : rows_of(options)) {
         CAPTURE(row.mode, row.isa);
         CHECK(row.beyond_own_band == 0);
@@ -509,8 +511,10 @@ TEST_CASE("packets are right about rays along a cylinder outside the band", "[st
 
 TEST_CASE("second hits are those of rays from where they start", "[stress]")
 {
-    const lab::StressOptions options{
-        .families = {"cone-apex", "far-quadric"}, .kernels = {"packet"}, .rays = 8000};
+    const lab::StressOptions options{.families = {"cone-apex", "far-quadric"},
+                                     .kernels = {"packet"},
+                                     .rays = 8000,
+                                     .bounds = false};
     for (const StressRow& row : rows_of(options)) {
         CAPTURE(row.family, row.precision, row.mode, row.isa);
         CHECK(row.second_rays > 1000);
@@ -535,7 +539,7 @@ TEST_CASE("no family finds a fault in a quarter of a million rays", "[stress][sl
 
 TEST_CASE("packets are right outside the band of their own precision", "[stress]")
 {
-    lab::StressOptions options{.kernels = {"packet"}, .rays = 400};
+    lab::StressOptions options{.kernels = {"packet"}, .rays = 400, .bounds = false};
     for (const auto& some : {lab::sphere_families(), lab::plane_families(), lab::quadric_families(),
                              lab::scene_families()})
         for (const lab::StressFamily& family : some)
@@ -578,7 +582,8 @@ TEST_CASE("the textbook breaks on what packets hold", "[stress]")
 
 TEST_CASE("all instruction sets with fused multiply-add answer alike in every mode", "[stress]")
 {
-    const lab::StressOptions options{.kernels = {"packet"}, .rays = 300};
+    const lab::StressOptions options{
+        .kernels = {"packet"}, .rays = 300, .second_hits = false, .bounds = false};
     const std::vector<std::string> fused = {"sse_fma", "avx2", "avx512"};
     for (const StressRow& row : rows_of(options)) {
         CAPTURE(row.family, row.precision, row.mode, row.isa);

@@ -170,11 +170,13 @@ void add_rows(const StressFamily& family, const StressOptions& options,
             continue;
         }
         rows.push_back(row_of<Real>(subject, groups, runs));
-        add_second_hits<Real>(rows.back(), subject, groups, options.self_hits);
+        if (options.second_hits)
+            add_second_hits<Real>(rows.back(), subject, groups, options.self_hits);
         rows.back().family = family.name;
         add_example<Real>(rows.back(), groups, runs);
         if (rows.back().held) {
-            add_bounds<Real>(rows.back(), subject, groups);
+            if (options.bounds)
+                add_bounds<Real>(rows.back(), subject, groups);
             rows.back().faults = faults_of(rows.back());
         }
         evaluated.push_back({rows.size() - 1, std::move(runs)});

@@ -31,7 +31,11 @@ struct StressOptions {
     std::uint64_t seed = 1;
     int first_family = 0;  ///< of those wanted, begin with this one
     int family_step = 1;   ///< and take each so many-th
-    Alone alone = {};      ///< for what is timed
+    /// What takes longer than the closest hits may be left out: the rays that leave them, and their
+    /// proven bounds, for which the truth is worked out once more.
+    bool second_hits = true;
+    bool bounds = true;
+    Alone alone = {};  ///< for what is timed
 };
 
 /// How many, and quantiles of their errors.
