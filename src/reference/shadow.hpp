@@ -63,6 +63,20 @@ template <class Real, class Body>
     return within > (at_light && is_within(*nearest) ? 1 : 0);
 }
 
+/// Whether any of some bodies is.
+template <class Real>
+[[nodiscard]] bool any_in_way(const Bodies<Real>& bodies, const Start<Real>& start,
+                              const Vec3<Real>& D, Real t_end,
+                              const std::optional<Vec3<Real>>& light)
+{
+    bool blocked = false;
+    visit_bodies(bodies, [&](const auto& body) {
+        blocked = is_in_way(body, start, D, t_end, light);
+        return !blocked;
+    });
+    return blocked;
+}
+
 /// The share of a light that reaches the point of a hit: one where nothing is in the way, nothing
 /// behind an opaque blocker; with transparent shadows the product of what each blocking object
 /// passes on, once however often the way crosses it.

@@ -131,12 +131,7 @@ private:
         if (is_point)
             place = reference::Vec3<Real>(light.vector);
         const reference::Start<Real> start{point, point, std::numeric_limits<Real>::min()};
-        bool blocked = false;
-        visit_bodies(casters_ ? *casters_ : bodies_, [&](const auto& body) {
-            blocked = is_in_way(body, start, way, end, place);
-            return !blocked;
-        });
-        return !blocked;
+        return !any_in_way(casters_ ? *casters_ : bodies_, start, way, end, place);
     }
 
     reference::Bodies<Real> bodies_;

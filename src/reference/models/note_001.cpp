@@ -61,14 +61,8 @@ bool Note001<Real, Recorder>::in_shadow(const Departure<Real>& on, const Vec3<Re
     if (world_.shadows == ShadowKind::none)
         return false;
     const Start<Real> start = start_at(world_, on.along(L), P);
-    const auto place = place_of_light(world_, light);
     // The note looks for the closest sphere, though any one will do.
-    bool shadow_sphere = false;
-    visit_bodies(world_.blockers, [&](const auto& body) {
-        shadow_sphere = is_in_way(body, start, L, t_max, place);
-        return !shadow_sphere;
-    });
-    return shadow_sphere;
+    return any_in_way(world_.blockers, start, L, t_max, place_of_light(world_, light));
 }
 
 // The note has only spheres and lets N point away from the centre even when seen from inside.
