@@ -9,8 +9,8 @@
 # has arrays on its stack, which is every one here, and call libc where a guard is broken.
 set_source_files_properties(kernels/table.cpp kernels/fused_kernels.cpp PROPERTIES
     COMPILE_OPTIONS "$<$<CONFIG:Release>:${packtrace_frame_flags}>")
-# Probes are asked for shares of a frame, not for speed: they execute some 5 % more instructions so,
-# in every stage, and take a third less to build, which with all instruction sets is a minute.
+# Probes are asked for shares of a frame, not for speed: they execute 2 to 4 % more instructions so,
+# and take a third less to build, which with all instruction sets is a minute.
 set_source_files_properties(kernels/probe_kernels.cpp PROPERTIES
     COMPILE_OPTIONS "$<$<CONFIG:Release>:-O1>")
 
