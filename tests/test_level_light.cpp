@@ -1,5 +1,10 @@
-// Directional light along planes, and from points that lie on two surfaces at once.
+// Directional light along planes and caps, and from points where rounding tells no side: on two
+// surfaces at once, or at the world's origin.
 #include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <numbers>
+#include <sstream>
 #include <string>
 
 #include <packtrace/read_scene.hpp>
@@ -43,6 +48,42 @@ void check_all_packets(const Scene& scene)
             if (accuracy == Accuracy::exact)
                 CHECK(largest_difference(render<double>(scene, options), expected) < 1e-5);
         }
+}
+
+std::string vector_text(double x, double y, double z)
+{
+    std::ostringstream text;
+    text.precision(17);
+    text << '(' << x << ", " << y << ", " << z << ')';
+    return text.str();
+}
+
+/// The cap of a cylinder turned about y, filling the view, with light along it whose highlight
+/// every pixel of it sees if any does.
+Scene lit_cap(const std::string& illumination, const std::string& material, int degrees)
+{
+    const double angle = degrees * std::numbers::pi / 180.0;
+    const double sine = std::sin(angle);
+    const double cosine = std::cos(angle);
+    return parse_scene("illumination = " + illumination +
+                           "\nimage_size = 12 x 12\ncamera { fov = 20  look_at = " +
+                           vector_text(6.0 * sine, 0.6, 6.0 * cosine) + "  position = " +
+                           vector_text(9.0 * sine - 2.0 * cosine, 0.0, 9.0 * cosine + 2.0 * sine) +
+                           " }\ncylinder { z_range = (-2, 2)  capped = yes  " + material +
+                           "  rotate = (0, 1, 0, " + std::to_string(degrees) +
+                           ")  scale = 3 }\nlight { type = directional  intensity = 1  "
+                           "direction = " +
+                           vector_text(cosine, 0.3, -sine) + " }",
+                       "cap", {});
+}
+
+template <class Real>
+void check_lit_alike(const Image<Real>& image)
+{
+    std::size_t lit = 0;
+    for (const Real value : image.rgb)
+        lit += value > Real(0.01) ? 1 : 0;
+    CHECK((lit == 0 || lit == image.rgb.size()));
 }
 
 }  // namespace
@@ -104,6 +145,48 @@ TEST_CASE("Glass along parallel light passes all of it on", "[level_light]")
             lit_wall("(1, 0, -1)", std::string("shadows = transparent\n"
                                                "plane { point = (0, -4, 0)  normal = ") +
                                        normal + "  diffuse = 0.5  transmit = 0.5 }"));
+    }
+}
+
+TEST_CASE("Light along a cap shines on all of it or on none", "[level_light]")
+{
+    for (const int degrees : {10, 20, 30, 45, 60})
+        for (const bool scratch : {false, true}) {
+            CAPTURE(degrees, scratch);
+            const Scene scene = scratch
+                                    ? lit_cap("scratch", "specular = 2", degrees)
+                                    : lit_cap("general", "highlight = 1  shininess = 2", degrees);
+            for (const Accuracy accuracy : {Accuracy::exact, Accuracy::fast})
+                for (const RenderOptions& options : packet_ways(accuracy)) {
+                    INFO(options.isa);
+                    check_lit_alike(render<float>(scene, options));
+                    if (accuracy == Accuracy::exact)
+                        check_lit_alike(render<double>(scene, options));
+                }
+        }
+}
+
+TEST_CASE("A body seen from inside at the world's origin keeps light from behind away",
+          "[level_light]")
+{
+    for (const char* light :
+         {"type = point  position = (0, 0, 5)", "type = directional  direction = (0, 0, 1)"}) {
+        CAPTURE(light);
+        const Scene scene = parse_scene(std::string(R"(
+                illumination = general
+                image_size = 1 x 1
+                camera { position = (0, 0, 1)  look_at = (0, 0, 0) }
+                sphere { center = (0, 0, 1)  radius = 1  diffuse = 1 }
+                light { intensity = 1  )") + light +
+                                            " }",
+                                        "inside", {});
+        CHECK(largest(render<double>(scene, {.kernel = Kernel::scalar})) == 0.0);
+        for (const Accuracy accuracy : {Accuracy::exact, Accuracy::fast})
+            for (const RenderOptions& options : packet_ways(accuracy)) {
+                INFO(options.isa);
+                CHECK(render<float>(scene, options).rgb[0] == 0.0F);
+                CHECK(largest(render<double>(scene, options)) == 0.0);
+            }
     }
 }
 

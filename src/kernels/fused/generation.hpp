@@ -81,6 +81,7 @@ struct LitHits {
     vreal<float> normal_dir;  ///< N·D
     vreal<float> floor_dir2;  ///< squared cosine below which nothing shines, times D·D
     std::uint32_t leaving;    ///< lanes that come from the inside
+    std::uint32_t turned;     ///< lanes whose normal is turned
     std::uint32_t again;      ///< lanes that may see their own body again
     bool is_far;              ///< some are beyond the plan's origins
     bool are_plain;           ///< no lane is one of these
@@ -96,6 +97,7 @@ inline SurfacePacket<float> lit_surface(const LitHits& hits, const Vec3v<float>&
     surface.number = numbers_of(hits.at);
     surface.common = hits.at.common;
     surface.leaving = hits.leaving;
+    surface.turned = hits.turned;
     surface.lift = origin_offset<float>(start_error, surface.point, hits.at.outward);
     return surface;
 }
@@ -128,6 +130,7 @@ template <abi::Features F>
                facing_viewer(tile.scene.shapes, surface, hits.at.lanes));
     hits.normal = surface.normal;
     hits.leaving = surface.leaving & hits.at.lanes;
+    hits.turned = surface.turned & hits.at.lanes;
     hits.normal_dir = dot(hits.normal, dir);
 }
 
@@ -312,17 +315,19 @@ inline void trace_generation(const FusedTile<F>& tile, const CommonLists& candid
                  dot(hit.outward, path.dir),
                  material->floor2 * path.dir2,
                  0,
+                 0,
                  F.quadrics && tile.plan.surfaces[hit.common].met_again ? hit.lanes : 0,
                  (far_lanes(tile.plan.common, hit.point) & hit.lanes) != 0,
                  false};
     if ((bits(hits.normal_dir > vreal<float>(0.0f)) & hit.lanes) != 0) {
         const HitState copy = hit;
-        LitHits turned{copy, hits.normal, hits.normal_dir, hits.floor_dir2, 0, 0, false, false};
+        LitHits turned{copy, hits.normal, hits.normal_dir, hits.floor_dir2, 0, 0, 0, false, false};
         const Vec3v<float> dir = path.dir;
         turn_normals(turned, tile, dir);
         hits.normal = turned.normal;
         hits.normal_dir = turned.normal_dir;
         hits.leaving = turned.leaving;
+        hits.turned = turned.turned;
         hits.again |= turned.leaving;
     }
     hits.are_plain = hits.again == 0 && !hits.is_far;

@@ -41,6 +41,7 @@ struct SurfacePacket {
     lane_int<Real> common_material;  ///< likewise
     Vec3v<Real> lift;       ///< outwards, to where rounding has no part in which side a point is on
     std::uint32_t leaving;  ///< lanes that come from the inside
+    std::uint32_t turned;   ///< lanes whose normal is the outward one, turned
 };
 
 /// What n·d has to be above for a ray to come from the inside. With SelfHits::exact the side that
@@ -56,8 +57,8 @@ inline vreal<Real> grazing(const abi::SceneView<Real>& scene, const Vec3v<Real>&
     return vreal<Real>(Real(4) * scene.rules.start_error) * magnitude_dot(outward, dir);
 }
 
-/// Fills `normal`, `lift` and `leaving` from the outward unit normal; the lanes of `faces_viewer`
-/// have it turned against the ray.
+/// Fills `normal`, `lift`, `leaving` and `turned` from the outward unit normal; the lanes of
+/// `faces_viewer` have it turned against the ray.
 template <class Real>
 inline void set_normal(SurfacePacket<Real>& surface, const abi::SceneView<Real>& scene,
                        const Vec3v<Real>& outward, std::uint32_t faces_viewer)
@@ -67,8 +68,9 @@ inline void set_normal(SurfacePacket<Real>& surface, const abi::SceneView<Real>&
     surface.lift = {zero, zero, zero};
     if (scene.rules.start_error > 0)
         surface.lift = origin_offset<Real>(scene.rules.start_error, surface.point, outward);
-    const auto turn = from_bits<Real>(faces_viewer & surface.leaving);
-    surface.normal = select(turn, scale<Real>(vreal<Real>(Real(-1)), outward), outward);
+    surface.turned = faces_viewer & surface.leaving;
+    surface.normal = select(from_bits<Real>(surface.turned),
+                            scale<Real>(vreal<Real>(Real(-1)), outward), outward);
 }
 
 /// 0 or 1 where the squares have their first or their other colour.

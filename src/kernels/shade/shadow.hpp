@@ -24,6 +24,18 @@ inline vreal<Real> segment_end(const abi::SceneView<Real>& scene, const LightPac
                                                     : one - epsilon;
 }
 
+/// The lanes from which the way to a light leaves a body on the outer side. The N·L of shading
+/// decides, and no other product: one may round to the other side where a light grazes a surface.
+template <class Real>
+inline std::uint32_t outside_towards(const SurfacePacket<Real>& surface,
+                                     const Vec3v<Real>& to_light)
+{
+    const vreal<Real> zero(Real(0));
+    const vreal<Real> normal_light = dot(surface.normal, to_light);
+    return ~((bits(normal_light < zero) & ~surface.turned) |
+             (bits(normal_light > zero) & surface.turned));
+}
+
 /// Where the way between a hit and a light ends at the hit: on the light's side of the surface,
 /// lifted off it also by what rounding a segment as long as that can do.
 template <class Real>
@@ -32,12 +44,12 @@ inline Vec3v<Real> lit_point(const abi::SceneView<Real>& scene, const SurfacePac
 {
     if (!(scene.rules.start_error > 0))
         return surface.point;
-    const auto inside = dot(surface.lift, to_light) < vreal<Real>(Real(0));
+    const auto inside = from_bits<Real>(~outside_towards(surface, to_light) & all_lanes<Real>);
     Vec3v<Real> lift = surface.lift;
     if (segment) {
         const vreal<Real> more =
             vreal<Real>(scene.rules.start_error) * magnitude_dot(surface.normal, to_light);
-        const auto turned = dot(surface.lift, surface.normal) < vreal<Real>(Real(0));
+        const auto turned = from_bits<Real>(surface.turned & all_lanes<Real>);
         lift = madd<Real>(select(turned, negated(more), more), surface.normal, lift);
     }
     return select(inside, surface.point - lift, surface.point + lift);
@@ -110,7 +122,7 @@ inline std::uint32_t own_shadow(const abi::SceneView<Real>& scene,
 {
     if (!(scene.rules.start_error > 0))
         return 0;
-    const std::uint32_t outside = ~bits(dot(surface.lift, packet.to_light) < vreal<Real>(Real(0)));
+    const std::uint32_t outside = outside_towards(surface, packet.to_light);
     const abi::ShapesView& shapes = casters_of(scene).shapes;
     const SecondHit<Real> again =
         second_hit<Real>(shapes, surface.number, surface.point, packet.to_light,

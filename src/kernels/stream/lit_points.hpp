@@ -60,6 +60,7 @@ inline GivenPoints<Real> points_at(const abi::SceneView<Real>& scene,
     surface.point = load_some3(view.point, first, count);
     surface.normal = surface.lift = {zero, zero, zero};
     surface.number = no_surface<Real>();
+    surface.turned = 0;
     const Vec3v<Real>& at = surface.point;
     points.numbers = bits((at.x == at.x) & (at.y == at.y) & (at.z == at.z));
     Vec3v<Real>& to_light = points.light.to_light;
