@@ -164,8 +164,29 @@ TEST_CASE("bounds are empty where there is no hit", "[hit_bounds]")
     CHECK(OneRay<double>({0, 0, 0}, {0, 0, 1}, 7.0).first(scene).empty());
     CHECK(OneRay<double>({0, 0, 0}, {0, 1, 0}).first(scene).empty());
     CHECK(OneRay<double>({0, 0, 0}, {0, 0, 0}).first(scene).empty());
+    constexpr double none = std::numeric_limits<double>::quiet_NaN();
+    CHECK(OneRay<double>({none, 0, 0}, {0, 0, 1}).first(scene).empty());
+    CHECK(OneRay<double>({0, 0, 0}, {0, none, 1}).first(scene).empty());
+    CHECK(OneRay<double>({0, 0, 0}, {0, 0, 1}, none).first(scene).empty());
+    CHECK(OneRay<double>({0, 0, 0}, {0, 0, 1}, 0.0, none).first(scene).empty());
     // Past the ball by less than single precision tells.
     CHECK(OneRay<double>({1.0 + 0x1p-50, 0, 0}, {0, 0, 1}).first(scene).empty());
+}
+
+TEST_CASE("bounds are empty for one of all hits that rounding took into the range", "[hit_bounds]")
+{
+    const RayScene<double> scene(scene_of(hand_scene));
+    Ray<double> ray{.org = {0, 0, 0}, .dir = {0, 0, 1}};
+    const std::vector<SurfaceHit<double>> hits = scene.all_hits(ray);
+    REQUIRE(hits.size() == 2);
+    ray.t_max = 6.0;
+    std::vector<HitBounds> bounds = scene.bound_all_hits(ray, hits);
+    CHECK(holds(bounds[0], 4.0));
+    CHECK(bounds[1].empty());
+    ray = {.org = {0, 0, 0}, .dir = {0, 0, 1}, .t_min = 4.0};
+    bounds = scene.bound_all_hits(ray, hits);
+    CHECK(bounds[0].empty());
+    CHECK(holds(bounds[1], 6.0));
 }
 
 TEST_CASE("bounds hold the near of two hits that single precision cannot tell apart",

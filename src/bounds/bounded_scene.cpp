@@ -102,18 +102,28 @@ std::vector<std::size_t> in_order(std::span<const HitInterval> hits, std::span<c
     return found;
 }
 
-/// The interval nearest to each t, of which there are more.
-std::vector<std::size_t> nearest(std::span<const HitInterval> hits, std::span<const double> t)
+/// The interval nearest to t.
+const HitInterval& nearest(std::span<const HitInterval> hits, double t)
 {
-    std::vector<std::size_t> found;
-    for (const double at : t) {
-        const auto first = std::min_element(hits.begin(), hits.end(),
-                                            [at](const HitInterval& a, const HitInterval& b) {
-                                                return distance(a, at) < distance(b, at);
-                                            });
-        found.push_back(static_cast<std::size_t>(first - hits.begin()));
+    return *std::min_element(hits.begin(), hits.end(),
+                             [t](const HitInterval& a, const HitInterval& b) {
+                                 return distance(a, t) < distance(b, t);
+                             });
+}
+
+/// Bounds of each t, of which there are more than `counted`: such as a touch, which is hit twice.
+/// What lies by one of `hits` that does not count is no hit, unless rounding t to single precision
+/// may have taken it there.
+void bounds_of_more(std::span<const HitInterval> counted, std::span<const HitInterval> hits,
+                    const Range& range, std::span<const double> t, std::span<HitBounds> bounds)
+{
+    for (std::size_t i = 0; i < t.size(); ++i) {
+        const HitInterval& hit = nearest(counted, t[i]);
+        const bool is_near = distance(hit, t[i]) <= Quad(0x1p-22) * magnitude(t[i]);
+        bounds[i] = is_near || may_count(nearest(hits, t[i]), range)
+                        ? with_overlapping(hit, counted, range)
+                        : HitBounds{};
     }
-    return found;
 }
 
 /// Bounds of each of several hits in the range, whose rounded t are given in rising order.
@@ -132,8 +142,11 @@ void bounds_of(std::span<const HitInterval> hits, const Range& range, std::span<
         std::fill(bounds.begin(), bounds.end(), HitBounds{});
         return;
     }
-    const std::vector<std::size_t> found =
-        t.size() > counted.size() ? nearest(counted, t) : in_order(counted, t);
+    if (t.size() > counted.size()) {
+        bounds_of_more(counted, hits, range, t, bounds);
+        return;
+    }
+    const std::vector<std::size_t> found = in_order(counted, t);
     for (std::size_t i = 0; i < t.size(); ++i)
         bounds[i] = with_overlapping(counted[found[i]], counted, range);
 }
@@ -194,6 +207,9 @@ void BoundedScene::replace(const Scene& scene, std::span<const MovedShape> moved
 
 std::vector<HitInterval> BoundedScene::hits_of(std::int32_t object, const Line& line) const
 {
+    // A ray with a NaN hits nothing, of which line_hits() would prove nothing.
+    if (glm::any(glm::isnan(line.org)) || glm::any(glm::isnan(line.dir)))
+        return {};
     const std::int32_t at = index_[static_cast<std::size_t>(object)];
     if (at >= 0)
         return line_hits(spheres_[static_cast<std::size_t>(at)], Mat4(1.0), line);
