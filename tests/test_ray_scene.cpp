@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <deque>
 #include <functional>
 #include <limits>
 #include <random>
@@ -17,6 +18,7 @@
 
 #include "catch.hpp"
 #include "packet_ways.hpp"
+#include "page_end.hpp"
 #include "reference_scenes.hpp"
 #include "refusal.hpp"
 #include "render/ray_columns.hpp"
@@ -332,6 +334,61 @@ TEMPLATE_TEST_CASE("a ray that ends at a NaN meets nothing, whatever is asked", 
         CHECK_FALSE(rays.occluded(ray));
         CHECK(rays.closest_hit(ray).object == -1);
         CHECK(rays.all_hits(ray).empty());
+    }
+}
+
+TEMPLATE_TEST_CASE("no value behind those of the last ray is read or written", "[ray_scene]", float,
+                   double)
+{
+    using Real = TestType;
+    const RayColumns<double> some = random_rays(67);
+    Scene lit = mixed_scene();
+    lit.lights.push_back(point_light({0, 9, 0}, 1.0));
+    for (const RenderOptions& options : packet_ways()) {
+        const RayScene<Real> scene(lit, options);
+        for (const std::size_t count : {std::size_t{1}, std::size_t{6}, some.size()}) {
+            RayColumns<Real> rays;
+            // deque: what is in it is not moved.
+            std::deque<PageEnd<Real>> column;
+            for (std::size_t i = 0; i < rays.columns.size(); ++i) {
+                rays.columns[i].assign(
+                    some.columns[i].begin(),
+                    some.columns[i].begin() + static_cast<std::ptrdiff_t>(count));
+                column.emplace_back(std::span<const Real>(rays.columns[i]));
+            }
+            const auto at = [&](std::size_t i) { return column[i].data(); };
+            const RaysView<Real> view{at(0), at(1), at(2), at(3), at(4),
+                                      at(5), at(6), at(7), count};
+            for (int i = 0; i < 14; ++i)
+                column.emplace_back(count);
+            const PageEnd<std::int32_t> object(count), surface(count), next(count);
+            const PageEnd<std::uint8_t> mask(count);
+            const HitsView<Real> hits{at(8),
+                                      object.data(),
+                                      at(9),
+                                      at(10),
+                                      at(11),
+                                      {at(12), at(13), at(14)},
+                                      {at(15), at(16), at(17)},
+                                      {at(18), at(19), at(20)},
+                                      surface.data()};
+            scene.closest_hits(view, hits);
+            HitColumns<Real> same(count);
+            scene.closest_hits(rays.view(), same.view());
+            CHECK(object.values() == same.object);
+            CHECK(column[8].values() == same.t);
+            scene.occluded(view, mask.data());
+            scene.lit({{at(18), at(19), at(20)}, surface.data(), count}, 0, mask.data());
+            // Of t alone, and rays that leave what was hit.
+            scene.closest_hits(view, {at(21), next.data()});
+            CHECK(next.values() == same.object);
+            RaysView<Real> leaving = view;
+            leaving.org_x = at(12);
+            leaving.org_y = at(13);
+            leaving.org_z = at(14);
+            scene.closest_hits(leaving, {{at(18), at(19), at(20)}, surface.data()},
+                               {at(21), next.data()});
+        }
     }
 }
 

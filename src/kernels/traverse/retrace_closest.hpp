@@ -180,12 +180,15 @@ inline int settle_bundle(const abi::SceneView<Real>& scene, RayBundle<Real>& bun
     } else if constexpr (sizeof(Real) == sizeof(double)) {
         for (int first = 0; first < bundle_rays; first += lanes<Real>) {
             const std::uint32_t active = active_lanes(bundle, first);
-            const StartPacket<Real> start = active != 0 ? start_of(first) : no_start<Real>();
-            if ((bits(start.second.t < t_max_of(first)) & active) == 0)
+            // Where a stream ends, no ray of a packet may be left to ask for its end.
+            if (active == 0)
+                continue;
+            const StartPacket<Real> start = start_of(first);
+            const vreal<Real> t_max = t_max_of(first);
+            if ((bits(start.second.t < t_max) & active) == 0)
                 continue;
             HitPacket<Real> hit = load_hits(bundle, first);
-            settle_met_again(scene.shapes, load_rays(bundle, first), hit, start, t_max_of(first),
-                             active);
+            settle_met_again(scene.shapes, load_rays(bundle, first), hit, start, t_max, active);
             store(bundle.t + first, hit.t);
             store(bundle.surface + first, hit.surface);
         }
