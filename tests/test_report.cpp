@@ -5,6 +5,7 @@
 #include <packtrace/write_report.hpp>
 
 #include <algorithm>
+#include <limits>
 #include <random>
 #include <set>
 
@@ -332,6 +333,15 @@ TEST_CASE("axes hold all values between tics that can be read", "[report]")
     CHECK(errors.high >= 0.02);
     CHECK(decade_axis({0.0}).tics.size() >= 2);
     CHECK(decade_axis({1e-300, 1.0}).tics.size() <= 10);
+    const double infinity = std::numeric_limits<double>::infinity();
+    PlotAxis broken = decade_axis({3e-7, infinity});
+    CHECK(broken.high >= 3e-7);
+    CHECK(broken.high < 1.0);
+    CHECK(broken.tics.back().name == "inf");
+    broken.first_pixel = 500;
+    broken.last_pixel = 100;
+    CHECK(broken.pixel(infinity) == Approx(100));
+    CHECK(decade_axis({infinity}).tics.size() >= 2);
     PlotAxis pixels = errors;
     pixels.first_pixel = 500;
     pixels.last_pixel = 100;

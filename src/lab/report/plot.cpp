@@ -90,7 +90,7 @@ void write_data(std::ostream& to, const Plot& plot, const Axes& axes)
     for (std::size_t i = 0; i < plot.series.size(); ++i) {
         std::string points, leaders, labels;
         for (const PlotPoint& point : plot.series[i].points) {
-            const double y = std::max(point.y, axes.y.low);
+            const double y = std::clamp(point.y, axes.y.low, axes.y.high);
             points +=
                 row_of(point.x, y, " " + number_text(point.low) + " " + number_text(point.high));
             if (plot.series[i].line)

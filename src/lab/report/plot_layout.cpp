@@ -27,8 +27,8 @@ double power_of_ten(int exponent)
 
 double PlotAxis::pixel(double value) const
 {
-    return first_pixel +
-           (last_pixel - first_pixel) * std::log(std::max(value, low) / low) / std::log(high / low);
+    return first_pixel + (last_pixel - first_pixel) * std::log(std::clamp(value, low, high) / low) /
+                             std::log(high / low);
 }
 
 double PlotAxis::value(double pixel) const
@@ -61,9 +61,11 @@ PlotAxis decade_axis(const std::vector<double>& values)
     double least = 1.0;
     double most = 0.0;
     bool has_zero = false;
+    bool has_infinity = false;
     for (const double value : values) {
         has_zero = has_zero || value == 0.0;
-        if (value > 0.0) {
+        has_infinity = has_infinity || std::isinf(value);
+        if (value > 0.0 && std::isfinite(value)) {
             least = most > 0.0 ? std::min(least, value) : value;
             most = std::max(most, value);
         }
@@ -74,12 +76,14 @@ PlotAxis decade_axis(const std::vector<double>& values)
     const int highest = static_cast<int>(std::ceil(std::log10(most) + 0.2));
     PlotAxis axis;
     axis.low = power_of_ten(has_zero ? lowest - 2 : lowest);
-    axis.high = power_of_ten(highest);
+    axis.high = power_of_ten(has_infinity ? highest + 2 : highest);
     if (has_zero)
         axis.tics.push_back({axis.low, "0"});
     const int step = (highest - lowest) / most_decade_tics + 1;
     for (int exponent = lowest; exponent <= highest; exponent += step)
         axis.tics.push_back({power_of_ten(exponent), tic_text("%.0e", power_of_ten(exponent))});
+    if (has_infinity)
+        axis.tics.push_back({axis.high, "inf"});
     return axis;
 }
 

@@ -27,7 +27,8 @@ struct PlotAxis {
 /// With tics at 1, 2 and 5 of every decade, and some room on both sides. `values` are > 0.
 [[nodiscard]] PlotAxis fine_axis(const std::vector<double>& values);
 
-/// With tics at decades. Zeros among the values lie two decades below the least other.
+/// With tics at decades. Zeros among the values lie two decades below the least other, infinite
+/// ones as far above the largest.
 [[nodiscard]] PlotAxis decade_axis(const std::vector<double>& values);
 
 /// A rectangle of a picture, in pixels to the right and down.
