@@ -198,6 +198,34 @@ TEST_CASE("where the gradient vanishes the normal is against the ray, in every k
         }
 }
 
+TEST_CASE("a ray that starts at a cone's apex along the axis does not meet the cone again",
+          "[self_hits]")
+{
+    const std::string place = GENERATE("", "translate = (0.3, -0.7, 1.1)");
+    CAPTURE(place);
+    const Scene scene = parse_scene(
+        "illumination = general  image_size = 1 x 1  max_depth = 4  camera { position = " +
+            std::string(place.empty() ? "(0, 0, -3)" : "(0.3, -0.7, -1.9)") +
+            " } light { type = ambient intensity = 1 }"
+            "cone { ambient = 0.25 reflect = 0.5 " +
+            place + " }",
+        "apex");
+    const auto check = [](const auto& image) {
+        CHECK(static_cast<double>(image.pixel(0, 0)[0]) == 0.25);
+    };
+    check(scalar_exact<float>(scene));
+    check(scalar_exact<double>(scene));
+    check(scalar_exact<long double>(scene));
+    for (const std::string& isa : supported_isas())
+        for (const Accuracy accuracy : {Accuracy::fast, Accuracy::exact}) {
+            CAPTURE(isa, static_cast<int>(accuracy));
+            RenderOptions options = exact_options(isa);
+            options.accuracy = accuracy;
+            check(render<float>(scene, options));
+            check(render<double>(scene, options));
+        }
+}
+
 TEST_CASE("a ray that leaves a ball meets it again only from inside, however shallow",
           "[self_hits]")
 {

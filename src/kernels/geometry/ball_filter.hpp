@@ -33,7 +33,7 @@ inline BallFilter ball_filter(const double (&center)[3], float radius, const Ori
         sphere_bounds(vreal<float>(radius * inflation), center_error,
                       moment_error(center_error, vreal<float>(distance)));
     ball.outer2 = first_lane<float>(bounds.outer2);
-    ball.reach = (__builtin_sqrtf(ball.outer2) + first_lane<float>(bounds.along)) * inflation;
+    ball.reach = first_lane<float>(bounds.reach);
     return ball;
 }
 
@@ -47,9 +47,7 @@ inline std::uint32_t may_hit_ball(const BallFilter& ball, const RayPacket<float>
     if (near == 0)
         return 0;
     const vreal<float> middle = negated(dot(w, rays.dir)) * scale.inverse2;
-    const vreal<float> reach =
-        madd(vreal<float>(ball.reach), scale.inverse, vreal<float>(roundoffs(28.0f)) * abs(middle));
-    return near & ~bits(middle + reach < rays.t_min) & ~bits(middle - reach > t_end);
+    return may_be_within(near, middle, vreal<float>(ball.reach), rays, scale, t_end);
 }
 
 }  // namespace

@@ -21,6 +21,7 @@ struct SphereBounds {
     Value size;    ///< twice the radius, rounded up
     Value band2;   ///< the square of a quarter of the way in the sphere, times d·d, of a ray in
                    ///< between, at most
+    Value reach;   ///< half the way of a near ray in the sphere at most, and `along`
 };
 
 /// How far rounding may move |m| / |d| for rays whose origins are up to `length` from a centre that
@@ -46,6 +47,7 @@ inline SphereBounds<Value> sphere_bounds(const Value& radius, const Value& cente
     bounds.size = Value(2.0f * inflation) * size;
     const Value widest = size * Value(1.0f + roundoffs(6.0f));
     bounds.band2 = max(size * (widest - min(inner, size)), Value(0.0f));
+    bounds.reach = madd(Value(inflation), max(outer, Value(0.0f)), bounds.along);
     return bounds;
 }
 
@@ -90,6 +92,17 @@ inline SphereApproach approach(const Vec3v<float>& w, const vreal<float>& outer2
     const vreal<float> moment2 = moment2_of(w, rays);
     const std::uint32_t misses = bits(moment2 > outer2 * rays.dir2);
     return {moment2, ~misses & all_lanes<float>};
+}
+
+/// Of the lanes near a sphere with bounds.reach those that may be in it between t_min and t_end.
+/// `middle` is the t of their nearest approach.
+inline std::uint32_t may_be_within(std::uint32_t near, const vreal<float>& middle,
+                                   const vreal<float>& reach, const RayPacket<float>& rays,
+                                   const RayScale& scale, const vreal<float>& t_end)
+{
+    const vreal<float> half =
+        madd(reach, scale.inverse, vreal<float>(roundoffs(28.0f)) * abs(middle));
+    return near & ~bits(middle + half < rays.t_min) & ~bits(middle - half > t_end);
 }
 
 /// Discriminants below this count as this, so that their inverse root is a number.
@@ -138,9 +151,14 @@ inline void keep_near_sphere(HitPacket<float>& hit, const SphereTest& test,
                              const SphereApproach& near, const RayPacket<float>& rays,
                              const RayScale& scale, std::int32_t surface)
 {
-    const SphereCrossing at = crossing(test, near, rays, scale);
+    const vreal<float> middle = negated(dot(test.w, rays.dir)) * scale.inverse2;
+    const std::uint32_t open =
+        may_be_within(near.near, middle, test.bounds.reach, rays, scale, hit.t);
+    if (open == 0)
+        return;
+    const SphereCrossing at = crossing(test, {near.moment2, open}, rays, scale);
     keep_first_of(hit, at.roots, at.sure, rays.t_min, surface);
-    const std::uint32_t band = near.near & ~bits(at.sure);
+    const std::uint32_t band = open & ~bits(at.sure);
     if (band == 0)
         return;
     const vreal<float> error = band_error(test, at, scale);
@@ -233,6 +251,7 @@ inline void append_bounds(SphereFilters& list, std::uint32_t kept,
     compress_store(list.bounds.moment + list.count, kept, bounds.moment);
     compress_store(list.bounds.size + list.count, kept, bounds.size);
     compress_store(list.bounds.band2 + list.count, kept, bounds.band2);
+    compress_store(list.bounds.reach + list.count, kept, bounds.reach);
 }
 
 /// A shared origin relative to a packet of centres, rounded once.
@@ -286,7 +305,8 @@ inline SphereTest test_of(const SphereFilters& list, int i, const Vec3v<float>& 
             vreal<float>(list.radius2[i]),
             {vreal<float>(list.bounds.outer2[i]), vreal<float>(list.bounds.inner2[i]),
              vreal<float>(list.bounds.along[i]), vreal<float>(list.bounds.moment[i]),
-             vreal<float>(list.bounds.size[i]), vreal<float>(list.bounds.band2[i])}};
+             vreal<float>(list.bounds.size[i]), vreal<float>(list.bounds.band2[i]),
+             vreal<float>(list.bounds.reach[i])}};
 }
 
 inline ListedSphere<SphereFilters> object_at(const SphereFilters& list, int index)
@@ -352,7 +372,7 @@ inline void take_room(Arena& arena, SphereFilters& list, int count)
     SphereBounds<float*>& bounds = list.bounds;
     float** const arrays[] = {&list.x,        &list.y,        &list.z,       &list.radius2,
                               &bounds.outer2, &bounds.inner2, &bounds.along, &bounds.moment,
-                              &bounds.size,   &bounds.band2};
+                              &bounds.size,   &bounds.band2, &bounds.reach};
     share_block(arena, arrays, padded(count));
     list.surface = arena.template take<std::int32_t>(padded(count));
 }

@@ -35,16 +35,44 @@ inline void store_tile_hits(abi::TileHits<Real>& hits, int first, const abi::Sce
     store(hits.surface + first, hit.surface);
 }
 
-/// The objects of a scene of few for the rays of its eye, where most packets hit but one of them.
+/// Whether an object is among some, by the number of its first surface.
+class Listed {
+public:
+    explicit Listed(const FilteredObjects<true>& objects)
+    {
+        for_each_kind<abi::Features{.quadrics = true}>([&](auto kind) {
+            const auto& list = objects_of<decltype(kind)>(objects);
+            for (int i = 0; i < list.count; ++i)
+                first_[count_++] = body_of(object_at(list, i)).first;
+            return true;
+        });
+    }
+    bool operator()(std::int32_t first) const
+    {
+        for (int i = 0; i < count_; ++i)
+            if (first_[i] == first)
+                return true;
+        return false;
+    }
+
+private:
+    std::int32_t first_[most_common_objects];
+    int count_ = 0;
+};
+
+/// What the eye may see through a tile, of a scene of few objects, where most packets hit but one
+/// of them.
 class EyeObjects {
 public:
-    EyeObjects(const abi::SceneView<float>& scene, const float (&eye)[3]) : eye_(eye)
+    EyeObjects(const abi::SceneView<float>& scene, const float (&eye)[3],
+               const FilteredObjects<true>& visible)
+        : eye_(eye)
     {
         common_.spheres.use(spheres_);
         common_.grounds.use(grounds_);
         common_.balls.use(balls_);
         if (has_few_objects(scene))
-            fill_common(common_, scene, near_origins(scene, eye, eye), eye);
+            fill_common(common_, scene, near_origins(scene, eye, eye), eye, Listed(visible));
     }
 
     /// Finds and stores the hits of the packet at `first` where they are on one surface; false
@@ -87,7 +115,7 @@ inline void closest_in_tile(const abi::TileJob<Real>& job, abi::TileHits<Real>& 
     };
     const auto packet = [&](int first) { return camera_rays(camera, first, scene.rules.units); };
     if constexpr (F.exact) {
-        const EyeObjects common(scene, job.camera->origin);
+        const EyeObjects common(scene, job.camera->origin, visible);
         for (int first = 0; first < abi::tile_pixels; first += lanes<Real>)
             if (!common.store_hits(hits, first, packet(first)))
                 find(first, packet(first));

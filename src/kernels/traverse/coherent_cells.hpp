@@ -87,7 +87,7 @@ public:
         return {rays.org - center,
                 all(radius2_),
                 {all(bounds_.outer2), all(bounds_.inner2), all(bounds_.along), all(bounds_.moment),
-                 all(bounds_.size), all(bounds_.band2)}};
+                 all(bounds_.size), all(bounds_.band2), all(bounds_.reach)}};
     }
 
 private:
@@ -103,6 +103,7 @@ private:
             store(bounds_.moment + first, bounds.moment);
             store(bounds_.size + first, bounds.size);
             store(bounds_.band2 + first, bounds.band2);
+            store(bounds_.reach + first, bounds.reach);
         }
         is_set_ = true;
     }

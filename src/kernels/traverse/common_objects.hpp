@@ -73,7 +73,7 @@ struct CommonLists {
 struct CommonObjects : CommonLists {
     float center[3] = {};  ///< of the origins
     float near2 = 0;       ///< square of their radius, and a little less
-    bool are_all = false;  ///< bounds hold, and these are all objects of the scene
+    bool are_all = false;  ///< bounds hold, and these are all objects that rays may meet
 };
 
 /// A relative margin for whatever rounds in tests of points, and for places that rays start or end
@@ -329,10 +329,12 @@ inline bool has_few_objects(const abi::GeometryView<float>& scene)
                                      most_common_objects;
 }
 
-/// Prepares the objects of a scene for rays from `origins`. `eye` is one of them: planes are told
-/// of for rays from its side.
+/// Prepares those objects of a scene for rays from `origins` that are `wanted(surface)` by their
+/// first surface; the rays meet no other. `eye` is one of the origins: planes are told of for rays
+/// from its side.
+template <class Wanted>
 inline void fill_common(CommonObjects& common, const abi::SceneView<float>& scene,
-                        const Origins& origins, const float (&eye)[3])
+                        const Origins& origins, const float (&eye)[3], const Wanted& wanted)
 {
     for (int axis = 0; axis < 3; ++axis)
         common.center[axis] = origins.center[axis];
@@ -343,23 +345,37 @@ inline void fill_common(CommonObjects& common, const abi::SceneView<float>& scen
         return;
     common.clear();
     for (int i = 0; i < scene.spheres.count; ++i) {
+        if (!wanted(scene.spheres.surface[i]))
+            continue;
         fill_sphere(common.spheres.next(), scene, i, origins);
         common.are_all &= scene.spheres.radius[i] > least_common_radius;
     }
     for_each_other(scene, [&](const auto& record) {
         const RoundedBall ball = ball_of(record);
+        if (!wanted(ball.body.first))
+            return;
         fill_ball(common.balls.next(), ball, origins);
         common.are_all &= ball.radius < __builtin_inff();
     });
     const auto fill = [&](const auto& list, const auto* shapes) {
         for (int i = 0; i < list.count; ++i) {
+            const std::int32_t surface = list.data[i].surface;
+            if (!wanted(surface))
+                continue;
             CommonGround& ground = common.grounds.next();
-            ground.surface = list.data[i].surface;
-            fill_ground(ground, shapes[scene.shapes.index[ground.surface].record], origins, eye);
+            ground.surface = surface;
+            fill_ground(ground, shapes[scene.shapes.index[surface].record], origins, eye);
         }
     };
     fill(scene.anchored_spheres, scene.shapes.anchored_spheres);
     fill(scene.planes, scene.shapes.planes);
+}
+
+/// The same of all objects.
+inline void fill_common(CommonObjects& common, const abi::SceneView<float>& scene,
+                        const Origins& origins, const float (&eye)[3])
+{
+    fill_common(common, scene, origins, eye, [](std::int32_t) { return true; });
 }
 
 /// The lanes whose places are not among the origins that bounds are for.

@@ -21,6 +21,9 @@ template <class Real>
     if (parallel)
         return side == Side::outer ? Interior<Real>{-std::numeric_limits<Real>::infinity(), 0, true}
                                    : Interior<Real>{0, std::numeric_limits<Real>::infinity(), true};
+    // From a cone's apex into either half, which holds the whole ray.
+    if (b == 0 && a < 0)
+        return {-std::numeric_limits<Real>::infinity(), std::numeric_limits<Real>::infinity(), true};
     const Real other = -2 * b / a;
     return {std::min(Real(0), other), std::max(Real(0), other), a > 0};
 }
