@@ -5,9 +5,10 @@ Rates of a caller's rays and times of frames, one thread, in `exact`, in `fast`,
 with the notes' rule for self-hits and, with BEFORE, in the default mode of an earlier build of the
 program, all by turns.
 
-Usage: results/exact_cost.py BUILD [BEFORE [REPETITIONS]]
+Usage: results/exact_cost.py BUILD [BEFORE [REPETITIONS [ISA]]]
 BUILD and BEFORE are build folders with `packtrace` and `bench/scaling/packtrace_rays`. docs/write_figures.py
-then writes its tables anew.
+then writes its tables anew. With ISA, for a machine that lacks others, only that instruction set is
+measured, and the file is results/exact_cost_ISA.json.
 """
 import json
 import pathlib
@@ -57,6 +58,10 @@ def row_of(of, times, speed):
     return row
 
 
+def chosen(isas, only):
+    return [isa for isa in isas if only in (None, isa)] or ([only] if "avx2" in isas else [])
+
+
 def main():
     if len(sys.argv) < 2:
         sys.exit(__doc__)
@@ -68,10 +73,11 @@ def main():
         builds["before"] = (sys.argv[2], DEFAULT)
         before = f"{commit_of_build(sys.argv[2])} in its default mode"
     repetitions = int(sys.argv[3]) if len(sys.argv) > 3 else 9
+    only = sys.argv[4] if len(sys.argv) > 4 else None
     rows = []
     load = machine()
     for scene, size, isas in RAYS:
-        for isa in isas:
+        for isa in chosen(isas, only):
             found = {}
             for _ in range(repetitions):
                 for mode, (build, options) in builds.items():
@@ -84,7 +90,7 @@ def main():
                                     "unit": "million rays a second"}, times, lambda x: x))
     with tempfile.TemporaryDirectory() as folder:
         for scene in FRAMES:
-            for isa in ("avx512", "avx2"):
+            for isa in chosen(("avx512", "avx2"), only):
                 times = {}
                 for _ in range(repetitions):
                     for mode, (build, options) in builds.items():
@@ -92,10 +98,10 @@ def main():
                             milliseconds(build, ROOT / f"scenes/{scene}.scene", isa, options, folder))
                 rows.append(row_of({"scene": scene, "isa": isa, "rays": "frame 512x512",
                                     "unit": "milliseconds"}, times, lambda x: 1 / x))
-    write({"command": "results/exact_cost.py build/release BEFORE", "commit": built_of,
-           "before": before,
+    write({"command": " ".join(["results/exact_cost.py build/release BEFORE", *sys.argv[3:]]),
+           "commit": built_of, "before": before,
            "machine": load, "machine_after": machine(), "repetitions": repetitions, "rows": rows},
-          "exact_cost.json")
+          f"exact_cost_{only}.json" if only else "exact_cost.json")
     subprocess.run([ROOT / "docs/write_figures.py"], check=True)
 
 
