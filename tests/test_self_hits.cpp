@@ -201,11 +201,11 @@ TEST_CASE("where the gradient vanishes the normal is against the ray, in every k
 TEST_CASE("a ray that starts at a cone's apex along the axis does not meet the cone again",
           "[self_hits]")
 {
-    const std::string place = GENERATE("", "translate = (0.3, -0.7, 1.1)");
+    const std::string place = GENERATE("", "translate = (0.25, -0.75, 1.125)");
     CAPTURE(place);
     const Scene scene = parse_scene(
         "illumination = general  image_size = 1 x 1  max_depth = 4  camera { position = " +
-            std::string(place.empty() ? "(0, 0, -3)" : "(0.3, -0.7, -1.9)") +
+            std::string(place.empty() ? "(0, 0, -3)" : "(0.25, -0.75, -1.875)") +
             " } light { type = ambient intensity = 1 }"
             "cone { ambient = 0.25 reflect = 0.5 " +
             place + " }",

@@ -48,12 +48,21 @@ public:
                 check(*hits[i], bounds[i]);
             return;
         }
-        // Some were not found, or found twice.
+        // Some were not found, or found twice, or are none: of those nothing needs to hold any.
+        const bool may_be_empty = bounds.size() > hits.size();
+        if (may_be_empty)
+            for (const TrueHit* hit : hits) {
+                const auto held =
+                    std::find_if(bounds.begin(), bounds.end(),
+                                 [&](const HitBounds& one) { return holds(one, *hit); });
+                check(*hit, held == bounds.end() ? bounds.front() : *held);
+            }
         for (const HitBounds& one : bounds) {
+            if (hits.empty() || (may_be_empty && one.empty()))
+                continue;
             const auto held = std::find_if(hits.begin(), hits.end(),
                                            [&](const TrueHit* hit) { return holds(one, *hit); });
-            if (!hits.empty())
-                check(held == hits.end() ? *hits.front() : **held, one);
+            check(held == hits.end() ? *hits.front() : **held, one);
         }
     }
 
