@@ -29,6 +29,23 @@ Image<Real> scalar_exact(const Scene& scene)
     return render_reference<Real>(scene, exact_options());
 }
 
+/// Calls `check` with a scene's picture by every kernel, in each accuracy and precision.
+template <class Check>
+void check_everywhere(const Scene& scene, const Check& check)
+{
+    check(scalar_exact<float>(scene));
+    check(scalar_exact<double>(scene));
+    check(scalar_exact<long double>(scene));
+    for (const std::string& isa : supported_isas())
+        for (const Accuracy accuracy : {Accuracy::fast, Accuracy::exact}) {
+            CAPTURE(isa, static_cast<int>(accuracy));
+            RenderOptions options = exact_options(isa);
+            options.accuracy = accuracy;
+            check(render<float>(scene, options));
+            check(render<double>(scene, options));
+        }
+}
+
 /// A glass ball in a glass ball over a checkered floor: rays start on either side of surfaces.
 Scene glass_balls(ShadowKind shadows)
 {
@@ -180,22 +197,8 @@ TEST_CASE("where the gradient vanishes the normal is against the ray, in every k
         check(image);
         CHECK(static_cast<double>(image.pixel(1, 1)[0]) == Approx(0.75));
     };
-    check_middle(scalar_exact<float>(cone));
-    check_middle(scalar_exact<double>(cone));
-    check_middle(scalar_exact<long double>(cone));
-    check(scalar_exact<float>(inside));
-    check(scalar_exact<double>(inside));
-    check(scalar_exact<long double>(inside));
-    for (const std::string& isa : supported_isas())
-        for (const Accuracy accuracy : {Accuracy::fast, Accuracy::exact}) {
-            CAPTURE(isa, static_cast<int>(accuracy));
-            RenderOptions options = exact_options(isa);
-            options.accuracy = accuracy;
-            check_middle(render<float>(cone, options));
-            check_middle(render<double>(cone, options));
-            check(render<float>(inside, options));
-            check(render<double>(inside, options));
-        }
+    check_everywhere(cone, check_middle);
+    check_everywhere(inside, check);
 }
 
 TEST_CASE("a ray that starts at a cone's apex along the axis does not meet the cone again",
@@ -210,20 +213,8 @@ TEST_CASE("a ray that starts at a cone's apex along the axis does not meet the c
             "cone { ambient = 0.25 reflect = 0.5 " +
             place + " }",
         "apex");
-    const auto check = [](const auto& image) {
-        CHECK(static_cast<double>(image.pixel(0, 0)[0]) == 0.25);
-    };
-    check(scalar_exact<float>(scene));
-    check(scalar_exact<double>(scene));
-    check(scalar_exact<long double>(scene));
-    for (const std::string& isa : supported_isas())
-        for (const Accuracy accuracy : {Accuracy::fast, Accuracy::exact}) {
-            CAPTURE(isa, static_cast<int>(accuracy));
-            RenderOptions options = exact_options(isa);
-            options.accuracy = accuracy;
-            check(render<float>(scene, options));
-            check(render<double>(scene, options));
-        }
+    check_everywhere(
+        scene, [](const auto& image) { CHECK(static_cast<double>(image.pixel(0, 0)[0]) == 0.25); });
 }
 
 TEST_CASE("a ray that leaves a ball meets it again only from inside, however shallow",
