@@ -50,11 +50,16 @@ Work work_of(const Scene& scene, bool force_general = false, Accuracy accuracy =
     return work;
 }
 
-abi::Features features_of(const Scene& scene)
+LoweredScene pruned(const Scene& scene)
 {
     LoweredScene lowered = lower(scene);
     prune(lowered);
-    return lowered.features;
+    return lowered;
+}
+
+abi::Features features_of(const Scene& scene)
+{
+    return pruned(scene).features;
 }
 
 /// The name of the narrowest kernel that renders a scene.
@@ -71,7 +76,7 @@ std::string kernel_of(const Scene& scene)
 bool has_special_kernels(const std::string& isa)
 {
     return kernels_for(precision<float>(kernels_of(isa)), {.exact = true}).set.name ==
-           std::string("matt");
+           std::string("spheres");
 }
 
 Scene scene_named(const std::string& name)
@@ -115,17 +120,13 @@ TEST_CASE("scenes that do without something are rendered as the reference has th
 
 TEST_CASE("each scene gets the narrowest kernel", "[features]")
 {
-    CHECK(kernel_of(matt_scene()) == "matt");
-    CHECK(kernel_of(scene_named("checkers")) == "matt");
-    CHECK(kernel_of(scene_named("mirrors at depth 0")) == "matt");
-    CHECK(kernel_of(scene_named("highlights")) == "shiny");
-    CHECK(kernel_of(scene_named("mirrors")) == "mirrors");
-    CHECK(kernel_of(scene_named("quadrics")) == "matt quadrics");
-    CHECK(kernel_of(scene_named("ambient light on a quadric")) == "matt quadrics");
-    CHECK(kernel_of(scene_named("tinted mirrors")) == "general");
-    CHECK(kernel_of(scene_named("glass")) == "general");
+    for (const char* name : {"matt", "checkers", "mirrors at depth 0", "highlights", "mirrors"})
+        CHECK(kernel_of(scene_named(name)) == "spheres");
+    for (const char* name : {"quadrics", "tinted mirrors", "glass"})
+        CHECK(kernel_of(scene_named(name)) == "general");
+    CHECK_FALSE(pruned(scene_named("mirrors at depth 0")).bounces);
     // Its limit has a colour, which transparent and mirroring surfaces show.
-    CHECK(kernel_of(scene_named("glass at depth 0")) != "matt");
+    CHECK(pruned(scene_named("glass at depth 0")).bounces);
 }
 
 TEST_CASE("where kernels for sets of features are compiled in, they run", "[features]")
@@ -233,9 +234,15 @@ TEST_CASE("dark lights and objects in another's place count for nothing", "[feat
 
 TEST_CASE("a material that no surface left has counts for nothing", "[features]")
 {
-    CHECK(kernel_of(parse(one_light + "sphere { center = (0, 0, 3) radius = 1 }\n"
-                                      "sphere { center = (0, 0, 3) radius = 1 reflective = 0.5 "
-                                      "specular = 9 }\n")) == "matt");
+    const std::string lit = "background = (9, 9, 9)\n" + one_light;
+    const std::string mirror =
+        "sphere { center = (0, 0, 3) radius = 1 reflective = 0.5 specular = 9 }";
+    const LoweredScene shown = pruned(parse(lit + mirror));
+    CHECK((shown.bounces && shown.highlights));
+    const LoweredScene hidden =
+        pruned(parse(lit + "sphere { center = (0, 0, 3) radius = 1 }\n" + mirror));
+    CHECK_FALSE((hidden.bounces || hidden.highlights));
+    CHECK(hidden.max_depth == 0);
 }
 
 TEST_CASE("casts_shadow is read, and written again", "[features]")

@@ -51,7 +51,7 @@ template <class Real>
 template <class Real>
 [[nodiscard]] bool sorts_mirrored(abi::Features needed, const abi::SceneView<Real>& scene)
 {
-    return needed.bounces && !needed.glass && !scene.tree.empty();
+    return scene.rules.max_depth > 0 && !needed.glass && !scene.tree.empty();
 }
 
 }  // namespace packtrace

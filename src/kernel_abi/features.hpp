@@ -1,16 +1,16 @@
 #pragma once
 
+#include <cstddef>
+
 namespace packtrace::abi {
 
-/// What a scene uses. Kernels are compiled for feature sets, and have no branch, no array and
-/// no pass for what theirs lacks.
+/// What a scene uses that kernels may be compiled without. Kernels are compiled for feature sets,
+/// and have no branch, no array and no pass for what theirs lacks.
 struct Features {
-    bool quadrics = false;    ///< surfaces other than spheres and planes
-    bool highlights = false;  ///< materials with a highlight
-    bool bounces = false;     ///< mirrored rays, or refracted ones
-    bool colored = false;     ///< children whose weight differs from channel to channel
-    bool glass = false;       ///< refracted rays, or shadows that let light through
-    bool probe = false;       ///< reports of single rays to TileJob::probe
+    bool quadrics = false;  ///< surfaces other than spheres and planes
+    bool colored = false;   ///< children whose weight differs from channel to channel
+    bool glass = false;     ///< refracted rays, or shadows that let light through
+    bool probe = false;     ///< reports of single rays to TileJob::probe
     /// Rays in single precision are decided by certain tests and refined in double.
     bool exact = false;
 };
@@ -22,21 +22,11 @@ struct FeatureSet {
 };
 
 /// A scene runs the first compiled in that covers it. Which features have a set of their own is
-/// measured: results/features.json.
+/// measured: results/feature_sets.json.
 inline constexpr FeatureSet feature_sets[] = {
-    {"matt", {}},
-    {"shiny", {.highlights = true}},
-    {"mirrors", {.highlights = true, .bounces = true}},
-    {"matt quadrics", {.quadrics = true}},
-    {"general",
-     {.quadrics = true, .highlights = true, .bounces = true, .colored = true, .glass = true}},
-    {"probe",
-     {.quadrics = true,
-      .highlights = true,
-      .bounces = true,
-      .colored = true,
-      .glass = true,
-      .probe = true}},
+    {"spheres", {}},
+    {"general", {.quadrics = true, .colored = true, .glass = true}},
+    {"probe", {.quadrics = true, .colored = true, .glass = true, .probe = true}},
 };
 inline constexpr int feature_set_count = sizeof(feature_sets) / sizeof(FeatureSet);
 /// Renders every scene.
@@ -47,8 +37,7 @@ inline constexpr int probe_set = feature_set_count - 1;
 /// A probe is never chosen for a scene that does not ask for it.
 constexpr bool covers(Features set, Features needed)
 {
-    return (set.quadrics || !needed.quadrics) && (set.highlights || !needed.highlights) &&
-           (set.bounces || !needed.bounces) && (set.colored || !needed.colored) &&
+    return (set.quadrics || !needed.quadrics) && (set.colored || !needed.colored) &&
            (set.glass || !needed.glass) && set.probe == needed.probe && set.exact == needed.exact;
 }
 
@@ -66,9 +55,9 @@ constexpr Features with_exact(Features set, bool exact)
 }
 
 /// How many numbers a ray's weight takes.
-constexpr int weight_channels(Features set)
+constexpr std::size_t weight_channels(Features set)
 {
-    return set.colored ? 3 : set.bounces ? 1 : 0;
+    return set.colored ? 3 : 1;
 }
 
 }  // namespace packtrace::abi

@@ -11,12 +11,11 @@ constexpr abi::FusedKernels<float> fused_kernels_for()
     return {F, plan_bytes<F>, make_plan<F>, fused_scratch_bytes<F>, trace_fused_tiles<F>};
 }
 
-constexpr abi::Features mirrors{.highlights = true, .bounces = true, .exact = true};
-constexpr abi::Features all_without_glass{
-    .quadrics = true, .highlights = true, .bounces = true, .colored = true, .exact = true};
+constexpr abi::Features spheres{.exact = true};
+constexpr abi::Features all_without_glass{.quadrics = true, .colored = true, .exact = true};
 
 constexpr abi::FusedTable fused = {
-    {fused_kernels_for<mirrors>(), fused_kernels_for<all_without_glass>()}};
+    {fused_kernels_for<spheres>(), fused_kernels_for<all_without_glass>()}};
 
 }  // namespace
 

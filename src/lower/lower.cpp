@@ -213,8 +213,8 @@ LoweredScene lower(const Scene& scene, Accuracy accuracy, SelfHits self_hits)
     lowered.self_hits = self_hits;
     lowered.casts_shadow = casting_surfaces(scene, lowered);
 
-    lowered.features = features_of(lowered);
     lowered.features.exact = accuracy == Accuracy::exact;
+    find_features(lowered);
     lowered.transparent_shadows =
         scene.shadows == ShadowKind::transparent && lowered.features.glass;
     if (lowered.features.glass)

@@ -57,6 +57,8 @@ struct LoweredScene : SurfaceLists {
     double tree_reach = std::numeric_limits<double>::infinity();
     std::vector<std::int32_t> eye_inside;  ///< glass objects around the eye, innermost first
     abi::Features features;                ///< `exact` as the accuracy asked for has it
+    bool highlights = false;               ///< of some material
+    bool bounces = false;                  ///< mirrored rays, or refracted ones
 };
 
 /// Lowers a scene on the threads of the TBB arena the call runs in; the result does not depend on

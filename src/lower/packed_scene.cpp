@@ -308,7 +308,7 @@ void PackedScene<Real>::add_light_buffers(const LoweredScene& lowered, double ca
 {
     if (casters_)
         return casters_->add_light_buffers(lowered, camera_rays);
-    const double spread_rays = camera_rays * (lowered.features.bounces ? 1 : spread_share_of_eye);
+    const double spread_rays = camera_rays * (lowered.bounces ? 1 : spread_share_of_eye);
     if (view_.lighting.transparent_shadows || !(spread_rays >= rays_for_light_buffer()))
         return;
     light_buffers_.resize(lights_.size());

@@ -16,12 +16,12 @@ bool grey(const Rgb& color)
     return color.x == color.y && color.y == color.z;
 }
 
-void add_features(const LoweredMaterial& material, abi::Features& features)
+void add_features(const LoweredMaterial& material, LoweredScene& lowered)
 {
-    features.highlights |= material.highlight != Rgb(0.0);
-    features.bounces |= material.reflect != Rgb(0.0) || material.transmit != Rgb(0.0);
-    features.colored |= !grey(material.reflect) || !grey(material.transmit);
-    features.glass |= material.transmit != Rgb(0.0);
+    lowered.highlights |= material.highlight != Rgb(0.0);
+    lowered.bounces |= material.reflect != Rgb(0.0) || material.transmit != Rgb(0.0);
+    lowered.features.colored |= !grey(material.reflect) || !grey(material.transmit);
+    lowered.features.glass |= material.transmit != Rgb(0.0);
 }
 
 /// By material: whether a surface has it.
@@ -128,13 +128,12 @@ std::size_t remove_dark_lights(LoweredScene& lowered)
 /// has a colour.
 void narrow_bounces(LoweredScene& lowered)
 {
-    abi::Features& features = lowered.features;
-    if (features.bounces && lowered.max_depth == 0 && lowered.limit_color == Rgb(0.0))
-        features.bounces = false;
-    if (!features.bounces)
+    if (lowered.max_depth == 0 && lowered.limit_color == Rgb(0.0))
+        lowered.bounces = false;
+    if (!lowered.bounces)
         lowered.max_depth = 0;
-    features.glass &= lowered.max_depth > 0 || lowered.transparent_shadows;
-    features.colored &= features.bounces;
+    lowered.features.glass &= lowered.max_depth > 0 || lowered.transparent_shadows;
+    lowered.features.colored &= lowered.bounces;
 }
 
 void narrow_shadows(LoweredScene& lowered)
@@ -153,19 +152,21 @@ void narrow_shadows(LoweredScene& lowered)
 /// Hits of a flat scene show their ambient light.
 void narrow_hits(LoweredScene& lowered)
 {
-    lowered.flat = lowered.lights.empty() && !lowered.features.bounces;
+    lowered.flat = lowered.lights.empty() && !lowered.bounces;
 }
 
 }  // namespace
 
-abi::Features features_of(const LoweredScene& lowered)
+void find_features(LoweredScene& lowered)
 {
-    abi::Features features{.quadrics = !lowered.quadrics.empty() || !lowered.polygons.empty()};
+    lowered.features = {.quadrics = !lowered.quadrics.empty() || !lowered.polygons.empty(),
+                        .probe = lowered.features.probe,
+                        .exact = lowered.features.exact};
+    lowered.highlights = lowered.bounces = false;
     const std::vector<bool> used = used_materials(lowered);
     for (std::size_t i = 0; i < used.size(); ++i)
         if (used[i])
-            add_features(lowered.materials[i], features);
-    return features;
+            add_features(lowered.materials[i], lowered);
 }
 
 std::size_t remove_duplicates(LoweredScene& lowered)
@@ -183,11 +184,8 @@ std::vector<LeftOut> prune(LoweredScene& lowered)
     std::vector<LeftOut> left_out;
     add(left_out, remove_dark_lights(lowered), "light", "of no intensity");
     add(left_out, remove_duplicates(lowered), "surface", "in the very place of an earlier one");
-    const abi::Features before = lowered.features;
-    lowered.features = features_of(lowered);
-    lowered.features.probe = before.probe;
-    lowered.features.exact = before.exact;
-    lowered.features.highlights &= !lowered.lights.empty();
+    find_features(lowered);
+    lowered.highlights &= !lowered.lights.empty();
     narrow_shadows(lowered);
     narrow_bounces(lowered);
     narrow_hits(lowered);
@@ -208,12 +206,12 @@ std::vector<LeftOut> unused_features(const LoweredScene& lowered, Traversal trav
     unless(!lowered.checkers.empty(), "checkers", "no plane has one");
     unless(!lowered.lights.empty(), "lights", "none shines from a place or a direction");
     unless(!lowered.flat, "normals", "no light and no mirror asks for them");
-    unless(uses.highlights || lowered.lights.empty(), "highlights", "no material has one");
+    unless(lowered.highlights || lowered.lights.empty(), "highlights", "no material has one");
     unless(lowered.shadows || lowered.lights.empty(), "shadow rays",
            "nothing casts a shadow, or no light has any");
-    unless(uses.bounces, "mirrored rays", "nothing mirrors, or the depth is 0");
+    unless(lowered.bounces, "mirrored rays", "nothing mirrors, or the depth is 0");
     unless(uses.glass, "refracted rays", "nothing lets light through");
-    unless(uses.colored || !uses.bounces, "weights by channel", "mirrors and glass are grey");
+    unless(uses.colored || !lowered.bounces, "weights by channel", "mirrors and glass are grey");
     return unused;
 }
 

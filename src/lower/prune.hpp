@@ -11,8 +11,8 @@
 // What a picture needs of its scene, and what it does without (docs/features.md).
 namespace packtrace {
 
-/// What of the features a scene uses, whatever its lights and depth are.
-[[nodiscard]] abi::Features features_of(const LoweredScene& lowered);
+/// Finds what of its features a scene uses, whatever its lights and depth are.
+void find_features(LoweredScene& lowered);
 
 /// Removes surfaces that are an earlier one of their kind once more: at equal t the lower number is
 /// hit, so they are never seen. Where light passes through objects each counts, and nothing is

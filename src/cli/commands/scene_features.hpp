@@ -43,10 +43,10 @@ struct SceneFeatures {
         "clipping");
     add(!lowered.checkers.empty(), "checkers");
     add(!lowered.lights.empty(), lowered.lights.size() > 1 ? "several lights" : "one light");
-    add(lowered.features.highlights, "highlights");
+    add(lowered.highlights, "highlights");
     add(lowered.shadows && !lowered.transparent_shadows, "opaque shadows");
     add(lowered.transparent_shadows, "transparent shadows");
-    add(lowered.features.bounces, "mirrored rays");
+    add(lowered.bounces, "mirrored rays");
     add(lowered.features.glass, "refracted rays");
     return uses;
 }

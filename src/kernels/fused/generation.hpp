@@ -204,7 +204,7 @@ inline void add_light(const FusedTile<F>& tile, const PlanLight& light, const Li
     if (light.record.casts_shadow)
         lit = lit_lanes(tile, light, hits, path.dir, packet, length2, lit_side);
     if (lit != 0)
-        color = color + lit_color<F>(light.record, packet, material.packet, lit, tile.counts);
+        color = color + lit_color(light.record, packet, material.packet, lit, tile.counts);
 }
 
 /// Adds the light at a packet of hits to the pixels.

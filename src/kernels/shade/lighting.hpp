@@ -22,7 +22,7 @@ struct LightPacket {
 };
 
 /// R·V of the mirrored light direction R = 2 (N·L) N - L comes down to 2 (N·L)(N·V) - L·V.
-template <abi::Features F, class Real>
+template <class Real>
 inline LightPacket<Real> light_at(const abi::SceneView<Real>& scene,
                                   const abi::LightRecord<Real>& light,
                                   const SurfacePacket<Real>& surface,
@@ -38,24 +38,20 @@ inline LightPacket<Real> light_at(const abi::SceneView<Real>& scene,
     const vreal<Real> normal_light = dot(surface.normal, result.to_light);
     result.inverse_length = inverse_length;
     result.diffuse = max(normal_light, zero) * inverse_length;
-    result.highlight = zero;
-    result.has_highlight = 0;
-    if constexpr (F.highlights) {
-        const vreal<Real> normal_dir = dot(surface.normal, surface.dir);
-        const vreal<Real> mirror =
-            nmadd(normal_light + normal_light, normal_dir, dot(result.to_light, surface.dir));
-        result.highlight = mirror * inverse_length * surface.inverse_length;
-        const vmask<Real> in_front = normal_light > vreal<Real>(scene.lighting.highlight_above);
-        result.has_highlight = bits(in_front & (result.highlight > zero) &
-                                    (result.highlight >= material.highlight_floor)) &
-                               active;
-    }
+    const vreal<Real> normal_dir = dot(surface.normal, surface.dir);
+    const vreal<Real> mirror =
+        nmadd(normal_light + normal_light, normal_dir, dot(result.to_light, surface.dir));
+    result.highlight = mirror * inverse_length * surface.inverse_length;
+    const vmask<Real> in_front = normal_light > vreal<Real>(scene.lighting.highlight_above);
+    result.has_highlight = bits(in_front & (result.highlight > zero) &
+                                (result.highlight >= material.highlight_floor)) &
+                           active;
     result.wanted = (bits(normal_light > zero) & active) | result.has_highlight;
     return result;
 }
 
 /// diffuse kd + highlight^n ks, times the light's intensity, in the lanes of `lit`.
-template <abi::Features F, class Real>
+template <class Real>
 inline Vec3v<Real> lit_color(const abi::LightRecord<Real>& light, const LightPacket<Real>& packet,
                              const MaterialPacket<Real>& material, std::uint32_t lit,
                              abi::RayCounts& counts)
@@ -63,7 +59,7 @@ inline Vec3v<Real> lit_color(const abi::LightRecord<Real>& light, const LightPac
     const vreal<Real> zero(Real(0));
     Vec3v<Real> sum = scale<Real>(packet.diffuse, material.diffuse);
     const std::uint32_t shiny = packet.has_highlight & lit;
-    if (F.highlights && shiny != 0) {
+    if (shiny != 0) {
         const PartScope part(abi::Part::highlight);
         count_packet<Real>(abi::PacketWork::highlight, shiny);
         counts.stages |= abi::stage_powers;

@@ -23,7 +23,7 @@ inline void gather_shadow_rays(const ShadeContext<F, Real>& context, const HitSt
         const std::uint32_t active = first_lanes<Real>(hits.count - first);
         const SurfacePacket<Real>& surface = context.surfaces[first / lanes<Real>];
         const MaterialPacket<Real>& material = materials.fetch(scene, surface, active);
-        const LightPacket<Real> packet = light_at<F>(scene, record, surface, material, active);
+        const LightPacket<Real> packet = light_at(scene, record, surface, material, active);
         with_shadow_ray(scene, record, packet, surface,
                         [&](const vreal<Real>& t_end, const RayPacket<Real>& rays) {
                             start_segments<F>(bundle, first, rays, t_end, own_of(scene, surface),

@@ -107,7 +107,7 @@ inline RayStream<F, Real>* shade_chunk(const TileRun<F, Real>& run, PixelWrite w
     if (run.work.shadows != nullptr)
         find_shadows(run, context);
     begin_span(abi::Span::shade, depth, abi::Part::surface);
-    if (!F.bounces || !context.spawns())
+    if (!context.spawns())
         next = nullptr;
     if (next != nullptr)
         next->count = 0;

@@ -18,7 +18,7 @@ inline Vec3v<Real> light_color(const ShadeContext<F, Real>& context, int number,
 {
     const abi::LightRecord<Real>& light = context.scene->lighting.lights.data[number];
     const PartScope part(abi::Part::diffuse);
-    const LightPacket<Real> packet = light_at<F>(*context.scene, light, surface, material, active);
+    const LightPacket<Real> packet = light_at(*context.scene, light, surface, material, active);
     if constexpr (F.glass) {
         if (context.scene->lighting.transparent_shadows && light.casts_shadow &&
             packet.wanted != 0) {
@@ -27,13 +27,13 @@ inline Vec3v<Real> light_color(const ShadeContext<F, Real>& context, int number,
             const std::uint32_t lit =
                 count_lit<Real>(packet.wanted, packet.wanted & any_channel(share));
             const Vec3v<Real> color =
-                share * lit_color<F>(light, packet, material, lit, *context.counts);
+                share * lit_color(light, packet, material, lit, *context.counts);
             probe.light(number, packet.wanted, share, color);
             return color;
         }
     }
     const std::uint32_t lit = unshadowed<F>(context, number, packet, surface, packet.wanted, first);
-    const Vec3v<Real> color = lit_color<F>(light, packet, material, lit, *context.counts);
+    const Vec3v<Real> color = lit_color(light, packet, material, lit, *context.counts);
     probe.light(number, packet.wanted, lit, color);
     return color;
 }
@@ -99,20 +99,17 @@ inline void shade_packet(PixelWrite write, const ShadeContext<F, Real>& context,
     const MaterialPacket<Real>& material = materials.fetch(*context.scene, surface, active);
 
     Vec3v<Real> color = local_color<F>(context, surface, material, probe, active, first);
-    if constexpr (F.bounces) {
-        if (context.spawns()) {
-            color = color * material.local;
-            probe.hit(surface, color);
-            spawn_children(context, children, surface, material, path, load_glass(hits, first),
-                           active);
-        } else {
-            const Vec3v<Real> share = material.reflect + material.transmit;
-            const Vec3v<Real> limit = broadcast(context.scene->rules.limit_color);
-            probe.last_hit(surface, color, share, limit);
-            color = madd<Real>(share, limit, color);
-        }
-        color = path.weight * color;
+    if (context.spawns()) {
+        color = color * material.local;
+        probe.hit(surface, color);
+        spawn_children(context, children, surface, material, path, load_glass(hits, first), active);
+    } else {
+        const Vec3v<Real> share = material.reflect + material.transmit;
+        const Vec3v<Real> limit = broadcast(context.scene->rules.limit_color);
+        probe.last_hit(surface, color, share, limit);
+        color = madd<Real>(share, limit, color);
     }
+    color = path.weight * color;
     const PartScope part(abi::Part::film);
     write_colors(write, pixels, path.pixel, color, active);
 }

@@ -130,20 +130,14 @@ inline abi::RayCounts render_tiles(const abi::TileJob<Real>* tiles, int count)
     for (int tile = 0; tile < count; ++tile) {
         fetch_picture(tiles[tile]);
         trace_camera_of_tile(run, tiles[tile], tile * abi::tile_pixels);
-        if constexpr (F.bounces) {
-            RayStream<F, Real>* const next =
-                work.sorted != nullptr ? work.sorted->streams[0] + streams : work.streams;
-            streams += has_rays(shade_camera(run, next));
-        } else {
-            shade_camera<F, Real>(run, nullptr);
-        }
+        RayStream<F, Real>* const next =
+            work.sorted != nullptr ? work.sorted->streams[0] + streams : work.streams;
+        streams += has_rays(shade_camera(run, next));
     }
-    if constexpr (F.bounces) {
-        if (work.sorted != nullptr)
-            trace_sorted(run, streams);
-        else if (streams > 0)
-            trace_generation(run, *work.streams, 1);
-    }
+    if (work.sorted != nullptr)
+        trace_sorted(run, streams);
+    else if (streams > 0)
+        trace_generation(run, *work.streams, 1);
     begin_span(abi::Span::film, 0, abi::Part::film);
     for (int tile = 0; tile < count; ++tile)
         write_tile(tiles[tile], work.memory->color + tile_elements * tile);

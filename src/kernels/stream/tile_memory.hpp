@@ -39,15 +39,6 @@ struct PathArrays<true, F, Real> {
     int mirrored;                   ///< set in rays: how many come before the refracted ones
 };
 
-/// The weight of each ray's path so far: a number a channel, one for all, or none where it is 1.
-template <int Channels, abi::Features F, class Real>
-struct WeightArrays {
-    StreamArray<F, Real> weight[static_cast<std::size_t>(Channels)];
-};
-template <abi::Features F, class Real>
-struct WeightArrays<0, F, Real> {
-};
-
 /// Where rays started that leave a surface, for SelfHits::exact.
 template <abi::Features F, class Real>
 struct StartArrays {
@@ -59,9 +50,8 @@ struct StartArrays {
 
 /// Rays of one generation, in an order that does not depend on the packet width.
 template <abi::Features F, class Real>
-struct alignas(64) RayStream : GlassArrays<F.glass, F, Real>,
-                               PathArrays<F.probe, F, Real>,
-                               WeightArrays<abi::weight_channels(F), F, Real> {
+struct alignas(64) RayStream : GlassArrays<F.glass, F, Real>, PathArrays<F.probe, F, Real> {
+    StreamArray<F, Real> weight[abi::weight_channels(F)];  ///< of each ray's path so far
     StreamArray<F, Real> org[3];
     StreamArray<F, Real> dir[3];
     StreamArray<F, lane_int<Real>> pixel;  ///< number in the tile, along its Z-order curve
@@ -71,9 +61,8 @@ struct alignas(64) RayStream : GlassArrays<F.glass, F, Real>,
 
 /// The rays of a chunk that hit something, where they did.
 template <abi::Features F, class Real>
-struct alignas(64) HitStream : GlassArrays<F.glass, F, Real>,
-                               PathArrays<F.probe, F, Real>,
-                               WeightArrays<abi::weight_channels(F), F, Real> {
+struct alignas(64) HitStream : GlassArrays<F.glass, F, Real>, PathArrays<F.probe, F, Real> {
+    StreamArray<F, Real> weight[abi::weight_channels(F)];
     StreamArray<F, Real> point[3];
     StreamArray<F, Real> normal[3];  ///< outwards and unit
     StreamArray<F, Real> dir[3];
@@ -139,12 +128,9 @@ inline Vec3v<Real> load_weight(const Stream<F, Real>& stream, int first)
 {
     if constexpr (abi::weight_channels(F) == 3) {
         return load3(stream.weight, first);
-    } else if constexpr (abi::weight_channels(F) == 1) {
+    } else {
         const vreal<Real> weight = load(stream.weight[0] + first);
         return {weight, weight, weight};
-    } else {
-        const vreal<Real> one(Real(1));
-        return {one, one, one};
     }
 }
 
@@ -154,7 +140,7 @@ inline void append_weight(Stream<F, Real>& stream, const Lanes& chosen, const Ve
 {
     if constexpr (abi::weight_channels(F) == 3)
         append3(stream.weight, stream.count, chosen, weight);
-    else if constexpr (abi::weight_channels(F) == 1)
+    else
         chosen.append(stream.weight[0] + stream.count, weight.x);
 }
 
@@ -230,9 +216,8 @@ inline void for_each_array(bool have_starts, const Visit& visit)
         if (have_starts)
             visit([axis](auto& rays) { return rays.starts->point[axis]; });
     }
-    if constexpr (abi::weight_channels(F) > 0)
-        for (int channel = 0; channel < abi::weight_channels(F); ++channel)
-            visit([channel](auto& rays) { return rays.weight[channel]; });
+    for (std::size_t channel = 0; channel < abi::weight_channels(F); ++channel)
+        visit([channel](auto& rays) { return rays.weight[channel]; });
     visit([](auto& rays) { return rays.pixel; });
     if constexpr (F.glass)
         for (int i = 0; i < abi::glass_depth; ++i)

@@ -112,11 +112,10 @@ struct Workspace {
         Real* const color = arena.take<Real>(tile_elements * tile_count);
         if (memory != nullptr)
             memory->color = color;
-        if constexpr (F.bounces)
-            take_generations(arena, scene, tile_count);
+        take_generations(arena, scene, tile_count);
         if constexpr (F.glass)
             refracted = take_streams<F>(arena, scene, 1);
-        if (F.bounces && scene.rules.min_weight > 0)
+        if (scene.rules.min_weight > 0)
             lacks = arena.take<double>(abi::tile_pixels * tile_count);
         const std::size_t shadowed = count_shadowed(scene);
         if (!scene.tree.empty())
@@ -126,7 +125,7 @@ struct Workspace {
             shadows = arena.take<LightShadows<F, Real>>(lights);
         }
         take_objects<F>(arena, visible, scene);
-        if constexpr (F.bounces)
+        if (scene.rules.max_depth > 0)
             take_objects<F>(arena, nearby, scene);
         if (shadowed > 0) {
             occluders = arena.take<LightObjects<F, Real>>(lights);
