@@ -1,13 +1,11 @@
 // packtrace_cluster: what results/cluster.py fits its model of many ranks by, and the model. Both
 // print JSON.
 #include <chrono>
-#include <exception>
 #include <iostream>
 #include <memory>
 #include <string>
 #include <vector>
 
-#include <CLI/CLI.hpp>
 #include <nlohmann/json.hpp>
 #include <packtrace/read_scene.hpp>
 
@@ -16,6 +14,7 @@
 #include "cli/render/render_bands.hpp"
 #include "core/seconds_since.hpp"
 #include "job_model.hpp"
+#include "program.hpp"
 
 namespace packtrace::bench {
 namespace {
@@ -107,34 +106,23 @@ Json simulate(const Json& asked)
     return runs;
 }
 
-int run(int argc, char** argv)
-{
-    CLI::App app("Measures bands of a picture, or simulates a job of many ranks",
-                 "packtrace_cluster");
-    app.require_subcommand(1);
-    BandArguments arguments;
-    CLI::App* bands = app.add_subcommand("bands", "Seconds to render and write bands");
-    bands->add_option("SCENE", arguments.scene)->required();
-    bands->add_option("-o", arguments.output, "Picture to write, .png or .pfm")->required();
-    bands->add_option("--size", arguments.size, "Edge of the picture in pixels");
-    bands->add_option("--bands", arguments.bands, "How many to render")->check(CLI::PositiveNumber);
-    CLI::App* model = app.add_subcommand("model", "Simulate a job that standard input describes");
-    CLI11_PARSE(app, argc, argv);
-    const Json result =
-        model->parsed() ? simulate(Json::parse(std::cin)) : measure_bands(arguments);
-    std::cout << result.dump(1) << '\n';
-    return 0;
-}
-
 }  // namespace
 }  // namespace packtrace::bench
 
 int main(int argc, char** argv)
 {
-    try {
-        return packtrace::bench::run(argc, argv);
-    } catch (const std::exception& error) {
-        std::cerr << "packtrace_cluster: " << error.what() << '\n';
-        return 1;
-    }
+    using namespace packtrace::bench;
+    Program program("packtrace_cluster",
+                    "Measures bands of a picture, or simulates a job of many ranks");
+    BandArguments arguments;
+    Program& bands = program.command("bands", "Seconds to render and write bands", [&] {
+        std::cout << measure_bands(arguments).dump(1) << '\n';
+    });
+    bands.text("SCENE", arguments.scene, "Scene file");
+    bands.text("-o", arguments.output, "Picture to write, .png or .pfm", true);
+    bands.number("--size", arguments.size, {1, 65536}, "Edge of the picture in pixels");
+    bands.number("--bands", arguments.bands, {1, 65536}, "How many to render");
+    program.command("model", "Simulate a job that standard input describes",
+                    [] { std::cout << simulate(Json::parse(std::cin)).dump(1) << '\n'; });
+    return program.run(argc, argv);
 }

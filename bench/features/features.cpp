@@ -4,8 +4,7 @@
 #include <cstdio>
 #include <cstring>
 #include <filesystem>
-#include <fstream>
-#include <iostream>
+#include <stdexcept>
 #include <string>
 #include <vector>
 
@@ -13,13 +12,14 @@
 #include <packtrace/read_scene.hpp>
 #include <packtrace/renderer.hpp>
 
-#include <CLI/CLI.hpp>
 #include <nlohmann/json.hpp>
 
+#include "core/atomic_file.hpp"
 #include "dispatch/kernels.hpp"
 #include "lab/harness/machine.hpp"
 #include "lab/harness/statistics.hpp"
 #include "lower/prune.hpp"
+#include "program.hpp"
 
 namespace {
 
@@ -117,7 +117,8 @@ void print(const Json& row)
     std::fflush(stdout);
 }
 
-int run(const Arguments& arguments)
+/// Throws where a scene's two pictures differ.
+void run(const Arguments& arguments)
 {
     const std::string isa = choose_isa(arguments.isa).name;
     Json report{{"machine", processor_name()}, {"compiler", compiler_name()},
@@ -137,11 +138,12 @@ int run(const Arguments& arguments)
     report["load_before"] = load_at_start();
     report["load_after"] = load_now();
     if (!arguments.json.empty()) {
-        const std::string part = arguments.json + ".part";
-        std::ofstream(part) << report.dump(1) << '\n';
-        std::filesystem::rename(part, arguments.json);
+        AtomicFile file(arguments.json);
+        file.write(report.dump(1) + "\n");
+        file.commit();
     }
-    return same ? 0 : 1;
+    if (!same)
+        throw std::runtime_error("the general kernel gave other bits");
 }
 
 }  // namespace
@@ -149,19 +151,12 @@ int run(const Arguments& arguments)
 int main(int argc, char** argv)
 {
     Arguments arguments;
-    CLI::App app("Times each scene's own kernel against the general one");
-    app.add_option("SCENE", arguments.scenes, "Scene files")->required();
-    app.add_option("--isa", arguments.isa, "Instruction set");
-    app.add_option("--size", arguments.size, "Edge of the pictures, pixels")
-        ->check(CLI::Range(16, 16384));
-    app.add_option("--repetitions", arguments.repetitions, "Times each is measured")
-        ->check(CLI::Range(1, 10000));
-    app.add_option("--json", arguments.json, "File to write the figures to");
-    CLI11_PARSE(app, argc, argv);
-    try {
-        return run(arguments);
-    } catch (const std::exception& error) {
-        std::cerr << "packtrace_features: " << error.what() << '\n';
-        return 1;
-    }
+    packtrace::bench::Program program("packtrace_features",
+                                      "Times each scene's own kernel against the general one");
+    program.words("SCENE", arguments.scenes, "Scene files");
+    program.text("--isa", arguments.isa, "Instruction set");
+    program.number("--size", arguments.size, {16, 16384}, "Edge of the pictures, pixels");
+    program.number("--repetitions", arguments.repetitions, {1, 10'000}, "Times each is measured");
+    program.text("--json", arguments.json, "File to write the figures to");
+    return program.run(argc, argv, [&] { run(arguments); });
 }

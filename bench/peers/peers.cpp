@@ -2,7 +2,6 @@
 // docs/peers.md says what is raced and what the columns mean.
 #include <algorithm>
 
-#include <CLI/CLI.hpp>
 #include <nlohmann/json.hpp>
 
 #include "builds.hpp"
@@ -26,7 +25,7 @@ struct Arguments {
     std::string json;
     int repetitions = 9;
     int size = 1024;
-    std::size_t most_objects = 10'000'000;
+    int most_objects = 10'000'000;
     bool quick = false;
     bool builds = false;
     bool check = false;
@@ -48,9 +47,8 @@ std::vector<Tracer> tracers_for(const Scene& scene, const Arguments& arguments,
                                 const std::vector<SphereRecord>& spheres)
 {
     std::vector<Tracer> tracers;
-    if (scene.objects.size() <= arguments.most_objects) {
+    if (scene.objects.size() <= static_cast<std::size_t>(arguments.most_objects))
         tracers = packtrace_tracers(scene, modes_of(arguments));
-    }
     for (const Geometry geometry : {Geometry::user, Geometry::sphere}) {
         if (arguments.quick && geometry == Geometry::sphere)
             continue;
@@ -155,12 +153,12 @@ nlohmann::ordered_json race_scene(const std::string& name, const Arguments& argu
     return json;
 }
 
-nlohmann::ordered_json header(int argc, char** argv)
+nlohmann::ordered_json header(const std::string& command)
 {
     nlohmann::ordered_json report;
     report["context"] = bench::context_json();
     report["context"]["embree"] = RTC_VERSION_STRING;
-    report["context"]["command"] = bench::command_line("packtrace_peers", argc, argv);
+    report["context"]["command"] = command;
     return report;
 }
 
@@ -184,35 +182,27 @@ void run(const Arguments& arguments, nlohmann::ordered_json report)
     file->commit();
 }
 
-void add_options(CLI::App& app, Arguments& arguments)
+void add_options(bench::Program& program, Arguments& arguments)
 {
-    app.add_option("--scenes", arguments.scenes, "Scenes to race on (default all)")
-        ->check(CLI::IsMember(scene_names()))
-        ->delimiter(',');
-    app.add_option("--kinds", arguments.kinds, "Kinds of rays: camera, shadow, bounce")
-        ->check(CLI::IsMember({"camera", "shadow", "bounce"}))
-        ->delimiter(',');
-    app.add_option("--isas", arguments.isas, "Instruction sets of packtrace (avx512,avx2)")
-        ->check(CLI::IsMember({"avx512", "avx2", "sse_fma", "sse42"}))
-        ->delimiter(',');
-    app.add_option("--accuracies", arguments.accuracies,
-                   "Accuracy modes of packtrace (fast,exact); Embree's single precision compares "
-                   "with fast")
-        ->check(CLI::IsMember({"fast", "exact"}))
-        ->delimiter(',');
-    app.add_option("--repetitions", arguments.repetitions, "Passes that count (default 9)")
-        ->check(CLI::Range(1, 1000));
-    app.add_option("--size", arguments.size, "Pixels of each edge, a multiple of 16 (1024)")
-        ->check(CLI::Range(16, 8192))
-        ->check([](const std::string& text) {
-            return std::stoi(text) % tile_size == 0 ? std::string() : "not a multiple of 16";
-        });
-    app.add_option("--max-packtrace-objects", arguments.most_objects,
+    program.words("--scenes", arguments.scenes, "Scenes to race on (default all)", scene_names());
+    program.words("--kinds", arguments.kinds, "Kinds of rays: camera, shadow, bounce",
+                  {"camera", "shadow", "bounce"});
+    program.words("--isas", arguments.isas, "Instruction sets of packtrace (avx512,avx2)",
+                  {"avx512", "avx2", "sse_fma", "sse42"});
+    program.words("--accuracies", arguments.accuracies,
+                  "Accuracy modes of packtrace (fast,exact); Embree's single precision compares "
+                  "with fast",
+                  {"fast", "exact"});
+    program.number("--repetitions", arguments.repetitions, {1, 1000},
+                   "Passes that count (default 9)");
+    program.number("--size", arguments.size, {16, 8192, tile_size},
+                   "Pixels of each edge (default 1024)");
+    program.number("--max-packtrace-objects", arguments.most_objects, {0, 10'000'000},
                    "Leave packtrace out of scenes with more (default none)");
-    app.add_option("--json", arguments.json, "Write all figures into this file");
-    app.add_flag("--quick", arguments.quick, "Only three modes of Embree's, which mostly win");
-    app.add_flag("--check", arguments.check, "Exit 1 where the hits disagree");
-    app.add_flag("--builds", arguments.builds, "Measure building for a million spheres, too");
+    program.text("--json", arguments.json, "Write all figures into this file");
+    program.flag("--quick", arguments.quick, "Only three modes of Embree's, which mostly win");
+    program.flag("--check", arguments.check, "Exit 1 where the hits disagree");
+    program.flag("--builds", arguments.builds, "Measure building for a million spheres, too");
 }
 
 }  // namespace
@@ -221,9 +211,9 @@ void add_options(CLI::App& app, Arguments& arguments)
 int main(int argc, char** argv)
 {
     using namespace packtrace::peers;
-    CLI::App app{"Races packtrace against Embree on the same rays, one thread"};
+    packtrace::bench::Program program(
+        "packtrace_peers", "Races packtrace against Embree on the same rays, one thread");
     Arguments arguments;
-    add_options(app, arguments);
-    return packtrace::bench::run_program(app, "packtrace_peers", argc, argv,
-                                         [&] { run(arguments, header(argc, argv)); });
+    add_options(program, arguments);
+    return program.run(argc, argv, [&] { run(arguments, header(program.command_line())); });
 }

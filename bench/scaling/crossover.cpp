@@ -9,7 +9,6 @@
 #include <memory>
 #include <optional>
 
-#include <CLI/CLI.hpp>
 #include <nlohmann/json.hpp>
 #include <packtrace/generate.hpp>
 #include <packtrace/renderer.hpp>
@@ -288,30 +287,18 @@ void print_report(const Arguments& arguments, const std::string& command)
     std::cout << report.dump(2) << '\n';
 }
 
-std::string check_size(const std::string& text)
+void add_options(bench::Program& program, Arguments& arguments)
 {
-    return std::stoi(text) % peers::tile_size == 0 ? "" : "must be a multiple of 16, not " + text;
-}
-
-void add_options(CLI::App& app, Arguments& arguments)
-{
-    app.add_option("--objects", arguments.objects, "Numbers of spheres (default 16 … 1024)")
-        ->check(CLI::Range(1, 100'000))
-        ->delimiter(',');
-    app.add_option("--size", arguments.sizes, "Pixels of each edge, multiples of 16 (default 512)")
-        ->check(CLI::Range(1, 1024) & CLI::Validator(check_size, "multiple of 16"))
-        ->delimiter(',');
-    app.add_option("--cover", arguments.covers, "Squares of all radii together (default 1,8)")
-        ->check(CLI::Range(1e-9, 1e3))
-        ->delimiter(',');
-    app.add_option("--mirror", arguments.mirrors,
-                   "Shares of the light that the spheres mirror (default 0,0.4)")
-        ->check(CLI::Range(0.0, 1.0))
-        ->delimiter(',');
-    app.add_option("--isa", arguments.isas, "Instruction sets (default all of this machine)")
-        ->delimiter(',');
-    app.add_option("--repetitions", arguments.repetitions, "Turns (default 9)")
-        ->check(CLI::Range(1, 1000));
+    program.numbers("--objects", arguments.objects, {1, 100'000},
+                    "Numbers of spheres (default 16 … 1024)");
+    program.numbers("--size", arguments.sizes, {16, 1024, peers::tile_size},
+                    "Pixels of each edge (default 512)");
+    program.numbers("--cover", arguments.covers, {1e-9, 1e3},
+                    "Squares of all radii together (default 1,8)");
+    program.numbers("--mirror", arguments.mirrors, {0.0, 1.0},
+                    "Shares of the light that the spheres mirror (default 0,0.4)");
+    program.words("--isa", arguments.isas, "Instruction sets (default all of this machine)");
+    program.number("--repetitions", arguments.repetitions, {1, 1000}, "Turns (default 9)");
 }
 
 }  // namespace
@@ -319,14 +306,14 @@ void add_options(CLI::App& app, Arguments& arguments)
 
 int main(int argc, char** argv)
 {
-    CLI::App app{"List against hierarchy, over the number of spheres, as JSON"};
+    packtrace::bench::Program program(
+        "packtrace_crossover", "List against hierarchy, over the number of spheres, as JSON");
     packtrace::Arguments arguments;
-    packtrace::add_options(app, arguments);
-    const std::string program = "packtrace_crossover";
-    return packtrace::bench::run_program(app, program, argc, argv, [&] {
+    packtrace::add_options(program, arguments);
+    return program.run(argc, argv, [&] {
         if (arguments.isas.empty())
             arguments.isas = packtrace::bench::supported_isas();
         std::sort(arguments.objects.begin(), arguments.objects.end());
-        packtrace::print_report(arguments, packtrace::bench::command_line(program, argc, argv));
+        packtrace::print_report(arguments, program.command_line());
     });
 }

@@ -3,14 +3,12 @@
 // turns, so that this source keeps to what their libraries have in common.
 #include <algorithm>
 #include <chrono>
-#include <exception>
 #include <functional>
 #include <iostream>
 #include <string>
 #include <type_traits>
 #include <vector>
 
-#include <CLI/CLI.hpp>
 #include <nlohmann/json.hpp>
 #include <packtrace/generate.hpp>
 #include <packtrace/intersect.hpp>
@@ -19,6 +17,7 @@
 #include "peers/camera_tiles.hpp"
 #include "peers/raced_scenes.hpp"
 #include "peers/ray_set.hpp"
+#include "program.hpp"
 
 namespace packtrace::peers {
 namespace {
@@ -186,23 +185,20 @@ nlohmann::ordered_json run(const Arguments& arguments)
 
 int main(int argc, char** argv)
 {
-    packtrace::peers::Arguments arguments;
-    CLI::App app("Millions of a caller's rays a second, the best of some passes on one thread");
-    app.add_option("SCENE", arguments.scene,
-                   "four_spheres, flake4, flake6, random1m or spheres<N>");
-    app.add_option("--isa", arguments.isa, "Instruction set");
-    app.add_option("--size", arguments.size, "Edge of the picture, a multiple of 16");
-    app.add_option("--repetitions", arguments.repetitions, "Passes over each kind of rays");
-    app.add_flag("--double", arguments.in_double, "Rays in double precision");
-    app.add_flag("--fast", arguments.fast, "Accuracy::fast instead of the default");
-    CLI11_PARSE(app, argc, argv);
-    try {
-        const auto rates = arguments.in_double ? packtrace::peers::run<double>(arguments)
-                                               : packtrace::peers::run<float>(arguments);
+    using namespace packtrace::peers;
+    Arguments arguments;
+    packtrace::bench::Program program(
+        "packtrace_rays",
+        "Millions of a caller's rays a second, the best of some passes on one thread");
+    program.text("SCENE", arguments.scene, "four_spheres, flake4, flake6, random1m or spheres<N>");
+    program.text("--isa", arguments.isa, "Instruction set");
+    program.number("--size", arguments.size, {16, 8192, tile_size}, "Edge of the picture");
+    program.number("--repetitions", arguments.repetitions, {1, 1000},
+                   "Passes over each kind of rays");
+    program.flag("--double", arguments.in_double, "Rays in double precision");
+    program.flag("--fast", arguments.fast, "Accuracy::fast instead of the default");
+    return program.run(argc, argv, [&] {
+        const auto rates = arguments.in_double ? run<double>(arguments) : run<float>(arguments);
         std::cout << rates.dump(1) << '\n';
-    } catch (const std::exception& error) {
-        std::cerr << "packtrace_rays: " << error.what() << '\n';
-        return 1;
-    }
-    return 0;
+    });
 }

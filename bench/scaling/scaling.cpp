@@ -7,7 +7,6 @@
 #include <cmath>
 #include <iostream>
 
-#include <CLI/CLI.hpp>
 #include <nlohmann/json.hpp>
 #include <packtrace/generate.hpp>
 #include <packtrace/renderer.hpp>
@@ -89,17 +88,15 @@ void print_point(const Arguments& arguments)
     std::cout << point.dump() << '\n';
 }
 
-void add_options(CLI::App& app, Arguments& arguments)
+void add_options(bench::Program& program, Arguments& arguments)
 {
-    app.add_option("--objects", arguments.objects, "Random spheres (default 1000)")
-        ->check(CLI::Range(1, 10'000'000));
-    app.add_option("--size", arguments.size, "Pixels of each edge (default 1024)")
-        ->check(CLI::Range(1, 65536));
-    app.add_option("--threads", arguments.threads, "Threads (default 1)")
-        ->check(CLI::Range(1, 1024));
-    app.add_option("--frames", arguments.frames, "Frames (default 5)")->check(CLI::Range(1, 1000));
-    app.add_option("--cover", arguments.cover, "Squares of all radii together (default 1)")
-        ->check(CLI::Range(1e-9, 1e3));
+    program.number("--objects", arguments.objects, {1, 10'000'000},
+                   "Random spheres (default 1000)");
+    program.number("--size", arguments.size, {1, 65536}, "Pixels of each edge (default 1024)");
+    program.number("--threads", arguments.threads, {1, 1024}, "Threads (default 1)");
+    program.number("--frames", arguments.frames, {1, 1000}, "Frames (default 5)");
+    program.number("--cover", arguments.cover, {1e-9, 1e3},
+                   "Squares of all radii together (default 1)");
 }
 
 }  // namespace
@@ -107,9 +104,8 @@ void add_options(CLI::App& app, Arguments& arguments)
 
 int main(int argc, char** argv)
 {
-    CLI::App app{"One point of a scaling study, as JSON"};
+    packtrace::bench::Program program("packtrace_scaling", "One point of a scaling study, as JSON");
     packtrace::Arguments arguments;
-    packtrace::add_options(app, arguments);
-    return packtrace::bench::run_program(app, "packtrace_scaling", argc, argv,
-                                         [&] { packtrace::print_point(arguments); });
+    packtrace::add_options(program, arguments);
+    return program.run(argc, argv, [&] { packtrace::print_point(arguments); });
 }

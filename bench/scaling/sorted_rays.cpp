@@ -4,7 +4,6 @@
 #include <string>
 #include <vector>
 
-#include <CLI/CLI.hpp>
 #include <nlohmann/json.hpp>
 #include <packtrace/generate.hpp>
 #include <packtrace/isa.hpp>
@@ -106,15 +105,11 @@ void print_report(const Arguments& arguments, const std::string& command)
 int main(int argc, char** argv)
 {
     packtrace::Arguments arguments;
-    CLI::App app{"Frames with sorted mirrored rays against tile by tile, as JSON"};
-    app.add_option("--isa", arguments.isas, "Instruction sets (default avx512,avx2)")
-        ->delimiter(',');
-    app.add_option("--size", arguments.size, "Pixels of each edge (default 1024)")
-        ->check(CLI::Range(16, 4096));
-    app.add_option("--repetitions", arguments.repetitions, "Turns (default 9)")
-        ->check(CLI::Range(1, 1000));
-    const std::string program = "packtrace_sorted";
-    return packtrace::bench::run_program(app, program, argc, argv, [&] {
-        packtrace::print_report(arguments, packtrace::bench::command_line(program, argc, argv));
-    });
+    packtrace::bench::Program program(
+        "packtrace_sorted", "Frames with sorted mirrored rays against tile by tile, as JSON");
+    program.words("--isa", arguments.isas, "Instruction sets (default avx512,avx2)");
+    program.number("--size", arguments.size, {16, 4096}, "Pixels of each edge (default 1024)");
+    program.number("--repetitions", arguments.repetitions, {1, 1000}, "Turns (default 9)");
+    return program.run(argc, argv,
+                       [&] { packtrace::print_report(arguments, program.command_line()); });
 }

@@ -4,7 +4,6 @@
 #include <iostream>
 #include <optional>
 
-#include <CLI/CLI.hpp>
 #include <nlohmann/json.hpp>
 #include <packtrace/image_io.hpp>
 #include <packtrace/read_scene.hpp>
@@ -75,39 +74,29 @@ struct ExportArguments {
     std::string output;
 };
 
-void add_commands(CLI::App& app, ExportArguments& exported, RenderArguments& rendered)
-{
-    app.require_subcommand(1);
-    CLI::App* to = app.add_subcommand("export", "Write a scene for another tracer");
-    to->add_option("SCENE", exported.scene, "Scene file")->required();
-    to->add_option("-o,--output", exported.output, "A .pov or .dat file")->required();
-    to->callback([&] { export_scene(exported.scene, exported.output); });
-
-    CLI::App* render = app.add_subcommand("render", "Time frames; prints JSON");
-    render->add_option("SCENE", rendered.scene, "Scene file")->required();
-    render->add_option("-o,--output", rendered.picture, "Write the last picture");
-    render->add_option("--threads", rendered.threads, "Threads (default 1)")
-        ->check(CLI::Range(1, 1024));
-    render->add_option("--frames", rendered.frames, "How many frames (default 3)")
-        ->check(CLI::Range(1, 1000));
-    render->add_option("--size", rendered.size, "Pixels of each edge (default the scene's)")
-        ->check(CLI::Range(1, 65536));
-    render->callback([&] { render_frames(rendered); });
-
-    CLI::App* context = app.add_subcommand("context", "Print machine, compiler and commit");
-    context->callback(print_context);
-}
-
 }  // namespace
 }  // namespace packtrace::peers
 
 int main(int argc, char** argv)
 {
     using namespace packtrace::peers;
-    CLI::App app{"Writes scenes for other tracers, and times packtrace's frames"};
+    packtrace::bench::Program program(
+        "packtrace_frames", "Writes scenes for other tracers, and times packtrace's frames");
     ExportArguments exported;
+    auto& to = program.command("export", "Write a scene for another tracer",
+                               [&] { export_scene(exported.scene, exported.output); });
+    to.text("SCENE", exported.scene, "Scene file");
+    to.text("-o,--output", exported.output, "A .pov or .dat file", true);
+
     RenderArguments rendered;
-    add_commands(app, exported, rendered);
-    // The commands' callbacks do the work.
-    return packtrace::bench::run_program(app, "packtrace_frames", argc, argv, [] {});
+    auto& render =
+        program.command("render", "Time frames; prints JSON", [&] { render_frames(rendered); });
+    render.text("SCENE", rendered.scene, "Scene file");
+    render.text("-o,--output", rendered.picture, "Write the last picture");
+    render.number("--threads", rendered.threads, {1, 1024}, "Threads (default 1)");
+    render.number("--frames", rendered.frames, {1, 1000}, "How many frames (default 3)");
+    render.number("--size", rendered.size, {1, 65536}, "Pixels of each edge (default the scene's)");
+
+    program.command("context", "Print machine, compiler and commit", print_context);
+    return program.run(argc, argv);
 }
