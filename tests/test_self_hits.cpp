@@ -217,6 +217,23 @@ TEST_CASE("a ray that starts at a cone's apex along the axis does not meet the c
         scene, [](const auto& image) { CHECK(static_cast<double>(image.pixel(0, 0)[0]) == 0.25); });
 }
 
+TEST_CASE("a ray that leaves a capped cone's apex along the axis meets the cap behind it",
+          "[self_hits]")
+{
+    const std::string cone = GENERATE("cone { z_range = (-2, 2)", "cone { z_range = (-2, 0.5)",
+                                      "cone { z_range = (-2, 2) scale = (3, 0.125, 1)");
+    CAPTURE(cone);
+    const Scene scene = parse_scene(
+        "illumination = general  image_size = 1 x 1  max_depth = 4  "
+        "camera { position = (0, 0, -1) } light { type = ambient intensity = 1 }" +
+            cone + " capped = yes ambient = 0.25 reflect = 0.5 }",
+        "capped");
+    // The apex, the cap behind the eye, and so on.
+    check_everywhere(scene, [](const auto& image) {
+        CHECK(static_cast<double>(image.pixel(0, 0)[0]) == 0.484375);
+    });
+}
+
 TEST_CASE("a ray that leaves a ball meets it again only from inside, however shallow",
           "[self_hits]")
 {

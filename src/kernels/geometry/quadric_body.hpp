@@ -61,11 +61,13 @@ inline OwnCrossing crossing_from_side(const abi::QuadricRecord<double>& quadric,
                max(select(from_bits<double>(climbs), clip.high_t, clip.low_t), zero));
     const vreal<double> root = other_root(line, outside);
     // The inside is ahead up to the other root where the surface bends away, beyond it where the
-    // surface bends towards rays outside.
+    // surface bends towards rays outside. A ray that leaves across the gradient, as every ray from
+    // a cone's apex, goes on in the inside where the surface bends towards it.
     const std::uint32_t bends_away = bits(line.bend > zero) & ~bits(outside);
     const std::uint32_t bends_towards = bits(line.bend < zero) & bits(root > zero) & bits(outside);
     const std::uint32_t by_side = (bends_away | bends_towards) & bits(root <= out);
-    const std::uint32_t ends_inside = quadric.capped ? by_side ^ ~bits(outside) : 0;
+    const std::uint32_t goes_in = bits(line.bend < zero) & bits(line.slope == zero);
+    const std::uint32_t ends_inside = quadric.capped ? by_side ^ (~bits(outside) | goes_in) : 0;
     return first_of({{root, root}, out, {by_side, 0}, ends_inside, climbs}, t_min);
 }
 
