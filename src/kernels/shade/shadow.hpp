@@ -84,10 +84,6 @@ inline Real way_end(const abi::LightRecord<Real>& light)
     return light.kind == abi::LightKind::directional ? static_cast<Real>(__builtin_inf()) : Real(1);
 }
 
-/// How near the end of its way a ray has to meet its own body again for the light's side of that to
-/// be looked at: far more than rounding moves either.
-inline constexpr double near_light = 0x1p-12;
-
 /// Lanes of `near`, which meet their own body again near a point light, for which that is behind
 /// it: outside where they come from inside, or inside. What lies on the body is on neither side.
 template <class Real>
@@ -131,8 +127,9 @@ inline std::uint32_t own_shadow(const abi::SceneView<Real>& scene,
     const std::uint32_t before = bits(again.t < end) & wanted;
     if (light.kind == abi::LightKind::directional)
         return before;
+    // Near enough for rounding to move either beyond the other, by far, in both precisions.
     const std::uint32_t near =
-        bits(abs(again.t - end) < vreal<Real>(static_cast<Real>(near_light))) & wanted;
+        bits(abs(again.t - end) < vreal<Real>(static_cast<Real>(nearly_met<float>))) & wanted;
     if (near == 0)
         return before;
     return (before & ~near) | behind_own_body<Real>(shapes, again.surface, light, outside, near);
@@ -210,9 +207,9 @@ inline std::uint32_t blocked_lanes(const ShadeContext<F, Real>& context, int lig
                 return occlusion.blocked;
             count_unsure(*context.counts, occlusion.unsure);
             count_unsure_shadows(occlusion.unsure);
-            return occlusion.blocked |
-                   retrace_occluded<F>(*casters_of(scene).wide, rays, own.surface, t_end, closed,
-                                       occlusion.unsure);
+            return occlusion.blocked | retrace_occluded<F.probe>(*casters_of(scene).wide, rays,
+                                                                 own.surface, t_end, closed,
+                                                                 occlusion.unsure);
         } else {
             return occluded<F>(RayEnd<Real>{t_end, closed}, objects, rays, own, open);
         }
@@ -242,11 +239,11 @@ inline void visit_light_occluders(const ShadeContext<F, Real>& context, int ligh
             start_again(unsure);
             WideBundle bundle;
             add_segments(bundle, 0, rays, own.surface, t_end, unsure);
-            block_wide<F>(*casters_of(scene).wide, bundle, closed, Occluders::all,
-                          [&](int lane, std::int32_t occluder) {
-                              pass_on(occluder, 1u << lane);
-                              return false;
-                          });
+            block_wide<F.probe>(*casters_of(scene).wide, bundle, closed, Occluders::all,
+                                [&](int lane, std::int32_t occluder) {
+                                    pass_on(occluder, 1u << lane);
+                                    return false;
+                                });
         } else {
             visit_occluders<F>(RayEnd<Real>{t_end, closed}, objects, rays, own, pass_on);
         }

@@ -73,16 +73,16 @@ inline void settle_shadow_bundle(const ShadeContext<F, Real>& context, int light
         for (int i = 0; i < wide.count; ++i)
             count_unsure_shadow(wide.from[i]);
         const abi::SceneView<Real>& scene = *context.scene;
-        block_wide<F>(*casters_of(scene).wide, wide,
-                      has_closed_reach(scene, scene.lighting.lights.data[light]),
-                      scene.lighting.transparent_shadows ? Occluders::all : Occluders::any,
-                      [&](int ray, std::int32_t surface) {
-                          const int first = ray / lanes<Real> * lanes<Real>;
-                          const std::uint32_t lane = 1u << (ray - first);
-                          const std::uint32_t done = occluder(surface, first, lane);
-                          finish_lanes(bundle, first, done);
-                          return done != 0;
-                      });
+        block_wide<F.probe>(*casters_of(scene).wide, wide,
+                            has_closed_reach(scene, scene.lighting.lights.data[light]),
+                            scene.lighting.transparent_shadows ? Occluders::all : Occluders::any,
+                            [&](int ray, std::int32_t surface) {
+                                const int first = ray / lanes<Real> * lanes<Real>;
+                                const std::uint32_t lane = 1u << (ray - first);
+                                const std::uint32_t done = occluder(surface, first, lane);
+                                finish_lanes(bundle, first, done);
+                                return done != 0;
+                            });
     }
 }
 

@@ -26,8 +26,8 @@ template <abi::Features F, class Objects, class Real>
                 occluded<F>(packet.t_max, objects, packet.rays, own, wanted);
             blocked = occlusion.blocked;
             if (occlusion.unsure != 0)
-                blocked |= retrace_occluded<F>(*scene.wide, packet.rays, own.surface, packet.t_max,
-                                               false, occlusion.unsure);
+                blocked |= retrace_occluded<F.probe>(*scene.wide, packet.rays, own.surface,
+                                                     packet.t_max, false, occlusion.unsure);
         } else {
             blocked =
                 occluded<F>(RayEnd<Real>{packet.t_max, false}, objects, packet.rays, own, wanted);
@@ -46,7 +46,7 @@ template <abi::Features F>
     add_unsure_segments(wide, bundle, [](int, std::uint32_t) {});
     if (wide.count == 0)
         return;
-    block_wide<F>(*scene.wide, wide, closed, Occluders::any, [&](int ray, std::int32_t) {
+    block_wide<F.probe>(*scene.wide, wide, closed, Occluders::any, [&](int ray, std::int32_t) {
         const int first = ray / lanes<float> * lanes<float>;
         finish_lanes(bundle, first, 1u << (ray - first));
         return true;

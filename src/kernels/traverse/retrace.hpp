@@ -15,9 +15,8 @@ inline void count_unsure(abi::RayCounts& counts, std::uint32_t unsure)
     counts.unsure += static_cast<unsigned>(__builtin_popcount(unsure));
 }
 
-/// The features of the kernels that rays are traced again by.
-template <abi::Features F>
-inline constexpr abi::Features wide_features{.quadrics = F.quadrics};
+/// The features of the kernels that rays are traced again by: few are, so that one set does.
+inline constexpr abi::Features wide_features{.quadrics = true};
 
 /// Rays of a bundle of floats as a bundle of doubles.
 struct WideBundle {

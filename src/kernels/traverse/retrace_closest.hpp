@@ -16,11 +16,10 @@ inline float found_at(double t)
 }
 
 /// Finds the closest hits of rays in double.
-template <abi::Features F>
 inline void find_closest(const abi::SceneView<float>& scene, const WideBundle& bundle,
                          RayBundle<double>& rays)
 {
-    closest_of_bundle<wide_features<F>>(*scene.wide, *scene.wide, rays);
+    closest_of_bundle<wide_features>(*scene.wide, *scene.wide, rays);
     for (int ray = 0; ray < bundle.count; ++ray) {
         const MetAgain& again = bundle.again[ray];
         if (again.t < __builtin_inf() &&
@@ -33,28 +32,30 @@ inline void find_closest(const abi::SceneView<float>& scene, const WideBundle& b
     }
 }
 
-/// The same of a bundle; calls `take(ray, t, surface)` for each.
-template <abi::Features F, class Take>
-inline void find_wide(const abi::SceneView<float>& scene, WideBundle& bundle, const Take& take)
+/// The same of a bundle; puts them into `t` and `surface` of the rays it was made from.
+template <bool Probe>
+[[gnu::noinline]] void find_wide(const abi::SceneView<float>& scene, WideBundle& bundle, float* t,
+                                 std::int32_t* surface)
 {
     const RetraceScope retracing;
     end_bundle(bundle.rays, bundle.count);
-    if constexpr (F.probe)
+    if constexpr (Probe)
         if (asks_for_undecided())
             count_undecided_of(bundle.rays, bundle,
-                               [&](RayBundle<double>& rays, std::uint64_t* surface) {
-                                   find_closest<F>(scene, bundle, rays);
+                               [&](RayBundle<double>& rays, std::uint64_t* found) {
+                                   find_closest(scene, bundle, rays);
                                    for (int i = 0; i < bundle.count; ++i)
-                                       surface[i] = static_cast<std::uint64_t>(rays.surface[i]);
+                                       found[i] = static_cast<std::uint64_t>(rays.surface[i]);
                                });
-    find_closest<F>(scene, bundle, bundle.rays);
-    for (int i = 0; i < bundle.count; ++i)
-        take(bundle.from[i], found_at(bundle.rays.t[i]),
-             static_cast<std::int32_t>(bundle.rays.surface[i]));
+    find_closest(scene, bundle, bundle.rays);
+    for (int i = 0; i < bundle.count; ++i) {
+        t[bundle.from[i]] = found_at(bundle.rays.t[i]);
+        surface[bundle.from[i]] = static_cast<std::int32_t>(bundle.rays.surface[i]);
+    }
 }
 
 /// The closest hits of the lanes of `unsure`, by double.
-template <abi::Features F>
+template <bool Probe>
 [[gnu::noinline]] void retrace_packet(const abi::SceneView<float>& scene,
                                       const RayPacket<float>& rays, HitPacket<float>& hit,
                                       const StartPacket<float>& start, const vreal<float>& t_max,
@@ -69,10 +70,7 @@ template <abi::Features F>
     });
     WideBundle bundle;
     add_lanes(bundle, 0, rays, start, t_max, unsure);
-    find_wide<F>(scene, bundle, [&](int lane, float closest, std::int32_t number) {
-        t[lane] = closest;
-        surface[lane] = number;
-    });
+    find_wide<Probe>(scene, bundle, t, surface);
     hit.t = load(t);
     hit.surface = load(surface);
 }
@@ -123,7 +121,7 @@ inline std::uint32_t settle_packet(const abi::SceneView<Real>& scene, const RayP
     if constexpr (F.exact) {
         const std::uint32_t unsure = unsure_lanes(hit) & active;
         if (unsure != 0)
-            retrace_packet<F>(scene, rays, hit, start, t_max, unsure);
+            retrace_packet<F.probe>(scene, rays, hit, start, t_max, unsure);
         return unsure;
     } else if constexpr (sizeof(Real) == sizeof(double)) {
         settle_met_again(scene.shapes, rays, hit, start, t_max, active);
@@ -132,7 +130,7 @@ inline std::uint32_t settle_packet(const abi::SceneView<Real>& scene, const RayP
 }
 
 /// The closest hits of the rays of `unsure` of a bundle, by double; returns their number.
-template <abi::Features F, class StartOf, class EndOf>
+template <bool Probe, class StartOf, class EndOf>
 [[gnu::noinline]] int retrace_bundle(const abi::SceneView<float>& scene, RayBundle<float>& bundle,
                                      const std::uint16_t (&unsure)[bundle_cells],
                                      const StartOf& start_of, const EndOf& t_max_of)
@@ -149,10 +147,7 @@ template <abi::Features F, class StartOf, class EndOf>
         count_unsure_ray(again.from[i], bundle.surface[again.from[i]], [&](std::int32_t number) {
             return scene.materials.of_surface[number].object;
         });
-    find_wide<F>(scene, again, [&](int ray, float t, std::int32_t surface) {
-        bundle.t[ray] = t;
-        bundle.surface[ray] = surface;
-    });
+    find_wide<Probe>(scene, again, bundle.t, bundle.surface);
     return again.count;
 }
 
@@ -176,7 +171,8 @@ inline int settle_bundle(const abi::SceneView<Real>& scene, RayBundle<Real>& bun
             cell = static_cast<std::uint16_t>(cell | lanes_of << first % cell_rays);
             any_unsure |= lanes_of;
         }
-        return any_unsure == 0 ? 0 : retrace_bundle<F>(scene, bundle, unsure, start_of, t_max_of);
+        if (any_unsure != 0)
+            return retrace_bundle<F.probe>(scene, bundle, unsure, start_of, t_max_of);
     } else if constexpr (sizeof(Real) == sizeof(double)) {
         for (int first = 0; first < bundle_rays; first += lanes<Real>) {
             const std::uint32_t active = active_lanes(bundle, first);

@@ -11,7 +11,6 @@ namespace {
 enum class Occluders { any, all };
 
 /// Counts the rays of which double does not tell what is in their way.
-template <abi::Features F>
 inline void count_undecided_shadows(const abi::GeometryView<double>& wide, const WideBundle& bundle,
                                     bool closed, Occluders which)
 {
@@ -26,21 +25,21 @@ inline void count_undecided_shadows(const abi::GeometryView<double>& wide, const
                 found[first + __builtin_ctz(left)] += which == Occluders::all ? of_surface : 1;
             return which == Occluders::all ? 0 : lanes_of;
         };
-        visit_occluders_of_bundle<wide_features<F>>(wide, wide, rays, closed, Occluder(occluder));
+        visit_occluders_of_bundle<wide_features>(wide, wide, rays, closed, Occluder(occluder));
     });
 }
 
 /// What is in the way of rays up to their end, in double: calls `blocked(ray, surface)` for each
 /// object until it returns true.
-template <abi::Features F, class Blocked>
+template <bool Probe, class Blocked>
 inline void block_wide(const abi::GeometryView<double>& wide, WideBundle& bundle, bool closed,
                        [[maybe_unused]] Occluders which, const Blocked& blocked)
 {
     const RetraceScope retracing;
     end_bundle(bundle.rays, bundle.count);
-    if constexpr (F.probe)
+    if constexpr (Probe)
         if (asks_for_undecided())
-            count_undecided_shadows<F>(wide, bundle, closed, which);
+            count_undecided_shadows(wide, bundle, closed, which);
     const auto occluder = [&](std::int32_t surface, int first, std::uint32_t lanes_of) {
         std::uint32_t done = 0;
         for (; lanes_of != 0; lanes_of &= lanes_of - 1) {
@@ -49,8 +48,7 @@ inline void block_wide(const abi::GeometryView<double>& wide, WideBundle& bundle
         }
         return done;
     };
-    visit_occluders_of_bundle<wide_features<F>>(wide, wide, bundle.rays, closed,
-                                                Occluder(occluder));
+    visit_occluders_of_bundle<wide_features>(wide, wide, bundle.rays, closed, Occluder(occluder));
 }
 
 /// Adds the lanes of `unsure` of a packet of rays that end at t_end.
@@ -78,7 +76,7 @@ inline void add_unsure_segments(WideBundle& wide, const RayBundle<float>& bundle
 }
 
 /// The lanes of `unsure` that are blocked, by double.
-template <abi::Features F>
+template <bool Probe>
 [[gnu::noinline]] std::uint32_t retrace_occluded(const abi::GeometryView<double>& wide,
                                                  const RayPacket<float>& rays,
                                                  const vint<float>& own, const vreal<float>& t_end,
@@ -87,7 +85,7 @@ template <abi::Features F>
     WideBundle bundle;
     add_segments(bundle, 0, rays, own, t_end, unsure);
     std::uint32_t lanes_blocked = 0;
-    block_wide<F>(wide, bundle, closed, Occluders::any, [&](int lane, std::int32_t) {
+    block_wide<Probe>(wide, bundle, closed, Occluders::any, [&](int lane, std::int32_t) {
         lanes_blocked |= 1u << lane;
         return true;
     });
