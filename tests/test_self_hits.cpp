@@ -234,6 +234,23 @@ TEST_CASE("a ray that leaves a capped cone's apex along the axis meets the cap b
     });
 }
 
+TEST_CASE("a ray that only touches a body of glass goes in and out once", "[self_hits]")
+{
+    const std::string body = GENERATE(
+        "sphere { center = (1, 0, 5) radius = 1",
+        "cone { rotate = (1, 0, 0, 90) translate = (0, 0, 5)",
+        "cone { z_range = (-1, 1) capped = yes rotate = (1, 0, 0, 90) translate = (0, 0, 5)");
+    CAPTURE(body);
+    const Scene scene = parse_scene(
+        "illumination = general  image_size = 1 x 1  max_depth = 6  background = rgb(0.5, 0.5, "
+        "0.5) "
+        "light { type = ambient intensity = 1 }" +
+            body + " ambient = 0.125 transmit = 1 ior = 1 }",
+        "touched");
+    check_everywhere(
+        scene, [](const auto& image) { CHECK(static_cast<double>(image.pixel(0, 0)[0]) == 0.75); });
+}
+
 TEST_CASE("a ray that leaves a ball meets it again only from inside, however shallow",
           "[self_hits]")
 {

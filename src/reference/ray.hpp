@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 #include <cstddef>
+#include <limits>
 #include <optional>
 
 // Rays of the models that know glass: what they are inside of, and what they hit first.
@@ -96,7 +97,12 @@ template <class Real>
     Vec3<Real> P = point_of(hit, start, D);
     if (world.self_hits == SelfHits::exact)
         P = on_surface(world.bodies, hit, P, length(start.org) + std::abs(hit.t) * length(D));
-    const Facing<Real> at = facing(world.bodies, hit, P, D);
+    Facing<Real> at = facing(world.bodies, hit, P, D);
+    // Out of a body at the very place where the ray went in, as through a cone's apex.
+    const bool at_once =
+        hit.object == start.object && hit.leaving && hit.t <= std::numeric_limits<Real>::min();
+    if (at_once && !at.leaving)
+        at = {-at.outward, true};
     return SurfacePoint<Real>{hit.t, hit.object, hit.part, P, at.outward, at.turned(), at.leaving};
 }
 

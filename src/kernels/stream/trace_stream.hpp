@@ -1,5 +1,7 @@
 #pragma once
 
+#include <limits>
+
 #include "kernels/precision/refine.hpp"
 #include "kernels/stream/camera_rays.hpp"
 #include "kernels/stream/shade_stream.hpp"
@@ -19,6 +21,27 @@ struct TracedRays {
     StartPacket<Real> start;
 };
 
+/// Lanes whose rays leave the body that they start in at the very place, as where they only touch
+/// it.
+template <class Real>
+inline std::uint32_t leaves_at_once(const StartPacket<Real>& start, const HitPacket<Real>& hit)
+{
+    const auto at_once = start.second.t <= vreal<Real>(std::numeric_limits<Real>::min());
+    return bits(at_once) & bits(int_equal(hit.surface, start.second.surface));
+}
+
+/// Outward normals, but the rays' own directions where they leave at once what these say that they
+/// enter: in a cone's apex, or along the surface. Such a ray would enter it again and again.
+template <class Real>
+inline Vec3v<Real> leaving_normals(const abi::SceneView<Real>& scene, const Vec3v<Real>& normal,
+                                   const RayPacket<Real>& rays, std::uint32_t leaves)
+{
+    const auto along = dot(normal, rays.dir) > grazing(scene, normal, rays.dir);
+    const std::uint32_t turned = leaves & ~bits(along);
+    return select(from_bits<Real>(turned),
+                  scale<Real>(vreal<Real>(Real(1)) / sqrt(rays.dir2), rays.dir), normal);
+}
+
 /// Where the rays hit, as far as the scene's shading asks.
 template <abi::Features F, class Real>
 [[gnu::noinline]] void append_places(const abi::SceneView<Real>& scene, HitStream<F, Real>& hits,
@@ -27,8 +50,13 @@ template <abi::Features F, class Real>
 {
     if (!F.probe && scene.lighting.flat && scene.materials.checkers == nullptr)
         return;
-    const RefinedHits<Real> places =
+    RefinedHits<Real> places =
         refined<F, Refine::place>(scene.shapes, from.rays, hit, from.start, active);
+    if constexpr (F.glass) {
+        const std::uint32_t leaves = leaves_at_once(from.start, hit) & active;
+        if (leaves != 0)
+            places.normal = leaving_normals(scene, places.normal, from.rays, leaves);
+    }
     with_appender<Real>(active, [&](const auto& chosen) {
         append3(hits.point, hits.count, chosen, places.point);
         append3(hits.normal, hits.count, chosen, places.normal);
