@@ -4,9 +4,10 @@
 #include <packtrace/generate.hpp>
 #include <packtrace/isa.hpp>
 #include <packtrace/render.hpp>
+#include <packtrace/renderer.hpp>
 
 #include "catch.hpp"
-#include "lower/packed_scene.hpp"
+#include "lower/buffered_scene.hpp"
 #include "render_scene.hpp"
 #include "scenes.hpp"
 
@@ -47,12 +48,13 @@ void light_along(Scene& scene, const Vec3& direction)
 bool has_buffer(const Scene& scene)
 {
     const LoweredScene lowered = lower(scene);
-    PackedScene<float> packed(lowered, Traversal::tree);
-    packed.add_light_buffers(lowered, static_cast<double>(scene.width) * scene.height);
-    return packed.has_light_buffers() &&
-           (packed.view().casters != nullptr ? *packed.view().casters : packed.view())
-                   .lighting.buffers[0]
-                   .cells != nullptr;
+    const PackedScene<float> packed(lowered, Traversal::tree);
+    if (static_cast<double>(scene.width) * scene.height <
+        camera_rays_for_buffers(packed, lowered.bounces))
+        return false;
+    const BufferedScene<float> buffered(packed);
+    const abi::SceneView<float>* const casters = buffered.view().casters;
+    return (casters != nullptr ? *casters : buffered.view()).lighting.buffers[0].cells != nullptr;
 }
 
 void check_against_lists(const Scene& scene, SelfHits self_hits)
@@ -130,6 +132,29 @@ TEST_CASE("A light among the spheres, or few rays, make no view", "[light_buffer
     CHECK(has_buffer(scene));
     set_size(scene, 16, 16);
     CHECK_FALSE(has_buffer(scene));
+}
+
+TEST_CASE("Lights get views with the frame that pays for them, and frames stay the same",
+          "[light_buffer]")
+{
+    Scene scene = crowd(400, 10);
+    light_from(scene, {9, 12, -7});
+    set_size(scene, 48, 32);
+    REQUIRE_FALSE(has_buffer(scene));
+    const Renderer<float> renderer(scene, {.traversal = Traversal::tree});
+    Image<float> first;
+    renderer.render(first);
+    const std::size_t bytes = renderer.scene_bytes();
+    Image<float> later;
+    int frames = 1;
+    for (; frames < 20 && renderer.scene_bytes() == bytes; ++frames) {
+        renderer.render(later);
+        CHECK(later.rgb == first.rgb);
+    }
+    CHECK(frames > 2);
+    CHECK(renderer.scene_bytes() > bytes);
+    renderer.render(later);
+    CHECK(later.rgb == first.rgb);
 }
 
 TEST_CASE("Spheres side by side and one that hides others have the shadows of lists",

@@ -28,7 +28,9 @@ struct FrameCounts {
 };
 
 /// A scene made ready for the packet kernels, to be rendered any number of times. `Real` is
-/// float or double. Rendering is thread-safe and allocates nothing after a thread's first tile.
+/// float or double. Rendering is thread-safe and allocates nothing after a thread's first tile, but
+/// for lights' own views of a large scene, with the frame by which they pay: pictures stay the
+/// same, bit for bit.
 template <class Real>
 class Renderer {
 public:

@@ -4,8 +4,6 @@
 #include <cmath>
 #include <limits>
 
-#include <tbb/parallel_for.h>
-
 #include "core/in_parallel.hpp"
 #include "geometry/object_rules.hpp"
 #include "lower/far_lights.hpp"
@@ -27,12 +25,10 @@ constexpr std::size_t frame_tree_objects(int lanes)
     return lanes >= 16 ? 160 : lanes >= 8 ? 128 : 96;
 }
 
-/// So many shadow rays that run apart, to a block of spheres, pay for a light's buffer within one
-/// frame: results/light_buffers.json.
-constexpr double light_buffer_rays = 100.0;
-
-/// About the share of shadow rays from what the eye sees that run apart; those from mirrors do.
-constexpr double spread_share_of_eye = 0.05;
+/// So many shadow rays that run apart, to a block of spheres, pay for a light's buffer: a quarter
+/// of them where spheres are crowded, all of them where they are spread evenly
+/// (results/tree_designs.json).
+constexpr double light_buffer_rays = 75.0;
 
 /// How many roundoffs rays start off a surface by. Hits in single precision are refined in double
 /// and rounded once, their offset start once more; those in double are as the search found them.
@@ -277,15 +273,6 @@ void PackedScene<Real>::pack_casters(const LoweredScene& lowered)
 }
 
 template <class Real>
-std::size_t PackedScene<Real>::light_buffer_bytes() const
-{
-    std::size_t bytes = light_buffer_views_.bytes();
-    for (const PackedLightBuffer& buffer : light_buffers_)
-        bytes += buffer.bytes();
-    return bytes;
-}
-
-template <class Real>
 double PackedScene<Real>::rays_for_light_buffer() const
 {
     const bool looked_for = sizeof(Real) == sizeof(float) && view_.wide != nullptr &&
@@ -301,25 +288,6 @@ PackedLightBuffer PackedScene<Real>::light_buffer(const abi::LightRecord<Real>& 
         if (light.kind == abi::LightKind::directional || light.sends_rays)
             return {light, view_.tree, tree_.block_count()};
     return {};
-}
-
-template <class Real>
-void PackedScene<Real>::add_light_buffers(const LoweredScene& lowered, double camera_rays)
-{
-    if (casters_)
-        return casters_->add_light_buffers(lowered, camera_rays);
-    const double spread_rays = camera_rays * (lowered.bounces ? 1 : spread_share_of_eye);
-    if (view_.lighting.transparent_shadows || !(spread_rays >= rays_for_light_buffer()))
-        return;
-    light_buffers_.resize(lights_.size());
-    light_buffer_views_ = AlignedArray<abi::LightBuffer>(lights_.size());
-    tbb::parallel_for(std::size_t{0}, lights_.size(), [&](std::size_t light) {
-        if (!lights_[light].casts_shadow)
-            return;
-        light_buffers_[light] = light_buffer(lights_[light]);
-        light_buffer_views_[light] = light_buffers_[light].view();
-    });
-    view_.lighting.buffers = light_buffer_views_.data();
 }
 
 template class PackedScene<float>;

@@ -45,10 +45,11 @@ public:
         return view_;
     }
 
-    /// Gives the lights that cast shadows their own views of a hierarchy of spheres, where shadow
-    /// rays are then looked for in single precision and exact mode, if they pay for themselves in a
-    /// frame of so many camera rays.
-    void add_light_buffers(const LoweredScene& lowered, double camera_rays);
+    /// What casts shadows: this, or a scene of its own.
+    [[nodiscard]] const PackedScene& casters() const
+    {
+        return casters_ ? *casters_ : *this;
+    }
 
     /// From how many rays towards a light on that share no way its view of the hierarchy pays for
     /// itself; no number is large enough where there is none.
@@ -57,18 +58,13 @@ public:
     /// The view of one light, where rays_for_light_buffer() is a number.
     [[nodiscard]] PackedLightBuffer light_buffer(const abi::LightRecord<Real>& light) const;
 
-    [[nodiscard]] bool has_light_buffers() const
-    {
-        return casters_ ? casters_->has_light_buffers() : !light_buffers_.empty();
-    }
-
     /// What is held all in all.
     [[nodiscard]] std::size_t bytes() const
     {
         return sizeof *this + tree_.bytes() + lists_.bytes() + shapes_.bytes() +
                (wide_lists_ ? wide_lists_->bytes() : 0) + material_index_.bytes() +
                materials_.bytes() + checkers_.bytes() + ior_.bytes() + lights_.bytes() +
-               most_light_.bytes() + light_buffer_bytes() + (casters_ ? casters_->bytes() : 0);
+               most_light_.bytes() + (casters_ ? casters_->bytes() : 0);
     }
 
 private:
@@ -79,7 +75,6 @@ private:
     void pack_lights(const LoweredScene& lowered);
     void choose_light_ends(const LoweredScene& lowered);
     void pack_casters(const LoweredScene& lowered);
-    [[nodiscard]] std::size_t light_buffer_bytes() const;
 
     PackedTree<Real> tree_;
     PackedLists<Real> lists_;
@@ -91,10 +86,8 @@ private:
     AlignedArray<abi::CheckerRecord<Real>> checkers_;
     AlignedArray<Real> ior_;
     AlignedArray<abi::LightRecord<Real>> lights_;
-    AlignedArray<abi::MostLight> most_light_;       // where some rays are not traced
-    std::vector<PackedLightBuffer> light_buffers_;  // by light; none where none pays
-    AlignedArray<abi::LightBuffer> light_buffer_views_;
-    std::unique_ptr<PackedScene> casters_;  // where some objects cast no shadow, the others
+    AlignedArray<abi::MostLight> most_light_;  // where some rays are not traced
+    std::unique_ptr<PackedScene> casters_;     // where some objects cast no shadow, the others
     abi::SceneView<Real> view_;
 };
 

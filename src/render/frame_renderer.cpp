@@ -92,6 +92,7 @@ FrameCounts FrameRenderer<Real>::render_region(const Region& region, Image<Real>
     if (held != region)
         larger = Image<Real>::unset(held.width, held.height);
     Image<Real>& all = held != region ? larger : image;
+    tiles_.expect(static_cast<double>(region.width) * region.height * options_.samples);
     const FrameCounts counts =
         options_.adaptive ? render_adaptive(tiles, held, all) : render_tiles(tiles, all);
     if (held != region)

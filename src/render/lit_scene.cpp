@@ -51,18 +51,14 @@ void LitScene<Real>::prepare()
 template <class Real>
 const abi::LightBuffer* LitScene<Real>::buffer_of(std::size_t light, std::size_t rays)
 {
-    Buffer& buffer = buffers_[light];
-    if (!buffer.built.load(std::memory_order_acquire)) {
-        const std::size_t asked = buffer.rays.fetch_add(rays, std::memory_order_relaxed) + rays;
-        if (static_cast<double>(asked) < casters_->rays_for_light_buffer() ||
-            buffer.building.test_and_set())
-            return nullptr;
-        tbb::this_task_arena::isolate(
-            [&] { buffer.packed = casters_->light_buffer(record_of(light)); });
-        buffer.built.store(true, std::memory_order_release);
-    }
-    const abi::LightBuffer& view = buffer.packed.view();
-    return view.cells != nullptr ? &view : nullptr;
+    const PackedLightBuffer* const buffer =
+        buffers_[light].after(static_cast<double>(rays), casters_->rays_for_light_buffer(), [&] {
+            return tbb::this_task_arena::isolate([&] {
+                return std::make_unique<PackedLightBuffer>(
+                    casters_->light_buffer(record_of(light)));
+            });
+        });
+    return buffer != nullptr && buffer->view().cells != nullptr ? &buffer->view() : nullptr;
 }
 
 template <class Real>

@@ -1,6 +1,5 @@
 #pragma once
 
-#include <atomic>
 #include <memory>
 #include <mutex>
 #include <vector>
@@ -10,6 +9,7 @@
 #include <packtrace/traversal.hpp>
 
 #include "core/aligned_array.hpp"
+#include "core/made_when_paid.hpp"
 #include "dispatch/kernels.hpp"
 #include "lower/lowered_scene.hpp"
 #include "lower/packed_scene.hpp"
@@ -29,14 +29,6 @@ public:
     void lit(const abi::PointsView<Real>& points, std::size_t light, std::uint8_t* mask);
 
 private:
-    /// A light's own view of a hierarchy, built by the rays that it pays for itself with.
-    struct Buffer {
-        std::atomic<std::size_t> rays{0};
-        std::atomic_flag building;
-        PackedLightBuffer packed;
-        std::atomic<bool> built{false};
-    };
-
     void prepare();
     [[nodiscard]] const abi::LightRecord<Real>& record_of(std::size_t light) const
     {
@@ -48,7 +40,7 @@ private:
     Traversal traversal_;
     const abi::PrecisionTable<Real>& kernels_;
     std::unique_ptr<LoweredScene> lowered_casters_;  ///< where some objects cast no shadow, others
-    std::vector<Buffer> buffers_;                    ///< by light
+    std::vector<MadeWhenPaid<PackedLightBuffer>> buffers_;  ///< by light
 
     std::once_flag prepared_;
     std::unique_ptr<PackedScene<Real>> packed_casters_;

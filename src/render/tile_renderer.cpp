@@ -1,6 +1,7 @@
 #include "render/tile_renderer.hpp"
 
 #include <algorithm>
+#include <memory>
 #include <stdexcept>
 
 #include "dispatch/kernels.hpp"
@@ -59,6 +60,7 @@ TileRenderer<Real>::TileRenderer(const Scene& scene, LoweredScene lowered,
                                  const abi::KernelTable& table, const RenderOptions& options)
     : kernels_(kernels_for(precision<Real>(table), fitted(lowered, options).features)),
       packed_(lowered, frame_traversal(lowered, options.traversal, precision<Real>(table).lanes)),
+      rays_for_buffers_(camera_rays_for_buffers(packed_, lowered.bounces)),
       pattern_(sample_pattern(options.samples)),
       once_(camera_view<Real>(scene, lowered, only_sample(scene, options))),
       corner_(camera_view<Real>(scene, lowered, Vec2(0.0))),
@@ -72,8 +74,23 @@ TileRenderer<Real>::TileRenderer(const Scene& scene, LoweredScene lowered,
               : kernels_.scratch_bytes(packed_.view(), tiles_together(scene, sorts_mirrored_))),
       scratch_([this] { return AlignedArray<std::byte>(scratch_bytes_); })
 {
-    packed_.add_light_buffers(lowered,
-                              static_cast<double>(scene.width) * scene.height * options.samples);
+    const double frame = static_cast<double>(scene.width) * scene.height * options.samples;
+    if (frame >= rays_for_buffers_)
+        expect(frame);
+}
+
+template <class Real>
+void TileRenderer<Real>::expect(double camera_rays) const
+{
+    buffered_.after(camera_rays, rays_for_buffers_,
+                    [&] { return std::make_unique<BufferedScene<Real>>(packed_); });
+}
+
+template <class Real>
+const abi::SceneView<Real>& TileRenderer<Real>::view() const
+{
+    const BufferedScene<Real>* const buffered = buffered_.get();
+    return buffered != nullptr ? buffered->view() : packed_.view();
 }
 
 template <class Real>
@@ -96,7 +113,7 @@ abi::TileJob<Real> TileRenderer<Real>::job_of(const abi::CameraView<Real>& camer
                                               const Region& tile,
                                               abi::Observation* observation) const
 {
-    return {.scene = &packed_.view(),
+    return {.scene = &view(),
             .camera = &camera,
             .x = tile.x,
             .y = tile.y,

@@ -5,8 +5,10 @@
 #include <tbb/enumerable_thread_specific.h>
 
 #include "core/aligned_array.hpp"
+#include "core/made_when_paid.hpp"
 #include "image/contrast.hpp"
 #include "kernel_abi/kernel_table.hpp"
+#include "lower/buffered_scene.hpp"
 #include "lower/lowered_scene.hpp"
 #include "lower/packed_scene.hpp"
 
@@ -61,6 +63,10 @@ public:
     abi::RayCounts refine(const Canvas<Real>& canvas, const ContrastMap<Real>& contrast,
                           const Region& tile, abi::Observation* observation = nullptr) const;
 
+    /// Counts camera rays that are about to be rendered. Once there are so many of them that
+    /// lights' own views of the scene pay, these are made, and used from then on.
+    void expect(double camera_rays) const;
+
     /// Working memory of a thread.
     [[nodiscard]] std::size_t scratch_bytes() const
     {
@@ -69,7 +75,8 @@ public:
 
     [[nodiscard]] std::size_t scene_bytes() const
     {
-        return packed_.bytes();
+        const BufferedScene<Real>* const buffered = buffered_.get();
+        return packed_.bytes() + (buffered != nullptr ? buffered->bytes() : 0);
     }
 
 private:
@@ -78,6 +85,7 @@ private:
         std::ptrdiff_t row_stride;
     };
 
+    [[nodiscard]] const abi::SceneView<Real>& view() const;
     [[nodiscard]] abi::TileJob<Real> job_of(const abi::CameraView<Real>& camera, const Region& tile,
                                             abi::Observation* observation) const;
     abi::RayCounts render_piece(const abi::CameraView<Real>& camera, const Region& piece,
@@ -87,6 +95,8 @@ private:
 
     const abi::FeatureKernels<Real>& kernels_;
     PackedScene<Real> packed_;
+    double rays_for_buffers_;
+    mutable MadeWhenPaid<BufferedScene<Real>> buffered_;
     std::vector<Vec2> pattern_;
     abi::CameraView<Real> once_;            // one sample a pixel
     abi::CameraView<Real> corner_;          // through the upper left corner of each pixel

@@ -8,7 +8,7 @@
 #include <packtrace/scene.hpp>
 
 #include "dispatch/kernels.hpp"
-#include "lower/packed_scene.hpp"
+#include "lower/buffered_scene.hpp"
 #include "lower/prune.hpp"
 
 namespace packtrace::cli {
@@ -62,14 +62,16 @@ struct SceneFeatures {
     features.uses = used_features(lowered, traversal);
     features.kernel =
         kernels_for(precision<float>(kernels_of(isa.name)), lowered.features).set.name;
-    PackedScene<float> packed(lowered, traversal);
-    packed.add_light_buffers(lowered, static_cast<double>(scene.width) * scene.height);
+    const PackedScene<float> packed(lowered, traversal);
     features.in_registers = fused_for(precision<float>(kernels_of(isa.name)), lowered.features,
                                       packed.view()) != nullptr;
     features.sorts_mirrored = sorts_mirrored(lowered.features, packed.view());
-    if (packed.has_light_buffers())
-        features.uses.emplace_back("light buffers");
     features.bytes = packed.bytes();
+    const double camera_rays = static_cast<double>(scene.width) * scene.height;
+    if (camera_rays >= camera_rays_for_buffers(packed, lowered.bounces)) {
+        features.uses.emplace_back("light buffers");
+        features.bytes += BufferedScene<float>(packed).bytes();
+    }
     return features;
 }
 
