@@ -10,10 +10,10 @@
 namespace packtrace::bench {
 namespace {
 
-/// Marks a name without dashes as that of an argument that must be given.
-CLI::Option* required_as_named(CLI::Option* option)
+/// An argument whose name has no dashes must be given, whatever else says so.
+CLI::Option* required_as_named(CLI::Option* option, bool required = false)
 {
-    return option->required(option->get_positional());
+    return option->required(required || option->get_positional());
 }
 
 template <class Number>
@@ -62,8 +62,7 @@ void Program::flag(const std::string& name, bool& value, const std::string& help
 void Program::text(const std::string& name, std::string& value, const std::string& help,
                    bool required)
 {
-    CLI::Option* const option = parser_->app->add_option(name, value, help);
-    option->required(required || option->get_positional());
+    required_as_named(parser_->app->add_option(name, value, help), required);
 }
 
 void Program::words(const std::string& name, std::vector<std::string>& value,
