@@ -50,8 +50,9 @@ inline void write_colors(PixelWrite write, Real* pixels, const vint<Real>& numbe
     alignas(64) lane_int<Real> at[lanes<Real>];
     store(at, number);
     const bool are_neighbours =
-        active == all_lanes<Real> &&
-        bits(int_equal(number, lane_numbers<Real>(static_cast<int>(at[0])))) == all_lanes<Real>;
+        lanes<Real> == 1 ||
+        (active == all_lanes<Real> &&
+         bits(int_equal(number, lane_numbers<Real>(static_cast<int>(at[0])))) == all_lanes<Real>);
     Real* const block = pixels + pixel_elements * at[0];
     if (write == PixelWrite::set && are_neighbours)
         return store_pixels(block, color.x, color.y, color.z);
