@@ -32,6 +32,8 @@ struct alignas(64) RayBundle {
     std::uint16_t unsure[bundle_cells];
     // With Features::exact, for the objects of the hierarchy.
     Real inverse[bundle_rays];  ///< 1 / |d|
+    bool one_origin;            ///< the active rays start at `origin`, but for NaN
+    float origin[3];
     float length;          ///< the largest distance of an origin from any centre of a sphere there
     float center_error;    ///< of the spheres there
     float moment_error;    ///< likewise, by sphere_filter.hpp

@@ -53,6 +53,7 @@ private:
         if constexpr (F.exact) {
             BlockBounds bounds(bundle_, leaf.block);
             visit_spheres(bounds_, leaf.block, cells, [&](int slot, int cell) {
+                bounds.need();
                 closer |= sphere(cell, [&](int first) {
                     return keep_certain_sphere(bounds, slot, leaf.surface_of(slot), first);
                 });
@@ -82,15 +83,16 @@ private:
         return any_closer;
     }
 
-    bool keep_certain_sphere(BlockBounds& bounds, int slot, std::int32_t surface, int first) const
+    bool keep_certain_sphere(const BlockBounds& bounds, int slot, std::int32_t surface,
+                             int first) const
     {
         const RayPacket<float> rays = load_rays(bundle_, first);
-        const SphereTest test = bounds.test(slot, rays);
-        const SphereApproach near = approach(test.w, test.bounds.outer2, rays);
+        const Vec3v<float> w = bounds.from_center(slot, rays);
+        const SphereApproach near = approach(w, bounds.outer2(slot), rays);
         if (near.near == 0)
             return false;
         HitPacket<float> hit = load_hits(bundle_, first);
-        keep_sphere(hit, test, near, rays, scale_of(bundle_, first, rays), surface,
+        keep_sphere(hit, bounds.test(slot, w), near, rays, scale_of(bundle_, first, rays), surface,
                     own_of(bundle_, first));
         store_hits<F>(bundle_, first, hit);
         return true;
@@ -197,7 +199,7 @@ template <abi::Features F, class Real>
     if constexpr (F.exact)
         bound_origins(bundle, scene, DoubtHits{bundle});
     CellBounds bounds;
-    bound_cells(bounds, bundle, tree, tree.spread);
+    bound_cells(bounds, bundle, tree, tree.spread, F.exact && bundle.one_origin);
     if (bounds.coherent != 0)
         closest_of_cells<F>(tree, bundle, bounds);
     const std::uint32_t others = active_cells(bundle) & ~bounds.coherent;

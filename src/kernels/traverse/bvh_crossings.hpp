@@ -130,7 +130,7 @@ template <abi::Features F, class Real>
 {
     SlabRays slabs;
     CellBounds bounds;
-    bound_cells(bounds, bundle, tree, tree.spread);
+    bound_cells(bounds, bundle, tree, tree.spread, false);
     const CrossingsInTree<F, Real> crossings(tree, bundle, bounds, slabs, visit);
     if (bounds.coherent != 0) {
         start_coherent(bounds, bundle);

@@ -63,6 +63,7 @@ private:
             BlockBounds bounds(bundle_, leaf.block);
             visit_spheres(bounds_, leaf.block, cells, [&](int slot, int cell) {
                 const std::int32_t surface = leaf.surface_of(slot);
+                bounds.need();
                 object(abi::Primitive::sphere, cell, surface, [&](int first) {
                     return certain_sphere_occludes(bounds, slot, surface, first);
                 });
@@ -76,19 +77,20 @@ private:
         join_t_max(bounds_);
     }
 
-    Occlusion certain_sphere_occludes(BlockBounds& bounds, int slot, std::int32_t surface,
+    Occlusion certain_sphere_occludes(const BlockBounds& bounds, int slot, std::int32_t surface,
                                       int first) const
     {
         if (surface < 0)
             return {};
         const RayPacket<float> rays = load_rays(bundle_, first);
-        const SphereTest test = bounds.test(slot, rays);
-        const SphereApproach near = approach(test.w, test.bounds.outer2, rays);
+        const Vec3v<float> w = bounds.from_center(slot, rays);
+        const SphereApproach near = approach(w, bounds.outer2(slot), rays);
         if (near.near == 0)
             return {};
         const OwnSurface<vint<float>> own = own_of(bundle_, first);
         const Occlusion occlusion =
-            occludes(test, near, rays, scale_of(bundle_, first, rays), load(bundle_.t + first));
+            occludes(bounds.test(slot, w), near, rays, scale_of(bundle_, first, rays),
+                     load(bundle_.t + first));
         return decided_alone(but_own<float>(occlusion.blocked, own, {surface, 1}),
                              but_own<float>(occlusion.unsure, own, {surface, 1}), surface, first);
     }
@@ -238,7 +240,7 @@ template <abi::Features F, class Real>
     const PartScope part(abi::Part::boxes);
     CellBounds bounds;
     const float share = F.exact && buffer != nullptr ? buffered_spread : blocked_spread;
-    bound_cells(bounds, bundle, tree, share * tree.spread);
+    bound_cells(bounds, bundle, tree, share * tree.spread, F.exact && bundle.one_origin);
     std::uint32_t others = active_cells(bundle) & ~bounds.coherent;
     if (bounds.coherent != 0)
         occluders_of_cells<F>(tree, bundle, bounds, closed, occluder);

@@ -76,15 +76,31 @@ public:
     {
     }
 
-    /// The sphere in one place of the block, for the rays of a packet of the bundle.
-    SphereTest test(int slot, const RayPacket<float>& rays)
+    /// Finds them; before that nothing else may be asked.
+    void need()
     {
         if (!is_set_)
             set();
+    }
+
+    /// The rays of a packet of the bundle relative to the sphere in one place of the block.
+    [[nodiscard]] Vec3v<float> from_center(int slot, const RayPacket<float>& rays) const
+    {
+        return rays.org - Vec3v<float>{vreal<float>(block_.center[0][slot]),
+                                       vreal<float>(block_.center[1][slot]),
+                                       vreal<float>(block_.center[2][slot])};
+    }
+
+    [[nodiscard]] vreal<float> outer2(int slot) const
+    {
+        return vreal<float>(bounds_.outer2[slot]);
+    }
+
+    /// `w` is from_center().
+    [[nodiscard]] SphereTest test(int slot, const Vec3v<float>& w) const
+    {
         const auto all = [slot](const float* values) { return vreal<float>(values[slot]); };
-        const Vec3v<float> center{all(block_.center[0]), all(block_.center[1]),
-                                  all(block_.center[2])};
-        return {rays.org - center,
+        return {w,
                 all(radius2_),
                 {all(bounds_.outer2), all(bounds_.inner2), all(bounds_.along), all(bounds_.moment),
                  all(bounds_.size), all(bounds_.band2), all(bounds_.reach)}};

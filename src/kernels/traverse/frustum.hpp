@@ -66,6 +66,15 @@ inline void find_cells(CellRange& range, const Real (&values)[bundle_rays],
     }
 }
 
+/// One value for all rays.
+inline void set_all(CellRange& range, float value)
+{
+    for (int first = 0; first < frustum_count; first += 8) {
+        store8(range.low + first, vfloat8(value));
+        store8(range.high + first, vfloat8(value));
+    }
+}
+
 /// Quarters and the whole from the cells.
 inline void join_cells(CellRange& range)
 {
@@ -173,6 +182,8 @@ inline std::uint32_t coherent_cells(const CellRange (&dir)[3], float largest_spr
     return coherent;
 }
 
+inline constexpr std::uint32_t all_cells = (1u << bundle_cells) - 1u;
+
 /// Leaves cells out of the quarters and the whole.
 inline void leave_out(CellRange& range, std::uint32_t cells)
 {
@@ -201,11 +212,25 @@ inline std::uint32_t close_cells(const CellRange (&org)[3], float furthest, std:
 /// the hierarchy: results/parallel_rays.json.
 inline constexpr float origins_apart = 2.0f;
 
+/// The origins of a bundle's cells; of those in bounds.coherent, which are too far apart leave it.
+template <class Real>
+inline void find_origins(CellRange (&org)[3], CellBounds& bounds, const RayBundle<Real>& bundle,
+                         float furthest)
+{
+    for (int axis = 0; axis < 3; ++axis)
+        find_cells(org[axis], bundle.org[axis], bundle);
+    bounds.coherent = close_cells(org, furthest, bounds.coherent);
+    for (int axis = 0; axis < 3; ++axis) {
+        leave_out(org[axis], all_cells & ~bounds.coherent);
+        join_cells(org[axis]);
+    }
+}
+
 /// The bounds of a bundle's active rays, to meet the boxes of a hierarchy. Cells are coherent up to
-/// `spread` (abi::BvhView).
+/// `spread` (abi::BvhView). With `one_origin` the bundle's is set.
 template <class Real>
 inline void bound_cells(CellBounds& bounds, const RayBundle<Real>& bundle,
-                        const abi::BvhView<Real>& tree, float spread)
+                        const abi::BvhView<Real>& tree, float spread, bool one_origin)
 {
     CellRange org[3];
     CellRange dir[3];
@@ -214,16 +239,15 @@ inline void bound_cells(CellBounds& bounds, const RayBundle<Real>& bundle,
     bounds.coherent = active_cells(bundle) & coherent_cells(dir, spread);
     if (bounds.coherent == 0)
         return;
-    for (int axis = 0; axis < 3; ++axis)
-        find_cells(org[axis], bundle.org[axis], bundle);
-    bounds.coherent = close_cells(org, origins_apart * spread * tree.extent, bounds.coherent);
+    if (one_origin)
+        for (int axis = 0; axis < 3; ++axis)
+            set_all(org[axis], bundle.origin[axis]);
+    else
+        find_origins(org, bounds, bundle, origins_apart * spread * tree.extent);
     if (bounds.coherent == 0)
         return;
-    const std::uint32_t others = ~bounds.coherent & ((1u << bundle_cells) - 1u);
     for (int axis = 0; axis < 3; ++axis) {
-        leave_out(org[axis], others);
-        leave_out(dir[axis], others);
-        join_cells(org[axis]);
+        leave_out(dir[axis], all_cells & ~bounds.coherent);
         join_cells(dir[axis]);
     }
     for (int first = 0; first < frustum_count; first += 8) {

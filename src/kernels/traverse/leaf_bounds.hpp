@@ -56,7 +56,10 @@ inline void bound_origins(RayBundle<float>& bundle, const abi::GeometryView<floa
     if (!scene.certifiable || !certifiable(origins_in(box.low, box.high)))
         doubt_uncertifiable(bundle, false, doubt);
     float distance2 = 0;
+    bundle.one_origin = true;
     for (int axis = 0; axis < 3; ++axis) {
+        bundle.one_origin &= box.low[axis] == box.high[axis];
+        bundle.origin[axis] = box.low[axis];
         const float most =
             max(max(0.0f, tree.middle[axis] - box.low[axis]), box.high[axis] - tree.middle[axis]);
         distance2 += most * most;
