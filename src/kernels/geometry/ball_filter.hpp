@@ -50,5 +50,18 @@ inline std::uint32_t may_hit_ball(const BallFilter& ball, const RayPacket<float>
     return may_be_within(near, middle, vreal<float>(ball.reach), rays, scale, t_end);
 }
 
+/// The same of a ball that may be infinite, without the lanes that start on the body in it. Most
+/// packets pass: whose lanes start there is asked last.
+template <bool Shared, class Own>
+inline std::uint32_t others_near_ball(const BallFilter& ball, const Body& body,
+                                      const RayPacket<float>& rays, const RayScale& scale,
+                                      const vreal<float>& t_end, const Own& own)
+{
+    std::uint32_t near = all_lanes<float>;
+    if (ball.outer2 < __builtin_inff())
+        near = may_hit_ball<Shared>(ball, rays, scale, t_end);
+    return near == 0 ? 0 : near & own.template lanes_on_others<float>(body.first, body.pieces);
+}
+
 }  // namespace
 }  // namespace packtrace::PACKTRACE_ISA

@@ -322,8 +322,8 @@ template <bool Shared, class Own>
 inline void keep_certain(HitPacket<float>& hit, const PolygonFilter& filter,
                          const RayPacket<float>& rays, const RayScale& scale, const Own& own)
 {
-    const std::uint32_t active = may_hit_ball<Shared>(filter.ball, rays, scale, hit.t) &
-                                 own.template lanes_on_others<float>(filter.surface);
+    const std::uint32_t active =
+        others_near_ball<Shared>(filter.ball, {filter.surface}, rays, scale, hit.t, own);
     if (active == 0)
         return;
     const PolygonCrossings at = crossings_in_double(*filter.wide, rays, active);
@@ -335,8 +335,8 @@ template <bool Shared, class Own>
 inline Occlusion occludes(const PolygonFilter& filter, const RayPacket<float>& rays,
                           const RayScale& scale, const vreal<float>& t_end, const Own& own)
 {
-    const std::uint32_t active = may_hit_ball<Shared>(filter.ball, rays, scale, t_end) &
-                                 own.template lanes_on_others<float>(filter.surface);
+    const std::uint32_t active =
+        others_near_ball<Shared>(filter.ball, {filter.surface}, rays, scale, t_end, own);
     if (active == 0)
         return {};
     const PolygonCrossings at = crossings_in_double(*filter.wide, rays, active);

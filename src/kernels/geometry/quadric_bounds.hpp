@@ -11,6 +11,7 @@ namespace {
 struct QuadricFilter {
     const abi::QuadricRecord<float>* record;
     const abi::QuadricRecord<double>* wide;
+    Body body;
     float p[3];                ///< a shared origin in canonical space, rounded once from double
     float height;              ///< and in the space that clipping goes by
     BallFilter ball;           ///< around it; infinite for an unbounded quadric
@@ -109,6 +110,7 @@ template <bool Shared>
     QuadricFilter filter{};
     filter.record = &record;
     filter.wide = &wide;
+    filter.body = body_of(record);
     filter.ball = ball_filter<Shared>(wide.bound, record.bound_radius, origins);
     double w[3];
     double distance2 = 0;

@@ -11,7 +11,7 @@ namespace {
 
 inline Body body_of(const QuadricFilter& quadric)
 {
-    return body_of(*quadric.record);
+    return quadric.body;
 }
 
 /// What is asked of a quadric.
@@ -86,10 +86,8 @@ inline QuadricCrossing certain_crossing(const QuadricFilter& filter, const RayPa
                                         const RayScale& scale, const vreal<float>& t_end,
                                         const Own& own)
 {
-    const Body body = body_of(filter);
-    std::uint32_t near = own.template lanes_on_others<float>(body.first, body.pieces);
-    if (filter.ball.outer2 < __builtin_inff())
-        near &= may_hit_ball<Shared>(filter.ball, rays, scale, t_end);
+    const std::uint32_t near =
+        others_near_ball<Shared>(filter.ball, filter.body, rays, scale, t_end, own);
     return near == 0 ? QuadricCrossing{}
                      : crossing_of<Query, Shared>(filter, rays, scale, t_end, near);
 }
