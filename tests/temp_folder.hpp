@@ -4,51 +4,26 @@
 #include <filesystem>
 #include <fstream>
 #include <iterator>
-#include <stdexcept>
 #include <string>
 #include <string_view>
-#include <system_error>
 #include <vector>
 
-#include <stdlib.h>
+#include "core/scratch_folder.hpp"
 
 namespace packtrace::test {
 
-/// A folder of its own for a test, removed with all it holds.
-class TempFolder {
+/// A folder of a test.
+class TempFolder : public ScratchFolder {
 public:
-    TempFolder()
-    {
-        std::string name = (std::filesystem::temp_directory_path() / "packtrace-XXXXXX").string();
-        if (!mkdtemp(name.data()))
-            throw std::runtime_error("can't make a temporary folder");
-        path_ = name;
-    }
-    ~TempFolder()
-    {
-        std::error_code ignored;
-        std::filesystem::remove_all(path_, ignored);
-    }
-    TempFolder(const TempFolder&) = delete;
-    TempFolder& operator=(const TempFolder&) = delete;
-
-    [[nodiscard]] std::filesystem::path operator/(std::string_view name) const
-    {
-        return path_ / name;
-    }
-
     /// The names in it, sorted, hidden ones too.
     [[nodiscard]] std::vector<std::string> names() const
     {
         std::vector<std::string> names;
-        for (const auto& entry : std::filesystem::directory_iterator(path_))
+        for (const auto& entry : std::filesystem::directory_iterator(path()))
             names.push_back(entry.path().filename().string());
         std::sort(names.begin(), names.end());
         return names;
     }
-
-private:
-    std::filesystem::path path_;
 };
 
 inline void write_text(const std::filesystem::path& file, std::string_view text)

@@ -1,12 +1,10 @@
 #include "cli/study/bench_programs.hpp"
 
-#include <stdlib.h>
-
 #include <filesystem>
 #include <stdexcept>
-#include <system_error>
 
 #include "core/run_filter.hpp"
+#include "core/scratch_folder.hpp"
 
 namespace packtrace::cli {
 namespace {
@@ -14,47 +12,19 @@ namespace {
 // Of so many in a row the median is one sample.
 constexpr const char* repetitions_of_a_run = "3";
 
-// A folder for what the programs write, gone with its owner.
-class ScratchFolder {
-public:
-    ScratchFolder()
-    {
-        std::string name =
-            (std::filesystem::temp_directory_path() / "packtrace-bench-XXXXXX").string();
-        if (mkdtemp(name.data()) == nullptr)
-            throw std::runtime_error(name + ": can't make a folder for figures; set TMPDIR");
-        path_ = name;
-    }
-    ~ScratchFolder()
-    {
-        std::error_code ignored;
-        std::filesystem::remove_all(path_, ignored);
-    }
-    ScratchFolder(const ScratchFolder&) = delete;
-    ScratchFolder& operator=(const ScratchFolder&) = delete;
-
-    [[nodiscard]] std::filesystem::path file() const
-    {
-        return path_ / "figures.json";
-    }
-
-private:
-    std::filesystem::path path_;
-};
-
 BenchFigures run_once(const std::string& program, const std::vector<std::string>& words)
 {
     const ScratchFolder folder;
+    const std::filesystem::path file = folder / "figures.json";
     std::vector<std::string> command{program, "bench"};
     command.insert(command.end(), words.begin(), words.end());
-    command.insert(command.end(),
-                   {"--repetitions", repetitions_of_a_run, "-o", folder.file().string()});
+    command.insert(command.end(), {"--repetitions", repetitions_of_a_run, "-o", file.string()});
     const FilterResult result = run_filter(command, "");
     if (!result.started)
         throw std::runtime_error(program + ": can't be run; give a packtrace program");
-    if (result.exit_code != 0 || !std::filesystem::exists(folder.file()))
+    if (result.exit_code != 0 || !std::filesystem::exists(file))
         throw std::runtime_error(program + ": its 'bench' fails; run it by hand to see why");
-    BenchFigures figures = read_bench_file(folder.file());
+    BenchFigures figures = read_bench_file(file);
     for (BenchLine& line : figures.lines)
         line.ratios = {line.ratio()};
     return figures;
