@@ -172,6 +172,47 @@ TEST_CASE("objects that cast no shadow move, too", "[scene_update]")
     CHECK(Answers<float>(moving, rays) == Answers<float>(RayScene<float>(swarm.scene), rays));
 }
 
+TEST_CASE("lights, and what casts shadows, stay those of the scene that was given first",
+          "[scene_update]")
+{
+    // Under a roof of many balls, and one large one that casts no shadow.
+    Scene scene;
+    for (int i = 0; i < 100; ++i)
+        scene.objects.push_back(
+            make_object(packtrace::sphere({i % 10 - 4.5, 1, i / 10 - 4.5}, 0.75)));
+    scene.objects.push_back(make_object(packtrace::sphere({0, -1, 20}, 2)));
+    scene.objects.back().casts_shadow = false;
+    scene.lights = {ambient_light(Rgb(0.1)), point_light({0, 9, 0}, Rgb(0.5)),
+                    point_light({0, 0, 3}, Rgb(0.5)), point_light({0, 0, 40}, Rgb(0.5))};
+    for (const Kernel kernel : {Kernel::packet, Kernel::scalar}) {
+        CAPTURE(static_cast<int>(kernel));
+        RayScene<float> moving(scene, {.kernel = kernel});
+        const float origin[] = {0};
+        const auto lit = [&](std::size_t light) {
+            std::uint8_t mask = 2;
+            moving.lit({{origin, origin, origin}, nullptr, 1}, light, &mask);
+            return int{mask};
+        };
+        Scene moved = scene;
+        moved.lights.clear();
+        moved.shadows = ShadowKind::none;
+        for (Object& object : moved.objects)
+            object.casts_shadow = !object.casts_shadow;
+        for (int step = 0; step < 3; ++step) {
+            CAPTURE(step);
+            CHECK(lit(1) == 0);
+            CHECK(lit(2) == 1);
+            CHECK(lit(3) == 1);
+            moved.objects[55] =
+                packtrace::translate(std::move(moved.objects[55]), Vec3(0.01, 0, 0));
+            const SceneUpdate done = moving.update(moved);
+            CHECK(done.rebuilt == (step == 0 || kernel == Kernel::scalar));
+        }
+        CHECK(lit(1) == 0);
+        CHECK(lit(3) == 1);
+    }
+}
+
 TEST_CASE("the hierarchy is built anew where objects change their kind or scatter",
           "[scene_update]")
 {

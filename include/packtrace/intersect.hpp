@@ -40,7 +40,8 @@ public:
     /// Takes over where objects of `scene` are now: the numbers of their surfaces, and
     /// Object::transform. It has the objects, in their order, that this was made of; `moved` are
     /// the numbers of those that may have moved, all without it. The answers are from then on those
-    /// of a RayScene made of `scene`, bit for bit.
+    /// of a RayScene made of `scene`, bit for bit; but lights, and what casts shadows, stay those
+    /// that this was made of.
     ///
     /// The hierarchy is refitted, several times as quickly as one is built. It is built anew by the
     /// first update (which keeps what later ones need, some 100 bytes an object), where objects

@@ -14,6 +14,8 @@
 #include <packtrace/isa.hpp>
 #include <packtrace/validate.hpp>
 
+#include "render/moved_objects.hpp"
+
 namespace packtrace::python {
 
 /// A scene for rays of either precision, each made ready when it is asked for first. Threads may
@@ -63,6 +65,8 @@ public:
     SceneUpdate update(Scene scene)
     {
         const auto lock = hold_alone();
+        check_same_objects(scene.objects.size(), scene_.objects.size());
+        keep_shadows(scene);
         const SceneUpdate done = update_made([&](auto& made) { return made.update(scene); }, scene);
         scene_ = std::move(scene);
         return done;
@@ -109,6 +113,15 @@ private:
         if (!any)
             validate(scene);
         return all;
+    }
+
+    /// As RayScene::update() has it: else a precision that is made later had other shadows.
+    void keep_shadows(Scene& scene) const
+    {
+        scene.lights = scene_.lights;
+        scene.shadows = scene_.shadows;
+        for (std::size_t i = 0; i < scene.objects.size(); ++i)
+            scene.objects[i].casts_shadow = scene_.objects[i].casts_shadow;
     }
 
     [[nodiscard]] Mat4& transform_of(std::int32_t object)

@@ -125,8 +125,9 @@ class RayScene:
     def update(self, scene: Scene) -> SceneUpdate:
         """Takes over where the objects of `scene` are now: surfaces and transforms of the objects, in
         their order, that this was made of. Answers are from then on those of RayScene(scene), which
-        takes several times as long. Where it raises SceneError, or ValueError for another number of
-        objects, answers stay those of before. Waits until other threads' rays are done."""
+        takes several times as long; but lights, and what casts shadows, stay as they were. Where it
+        raises SceneError, or ValueError for another number of objects, answers stay those of before.
+        Waits until other threads' rays are done."""
         return SceneUpdate(*self._native.update(scene))
 
     def transform(self, objects: Any, transforms: Any) -> SceneUpdate:

@@ -18,6 +18,7 @@
 #include "dispatch/kernels.hpp"
 #include "lower/move_objects.hpp"
 #include "lower/packed_scene.hpp"
+#include "render/casting_objects.hpp"
 #include "render/lit_scene.hpp"
 #include "render/ray_backend.hpp"
 #include "render/ray_pieces.hpp"
@@ -132,9 +133,13 @@ public:
           self_hits_(options.self_hits),
           traversal_(options.traversal),
           kernels_(precision<Real>(kernels_of(choose_isa(options.isa, options.width).name))),
+          casts_shadow_(casting_objects(scene)),
           scratch_([this] { return AlignedArray<std::byte>::unset(scratch_bytes_); })
     {
-        pack(lower(scene, accuracy_, self_hits_), nullptr);
+        LoweredScene lowered = lower(scene, accuracy_, self_hits_);
+        lights_ = lowered.lights;
+        shadows_ = lowered.shadows;
+        pack(std::move(lowered), nullptr);
     }
 
     void closest_hits(const RaysView<Real>& rays, const StartsView<Real>* starts,
@@ -245,10 +250,25 @@ private:
         return cost;
     }
 
+    /// Puts back what a refit does not look at either: numbers of lights are checked against those
+    /// of the scene that this was made of.
+    void keep_shadows(LoweredScene& lowered) const
+    {
+        lowered.lights = lights_;
+        lowered.shadows = shadows_;
+        lowered.casts_shadow.clear();
+        if (!casts_shadow_.empty())
+            for (const abi::MaterialIndex& index : lowered.material_index)
+                lowered.casts_shadow.push_back(
+                    casts_shadow_[static_cast<std::size_t>(index.object)]);
+    }
+
     void rebuild(const Scene& scene)
     {
+        LoweredScene lowered = lower(scene, accuracy_, self_hits_);
+        keep_shadows(lowered);
         auto kept = std::make_unique<Kept>();
-        pack(lower(scene, accuracy_, self_hits_), kept.get());
+        pack(std::move(lowered), kept.get());
         if (kept->bvh.nodes.empty())
             return;
         kept->built_cost = surface_area_cost(kept->bvh);
@@ -259,6 +279,9 @@ private:
     SelfHits self_hits_;
     Traversal traversal_;
     const abi::PrecisionTable<Real>& kernels_;
+    std::vector<bool> casts_shadow_;  ///< as casting_objects() has it
+    std::vector<Light> lights_;       ///< as LoweredScene has them
+    bool shadows_ = true;
     std::unique_ptr<PackedScene<Real>> packed_;
     std::unique_ptr<LitScene<Real>> lit_;
     std::unique_ptr<Kept> kept_;  ///< from the first update on, where there is a hierarchy

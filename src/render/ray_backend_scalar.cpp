@@ -1,4 +1,3 @@
-#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <optional>
@@ -7,6 +6,7 @@
 #include "reference/shadow.hpp"
 #include "reference/surfaces/bodies.hpp"
 #include "reference/surfaces/hits.hpp"
+#include "render/casting_objects.hpp"
 #include "render/ray_backend.hpp"
 
 namespace packtrace {
@@ -31,7 +31,8 @@ struct ScalarRay {
 template <class Real>
 class ScalarBackend final : public RayBackend<Real> {
 public:
-    explicit ScalarBackend(const Scene& scene) : bodies_(scene), casters_(casters_of(scene))
+    explicit ScalarBackend(const Scene& scene)
+        : casts_shadow_(casting_objects(scene)), bodies_(scene), casters_(casters_of(scene))
     {
         for (const Light& light : scene.lights)
             if (light.type != LightType::ambient)
@@ -109,12 +110,13 @@ private:
     }
 
     /// Where some objects cast no shadow, the others.
-    [[nodiscard]] static std::optional<reference::Bodies<Real>> casters_of(const Scene& scene)
+    [[nodiscard]] std::optional<reference::Bodies<Real>> casters_of(const Scene& scene) const
     {
-        const auto casts = [](const Object& object) { return object.casts_shadow; };
-        if (std::all_of(scene.objects.begin(), scene.objects.end(), casts))
+        if (casts_shadow_.empty())
             return std::nullopt;
-        return reference::Bodies<Real>(scene, default_self_hits, casts);
+        return reference::Bodies<Real>(scene, default_self_hits, [&](const Object& object) {
+            return casts_shadow_[static_cast<std::size_t>(&object - scene.objects.data())];
+        });
     }
 
     [[nodiscard]] bool reaches(const Light& light, const reference::Vec3<Real>& point,
@@ -134,6 +136,7 @@ private:
         return !any_in_way(casters_ ? *casters_ : bodies_, start, way, end, place);
     }
 
+    std::vector<bool> casts_shadow_;  ///< as casting_objects() has it
     reference::Bodies<Real> bodies_;
     std::optional<reference::Bodies<Real>> casters_;
     std::vector<Light> lights_;

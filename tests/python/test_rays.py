@@ -338,6 +338,22 @@ class TestMoving(unittest.TestCase):
         self.assertFalse(done.rebuilt)
         self.assertGreater(done.cost, 0)
 
+    def test_update_keeps_number_and_lights(self):
+        point = np.zeros(3)
+        for first in (np.float32, None):    # which precision is made ready before
+            scene = pt.Scene(objects=[pt.Object(pt.Sphere((0, 3, 0), 1))],
+                             lights=[pt.Light("point", 1, (0, 9, 0))])
+            rays = pt.RayScene(scene, dtype=first)
+            scene.lights = []
+            scene.objects[0].casts_shadow = False
+            rays.update(scene)
+            self.assertFalse(rays.lit(point.astype(np.float32), 0))
+            self.assertFalse(rays.lit(point, 0))
+            scene.objects.append(pt.Object(pt.Sphere((0, 0, 5), 1)))
+            with self.assertRaisesRegex(ValueError, "has 2 objects"):
+                rays.update(scene)
+            self.assertEqual(rays.closest((0, 0, 0), (0.0, 0.0, 1.0)).object, -1)
+
     def test_transforms(self):
         rays = pt.RayScene(self.scene)
         self.assert_like_new(rays)

@@ -53,12 +53,13 @@ template PlacedBody<double> place_body(const Object&, int, SelfHits);
 template PlacedBody<long double> place_body(const Object&, int, SelfHits);
 
 template <class Real>
-Bodies<Real>::Bodies(const Scene& scene, SelfHits rule, bool (*wanted)(const Object&))
+Bodies<Real>::Bodies(const Scene& scene, SelfHits rule,
+                     const std::function<bool(const Object&)>& wanted)
 {
     int number = 0;
     for (const Object& from : scene.objects) {
         const int object = number++;
-        if (wanted != nullptr && !wanted(from))
+        if (wanted && !wanted(from))
             continue;
         const bool in_world = from.transform == Mat4(1.0);
         if (const auto* sphere = std::get_if<Sphere>(&from.surface); sphere && in_world) {

@@ -8,6 +8,7 @@
 #include "reference/surfaces/quadric.hpp"
 #include "reference/surfaces/sphere.hpp"
 
+#include <functional>
 #include <variant>
 #include <vector>
 
@@ -40,7 +41,7 @@ struct Bodies {
     /// All objects, or those that `wanted` says. By SelfHits::note spheres are met by the note's
     /// own formula, by SelfHits::exact by one that cancels nothing.
     explicit Bodies(const Scene& scene, SelfHits rule = default_self_hits,
-                    bool (*wanted)(const Object&) = nullptr);
+                    const std::function<bool(const Object&)>& wanted = {});
 };
 
 /// Object number `object` of a scene in its own space, whether it has a matrix or not.
