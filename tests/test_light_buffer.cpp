@@ -134,6 +134,28 @@ TEST_CASE("A light among the spheres, or few rays, make no view", "[light_buffer
     CHECK_FALSE(has_buffer(scene));
 }
 
+TEST_CASE("Spheres that are in each other make no view, which would be larger than they",
+          "[light_buffer]")
+{
+    Scene scene = crowd(1000, 11);
+    set_size(scene, 160, 120);
+    light_from(scene, {20, 30, -15});
+    REQUIRE(has_buffer(scene));
+    for (Object& object : scene.objects)
+        std::get<Sphere>(object.surface).radius = 8;
+    CHECK_FALSE(has_buffer(scene));
+    light_along(scene, {1, 2, 3});
+    CHECK_FALSE(has_buffer(scene));
+    check_against_lists(scene, SelfHits::exact);
+
+    // A single one that is as large hides the others, and takes little.
+    scene = crowd(1000, 11);
+    set_size(scene, 160, 120);
+    light_from(scene, {20, 30, -15});
+    std::get<Sphere>(scene.objects[0].surface).radius = 8;
+    CHECK(has_buffer(scene));
+}
+
 TEST_CASE("Lights get views with the frame that pays for them, and frames stay the same",
           "[light_buffer]")
 {

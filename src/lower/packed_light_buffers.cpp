@@ -25,6 +25,11 @@ constexpr double size_margin = 1e-4;
 /// Lights from which the spheres' ball has a wider tangent than this see cells too unlike in size.
 constexpr double widest = 3.0;
 
+/// So many cells, to a sphere and to a cell, may spheres cover: they stand side by side in few.
+/// Where most of them are in each other, and their view would take more room than they, there is
+/// none.
+constexpr std::size_t most_cells = 64;
+
 /// About as many cells as spheres stand side by side: results/light_buffers.json.
 int grid_size(int blocks)
 {
@@ -128,6 +133,17 @@ void for_each_cell(const SeenSphere& sphere, int size, const Visit& visit)
     for (int row = sphere.low[1]; row <= sphere.high[1]; ++row)
         for (int column = sphere.low[0]; column <= sphere.high[0]; ++column)
             visit(row * size + column);
+}
+
+/// Whether the spheres cover no more cells than their view may have room for.
+bool is_sparse(const std::vector<SeenSphere>& spheres, int size)
+{
+    const auto cells = static_cast<std::size_t>(size * size);
+    std::size_t covered = 0;
+    for (const SeenSphere& sphere : spheres)
+        covered += static_cast<std::size_t>((sphere.high[0] - sphere.low[0] + 1) *
+                                            (sphere.high[1] - sphere.low[1] + 1));
+    return covered <= most_cells * (spheres.size() + cells);
 }
 
 /// Whether all rays of a cell go through a sphere: those through its corners do.
@@ -299,6 +315,8 @@ PackedLightBuffer::PackedLightBuffer(const abi::LightRecord<float>& light,
     tbb::parallel_for(std::size_t{0}, spheres.size(), [&](std::size_t place) {
         spheres[place] = see(axes, tree, static_cast<int>(place));
     });
+    if (!is_sparse(spheres, axes.size))
+        return;
     CellSpheres sorted = sort_into_cells(spheres, axes);
 
     const std::size_t count = sorted.first.size() - 1;

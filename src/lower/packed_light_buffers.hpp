@@ -12,7 +12,8 @@ namespace packtrace {
 class PackedLightBuffer {
 public:
     PackedLightBuffer() = default;
-    /// Empty where a point light is too near to the spheres to see all of them ahead of it.
+    /// Empty where a point light is too near to the spheres to see all of them ahead of it, and
+    /// where most spheres are in each other, so that it would take far more room than they.
     PackedLightBuffer(const abi::LightRecord<float>& light, const abi::BvhView<float>& tree,
                       int blocks);
 
