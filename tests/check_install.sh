@@ -125,6 +125,10 @@ pkg_config() {
     export LD_LIBRARY_PATH
     runs "$folder/shared" 1
     # shellcheck disable=SC2046
+    quietly "$cxx" -fno-exceptions "$consumer/no_exceptions.cpp" -o "$folder/no_exceptions" \
+        $(pkg-config --cflags --libs packtrace)
+    "$folder/no_exceptions" || fail "a program without exceptions does not work"
+    # shellcheck disable=SC2046
     quietly "$cxx" "$folder/main.o" -o "$folder/static" \
         "$libraries/libpacktrace.a" -Wl,--as-needed $(pkg-config --static --libs packtrace)
     runs "$folder/static" 0

@@ -1,13 +1,20 @@
 #pragma once
 
 #include <cstddef>
-#include <stdexcept>
-#include <string>
+#include <stdexcept>  // for those who catch what is thrown
 #include <vector>
 
+#include <packtrace/export.hpp>
 #include <packtrace/unset_allocator.hpp>
 
 namespace packtrace {
+namespace detail {
+
+// Throw std::invalid_argument, in the library, as headers have to compile where exceptions are off.
+[[noreturn]] PACKTRACE_API void refuse_sides(int width, int height);
+[[noreturn]] PACKTRACE_API void refuse_values(std::size_t values, int width, int height);
+
+}  // namespace detail
 
 /// A picture of linear RGB values, 1.0 for full, not clamped; rows from the top, pixels
 /// interleaved as r, g, b.
@@ -30,8 +37,7 @@ struct Image {
     [[nodiscard]] static Image unset(int w, int h)
     {
         if (w < 0 || h < 0)
-            throw std::invalid_argument("image: " + std::to_string(w) + " x " + std::to_string(h) +
-                                        " pixels; sides are 0 or above");
+            detail::refuse_sides(w, h);
         Image image;
         image.width = w;
         image.height = h;
@@ -50,9 +56,7 @@ struct Image {
     void check() const
     {
         if (!is_whole())
-            throw std::invalid_argument("image: " + std::to_string(rgb.size()) +
-                                        " values in `rgb` for " + std::to_string(width) + " x " +
-                                        std::to_string(height) + " pixels; give three a pixel");
+            detail::refuse_values(rgb.size(), width, height);
     }
 
     [[nodiscard]] Real* pixel(int x, int y)

@@ -4,9 +4,10 @@
 #include <cstdint>
 #include <limits>
 #include <span>
-#include <stdexcept>
-#include <string>
+#include <stdexcept>  // for those who catch what is thrown
 #include <type_traits>
+
+#include <packtrace/export.hpp>
 
 // Rays of the caller's own and what they hit, in the layouts that RayScene takes.
 namespace packtrace {
@@ -156,14 +157,9 @@ struct HitStructs {
 
 namespace detail {
 
-/// Throws std::invalid_argument where an array has not `wanted` elements.
-inline void check_length(const char* name, std::size_t length, std::size_t wanted)
-{
-    if (length != wanted)
-        throw std::invalid_argument(std::string(name) + " has " + std::to_string(length) +
-                                    " elements, where there are " + std::to_string(wanted) +
-                                    " rays; give it one for each ray");
-}
+/// Throws std::invalid_argument where an array has not `wanted` elements. In the library, as
+/// headers have to compile where exceptions are off.
+PACKTRACE_API void check_length(const char* name, std::size_t length, std::size_t wanted);
 
 }  // namespace detail
 

@@ -33,9 +33,10 @@ struct UnsetAllocator : std::allocator<T> {
 
     [[nodiscard]] T* allocate(std::size_t count)
     {
-        if (count > std::numeric_limits<std::size_t>::max() / sizeof(T))
-            throw std::bad_array_new_length();
-        return static_cast<T*>(take_pages(count * sizeof(T)));
+        // More than there can be is refused there, as headers have to compile where exceptions are
+        // off.
+        constexpr std::size_t most = std::numeric_limits<std::size_t>::max();
+        return static_cast<T*>(take_pages(count > most / sizeof(T) ? most : count * sizeof(T)));
     }
     void deallocate(T* memory, std::size_t)
     {

@@ -17,6 +17,14 @@
 
 namespace packtrace {
 
+void detail::check_length(const char* name, std::size_t length, std::size_t wanted)
+{
+    if (length != wanted)
+        throw std::invalid_argument(std::string(name) + " has " + std::to_string(length) +
+                                    " elements, where there are " + std::to_string(wanted) +
+                                    " rays; give it one for each ray");
+}
+
 template <class Real>
 struct RayScene<Real>::State {
     explicit State(const Scene& scene) : bounded(scene)
