@@ -202,6 +202,58 @@ TEST_CASE("arrays that are not as long as the rays are refused by name", "[ray_l
                ContainsSubstring("normal_x has 3"));
 }
 
+TEST_CASE("arrays that are left out are refused by name, but for no rays", "[ray_layouts]")
+{
+    const RayScene<float> scene(ball_scene());
+    const RayColumns<float> columns = columns_of(scattered_rays<float>(3));
+    const RaysView<float> rays = spans_of(columns).view();
+    std::vector<float> t(3);
+    std::vector<std::int32_t> object(3);
+    std::vector<float> place(3);
+    std::vector<std::uint8_t> mask(3);
+    HitsView<float> hits{.t = t.data(), .object = object.data()};
+    const auto refused = [](const auto& ask) { return refusal<std::invalid_argument>(ask); };
+
+    for (const float* RaysView<float>::*array :
+         {&RaysView<float>::org_x, &RaysView<float>::org_y, &RaysView<float>::org_z,
+          &RaysView<float>::dir_x, &RaysView<float>::dir_y, &RaysView<float>::dir_z,
+          &RaysView<float>::t_min, &RaysView<float>::t_max}) {
+        RaysView<float> some = rays;
+        some.*array = nullptr;
+        CHECK_THAT(refused([&] { scene.closest_hits(some, hits); }), ContainsSubstring("is null"));
+        CHECK_THAT(refused([&] { scene.occluded(some, mask.data()); }),
+                   ContainsSubstring("is null"));
+        CHECK_THAT(refused([&] { scene.all_hits(some, [](std::size_t, auto) {}); }),
+                   ContainsSubstring("is null"));
+    }
+    CHECK(refused([&] { scene.occluded(rays, static_cast<std::uint8_t*>(nullptr)); }) ==
+          "mask is null; give an array of 3");
+    CHECK(refused([&] { scene.all_hits(rays, RayScene<float>::TakeHits()); }) ==
+          "`take` is empty; give a function for the hits of a ray");
+    CHECK(refused([&] { scene.bound_closest_hits(rays, nullptr, nullptr); }) ==
+          "object is null; give an array of 3");
+    CHECK(refused([&] { scene.lit(PointsView<float>{.count = 2}, 1, mask.data()); }) ==
+          "point is null; give an array of 2");
+    CHECK(refused([&] {
+              scene.closest_hits(
+                  rays, StartsView<float>{{place.data(), place.data(), place.data()}}, hits);
+          }) == "surface of starts is null; give an array of 3");
+    hits.object = nullptr;
+    CHECK(refused([&] { scene.closest_hits(rays, hits); }) ==
+          "object of hits is null; give an array of 3");
+    hits.object = object.data();
+    hits.point[0] = place.data();
+    CHECK(refused([&] { scene.closest_hits(rays, hits); }) ==
+          "point has arrays for some of x, y and z; give all or none");
+    hits.point[1] = hits.point[2] = place.data();
+    CHECK(refused([&] { scene.closest_hits(rays, hits); }) ==
+          "point comes with normals alone; give arrays for them, too");
+
+    scene.closest_hits(RaysView<float>{}, HitsView<float>{});
+    scene.occluded(RaysView<float>{}, static_cast<std::uint8_t*>(nullptr));
+    scene.lit(PointsView<float>{}, 1, nullptr);
+}
+
 TEST_CASE("a query reports how far it is, and stops where asked to", "[ray_layouts]")
 {
     const RayScene<float> scene(ball_scene());

@@ -54,7 +54,8 @@ public:
     PACKTRACE_API SceneUpdate update(const Scene& scene, std::span<const std::int32_t> moved);
     PACKTRACE_API SceneUpdate update(const Scene& scene);
 
-    // Rays as arrays of their components.
+    // Rays as arrays of their components. All throw std::invalid_argument where an array that is
+    // read or written is null, unless there are no rays.
 
     /// The first hit of each ray; at equal t that of the lower object number.
     PACKTRACE_API void closest_hits(const RaysView<Real>& rays, const HitsView<Real>& hits,

@@ -9,6 +9,7 @@
 #include <packtrace/validate.hpp>
 
 #include "bounds/bounded_scene.hpp"
+#include "render/check_arrays.hpp"
 #include "render/check_options.hpp"
 #include "render/moved_objects.hpp"
 #include "render/ray_backend.hpp"
@@ -106,30 +107,12 @@ SceneUpdate RayScene<Real>::update(const Scene& scene)
     return state_->update(scene, moved_objects(state_->bounded, scene));
 }
 
-namespace {
-
-/// Refuses vectors of which a component has no array.
-template <class Real>
-void check_hits(const HitsView<Real>& hits)
-{
-    const auto check = [](const char* name, const Real* x, const Real* y, const Real* z) {
-        if ((x == nullptr) != (y == nullptr) || (x == nullptr) != (z == nullptr))
-            throw std::invalid_argument(std::string(name) +
-                                        " has arrays for some of x, y and z; give all or none");
-    };
-    check("normal", hits.normal_x, hits.normal_y, hits.normal_z);
-    check("point", hits.point[0], hits.point[1], hits.point[2]);
-    check("outer_start", hits.outer_start[0], hits.outer_start[1], hits.outer_start[2]);
-    check("inner_start", hits.inner_start[0], hits.inner_start[1], hits.inner_start[2]);
-}
-
-}  // namespace
-
 template <class Real>
 void RayScene<Real>::closest_hits(const RaysView<Real>& rays, const HitsView<Real>& hits,
                                   const QueryWatch& watch) const
 {
-    check_hits(hits);
+    check_rays(rays);
+    check_hits(hits, rays.count);
     for_watched_pieces(rays.count, watch, [&](std::size_t first, std::size_t count) {
         state_->backend->closest_hits(part_of(rays, first, count), nullptr, part_of(hits, first));
     });
@@ -139,7 +122,9 @@ template <class Real>
 void RayScene<Real>::closest_hits(const RaysView<Real>& rays, const StartsView<Real>& starts,
                                   const HitsView<Real>& hits, const QueryWatch& watch) const
 {
-    check_hits(hits);
+    check_rays(rays);
+    check_starts(starts, rays.count);
+    check_hits(hits, rays.count);
     for_watched_pieces(rays.count, watch, [&](std::size_t first, std::size_t count) {
         const StartsView<Real> part = part_of(starts, first);
         state_->backend->closest_hits(part_of(rays, first, count), &part, part_of(hits, first));
@@ -150,6 +135,8 @@ template <class Real>
 void RayScene<Real>::occluded(const RaysView<Real>& rays, std::uint8_t* mask,
                               const QueryWatch& watch) const
 {
+    check_rays(rays);
+    check_array(mask, "mask", rays.count);
     for_watched_pieces(rays.count, watch, [&](std::size_t first, std::size_t count) {
         state_->backend->occluded(part_of(rays, first, count), mask + first);
     });
@@ -160,6 +147,8 @@ void RayScene<Real>::lit(const PointsView<Real>& points, std::size_t light, std:
                          const QueryWatch& watch) const
 {
     const std::size_t place = state_->place_of_light(light);
+    check_vector(points.point, "point", points.count);
+    check_array(mask, "mask", points.count);
     for_watched_pieces(points.count, watch, [&](std::size_t first, std::size_t count) {
         state_->backend->lit(part_of(points, first, count), place, mask + first);
     });
@@ -169,6 +158,9 @@ template <class Real>
 void RayScene<Real>::all_hits(const RaysView<Real>& rays, const TakeHits& take,
                               const QueryWatch& watch) const
 {
+    check_rays(rays);
+    if (!take)
+        throw std::invalid_argument("`take` is empty; give a function for the hits of a ray");
     for_watched_pieces(rays.count, watch, [&](std::size_t first, std::size_t count) {
         if (first == 0)
             return state_->backend->all_hits(part_of(rays, first, count), take);
@@ -208,6 +200,9 @@ template <class Real>
 void RayScene<Real>::bound_closest_hits(const RaysView<Real>& rays, const std::int32_t* object,
                                         HitBounds* bounds, const QueryWatch& watch) const
 {
+    check_rays(rays);
+    check_array(object, "object", rays.count);
+    check_array(bounds, "bounds", rays.count);
     for_watched_pieces(rays.count, watch, [&](std::size_t first, std::size_t count) {
         for (std::size_t i = first; i < first + count; ++i) {
             check_object(object[i], -1, state_->bounded.object_count());
