@@ -27,7 +27,7 @@ constexpr double widest = 3.0;
 
 /// So many cells, to a sphere and to a cell, may spheres cover: they stand side by side in few.
 /// Where most of them are in each other, and their view would take more room than they, there is
-/// none.
+/// none: results/tree_designs.json.
 constexpr std::size_t most_cells = 64;
 
 /// About as many cells as spheres stand side by side: results/light_buffers.json.
