@@ -22,6 +22,26 @@ struct CommonHit {
     std::uint32_t lanes;  ///< none where nothing is hit
 };
 
+/// Where rays start relative to a ball's centre.
+template <Origin O>
+inline Vec3v<float> from_center(const CommonBall& ball, const RayPacket<float>& rays)
+{
+    if constexpr (O == Origin::shared)
+        return broadcast(ball.from_center);
+    else
+        return rays.org - broadcast(ball.center);
+}
+
+/// A ground's form where rays start.
+template <Origin O>
+inline GroundForm form_at_start(const CommonGround& ground, const RayPacket<float>& rays)
+{
+    if constexpr (O == Origin::shared)
+        return {broadcast(ground.eye_gradient), vreal<float>(ground.eye_value)};
+    else
+        return form_at(ground, rays.org);
+}
+
 /// Where rays start relative to a point, in double.
 template <Origin O>
 inline BothHalves<Vec3v<double>> starts_from(const RayPacket<float>& rays, const float (&eye)[3],
@@ -56,10 +76,11 @@ struct RoughCommon {
     std::uint32_t sure;  ///< of these, those that enter it for sure beyond 0
 };
 
+template <Origin O>
 inline RoughCommon rough_common(const CommonSphere& sphere, const RayPacket<float>& rays,
                                 std::uint32_t open)
 {
-    const Vec3v<float> w = rays.org - broadcast(sphere.center);
+    const Vec3v<float> w = from_center<O>(sphere, rays);
     const vreal<float> moment2 = moment2_of(w, rays);
     const vreal<float> b = dot(w, rays.dir);
     const vreal<float> across = rays.dir2 * vreal<float>(sphere.radius2);
@@ -72,20 +93,17 @@ inline RoughCommon rough_common(const CommonSphere& sphere, const RayPacket<floa
     return {negated(b + root) * inverse, rays.dir2, open, open & sure};
 }
 
+template <Origin O>
 inline RoughCommon rough_common(const CommonGround& ground, const RayPacket<float>& rays,
                                 std::uint32_t active)
 {
-    const vreal<float> curvature(ground.curvature);
-    const Vec3v<float> n = broadcast(ground.normal);
-    const Vec3v<float> w = rays.org - broadcast(ground.base);
-    const Vec3v<float> g = madd<float>(curvature, w, n);
-    const vreal<float> value = dot(g + n, w) + vreal<float>(ground.offset);
+    const auto [g, value] = form_at_start<O>(ground, rays);
     const vreal<float> b = dot(g, rays.dir);
     const vreal<float> side(ground.side);
     const vreal<float> slope2 = side * b * abs(b);
     const vreal<float> slope_error2 = vreal<float>(ground.slope_error2) * rays.dir2;
     RoughCommon rough;
-    rough.bend = curvature * rays.dir2;
+    rough.bend = vreal<float>(ground.curvature) * rays.dir2;
     const std::uint32_t outside = bits(side * value > vreal<float>(ground.value_error));
     rough.open = active & ~(outside & bits(slope2 > slope_error2));
     if (rough.open == 0)
@@ -182,10 +200,11 @@ inline std::uint32_t refine_common(CommonHit& hit, const CommonGround& ground,
 }
 
 /// The lanes of a packet whose rays may have a ball before them; `b` is set where there are any.
+template <Origin O>
 inline std::uint32_t lanes_near(const CommonBall& sphere, const RayPacket<float>& rays,
                                 std::uint32_t active, vreal<float>& b)
 {
-    const Vec3v<float> w = rays.org - broadcast(sphere.center);
+    const Vec3v<float> w = from_center<O>(sphere, rays);
     const vreal<float> outer2(sphere.outer2);
     const std::uint32_t near = active & ~bits(moment2_of(w, rays) > outer2 * rays.dir2);
     if (near == 0)
@@ -195,11 +214,12 @@ inline std::uint32_t lanes_near(const CommonBall& sphere, const RayPacket<float>
                         (b * abs(b) > vreal<float>(sphere.slack2) * rays.dir2));
 }
 
+template <Origin O>
 inline std::uint32_t lanes_near(const CommonBall& ball, const RayPacket<float>& rays,
                                 std::uint32_t active)
 {
     vreal<float> b = rays.dir2;
-    return lanes_near(ball, rays, active, b);
+    return lanes_near<O>(ball, rays, active, b);
 }
 
 /// Whether another sphere is behind the hits for sure: they are outside, and the rays nearing it.
@@ -256,7 +276,7 @@ inline bool find_common_ground(CommonHit& hit, const CommonObjects& common,
     for (const CommonGround& ground : candidates.grounds) {
         if (ground.surface == own)
             continue;
-        const RoughCommon rough = rough_common(ground, rays, active);
+        const RoughCommon rough = rough_common<O>(ground, rays, active);
         if (rough.open == 0)
             continue;
         is_only = first == nullptr;
@@ -296,7 +316,7 @@ inline bool find_common_sphere(CommonHit& hit, const CommonObjects& common,
         if (sphere.body.first == own)
             continue;
         vreal<float> b = nearness;
-        const std::uint32_t near = lanes_near(sphere, rays, active, b);
+        const std::uint32_t near = lanes_near<O>(sphere, rays, active, b);
         if (near == 0)
             continue;
         if (second != nullptr)
@@ -312,7 +332,7 @@ inline bool find_common_sphere(CommonHit& hit, const CommonObjects& common,
     }
     if (first == nullptr)
         return find_common_ground<R, O>(hit, common, candidates, rays, eye, own, active);
-    const RoughCommon rough = rough_common(*first, rays, open);
+    const RoughCommon rough = rough_common<O>(*first, rays, open);
     if (rough.sure != rough.open)
         return false;
     hit.lanes = rough.sure;
@@ -329,7 +349,7 @@ inline bool find_common_sphere(CommonHit& hit, const CommonObjects& common,
             // The lanes that miss the sphere have to miss the ground, too.
             if (is_whole || ground.surface == own)
                 continue;
-            if (rough_common(ground, rays, active & ~hit.lanes).open == 0)
+            if (rough_common<O>(ground, rays, active & ~hit.lanes).open == 0)
                 continue;
         }
         return false;
@@ -338,11 +358,12 @@ inline bool find_common_sphere(CommonHit& hit, const CommonObjects& common,
 }
 
 /// Whether a packet passes all balls but that of the body its rays start on.
+template <Origin O>
 inline bool passes_balls(const CommonLists& candidates, const RayPacket<float>& rays,
                          std::int32_t own, std::uint32_t active)
 {
     for (const CommonBall& ball : candidates.balls)
-        if (!is_on(ball.body, own) && lanes_near(ball, rays, active) != 0)
+        if (!is_on(ball.body, own) && lanes_near<O>(ball, rays, active) != 0)
             return false;
     return true;
 }
@@ -357,7 +378,7 @@ inline bool find_common_hit(CommonHit& hit, const CommonObjects& common,
                             const float (&eye)[3], std::int32_t own, std::uint32_t active)
 {
     hit.lanes = 0;
-    return passes_balls(candidates, rays, own, active) &&
+    return passes_balls<O>(candidates, rays, own, active) &&
            find_common_sphere<R, O>(hit, common, candidates, rays, eye, own, active);
 }
 

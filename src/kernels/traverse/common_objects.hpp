@@ -13,6 +13,7 @@ namespace {
 /// A ball that holds an object, with its bounds for some origins (sphere_filter.hpp).
 struct CommonBall {
     float center[3];
+    float from_center[3];  ///< of the eye, from there
     float outer2;
     float slack2;  ///< square of what the slope w·d may be off by, per |d|
     Body body;
@@ -32,9 +33,10 @@ struct CommonSphere : CommonBall {
 /// and the errors of its terms.
 struct CommonGround {
     float base[3], normal[3], curvature, offset;
-    float value_error;         ///< of F(0)
-    float slope_error2;        ///< square of that of b, per |d|
-    float discriminant_error;  ///< per d·d
+    float eye_gradient[3], eye_value;  ///< of the form at the eye
+    float value_error;                 ///< of F(0)
+    float slope_error2;                ///< square of that of b, per |d|
+    float discriminant_error;          ///< per d·d
     float side;                ///< -1 for a plane whose normal points away from the eye, else 1
     float top[3], top_offset;  ///< a plane that it is behind; points behind that are not told of
     bool eye_above;            ///< the eye is in front of that
@@ -158,6 +160,20 @@ inline double clear_radius(const RoundedBall& ball, double extent)
            clear_slack * (extent + double{ball.radius} + size_of(ball.center));
 }
 
+/// A ground's form at some places.
+struct GroundForm {
+    Vec3v<float> gradient;  ///< half of it
+    vreal<float> value;
+};
+
+inline GroundForm form_at(const CommonGround& ground, const Vec3v<float>& place)
+{
+    const Vec3v<float> n = broadcast(ground.normal);
+    const Vec3v<float> w = place - broadcast(ground.base);
+    const Vec3v<float> g = madd<float>(vreal<float>(ground.curvature), w, n);
+    return {g, dot(g + n, w) + vreal<float>(ground.offset)};
+}
+
 /// The errors of a ground's form for origins up to `distance` from its base. Rounding moves the
 /// base itself, too.
 inline void set_ground_errors(CommonGround& ground, double distance)
@@ -195,9 +211,9 @@ inline void set_top(CommonGround& ground, const double (&point)[3], const double
     ground.eye_above = eye_level > level + slack;
 }
 
-/// Rounds a form, and finds its errors for some origins.
+/// Rounds a form, and finds its errors for some origins, of which `eye` is one.
 inline void set_form(CommonGround& ground, const double (&base)[3], const double (&normal)[3],
-                     double curvature, double offset, const Origins& origins)
+                     double curvature, double offset, const Origins& origins, const float (&eye)[3])
 {
     double distance = double{origins.radius};
     for (int axis = 0; axis < 3; ++axis) {
@@ -212,13 +228,18 @@ inline void set_form(CommonGround& ground, const double (&base)[3], const double
     ground.curvature = static_cast<float>(curvature);
     ground.offset = static_cast<float>(offset);
     set_ground_errors(ground, distance * 1.00001);
+    const GroundForm form = form_at(ground, broadcast(eye));
+    ground.eye_gradient[0] = first_lane<float>(form.gradient.x);
+    ground.eye_gradient[1] = first_lane<float>(form.gradient.y);
+    ground.eye_gradient[2] = first_lane<float>(form.gradient.z);
+    ground.eye_value = first_lane<float>(form.value);
 }
 
 /// An anchored sphere; its top touches it where it is nearest to all that is near.
 inline void fill_ground(CommonGround& ground, const abi::AnchoredSphere<double>& shape,
                         const Origins& origins, const float (&eye)[3])
 {
-    set_form(ground, shape.anchor, shape.normal, shape.curvature, shape.offset, origins);
+    set_form(ground, shape.anchor, shape.normal, shape.curvature, shape.offset, origins, eye);
     ground.side = 1.0f;
     const double to[3] = {origins.center[0], origins.center[1], origins.center[2]};
     const double distance = distance_of(to, shape.center);
@@ -236,7 +257,7 @@ inline void fill_ground(CommonGround& ground, const abi::AnchoredSphere<double>&
 inline void fill_ground(CommonGround& ground, const abi::PlaneRecord<double>& shape,
                         const Origins& origins, const float (&eye)[3])
 {
-    set_form(ground, shape.point, shape.normal, 0.0, 0.0, origins);
+    set_form(ground, shape.point, shape.normal, 0.0, 0.0, origins, eye);
     double height = 0;
     for (int axis = 0; axis < 3; ++axis)
         height += shape.normal[axis] * (double{eye[axis]} - shape.point[axis]);
@@ -249,12 +270,13 @@ inline void fill_ground(CommonGround& ground, const abi::PlaneRecord<double>& sh
 
 /// Sets what is to be known of any ball; returns the bounds.
 inline SphereBounds<float> fill_ball(CommonBall& common, const RoundedBall& ball,
-                                     const Origins& origins)
+                                     const Origins& origins, const float (&eye)[3])
 {
     // Of an origin among them, its distance from the centre counts whole.
     double distance = double{origins.radius};
     for (int axis = 0; axis < 3; ++axis) {
         common.center[axis] = ball.center[axis];
+        common.from_center[axis] = eye[axis] - ball.center[axis];
         distance += __builtin_fabs(double{ball.center[axis]} - double{origins.center[axis]});
     }
     const float length = above(distance * double{inflation} + double{ball.error});
@@ -268,10 +290,10 @@ inline SphereBounds<float> fill_ball(CommonBall& common, const RoundedBall& ball
 }
 
 inline void fill_sphere(CommonSphere& sphere, const abi::SceneView<float>& scene, int i,
-                        const Origins& origins)
+                        const Origins& origins, const float (&eye)[3])
 {
     const RoundedBall ball = ball_of(scene.spheres, i);
-    const SphereBounds<float> bounds = fill_ball(sphere, ball, origins);
+    const SphereBounds<float> bounds = fill_ball(sphere, ball, origins, eye);
     sphere.inner2 = bounds.inner2;
     const double clear = clear_radius(ball, extent_of(origins));
     sphere.clear2 = above(clear * clear * (1.0 + clear_slack));
@@ -330,8 +352,8 @@ inline bool has_few_objects(const abi::GeometryView<float>& scene)
 }
 
 /// Prepares those objects of a scene for rays from `origins` that are `wanted(surface)` by their
-/// first surface; the rays meet no other. `eye` is one of the origins: planes are told of for rays
-/// from its side.
+/// first surface; the rays meet no other. `eye` is one of the origins, and that of rays that share
+/// theirs: planes are told of for rays from its side.
 template <class Wanted>
 inline void fill_common(CommonObjects& common, const abi::SceneView<float>& scene,
                         const Origins& origins, const float (&eye)[3], const Wanted& wanted)
@@ -347,14 +369,14 @@ inline void fill_common(CommonObjects& common, const abi::SceneView<float>& scen
     for (int i = 0; i < scene.spheres.count; ++i) {
         if (!wanted(scene.spheres.surface[i]))
             continue;
-        fill_sphere(common.spheres.next(), scene, i, origins);
+        fill_sphere(common.spheres.next(), scene, i, origins, eye);
         common.are_all &= scene.spheres.radius[i] > least_common_radius;
     }
     for_each_other(scene, [&](const auto& record) {
         const RoundedBall ball = ball_of(record);
         if (!wanted(ball.body.first))
             return;
-        fill_ball(common.balls.next(), ball, origins);
+        fill_ball(common.balls.next(), ball, origins, eye);
         common.are_all &= ball.radius < __builtin_inff();
     });
     const auto fill = [&](const auto& list, const auto* shapes) {
