@@ -459,6 +459,11 @@ TEST_CASE("a verdict names the families that are wrong", "[stress]")
     CHECK(lab::faults_of(doubles).empty());
     doubles.rho = 4.1;
     CHECK(lab::faults_of(doubles).size() == 1);
+    // Without fused operations products round by themselves.
+    doubles.isa = "sse42";
+    CHECK(lab::faults_of(doubles).empty());
+    doubles.rho = 8.1;
+    CHECK(lab::faults_of(doubles).size() == 1);
     StressRow fast = bad;
     fast.held = false;
     fast.faults.clear();
