@@ -12,13 +12,12 @@
 #include <packtrace/read_scene.hpp>
 
 #include "catch.hpp"
+#include "core/quad.hpp"
 #include "packet_ways.hpp"
 #include "scenes.hpp"
 
 namespace packtrace::test {
 namespace {
-
-__extension__ using Quad = __float128;
 
 /// A x² + B y² + C z² + D xy + E xz + F yz + G x + H y + I z + J = 0.
 struct Equation {
