@@ -1,6 +1,6 @@
 #pragma once
 
-#include "kernels/geometry/kinds.hpp"
+#include "kernels/geometry/rounded_ball.hpp"
 #include "kernels/precision/lone_sphere.hpp"
 #include "kernels/traverse/borrowed_list.hpp"
 
@@ -102,55 +102,6 @@ inline double extent_of(const Origins& origins)
 inline bool is_moderate(double extent)
 {
     return extent < 1e8 && extent > 1e-8;
-}
-
-/// |x| + |y| + |z|, no less than the length.
-inline double size_of(const float (&v)[3])
-{
-    return __builtin_fabs(double{v[0]}) + __builtin_fabs(double{v[1]}) +
-           __builtin_fabs(double{v[2]});
-}
-
-/// A ball in single precision that holds an object, whose centre is off by `error` at most.
-struct RoundedBall {
-    float center[3];
-    float radius;
-    float error;
-    Body body;
-};
-
-inline RoundedBall ball_of(const abi::SphereListView<float>& list, int i)
-{
-    return {{list.center_x[i], list.center_y[i], list.center_z[i]},
-            list.radius[i],
-            list.center_error[i],
-            {list.surface[i]}};
-}
-
-/// Around a quadric, of infinite radius if that is unbounded, or around a polygon.
-template <class Record>
-inline RoundedBall ball_of(const Record& record)
-{
-    RoundedBall ball{{}, record.bound_radius * inflation, 0, body_of(record)};
-    double size = 0;
-    for (int axis = 0; axis < 3; ++axis) {
-        ball.center[axis] = static_cast<float>(record.bound[axis]);
-        size += __builtin_fabs(double{ball.center[axis]});
-    }
-    // The centre that the ball is around was rounded once.
-    ball.error = above(size * 0x1p-23);
-    return ball;
-}
-
-/// Calls `visit(record)` for the objects of a scene that have their own test alone, from first to
-/// last.
-template <class Real, class Visit>
-inline void for_each_other(const abi::GeometryView<Real>& scene, const Visit& visit)
-{
-    for (int i = 0; i < scene.quadrics.count; ++i)
-        visit(scene.quadrics.data[i]);
-    for (int i = 0; i < scene.polygons.count; ++i)
-        visit(scene.polygons.data[i]);
 }
 
 /// The radius that a shadow ray must pass a ball's centre by to be clear of it.
