@@ -11,16 +11,20 @@
 namespace packtrace::PACKTRACE_ISA {
 namespace {
 
+/// What is asked for of a hit.
+enum class Refine { t, place };
+
 /// A packet of hits with all that shading needs of the place.
-template <class Real>
+template <class Real, Refine R = Refine::place>
 struct RefinedHits {
     vreal<Real> t;
     Vec3v<Real> point;
     Vec3v<Real> normal;  ///< outwards and unit
 };
-
-/// What is asked for of a hit.
-enum class Refine { t, place };
+template <class Real>
+struct RefinedHits<Real, Refine::t> {
+    vreal<Real> t;
+};
 
 inline RefinedHalf refine_half(const abi::ShapesView& shapes, const abi::SurfaceIndex& index,
                                const RayPacket<double>& rays)
@@ -86,11 +90,12 @@ inline std::uint32_t is_enough(const RoughRoot& root, const vreal<float>& slope,
 
 /// Refines the lanes of `same`, whose surfaces are `form`; returns those for which it was enough.
 template <Refine R, class Form>
-inline std::uint32_t refine_by_newton(RefinedHits<float>& hits, const Form& form,
-                                      const RayPacket<float>& rays, const WideRays& wide,
-                                      std::uint32_t same)
+inline std::uint32_t refine_by_newton(RefinedHits<float, R>& hits, const Form& form,
+                                      const RayPacket<float>& rays, std::uint32_t same)
 {
     const RoughRoot root = rough_root(form, rays);
+    // Here, as what is widened before a surface's kind is known has to wait in memory.
+    const WideRays wide(rays);
     const Residual at = residual(form, wide, root.t);
     vreal<float> dt = vreal<float>(-0.5f) * at.value / at.slope;
     std::uint32_t done;
@@ -120,20 +125,18 @@ inline std::uint32_t refine_by_newton(RefinedHits<float>& hits, const Form& form
 /// The same of surfaces of whatever kind, all lanes of `same` on one, which the search found at
 /// `found`.
 template <Refine R>
-inline std::uint32_t refine_by_newton(RefinedHits<float>& hits, const abi::ShapesView& shapes,
+inline std::uint32_t refine_by_newton(RefinedHits<float, R>& hits, const abi::ShapesView& shapes,
                                       const abi::SurfaceIndex& index, const RayPacket<float>& rays,
-                                      const vreal<float>& found, const WideRays& wide,
-                                      std::uint32_t same)
+                                      const vreal<float>& found, std::uint32_t same)
 {
     return with_shape(shapes, index, [&](const auto& shape, unsigned piece) -> std::uint32_t {
         if constexpr (requires { steep_lanes(shape, rays); })
-            return refine_by_newton<R>(hits, form_of(shape), rays, wide,
-                                       same & steep_lanes(shape, rays));
+            return refine_by_newton(hits, form_of(shape), rays, same & steep_lanes(shape, rays));
         else if constexpr (requires { form_of(shape); })
-            return refine_by_newton<R>(hits, form_of(shape), rays, wide, same);
+            return refine_by_newton(hits, form_of(shape), rays, same);
         else if constexpr (requires { form_of(shape, piece, found); })
             return has_form(shape, piece)
-                       ? refine_by_newton<R>(hits, form_of(shape, piece, found), rays, wide, same)
+                       ? refine_by_newton(hits, form_of(shape, piece, found), rays, same)
                        : 0;
         else
             return 0;
@@ -141,17 +144,19 @@ inline std::uint32_t refine_by_newton(RefinedHits<float>& hits, const abi::Shape
 }
 
 /// The hits of the lanes of `same`, all on one surface, by solving its equation in double.
-[[gnu::noinline]] inline void solve_in_double(RefinedHits<float>& hits,
-                                              const abi::ShapesView& shapes,
-                                              const abi::SurfaceIndex& index,
-                                              const RayPacket<float>& rays, std::uint32_t lanes_of)
+template <Refine R>
+[[gnu::noinline]] void solve_in_double(RefinedHits<float, R>& hits, const abi::ShapesView& shapes,
+                                       const abi::SurfaceIndex& index, const RayPacket<float>& rays,
+                                       std::uint32_t lanes_of)
 {
     const vmask<float> same = from_bits<float>(lanes_of);
     const RefinedHalf a = refine_half(shapes, index, widen_low(rays));
     const RefinedHalf b = refine_half(shapes, index, widen_high(rays));
     hits.t = select(same, narrow(a.t, b.t), hits.t);
-    hits.point = select(same, narrow(a.point, b.point), hits.point);
-    hits.normal = select(same, narrow(a.normal, b.normal), hits.normal);
+    if constexpr (R == Refine::place) {
+        hits.point = select(same, narrow(a.point, b.point), hits.point);
+        hits.normal = select(same, narrow(a.normal, b.normal), hits.normal);
+    }
 }
 
 /// |x| + |y| + |z|.
@@ -209,13 +214,12 @@ inline Vec3v<double> on_surface(const abi::ShapesView& shapes, const abi::Surfac
 
 /// Of the lanes of `active`, which are on more than one surface: all spheres together.
 template <Refine R>
-[[gnu::noinline]] std::uint32_t refine_mixed(RefinedHits<float>& hits,
+[[gnu::noinline]] std::uint32_t refine_mixed(RefinedHits<float, R>& hits,
                                              const abi::ShapesView& shapes,
                                              const RayPacket<float>& rays,
                                              const vreal<float>& found, const vint<float>& surface,
                                              std::uint32_t active)
 {
-    const WideRays wide(rays);
     SphereLanes spheres;
     std::uint32_t on_spheres = 0;
     std::uint32_t done = 0;
@@ -226,18 +230,18 @@ template <Refine R>
             spheres.put(same, shapes.spheres[index.record]);
             on_spheres |= same;
         } else {
-            done |= refine_by_newton<R>(hits, shapes, index, rays, found, wide, same);
+            done |= refine_by_newton(hits, shapes, index, rays, found, same);
         }
     });
     if (on_spheres != 0)
-        done |= refine_by_newton<R>(hits, spheres.form(), rays, wide, on_spheres);
+        done |= refine_by_newton(hits, spheres.form(), rays, on_spheres);
     return done;
 }
 
 /// The places of the hits of `active` on surfaces that their rays don't start on, which the search
 /// found at `found`.
 template <Refine R>
-inline void refine_others(RefinedHits<float>& hits, const abi::ShapesView& shapes,
+inline void refine_others(RefinedHits<float, R>& hits, const abi::ShapesView& shapes,
                           const RayPacket<float>& rays, const vreal<float>& found,
                           const vint<float>& surface, std::uint32_t active)
 {
@@ -246,9 +250,9 @@ inline void refine_others(RefinedHits<float>& hits, const abi::ShapesView& shape
     const std::uint32_t same = bits(distinct.lanes_of()) & active;
     std::uint32_t left = active;
     if (same == active)
-        left &= ~refine_by_newton<R>(hits, shapes, index, rays, found, WideRays(rays), active);
+        left &= ~refine_by_newton(hits, shapes, index, rays, found, active);
     else
-        left &= ~refine_mixed<R>(hits, shapes, rays, found, surface, active);
+        left &= ~refine_mixed(hits, shapes, rays, found, surface, active);
     for_each_distinct<float>(surface, left, [&](std::int32_t number, const vmask<float>& lanes_of) {
         solve_in_double(hits, shapes, shapes.index[number], rays, bits(lanes_of) & left);
     });
@@ -256,17 +260,18 @@ inline void refine_others(RefinedHits<float>& hits, const abi::ShapesView& shape
 
 /// The places of the hits of `active`. Those on a ray's own body are where its start says.
 template <abi::Features F, Refine R, class Real>
-inline RefinedHits<Real> refined(const abi::ShapesView& shapes, const RayPacket<Real>& rays,
-                                 const HitPacket<Real>& hit, const StartPacket<Real>& start,
-                                 std::uint32_t active)
+inline RefinedHits<Real, R> refined(const abi::ShapesView& shapes, const RayPacket<Real>& rays,
+                                    const HitPacket<Real>& hit, const StartPacket<Real>& start,
+                                    std::uint32_t active)
 {
-    RefinedHits<Real> hits;
+    RefinedHits<Real, R> hits;
     hits.t = hit.t;
-    hits.point = hits.normal = rays.dir;
+    if constexpr (R == Refine::place)
+        hits.point = hits.normal = rays.dir;
     if constexpr (F.exact) {
         const std::uint32_t again = bits(int_equal(hit.surface, start.second.surface)) & active;
         if (active != again)
-            refine_others<R>(hits, shapes, rays, hit.t, hit.surface, active & ~again);
+            refine_others(hits, shapes, rays, hit.t, hit.surface, active & ~again);
         if constexpr (R == Refine::t)
             hits.t = select(from_bits<Real>(again), start.second.t, hits.t);
         else if (again != 0)

@@ -116,9 +116,10 @@ template <abi::Features F, class Real>
 {
     RayBundle<Real>& bundle = *work.bundle;
     const int count = end - begin;
-    const auto start_at = [&](int first) {
-        return start_of(scene, view, begin + first, load_rays(bundle, first));
+    const auto start_with = [&](int first, const RayPacket<Real>& rays) {
+        return start_of(scene, view, begin + first, rays);
     };
+    const auto start_at = [&](int first) { return start_with(first, load_rays(bundle, first)); };
     const auto t_max_at = [&](int first) {
         return load_some(view.t_max + begin + first, count - first);
     };
@@ -128,9 +129,11 @@ template <abi::Features F, class Real>
         fill_bundle<true, F>(bundle, scene, view, begin, count);
     closest_of_bundle<F>(scene, work.nearby, bundle);
     settle_bundle<F>(scene, bundle, start_at, t_max_at);
-    for (int first = 0; first < count; first += lanes<Real>)
-        writer.store_hits(load_rays(bundle, first), load_hits(bundle, first), start_at(first),
-                          t_max_at(first), begin + first, count - first);
+    for (int first = 0; first < count; first += lanes<Real>) {
+        const RayPacket<Real> rays = load_rays(bundle, first);
+        writer.store_hits(rays, load_hits(bundle, first), start_with(first, rays), t_max_at(first),
+                          begin + first, count - first);
+    }
 }
 
 /// The closest hits of a chunk of rays that start on no surface, where there is no hierarchy.

@@ -23,15 +23,15 @@ template <abi::Features F, class Real>
 inline void store_tile_hits(abi::TileHits<Real>& hits, int first, const abi::SceneView<Real>& scene,
                             const RayPacket<Real>& rays, const HitPacket<Real>& hit)
 {
-    vreal<Real> t = hit.t;
     if constexpr (F.exact) {
+        RefinedHits<Real, Refine::t> refined{hit.t};
         const std::uint32_t found = hit_lanes(hit);
         if (found != 0)
-            t = select(from_bits<Real>(found),
-                       refined<F, Refine::t>(scene.shapes, rays, hit, no_start<Real>(), found).t,
-                       t);
+            refine_others(refined, scene.shapes, rays, hit.t, hit.surface, found);
+        store(hits.t + first, refined.t);
+    } else {
+        store(hits.t + first, hit.t);
     }
-    store(hits.t + first, t);
     store(hits.surface + first, hit.surface);
 }
 

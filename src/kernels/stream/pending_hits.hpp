@@ -61,11 +61,10 @@ private:
         rays.dir = {load(dir_[0] + count_), load(dir_[1] + count_), load(dir_[2] + count_)};
         rays.dir2 = dot(rays.dir, rays.dir);
         rays.t_min = load(t_min_ + count_);
-        RefinedHits<Real> hits;
+        RefinedHits<Real, Refine::t> hits;
         hits.t = rays.t_min;
-        refine_others<Refine::t>(hits, shapes_, rays,
-                                 asks_for_t ? load(found_ + count_) : rays.t_min,
-                                 load(surface_ + count_), first_lanes<Real>(count));
+        refine_others(hits, shapes_, rays, asks_for_t ? load(found_ + count_) : rays.t_min,
+                      load(surface_ + count_), first_lanes<Real>(count));
         alignas(64) Real t[lanes<Real>];
         store(t, hits.t);
         for (int i = 0; i < count; ++i)
