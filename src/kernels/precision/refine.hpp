@@ -14,7 +14,7 @@ namespace {
 /// What is asked for of a hit.
 enum class Refine { t, place };
 
-/// A packet of hits with all that shading needs of the place.
+/// A packet of hits with all that shading needs of the place, or with t alone.
 template <class Real, Refine R = Refine::place>
 struct RefinedHits {
     vreal<Real> t;
