@@ -12,24 +12,33 @@
 namespace packtrace::PACKTRACE_ISA {
 namespace {
 
-/// What an anchored sphere's quadratic needs of the ray's origin alone.
+/// The form of an anchored sphere or plane (docs/numerics_derivations.md) at a place; what their
+/// quadratic needs of a ray's origin alone.
 template <class Real>
 struct AnchoredOrigin {
-    Vec3v<Real> g;
+    Vec3v<Real> g;  ///< half the gradient
     vreal<Real> constant;
 };
 
-/// With p the origin relative to the anchor, g = n + k p is half the gradient there and
+/// With p the place relative to the anchor, g = n + k p is half the gradient there and
 /// (g + n)·p + k0 the form's value: no term is of the size of the radius, which a ground
 /// sphere's would drown in.
 template <class Real>
-inline AnchoredOrigin<Real> anchored_origin(const abi::AnchoredSphere<Real>& sphere,
-                                            const Vec3v<Real>& org)
+inline AnchoredOrigin<Real> anchored_origin(const Real (&anchor)[3], const Real (&unit_normal)[3],
+                                            Real curvature, Real offset, const Vec3v<Real>& place)
 {
-    const Vec3v<Real> normal = broadcast(sphere.normal);
-    const Vec3v<Real> p = org - broadcast(sphere.anchor);
-    const Vec3v<Real> g = madd<Real>(vreal<Real>(sphere.curvature), p, normal);
-    return {g, dot(g + normal, p) + vreal<Real>(sphere.offset)};
+    const Vec3v<Real> normal = broadcast(unit_normal);
+    const Vec3v<Real> p = place - broadcast(anchor);
+    const Vec3v<Real> g = madd<Real>(vreal<Real>(curvature), p, normal);
+    return {g, dot(g + normal, p) + vreal<Real>(offset)};
+}
+
+template <class Real>
+inline AnchoredOrigin<Real> anchored_origin(const abi::AnchoredSphere<Real>& sphere,
+                                            const Vec3v<Real>& place)
+{
+    return anchored_origin<Real>(sphere.anchor, sphere.normal, sphere.curvature, sphere.offset,
+                                 place);
 }
 
 /// The ray against a sphere given by a surface point and its curvature (abi::AnchoredSphere):

@@ -34,7 +34,7 @@ inline Vec3v<float> from_center(const CommonBall& ball, const RayPacket<float>& 
 
 /// A ground's form where rays start.
 template <Origin O>
-inline GroundForm form_at_start(const CommonGround& ground, const RayPacket<float>& rays)
+inline AnchoredOrigin<float> form_at_start(const CommonGround& ground, const RayPacket<float>& rays)
 {
     if constexpr (O == Origin::shared)
         return {broadcast(ground.eye_gradient), vreal<float>(ground.eye_value)};

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "kernels/geometry/anchored_sphere.hpp"
 #include "kernels/geometry/rounded_ball.hpp"
 #include "kernels/precision/lone_sphere.hpp"
 #include "kernels/traverse/borrowed_list.hpp"
@@ -112,17 +113,10 @@ inline double clear_radius(const RoundedBall& ball, double extent)
 }
 
 /// A ground's form at some places.
-struct GroundForm {
-    Vec3v<float> gradient;  ///< half of it
-    vreal<float> value;
-};
-
-inline GroundForm form_at(const CommonGround& ground, const Vec3v<float>& place)
+inline AnchoredOrigin<float> form_at(const CommonGround& ground, const Vec3v<float>& place)
 {
-    const Vec3v<float> n = broadcast(ground.normal);
-    const Vec3v<float> w = place - broadcast(ground.base);
-    const Vec3v<float> g = madd<float>(vreal<float>(ground.curvature), w, n);
-    return {g, dot(g + n, w) + vreal<float>(ground.offset)};
+    return anchored_origin<float>(ground.base, ground.normal, ground.curvature, ground.offset,
+                                  place);
 }
 
 /// The errors of a ground's form for origins up to `distance` from its base. Rounding moves the
@@ -179,11 +173,11 @@ inline void set_form(CommonGround& ground, const double (&base)[3], const double
     ground.curvature = static_cast<float>(curvature);
     ground.offset = static_cast<float>(offset);
     set_ground_errors(ground, distance * 1.00001);
-    const GroundForm form = form_at(ground, broadcast(eye));
-    ground.eye_gradient[0] = first_lane<float>(form.gradient.x);
-    ground.eye_gradient[1] = first_lane<float>(form.gradient.y);
-    ground.eye_gradient[2] = first_lane<float>(form.gradient.z);
-    ground.eye_value = first_lane<float>(form.value);
+    const AnchoredOrigin<float> form = form_at(ground, broadcast(eye));
+    ground.eye_gradient[0] = first_lane<float>(form.g.x);
+    ground.eye_gradient[1] = first_lane<float>(form.g.y);
+    ground.eye_gradient[2] = first_lane<float>(form.g.z);
+    ground.eye_value = first_lane<float>(form.constant);
 }
 
 /// An anchored sphere; its top touches it where it is nearest to all that is near.
