@@ -224,6 +224,18 @@ TEST_CASE("bounds at a rim are one interval", "[hit_bounds]")
     CHECK(axis.high - axis.low < 1e-14);
 }
 
+TEST_CASE("bounds of a ray along the caps of a stretched body are tight", "[hit_bounds]")
+{
+    const RayScene<double> cylinder(
+        scene_of("cylinder { z_range=(0, 1) capped=yes scale=(1.1, 1.3, 1.7) }"));
+    const HitBounds side = OneRay<double>({5, 0, 0.1}, {-1, 0, 0}).first(cylinder);
+    CHECK(holds(side, 3.9));
+    CHECK(ulps(side) <= 3.0);
+    const RayScene<float> slice(scene_of("ellipsoid { z_range=(-0.5, 0.5) capped=yes scale=0.3 }"));
+    CHECK(OneRay<float>({5, 0, 0.125}, {0, -1, 0}).first(slice).empty());
+    CHECK(ulps(OneRay<float>({0, 5, 0.125}, {0, -1, 0}).first(slice)) <= 3.0);
+}
+
 TEST_CASE("bounds of two hits with one t in single precision are those of each", "[hit_bounds]")
 {
     // Rays along an asymptote meet the side once, and the cap next to the rim.

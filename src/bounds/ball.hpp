@@ -127,6 +127,8 @@ inline constexpr double smallest = 0x1p-1000;
     const double least = least_size(b);
     if (!(least > 0.0))
         return {0, infinity};
+    if (is_zero(a))
+        return a;
     const Quad mid = a.mid / b.mid;
     if (a.radius == 0.0 && is_double(b) && is_double(Ball(mid, 0.0)) && mid * b.mid == a.mid)
         return {mid, 0.0};
