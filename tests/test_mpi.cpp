@@ -33,7 +33,10 @@ using mpi::PieceWindow;
 /// mpirun of a program with so many ranks, more than there are processors.
 Words mpirun(int ranks, const std::string& program = PACKTRACE_MPI)
 {
-    return {PACKTRACE_MPIEXEC,
+    // All ranks are on this machine. Open MPI 5 warns of networks that don't reach it.
+    return {"env",
+            "OMPI_MCA_btl_tcp_if_include=lo",
+            PACKTRACE_MPIEXEC,
             "--allow-run-as-root",
             "--oversubscribe",
             "--bind-to",
@@ -48,6 +51,20 @@ ProgramResult run_ranks(int ranks, const Words& words)
     Words all = mpirun(ranks);
     all.insert(all.end(), words.begin(), words.end());
     return run_command(all);
+}
+
+/// Likewise, but ranks write standard output to a file. Where standard error follows, mpirun of
+/// Open MPI 5 prints the end of a piece of standard output there.
+ProgramResult run_ranks_to_file(int ranks, const Words& words)
+{
+    const TempFolder folder;
+    const std::string out = folder / "ranks";
+    Words all = mpirun(ranks, "sh");
+    all.insert(all.end(), {"-c", "exec \"$0\" \"$@\" >>" + shell_quoted(out), PACKTRACE_MPI});
+    all.insert(all.end(), words.begin(), words.end());
+    ProgramResult result = run_command(all);
+    result.out = read_text(out);
+    return result;
 }
 
 /// The lines of packtrace-mpi itself: mpirun adds some about exit codes.
@@ -458,7 +475,7 @@ TEST_CASE("a stress test has the rows of one process whatever the ranks", "[mpi]
     CHECK(expected["rows"].size() > 16);
     for (const int ranks : {1, 2, 3}) {
         CAPTURE(ranks);
-        const ProgramResult many = run_ranks(ranks, words);
+        const ProgramResult many = run_ranks_to_file(ranks, words);
         CHECK(many.exit_code == one.exit_code);
         auto json = nlohmann::ordered_json::parse(many.out);
         without_times(json);
@@ -679,12 +696,13 @@ TEST_CASE("what a job can't do it says in one line, once", "[mpi]")
     CHECK(run_ranks(2, {"--version"}).exit_code == 0);
     // Ranks that are told to do different work, and one that is told what it does not know.
     for (const Words& other : {Words{"--spp", "4"}, Words{"--gama", "2"}}) {
-        const Words words{"render", four_spheres_file, "-o", picture, "--size", "16x12"};
-        Words job = mpirun(1);
-        job.insert(job.end(), words.begin(), words.end());
-        job.insert(job.end(), {":", "-n", "1", PACKTRACE_MPI});
-        job.insert(job.end(), words.begin(), words.end());
-        job.insert(job.end(), other.begin(), other.end());
+        // By their number, as mpirun of Open MPI 5.0.7 dies of a second program behind a colon.
+        std::string script = "[ \"$OMPI_COMM_WORLD_RANK\" = 0 ] || set -- \"$@\"";
+        for (const std::string& word : other)
+            script += " " + shell_quoted(word);
+        Words job = mpirun(2, "sh");
+        job.insert(job.end(), {"-c", script + "; exec \"$0\" \"$@\"", PACKTRACE_MPI, "render",
+                               four_spheres_file, "-o", picture, "--size", "16x12"});
         const ProgramResult result = run_command(job);
         CHECK(result.exit_code == 2);
         CHECK_THAT(result.err, ContainsSubstring("rank 1 and rank 0 have different arguments"));
