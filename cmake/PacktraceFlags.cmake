@@ -77,3 +77,8 @@ set(packtrace_frame_flags -O3)
 if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU")
     set(packtrace_frame_flags -O2 -fpeel-loops)
 endif()
+# What has those that measure or test something else built quickly, behind the flags of a kernel.
+set(packtrace_quick_flags -O1)
+if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU")
+    list(APPEND packtrace_quick_flags -fno-peel-loops -finline-limit=300)
+endif()

@@ -11,7 +11,7 @@
 # and take little more than half as long to build, which with all instruction sets is a minute and a
 # half of one core.
 set_source_files_properties(kernels/probe_kernels.cpp PROPERTIES
-    COMPILE_OPTIONS "$<$<CONFIG:Release>:-O1>;$<$<CXX_COMPILER_ID:GNU>:-fno-peel-loops;-finline-limit=300>")
+    COMPILE_OPTIONS "${packtrace_quick_flags}")
 
 set(PACKTRACE_ISAS "all" CACHE STRING
     "Instruction sets to compile kernels for: all, or a list such as sse42;avx2")
@@ -42,8 +42,8 @@ function(packtrace_kernel isa lanes)
         set(feature_sets 1)
         set(inline_limit 100000)
     endif()
-    # That of processors without AVX is no measure of anything: it builds a third faster so, and
-    # executes 1 to 7 % more.
+    # The fallback of processors without AVX builds a third faster so, and executes 1 to 7 % more
+    # (results/feature_sets.json).
     set(optimisation ${packtrace_frame_flags})
     if(isa STREQUAL "sse42")
         set(optimisation -O1)

@@ -5,8 +5,7 @@ get_target_property(planted_options packtrace_kernels_${planted_isa} COMPILE_OPT
 add_library(packtrace_planted OBJECT ${CMAKE_CURRENT_LIST_DIR}/planted_table.cpp)
 target_compile_definitions(packtrace_planted PRIVATE PACKTRACE_ISA=planted PACKTRACE_LANES=4)
 # Built quickly rather than to be quick; its bits are the same.
-target_compile_options(packtrace_planted PRIVATE ${planted_options} -O1
-    "$<$<CXX_COMPILER_ID:GNU>:-fno-peel-loops;-finline-limit=300>")
+target_compile_options(packtrace_planted PRIVATE ${planted_options} ${packtrace_quick_flags})
 target_include_directories(packtrace_planted PRIVATE ${CMAKE_CURRENT_LIST_DIR}
                            ${PROJECT_SOURCE_DIR}/src)
 target_link_libraries(packtrace_planted PRIVATE packtrace_flags packtrace_xsimd)
