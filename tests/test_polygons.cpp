@@ -579,6 +579,42 @@ TEST_CASE("a ray along a polygon's plane meets it within its outline or not at a
     CHECK(hits > 10);
 }
 
+TEST_CASE("a ray that starts in a polygon's plane does not meet it further on", "[polygons]")
+{
+    std::vector<RenderOptions> ways = packet_ways();
+    ways.push_back({.kernel = Kernel::scalar});
+    for (int axis = 0; axis < 3; ++axis) {
+        // A square in a plane across the axis, seen from within and from all sides.
+        const auto at = [&](double height, double u, double v) {
+            Vec3 point;
+            point[axis] = height;
+            point[(axis + 1) % 3] = u;
+            point[(axis + 2) % 3] = v;
+            return point;
+        };
+        const Scene scene =
+            scene_of({polygon({{at(4, -3, 1), at(4, -1, 1), at(4, -1, 2), at(4, -3, 2)}})});
+        for (const RenderOptions& options : ways) {
+            const RayScene<double> rays(scene, options);
+            const RayScene<float> narrow(scene, options);
+            for (const double slope : {1e-300, -1e-30, 1e-30, -1e-17, 1e-13, 1e-9, -1e-5, 1.0})
+                for (const double turn : {0.0, 1e-30, -0.25, 3.0}) {
+                    const Vec3 o = at(4, -2, 1.375);
+                    const Vec3 d = at(slope, turn, 1.25);
+                    CAPTURE(axis, options.isa, slope, turn);
+                    CHECK(rays.closest_hit(Ray<double>{{o.x, o.y, o.z}, {d.x, d.y, d.z}}).object <
+                          0);
+                    if (options.kernel == Kernel::scalar)
+                        continue;
+                    const glm::vec3 of(o);
+                    const glm::vec3 df(d);
+                    CHECK(narrow.closest_hit(Ray<float>{{of.x, of.y, of.z}, {df.x, df.y, df.z}})
+                              .object < 0);
+                }
+        }
+    }
+}
+
 TEST_CASE("polygons are packed by their corners in the world", "[polygons]")
 {
     Random random(61);

@@ -200,8 +200,18 @@ template <class Real>
 template <class Real>
 inline constexpr Real edge_on = sizeof(Real) == 4 ? Real(0x1p-16) : Real(0x1p-44);
 
+/// Lanes whose rays start in the polygon's plane, for sure: no term of their height is another
+/// than 0.
+template <class Real>
+inline vmask<Real> starts_in_plane(const abi::PolygonRecord<Real>& polygon,
+                                   const RayPacket<Real>& rays)
+{
+    return magnitude_dot(broadcast(polygon.normal), broadcast(polygon.point) - rays.org) <=
+           vreal<Real>(Real(0));
+}
+
 /// Where rays cross the polygon's plane; of rays that see it from its edge, where they can be
-/// inside, as rounding may have them pass through.
+/// inside, as rounding may have them pass through. Those that start in it cross it there.
 template <class Real>
 inline vreal<Real> polygon_t(const abi::PolygonRecord<Real>& polygon, const RayPacket<Real>& rays)
 {
@@ -210,7 +220,9 @@ inline vreal<Real> polygon_t(const abi::PolygonRecord<Real>& polygon, const RayP
     const vreal<Real> t = plane_height<Real>(polygon, rays.org) / slope;
     const vreal<Real> length = abs(rays.dir.x) + abs(rays.dir.y) + abs(rays.dir.z);
     const auto tells = abs(slope) > vreal<Real>(edge_on<Real>) * length;
-    return bits(tells) == all_lanes<Real> ? t : select(tells, t, between_edges(polygon, rays, t));
+    if (bits(tells) == all_lanes<Real>)
+        return t;
+    return select(tells | starts_in_plane(polygon, rays), t, between_edges(polygon, rays, t));
 }
 
 /// Lanes whose rays are so far from running in the polygon's plane that their hit is the plane's.

@@ -104,10 +104,14 @@ template <class Real>
     if (!passes_through(polygon, O, D))
         return roots;
     const Real slope = dot(polygon.normal, D);
-    Real t = dot(polygon.normal, polygon.contours[0][0] - O) / slope;
-    // Rounding may put the hit of a line along the plane anywhere: it is between edges then.
+    const Vec3<Real> to = polygon.contours[0][0] - O;
+    Real t = dot(polygon.normal, to) / slope;
+    // Rounding may put the hit of a line along the plane anywhere: it is between edges then, but
+    // for a start in the plane, of which every term is 0.
     const Real length = std::abs(D.x) + std::abs(D.y) + std::abs(D.z);
-    if (!(std::abs(slope) > edge_on<Real> * length))
+    const Vec3<Real> terms = polygon.normal * to;
+    const bool starts_in_plane = terms.x == 0 && terms.y == 0 && terms.z == 0;
+    if (!starts_in_plane && !(std::abs(slope) > edge_on<Real> * length))
         t = between_edges(polygon, O, D, t);
     roots.add(t, Part::side, slope > 0);
     return roots;
