@@ -1,4 +1,5 @@
 // Surfaces of the scalar reference against intersections worked out by hand.
+#include <packtrace/build.hpp>
 #include <packtrace/read_scene.hpp>
 #include "catch.hpp"
 #include "reference/surfaces/hits.hpp"
@@ -309,6 +310,38 @@ TEST_CASE("two planes that cross are hit where each of them is, however far from
         REQUIRE(hits.size() == 2);
         for (std::size_t k = 0; k < 2; ++k)
             CHECK(std::abs(hits[k].t - expected[k]) < 1e-9 * (1.0 + std::abs(expected[k])));
+    }
+}
+
+TEST_CASE("of two planes that cross one shades the other, but from no light on itself",
+          "[reference_quadrics]")
+{
+    // Seen at (-5/6, 0, 5/6), on x = -z, from the wedge of negative x.
+    const auto brightness = [](const Vec3& light) {
+        Scene scene = make_scene();
+        scene.objects = {quadric(crossing_planes, matte(Rgb(1)))};
+        scene.lights = {point_light(light, 1)};
+        return trace(scene, {-5, 0, 0}, {1, 0, 0.2}).x;
+    };
+    CHECK(brightness({-6, 0, -1}) > 0.1);
+    CHECK(brightness({-4, 0, -4}) > 0.1);
+    CHECK(brightness({-1, 0, -6}) == 0);
+    CHECK(brightness({-6, 0, -7}) == 0);
+}
+
+TEST_CASE("the value at two planes that cross is the distance from the nearer",
+          "[reference_quadrics]")
+{
+    Scene scene = make_scene();
+    scene.objects = {quadric(turned_crossing_planes)};
+    const auto bodies = reference::Bodies<double>(scene);
+    const auto& body = bodies.placed.at(0);
+    const V on(7, 2, 1);
+    for (const double off : {-0.125, -1e-9, 0.0, 1e-9, 0.125}) {
+        const V out = normal_at(body, on, reference::Part::side);
+        const double size = length(out);
+        const V place = on + (off / size) * out;
+        CHECK(value_at(body, place, reference::Part::side) / size == Approx(off).margin(1e-14));
     }
 }
 

@@ -222,8 +222,7 @@ template <class Real>
     return n.x * axes[0] + n.y * axes[1] + n.z * axes[2];
 }
 
-/// What is 0 on the surface, and has normal_at() for its gradient; 0 everywhere for two planes that
-/// cross, whose gradient is not that of one equation.
+/// What is 0 on the surface, and has normal_at() for its gradient.
 template <class Real>
 [[nodiscard]] Real value_at(const QuadricBody<Real>& quadric, const Vec3<Real>& P, Part part)
 {
@@ -235,7 +234,9 @@ template <class Real>
         case Part::side:
             break;
     }
-    return quadric.crossing_planes() ? Real(0) : quadric.value(quadric.point_to_canonical(P)) / 2;
+    const Vec3<Real> p = quadric.point_to_canonical(P);
+    const Real half = quadric.value(p) / 2;
+    return half != 0 && quadric.crossing_planes() ? dot(quadric.way_out(p), p) : half;
 }
 
 }  // namespace packtrace::reference
