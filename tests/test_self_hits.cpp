@@ -1,6 +1,9 @@
 // SelfHits::exact: packets against the scalar reference, both by that rule, and rays that leave a
 // surface they are on.
+#include <algorithm>
+#include <array>
 #include <cmath>
+#include <random>
 
 #include <packtrace/compare.hpp>
 #include <packtrace/intersect.hpp>
@@ -290,6 +293,59 @@ TEST_CASE("a saddle is met again from where it bends away", "[self_hits]")
         if (side != 0)
             CHECK(found.t == Approx(2.5f));
     }
+}
+
+TEST_CASE("a ray leaves whichever of two spheres is nearer, by lists and by a hierarchy",
+          "[self_hits]")
+{
+    constexpr std::size_t count = 300;
+    for (const double gap : {1e-5, 1e-6, 1e-7, 1e-9, 1e-12})
+        for (const bool moved : {false, true}) {
+            const Scene scene{.objects = {lab::sphere_object({0, 0, 0}, 1.0),
+                                          moved ? lab::sphere_object({0, 0, gap}, 1.0)
+                                                : lab::sphere_object({0, 0, 0}, 1.0 - gap)}};
+            // Inwards from the first, most of them at a shallow angle.
+            std::mt19937 random(21);
+            std::uniform_real_distribution<double> unit(-1.0, 1.0);
+            std::array<std::vector<float>, 3> point, org, dir;
+            for (std::size_t i = 0; i < count; ++i) {
+                const Vec3 out = glm::normalize(Vec3(unit(random), unit(random), unit(random)));
+                const Vec3 along = glm::cross(out, Vec3(unit(random), unit(random), unit(random)));
+                const Vec3 way = along - std::pow(10.0, 1.5 * unit(random) - 1.5) * out;
+                for (int axis = 0; axis < 3; ++axis) {
+                    const auto of = static_cast<std::size_t>(axis);
+                    point[of].push_back(static_cast<float>(out[axis]));
+                    org[of].push_back(static_cast<float>(out[axis] * (1.0 - 0x1p-22)));
+                    dir[of].push_back(static_cast<float>(way[axis]));
+                }
+            }
+            const std::vector<float> t_min(count, 0.0f);
+            const std::vector<float> t_max(count, 1e9f);
+            const std::vector<std::int32_t> side(count, ~0);
+            std::vector<float> t[2];
+            std::vector<std::int32_t> object[2];
+            for (const std::string& isa : supported_isas()) {
+                CAPTURE(gap, moved, isa);
+                for (const Traversal traversal : {Traversal::list, Traversal::tree}) {
+                    const int by = traversal == Traversal::list ? 0 : 1;
+                    t[by].assign(count, 0.0f);
+                    object[by].assign(count, -2);
+                    RenderOptions options = exact_options(isa);
+                    options.traversal = traversal;
+                    RayScene<float>(scene, options)
+                        .closest_hits(
+                            {org[0].data(), org[1].data(), org[2].data(), dir[0].data(),
+                             dir[1].data(), dir[2].data(), t_min.data(), t_max.data(), count},
+                            {{point[0].data(), point[1].data(), point[2].data()}, side.data()},
+                            {t[by].data(), object[by].data()});
+                }
+                CHECK(t[0] == t[1]);
+                CHECK(object[0] == object[1]);
+                CHECK(std::count(object[0].begin(), object[0].end(), 1) > 0);
+                if (moved)
+                    CHECK(std::count(object[0].begin(), object[0].end(), 0) > 0);
+            }
+        }
 }
 
 }  // namespace packtrace::test

@@ -84,9 +84,9 @@ public:
     PACKTRACE_API void lit(const PointsView<Real>& points, std::size_t light, std::uint8_t* mask,
                            const QueryWatch& watch = {}) const;
 
-    /// Every hit of each ray, sorted by t before that is rounded, then object; `take` is called
-    /// once a ray, in order. A ray that touches a surface without crossing it may meet it twice at
-    /// the same t.
+    /// Every hit of each ray, sorted by t as double has it, then object; `take` is called once a
+    /// ray, in order. A ray that touches a surface without crossing it may meet it twice at the
+    /// same t.
     using TakeHits = std::function<void(std::size_t ray, std::span<const SurfaceHit<Real>> hits)>;
     PACKTRACE_API void all_hits(const RaysView<Real>& rays, const TakeHits& take,
                                 const QueryWatch& watch = {}) const;

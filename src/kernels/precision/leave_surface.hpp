@@ -55,9 +55,10 @@ inline vreal<float> met_again_error(const StartPacket<float>& start, const vreal
                 vreal<float>(0x1p-20f) * start.second.t);
 }
 
-/// What a search that passes over the own surface has found before it begins. What may lie in the
-/// same place leaves rays unsure: retracing tells which is hit.
-template <class Real>
+/// What a search that passes over the own surface has found before it begins. With Features::exact
+/// all that is nearly met with it leaves rays unsure: retracing tells which is hit. Were it less,
+/// it would hang on how a surface is looked for which of them finds another one there unsure.
+template <abi::Features F, class Real>
 inline HitPacket<Real> start_of_search(const StartPacket<Real>& start, const vreal<Real>& dir2,
                                        const vreal<Real>& t_max)
 {
@@ -71,7 +72,9 @@ inline HitPacket<Real> start_of_search(const StartPacket<Real>& start, const vre
     if constexpr (sizeof(Real) == sizeof(float)) {
         if (none(again))
             return hit;
-        const vreal<float> error = met_again_error(start, dir2);
+        vreal<float> error = met_again_error(start, dir2);
+        if constexpr (F.exact)
+            error = max(error, vreal<float>(static_cast<float>(nearly_met<float>)) * second);
         hit.t = select(again, second + error, t_max);
         hit.t_low = select(again, second - error, t_max);
     } else {
