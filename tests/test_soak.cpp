@@ -72,8 +72,9 @@ TEST_CASE("scenes of earlier findings show nothing", "[soak]")
     struct Earlier {
         std::uint64_t seed;
         std::uint64_t number;
+        bool aligned = false;
     };
-    for (const auto& [seed, number] : {
+    for (const auto& [seed, number, aligned] : {
              Earlier{9001, 533},    // a cap of a quadric whose centre is far away
              Earlier{9001, 2565},   // a light nearer than where the note's shadow rays start
              Earlier{4242, 434},    // a sphere and a direction of 1e-9
@@ -88,8 +89,11 @@ TEST_CASE("scenes of earlier findings show nothing", "[soak]")
              Earlier{4242, 18344},  // a ray within the plane of a polygon
              Earlier{4242, 83511},  // light from a direction along a plane
              Earlier{4242, 10989},  // `fast` makes up a second hit below its resolution
+             Earlier{7777, 6354},   // a light near two planes that cross, on neither
+             Earlier{7778, 23308, true},  // twins at 0 and -0
          }) {
         lab::SoakOptions options{.seed = seed, .first = number, .scenes = 1};
+        options.aligned = aligned;
         std::string findings;
         (void)lab::run_soak(
             options, [&](const lab::SoakReport& report) { findings += report.finding.what; });

@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstring>
+#include <regex>
 #include <set>
 
 #include <packtrace/write_scene.hpp>
@@ -110,7 +111,8 @@ bool has_twins(const Scene& scene)
         alone.objects.resize(1);
         alone.objects[0].surface = object.surface;
         alone.objects[0].transform = object.transform;
-        if (!places.insert(scene_text(alone)).second)
+        static const std::regex minus_zero("-0(?![.0-9e])");
+        if (!places.insert(std::regex_replace(scene_text(alone), minus_zero, "0")).second)
             return true;
     }
     return false;
