@@ -96,6 +96,70 @@ TEST_CASE("a clip that touches a pole cuts no hole there", "[exact_starts]")
     }
 }
 
+TEST_CASE("a ray from inside a bowl leaves it through its pole, too", "[exact_starts]")
+{
+    SceneRandom random(4);
+    struct Bowl {
+        std::string text;
+        double pole, eye;  ///< own heights
+    };
+    const std::string placed = " scale = (0.3, 0.3, 0.4)  rotate = (1, 2, 3, 40)";
+    for (const Bowl& bowl :
+         {Bowl{"ellipsoid { z_range = (-1, 0)", -1, 0}, Bowl{"paraboloid { z_range = (0, 1)", 0, 1},
+          Bowl{"hyperboloid2 { z_range = (1, 2)", 1, 2}})
+        for (const RenderOptions& options : packet_ways()) {
+            const Scene scene = parse_scene(bowl.text + placed + " }", "bowl", {});
+            const Mat4& place = scene.objects[0].transform;
+            const auto world = [&](double x, double y, double z) {
+                return Vec3(place * glm::dvec4(x, y, z, 1));
+            };
+            CAPTURE(bowl.text, options.isa);
+            const auto check = [&](auto real) {
+                using Real = decltype(real);
+                const RayScene<Real> rays(scene, options);
+                for (int i = 0; i < 200; ++i) {
+                    const Vec3 eye = world(0, 0, bowl.eye);
+                    const double angle = random.between(0.0, 6.28);
+                    const double away = random.between(0.3, 0.6);
+                    const Vec3 to = world(away * std::cos(angle), away * std::sin(angle),
+                                          bowl.pole + random.between(0.05, 0.2)) -
+                                    eye;
+                    const auto out = ray_of<Real>({eye.x, eye.y, eye.z}, {to.x, to.y, to.z});
+                    Real t, normal[3], inner[3], outer[3], point[3];
+                    std::int32_t object, surface;
+                    HitsView<Real> found{&t, &object, &normal[0], &normal[1], &normal[2]};
+                    for (int axis = 0; axis < 3; ++axis) {
+                        found.point[axis] = &point[axis];
+                        found.inner_start[axis] = &inner[axis];
+                        found.outer_start[axis] = &outer[axis];
+                    }
+                    found.surface = &surface;
+                    rays.closest_hits({&out.org[0], &out.org[1], &out.org[2], &out.dir[0],
+                                       &out.dir[1], &out.dir[2], &out.t_min, &out.t_max, 1},
+                                      found);
+                    if (object < 0)
+                        continue;
+                    // To the pole, or, where double rounds what it may hit, a little beside it.
+                    const bool exactly = i % 2 == 0 && sizeof(Real) == sizeof(float);
+                    const double beside = exactly ? 0.0 : 1e-4;
+                    const Vec3 pole = world(random.between(-beside, beside),
+                                            random.between(-beside, beside), bowl.pole);
+                    Real dir[3];
+                    for (int axis = 0; axis < 3; ++axis)
+                        dir[axis] = static_cast<Real>(pole[axis] - double{point[axis]});
+                    const std::int32_t side = ~surface;
+                    rays.closest_hits({&inner[0], &inner[1], &inner[2], &dir[0], &dir[1], &dir[2],
+                                       &out.t_min, &out.t_max, 1},
+                                      {{&point[0], &point[1], &point[2]}, &side}, {&t, &object});
+                    CHECK(object == 0);
+                    CHECK(std::abs(double{t} - 1) < 1e-3);
+                }
+            };
+            check(0.0f);
+            check(0.0);
+        }
+}
+
 TEST_CASE("a ray from a point of a surface does not meet it there", "[exact_starts]")
 {
     check_known({{quadric("0,0,1,0,0,0,-1,0,0,0"), {0, -2, 0}, {2, 3, 6}, 1.0 / 18},
