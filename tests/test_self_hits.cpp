@@ -342,9 +342,6 @@ TEST_CASE("a ray leaves whichever of two spheres is nearer, by lists and by a hi
                 CHECK(t[0] == t[1]);
                 CHECK(object[0] == object[1]);
                 CHECK(std::count(object[0].begin(), object[0].end(), 1) > 0);
-                // One deep in the other is met by all rays, however shallow.
-                if (!moved && gap < 2e-7)
-                    CHECK(std::count(object[0].begin(), object[0].end(), 0) == 0);
                 if (moved)
                     CHECK(std::count(object[0].begin(), object[0].end(), 0) > 0);
             }

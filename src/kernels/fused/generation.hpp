@@ -54,7 +54,7 @@ template <Generation G, abi::Features F>
     const vreal<float> no_end_yet(__builtin_inff());
     const StartPacket<float> start =
         G == Generation::camera ? no_start<float>() : start_of(path_start);
-    HitPacket<float> found = start_of_search<F>(start, rays, no_end_yet);
+    HitPacket<float> found = start_of_search<F>(start, rays.dir2, no_end_yet);
     if constexpr (G == Generation::camera) {
         closest_hit<F>(found, from_eye(tile), rays, NoOwn{});
     } else {

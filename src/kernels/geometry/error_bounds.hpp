@@ -43,10 +43,6 @@ inline float max(float a, float b)
 {
     return b > a ? b : a;
 }
-inline double max(double a, double b)
-{
-    return b > a ? b : a;
-}
 inline float signed_square(float x)
 {
     return x * (x < 0 ? -x : x);

@@ -55,28 +55,11 @@ inline vreal<float> met_again_error(const StartPacket<float>& start, const vreal
                 vreal<float>(0x1p-20f) * start.second.t);
 }
 
-/// How far the lift of a start off its surface moves, along the ray, what lies where the ray meets
-/// its own body again: the lift over the cosine of the angle there, which on a sphere is that at
-/// the start; four times as much. No cosine is below 2^-10, nor told where rounding of `org` may
-/// have made it.
-template <class Real>
-inline batch<Real> moved_by_lift(const Vec3v<Real>& org, const Vec3v<Real>& point,
-                                 const Vec3v<Real>& dir, const batch<Real>& dir2)
-{
-    const Vec3v<Real> lift = org - point;
-    const vreal<Real> lift2 = dot(lift, lift);
-    const vreal<Real> along =
-        abs(dot(lift, dir)) - vreal<Real>(Real(0x1p-23)) * magnitude_dot(point, dir);
-    const vreal<Real> least = vreal<Real>(Real(0x1p-10)) * sqrt(lift2 * dir2);
-    return vreal<Real>(Real(4)) * lift2 /
-           max(max(along, least), vreal<Real>(std::numeric_limits<Real>::min()));
-}
-
 /// What a search that passes over the own surface has found before it begins. With Features::exact
 /// all that is nearly met with it leaves rays unsure: retracing tells which is hit. Were it less,
 /// it would hang on how a surface is looked for which of them finds another one there unsure.
 template <abi::Features F, class Real>
-inline HitPacket<Real> start_of_search(const StartPacket<Real>& start, const RayPacket<Real>& rays,
+inline HitPacket<Real> start_of_search(const StartPacket<Real>& start, const vreal<Real>& dir2,
                                        const vreal<Real>& t_max)
 {
     const vreal<Real> never(static_cast<Real>(__builtin_inf()));
@@ -89,10 +72,9 @@ inline HitPacket<Real> start_of_search(const StartPacket<Real>& start, const Ray
     if constexpr (sizeof(Real) == sizeof(float)) {
         if (none(again))
             return hit;
-        vreal<float> error = met_again_error(start, rays.dir2);
+        vreal<float> error = met_again_error(start, dir2);
         if constexpr (F.exact)
-            error = max(max(error, vreal<float>(static_cast<float>(nearly_met<float>)) * second),
-                        moved_by_lift<float>(rays.org, start.point, rays.dir, rays.dir2));
+            error = max(error, vreal<float>(static_cast<float>(nearly_met<float>)) * second);
         hit.t = select(again, second + error, t_max);
         hit.t_low = select(again, second - error, t_max);
     } else {

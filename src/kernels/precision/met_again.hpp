@@ -11,7 +11,6 @@ struct MetAgain {
     double start[3];
     double t;  ///< infinite for nowhere
     std::int32_t surface;
-    double near;  ///< how far from it others lie at most that it is compared with once more
 };
 
 /// The share of a t within which double can't tell two surfaces apart that lie in one place.
@@ -27,19 +26,18 @@ inline bool meets_own_first(const abi::ShapesView& shapes, const MetAgain& again
     if (surface < 0)
         return true;
     const double difference = t - again.t;
-    if (!(magnitude(difference) <= again.near))
+    constexpr double near = nearly_met<float>;
+    if (!(magnitude(difference) <= near * again.t))
         return difference > 0;
-    // Not so early that the start itself would be met.
-    const double t_min = max(again.t - 2.0 * again.near, 0.5 * again.t);
-    const RayPacket<double> from_start =
-        with_square(broadcast(again.start), broadcast(dir), vreal<double>(t_min));
+    const RayPacket<double> from_start = with_square(broadcast(again.start), broadcast(dir),
+                                                     vreal<double>(again.t * (1.0 - 2.0 * near)));
     const auto met_at = [&](std::int64_t number) {
         return first_lane<double>(refine_half(shapes, shapes.index[number], from_start).t);
     };
     const double apart = met_at(surface) - met_at(again.surface);
     if (magnitude(apart) <= one_place * again.t)
         return again.surface < surface;
-    return magnitude(apart) <= 4.0 * again.near ? apart > 0 : difference > 0;
+    return magnitude(apart) <= 4.0 * near * again.t ? apart > 0 : difference > 0;
 }
 
 }  // namespace

@@ -47,7 +47,7 @@ template <bool Starts, abi::Features F, class Objects, class Real>
         HitPacket<Real> hit = no_hit<Real>(packet.t_max);
         if constexpr (Starts) {
             start = start_of(scene, view, first, packet.rays);
-            hit = start_of_search<F>(start, packet.rays, packet.t_max);
+            hit = start_of_search<F>(start, packet.rays.dir2, packet.t_max);
             closest_hit<F>(hit, objects, packet.rays,
                            own_with_common<Real>(start.surface, view.start_surface[first], live));
         } else {
@@ -99,7 +99,7 @@ template <bool Starts, abi::Features F, class Real>
         store_rays(bundle, first, packet.rays);
         if constexpr (Starts) {
             const StartPacket<Real> start = start_of(scene, view, begin + first, packet.rays);
-            start_rays<F>(bundle, first, start_of_search<F>(start, packet.rays, packet.t_max),
+            start_rays<F>(bundle, first, start_of_search<F>(start, packet.rays.dir2, packet.t_max),
                           start.surface, active);
         } else {
             start_rays<F>(bundle, first, no_hit<Real>(packet.t_max), no_surface<Real>(), active);

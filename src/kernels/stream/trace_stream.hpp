@@ -272,7 +272,7 @@ inline void trace_secondary(const abi::SceneView<Real>& scene, const RayStream<F
     for (int first = begin; first < end; first += lanes<Real>) {
         const TracedRays<Real> from = load_stream(scene, stream, first);
         const std::uint32_t active = first_lanes<Real>(end - first);
-        HitPacket<Real> hit = start_of_search<F>(from.start, from.rays, no_end_yet);
+        HitPacket<Real> hit = start_of_search<F>(from.start, from.rays.dir2, no_end_yet);
         tell_live(active);
         tell_first(first - begin);
         if (stream.starts != nullptr)
@@ -300,7 +300,7 @@ inline void trace_secondary_bundle(const abi::SceneView<Real>& scene,
         const TracedRays<Real> from = load_stream(scene, stream, first);
         store_rays(bundle, first - begin, from.rays);
         start_rays<F>(bundle, first - begin,
-                      start_of_search<F>(from.start, from.rays, no_end_yet), from.start.surface,
+                      start_of_search<F>(from.start, from.rays.dir2, no_end_yet), from.start.surface,
                       first_lanes<Real>(end - first));
     }
     end_bundle(bundle, end - begin);

@@ -18,14 +18,6 @@ inline void count_unsure(abi::RayCounts& counts, std::uint32_t unsure)
 /// The features of the kernels that rays are traced again by: few are, so that one set does.
 inline constexpr abi::Features wide_features{.quadrics = true};
 
-/// moved_by_lift() of one ray.
-inline double moved_by_lift(const float (&org)[3], const double (&point)[3], const float (&dir)[3])
-{
-    const Vec3v<double> way = broadcast_as<double>(dir);
-    return first_lane<double>(
-        moved_by_lift<double>(broadcast_as<double>(org), broadcast(point), way, dot(way, way)));
-}
-
 /// Rays of a bundle of floats as a bundle of doubles.
 struct WideBundle {
     RayBundle<double> rays;
@@ -39,8 +31,7 @@ struct WideBundle {
             cell = 0;
     }
 
-    /// Other surfaces are looked for up to a little beyond where the own body is met again;
-    /// `met.near` need not be set.
+    /// Other surfaces are looked for up to a little beyond where the own body is met again.
     void add(int ray, const float (&org)[3], const float (&dir)[3], float t_min, float t_max,
              const MetAgain& met, std::int32_t own)
     {
@@ -52,11 +43,10 @@ struct WideBundle {
         // What single precision has no number for is no hit.
         constexpr float largest = std::numeric_limits<float>::max();
         const double t_end = t_max < largest ? t_max : largest;
-        again[count] = met;
-        again[count].near = max(nearly_met<float> * met.t, moved_by_lift(org, met.start, dir));
-        const double little_beyond = met.t + again[count].near;
+        const double little_beyond = met.t * (1.0 + nearly_met<float>);
         rays.t[count] = little_beyond < t_end ? little_beyond : t_end;
         rays.surface[count] = -1;
+        again[count] = met;
         if (!(met.t < t_max))
             again[count].t = __builtin_inf();
         rays.own[count] = own;
@@ -91,7 +81,7 @@ inline void add_lanes(WideBundle& bundle, int first, const RayPacket<float>& ray
     for (; unsure != 0; unsure &= unsure - 1) {
         const int lane = __builtin_ctz(unsure);
         const MetAgain again{
-            {value[9][lane], value[10][lane], value[11][lane]}, value[8][lane], met_again[lane], 0};
+            {value[9][lane], value[10][lane], value[11][lane]}, value[8][lane], met_again[lane]};
         bundle.add(first + lane, {value[0][lane], value[1][lane], value[2][lane]},
                    {value[3][lane], value[4][lane], value[5][lane]}, value[6][lane], value[7][lane],
                    again, own[lane]);

@@ -100,8 +100,7 @@ inline void settle_met_again(const abi::ShapesView& shapes, const RayPacket<doub
             const int lane = __builtin_ctz(open);
             const MetAgain met{{from.axis[0][lane], from.axis[1][lane], from.axis[2][lane]},
                                t[1][lane],
-                               static_cast<std::int32_t>(surface[1][lane]),
-                               nearly_met<float> * t[1][lane]};
+                               static_cast<std::int32_t>(surface[1][lane])};
             if (meets_own_first(shapes, met,
                                 {dir.axis[0][lane], dir.axis[1][lane], dir.axis[2][lane]},
                                 t[0][lane], surface[0][lane]))
