@@ -40,16 +40,16 @@ inline OwnCrossing first_of(const CrossingsAhead& ahead, const vreal<double>& t_
     return first;
 }
 
-/// How far rounding of the start, at which the equation's left side has `value`, moves the side's
-/// `root` along the plane that clips it. One that only touches a bowl would cut a hole into it;
-/// with caps the order of side and caps decides.
-inline vreal<double> place_error(const abi::QuadricRecord<double>& quadric,
-                                 const vreal<double>& value, const SurfaceLine& line,
-                                 const vreal<double>& root)
+/// How far rounding of the start `p`, where the equation's left side is 0 but for that, moves the
+/// side's `root` past the plane that clips it. One that only touches a bowl would cut a hole into
+/// it; with caps the order of side and caps decides.
+inline vreal<double> place_error(const abi::QuadricRecord<double>& quadric, const Vec3v<double>& p,
+                                 const SurfaceLine& line, const vreal<double>& root)
 {
     if (quadric.capped)
         return vreal<double>(0.0);
-    const vreal<double> moved = abs(value) / max(abs(line.slope), vreal<double>(1e-300));
+    const vreal<double> moved =
+        abs(quadric_value<double>(quadric, p)) / max(abs(line.slope), vreal<double>(1e-300));
     return min(moved, vreal<double>(0x1p-10) * abs(root));
 }
 
@@ -79,8 +79,7 @@ inline OwnCrossing crossing_from_side(const abi::QuadricRecord<double>& quadric,
     const std::uint32_t bends_away = bits(line.bend > zero) & ~bits(outside);
     const std::uint32_t bends_towards = bits(line.bend < zero) & bits(root > zero) & bits(outside);
     const std::uint32_t by_side =
-        (bends_away | bends_towards) &
-        bits(root - place_error(quadric, quadric_value<double>(quadric, p), line, root) <= out);
+        (bends_away | bends_towards) & bits(root - place_error(quadric, p, line, root) <= out);
     const std::uint32_t goes_in = bits(line.bend < zero) & bits(line.slope == zero);
     const std::uint32_t ends_inside = quadric.capped ? by_side ^ (~bits(outside) | goes_in) : 0;
     return first_of({{root, root}, out, {by_side, 0}, ends_inside, climbs}, t_min);

@@ -101,20 +101,25 @@ SoakFinding finding_of_one(std::string what, const SoakWay& way)
     return {std::move(what), {way}, std::nullopt, again};
 }
 
+/// Where an object is, and of what shape; as text, in which 0 has no sign.
+std::string place_text(const Object& object)
+{
+    static const std::regex minus_zero("-0(?![.0-9e])");
+    Scene alone;
+    alone.objects.resize(1);
+    alone.objects[0].surface = object.surface;
+    alone.objects[0].transform = object.transform;
+    return std::regex_replace(scene_text(alone), minus_zero, "0");
+}
+
 /// Whether two objects share a place. A ray that leaves one of them then starts on the other, too,
 /// and rounding decides whether it hits it.
 bool has_twins(const Scene& scene)
 {
     std::set<std::string> places;
-    for (const Object& object : scene.objects) {
-        Scene alone;
-        alone.objects.resize(1);
-        alone.objects[0].surface = object.surface;
-        alone.objects[0].transform = object.transform;
-        static const std::regex minus_zero("-0(?![.0-9e])");
-        if (!places.insert(std::regex_replace(scene_text(alone), minus_zero, "0")).second)
+    for (const Object& object : scene.objects)
+        if (!places.insert(place_text(object)).second)
             return true;
-    }
     return false;
 }
 

@@ -109,10 +109,11 @@ template <class Real>
     // Rounding may put the hit of a line along the plane anywhere: it is between edges then, but
     // for a start in the plane, of which every term is 0.
     const Real length = std::abs(D.x) + std::abs(D.y) + std::abs(D.z);
-    const Vec3<Real> terms = polygon.normal * to;
-    const bool starts_in_plane = terms.x == 0 && terms.y == 0 && terms.z == 0;
-    if (!starts_in_plane && !(std::abs(slope) > edge_on<Real> * length))
-        t = between_edges(polygon, O, D, t);
+    if (!(std::abs(slope) > edge_on<Real> * length)) {
+        const Vec3<Real> terms = polygon.normal * to;
+        if (terms.x != 0 || terms.y != 0 || terms.z != 0)
+            t = between_edges(polygon, O, D, t);
+    }
     roots.add(t, Part::side, slope > 0);
     return roots;
 }
