@@ -5,9 +5,9 @@
 
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
-#include <glm/matrix.hpp>
 
 #include "geometry/kinds.hpp"
+#include "scene/polygon_plane.hpp"
 
 namespace packtrace {
 namespace {
@@ -50,8 +50,7 @@ int lower_kind(const Object& object, const Polygon& polygon, std::int32_t surfac
     LoweredPolygon result;
     for (const std::vector<Vec3>& contour : polygon.contours)
         add_contour(contour, object.transform, result);
-    const Mat3 normal_map = glm::transpose(glm::inverse(Mat3(object.transform)));
-    result.normal = glm::normalize(normal_map * polygon_normal(polygon));
+    result.normal = placed_normal(polygon, Mat3(object.transform));
     bound(result);
     result.surface = surface;
     lists.polygons.push_back(std::move(result));

@@ -11,6 +11,7 @@
 #include "geometry/canonical_form.hpp"
 #include "geometry/kinds.hpp"
 #include "scene/elliptic_sections.hpp"
+#include "scene/exact_minor.hpp"
 #include "scene/language/numbers.hpp"
 #include "scene/vectors.hpp"
 
@@ -122,26 +123,15 @@ Bound bound_of(const Quadric& quadric, const CanonicalForm& form, const Mat4& tr
     return {};
 }
 
-Quad minor_of(const Mat3& m, int column, int row)
-{
-    const int c1 = (column + 1) % 3;
-    const int c2 = (column + 2) % 3;
-    const int r1 = (row + 1) % 3;
-    const int r2 = (row + 2) % 3;
-    return Quad(m[c1][r1]) * m[c2][r2] - Quad(m[c1][r2]) * m[c2][r1];
-}
-
-/// The inverse with every entry rounded once. In double precision alone an entry of an
-/// ill-conditioned matrix's inverse loses digits that no kernel can bring back.
+/// The inverse with every entry rounded once.
 Mat3 exact_inverse(const Mat3& m)
 {
-    const Quad determinant =
-        m[0][0] * minor_of(m, 0, 0) + m[0][1] * minor_of(m, 0, 1) + m[0][2] * minor_of(m, 0, 2);
+    const Quad determinant = exact_determinant(m);
     Mat3 inverse;
     for (int column = 0; column < 3; ++column)
         for (int row = 0; row < 3; ++row)
             inverse[column][row] =
-                static_cast<double>(Quad(minor_of(m, row, column) / determinant));
+                static_cast<double>(Quad(exact_minor(m, row, column) / determinant));
     return inverse;
 }
 

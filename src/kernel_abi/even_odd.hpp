@@ -99,6 +99,9 @@ public:
         const int longest_of_xy = size[0] >= size[1] ? 0 : 1;
         along_ = size[2] >= size[0] && size[2] >= size[1] ? 2 : longest_of_xy;
         across_ = along_ == 0 ? 2 : along_ - 1;
+        for (Real longest = size[along_]; longest > large; longest *= smaller)
+            for (Real& component : dir_)
+                component *= smaller;
     }
 
     /// Begins a contour.
@@ -125,6 +128,9 @@ public:
 
 private:
     static constexpr Real roundoff = std::numeric_limits<Real>::epsilon() / 2;
+    /// Longer directions are made shorter, by a power of 2: products with far origins overflow.
+    static constexpr Real large = 0x1p20;
+    static constexpr Real smaller = 0x1p-64;
 
     /// A corner, also relative to the origin, which rounds.
     struct Corner {

@@ -8,6 +8,8 @@
 
 #include "core/quad.hpp"
 #include "core/text.hpp"
+#include "scene/exact_minor.hpp"
+#include "scene/polygon_plane.hpp"
 #include "scene/vectors.hpp"
 
 // The axes of a plane, and the plane of a polygon.
@@ -23,12 +25,17 @@ constexpr double least_area = 1e-12;
 
 using Contour = std::vector<Vec3>;
 
+template <class Real>
+struct Components {
+    Real of[3];
+};
+
 /// The sum of the edges' cross products, twice the area long. From the first corner on, so that a
 /// far polygon keeps its digits.
 template <class Real>
-Vec3 newell_sum(const Contour& contour)
+Components<Real> newell_sum(const Contour& contour)
 {
-    Real sum[3] = {};
+    Components<Real> sum{};
     const auto to = [&](std::size_t corner, int axis) {
         return Real{contour[corner][axis]} - Real{contour[0][axis]};
     };
@@ -36,9 +43,16 @@ Vec3 newell_sum(const Contour& contour)
         for (int axis = 0; axis < 3; ++axis) {
             const int y = (axis + 1) % 3;
             const int z = (axis + 2) % 3;
-            sum[axis] += to(i, y) * to(i + 1, z) - to(i, z) * to(i + 1, y);
+            sum.of[axis] += to(i, y) * to(i + 1, z) - to(i, z) * to(i + 1, y);
         }
-    return {static_cast<double>(sum[0]), static_cast<double>(sum[1]), static_cast<double>(sum[2])};
+    return sum;
+}
+
+template <class Real>
+Vec3 rounded(const Components<Real>& v)
+{
+    return {static_cast<double>(v.of[0]), static_cast<double>(v.of[1]),
+            static_cast<double>(v.of[2])};
 }
 
 /// The products of the edges' lengths, of which that sum is what is left.
@@ -50,12 +64,32 @@ double newell_size(const Contour& contour)
     return size;
 }
 
+/// Sums in double of which this share of their terms is left have digits enough.
+constexpr double certain = 1.0 / 64.0;
+
 /// newell_sum() in double, or, of slivers and of what crosses itself, in more digits.
 Vec3 newell_normal(const Contour& contour)
 {
-    constexpr double certain = 1.0 / 64.0;
-    const Vec3 sum = newell_sum<double>(contour);
-    return glm::length(sum) > certain * newell_size(contour) ? sum : newell_sum<Quad>(contour);
+    const Vec3 sum = rounded(newell_sum<double>(contour));
+    return glm::length(sum) > certain * newell_size(contour) ? sum
+                                                             : rounded(newell_sum<Quad>(contour));
+}
+
+/// placed_normal() where double loses digits of it.
+Vec3 exactly_placed_normal(const Polygon& polygon, const Mat3& linear)
+{
+    const auto own = newell_sum<Quad>(polygon.contours[0]);
+    const Quad side = exact_determinant(linear) < 0 ? -1 : 1;
+    Components<Quad> placed{};
+    Quad largest = 0;
+    for (int row = 0; row < 3; ++row) {
+        for (int column = 0; column < 3; ++column)
+            placed.of[row] += side * exact_minor(linear, column, row) * own.of[column];
+        largest = std::max(largest, magnitude(placed.of[row]));
+    }
+    for (Quad& component : placed.of)
+        component /= largest;
+    return glm::normalize(rounded(placed));
 }
 
 double size_of(const Polygon& polygon)
@@ -111,6 +145,22 @@ Vec3 polygon_normal(const Polygon& polygon)
     const Vec3 sum = newell_normal(polygon.contours[0]);
     const double largest = largest_component(sum);
     return largest > 0.0 ? glm::normalize(sum / largest) : Vec3(0.0);
+}
+
+Vec3 placed_normal(const Polygon& polygon, const Mat3& linear)
+{
+    const Vec3 own = polygon_normal(polygon);
+    // Its inverse transpose but for a factor.
+    const Mat3 minors(glm::cross(linear[1], linear[2]), glm::cross(linear[2], linear[0]),
+                      glm::cross(linear[0], linear[1]));
+    const Vec3 length(glm::length(linear[0]), glm::length(linear[1]), glm::length(linear[2]));
+    const Vec3 terms(length.y * length.z, length.z * length.x, length.x * length.y);
+    const Vec3 placed = minors * own;
+    const double determinant = glm::dot(linear[0], minors[0]);
+    if (glm::length(placed) > certain * glm::dot(terms, glm::abs(own)) &&
+        std::abs(determinant) > certain * certain * length.x * terms.x)
+        return glm::normalize(determinant < 0.0 ? -placed : placed);
+    return exactly_placed_normal(polygon, linear);
 }
 
 std::optional<std::string> polygon_fault(const Polygon& polygon)

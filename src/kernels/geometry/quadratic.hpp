@@ -85,6 +85,20 @@ inline void visit_roots(const Quadratic<Real>& quadratic, const Visit& visit)
     visit(crosses, negated(minus_q) / quadratic.a);
 }
 
+/// Of lanes whose quadratic is below zero at t_max as summed up, those where rounding has not made
+/// it so: from far away its terms cancel. a F(t) is also (a t + b)² - discriminant, which loses
+/// less where that root is near; `slope` is a t_max + b.
+inline vmask<double> ends_inside(const Quadratic<double>& q, const vreal<double>& t_max,
+                                 const vreal<double>& slope)
+{
+    const vreal<double> slope2 = slope * slope;
+    const vreal<double> way = q.a * t_max;
+    const vreal<double> lost = madd(vreal<double>(2.0) * way, abs(slope), slope2);
+    const vreal<double> lost_by_sum = madd(way, way, q.a * abs(q.c));
+    const auto better = vreal<double>(16.0) * lost < lost_by_sum;
+    return from_bits<double>((bits(slope2 < q.discriminant) | ~bits(better)) & all_lanes<double>);
+}
+
 /// Lanes with a root between t_min and t_max, from the signs of the quadratic F at both ends:
 /// either they differ, or both are positive and F dips below zero between them. No square
 /// root, no division. At an infinite t_max F is positive, as a > 0.
@@ -98,7 +112,10 @@ inline vmask<Real> root_between(const Quadratic<Real>& q, const vreal<Real>& t_m
     const vreal<Real> near = madd(slope_near + q.b, t_min, q.c);
     const vreal<Real> far = madd(slope_far + q.b, t_max, q.c);
     const auto enters = (near < zero) & (far >= zero);
-    const auto leaves = (near >= zero) & (far < zero);
+    auto leaves = (near >= zero) & (far < zero);
+    if constexpr (sizeof(Real) == sizeof(double))
+        if (any(leaves))
+            leaves = leaves & ends_inside(q, t_max, slope_far);
     const auto dips = (near >= zero) & (far >= zero) & (q.discriminant >= zero) &
                       (slope_near < zero) & (slope_far > zero);
     return enters | leaves | dips;

@@ -32,7 +32,7 @@ QuadricBody<Real> convert_surface(const Quadric& quadric, int object, SelfHits)
 template <class Real>
 PolygonBody<Real> convert_surface(const Polygon& polygon, int object, SelfHits)
 {
-    return polygon_body<Real>(polygon, Affine<long double>(Mat4(1.0)), object);
+    return polygon_body<Real>(polygon, Mat4(1.0), object);
 }
 
 }  // namespace
@@ -70,8 +70,7 @@ Bodies<Real>::Bodies(const Scene& scene, SelfHits rule,
             planes.push_back(convert_surface<Real>(*plane, object, rule));
         } else if (const auto* polygon = std::get_if<Polygon>(&from.surface)) {
             places.push_back({BodyKind::polygon, polygons.size()});
-            polygons.push_back(
-                polygon_body<Real>(*polygon, Affine<long double>(from.transform), object));
+            polygons.push_back(polygon_body<Real>(*polygon, from.transform, object));
         } else {
             places.push_back({BodyKind::placed, placed.size()});
             placed.push_back(place_body<Real>(from, object, rule));

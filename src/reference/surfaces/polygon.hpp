@@ -5,6 +5,7 @@
 #include "reference/surfaces/affine.hpp"
 #include "reference/surfaces/roots.hpp"
 #include "reference/vec3.hpp"
+#include "scene/polygon_plane.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -22,12 +23,13 @@ struct PolygonBody {
     int object = 0;
 };
 
-/// The polygon where `placement` puts it, in long double but for one rounding at the end, so that
+/// The polygon where `transform` puts it, in long double but for one rounding at the end, so that
 /// polygons with a common corner share it to the last digit.
 template <class Real>
-[[nodiscard]] PolygonBody<Real> polygon_body(const Polygon& polygon,
-                                             const Affine<long double>& placement, int object)
+[[nodiscard]] PolygonBody<Real> polygon_body(const Polygon& polygon, const Mat4& transform,
+                                             int object)
 {
+    const Affine<long double> placement(transform);
     PolygonBody<Real> body;
     for (const auto& from : polygon.contours) {
         auto& contour = body.contours.emplace_back();
@@ -35,8 +37,7 @@ template <class Real>
             contour.emplace_back(placement.point_to_world(Vec3<long double>(corner)));
         contour.push_back(contour[0]);
     }
-    body.normal = Vec3<Real>(
-        normalize(placement.normal_to_world(Vec3<long double>(polygon_normal(polygon)))));
+    body.normal = Vec3<Real>(placed_normal(polygon, Mat3(transform)));
     body.object = object;
     return body;
 }
