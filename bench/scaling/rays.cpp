@@ -41,7 +41,7 @@ struct Subject {
     std::function<double()> pass;
 };
 
-/// `spheres<N>`: as many in a box of ten units; else one of raced_scenes.hpp.
+/// `spheres<N>`: as many in the unit cube; else one of raced_scenes.hpp.
 Scene scene_of(const Arguments& arguments)
 {
     if (!arguments.scene.starts_with("spheres"))

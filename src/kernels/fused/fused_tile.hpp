@@ -77,6 +77,7 @@ inline void find_visible(const FusedTile<F>& tile, const Cone<float>& cone)
             ++ball;
         });
         find_objects<F>(memory.visible, cone, tile.scene);
+        sort_by_distance<F>(memory.visible);
     }
 }
 

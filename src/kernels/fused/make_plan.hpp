@@ -362,6 +362,7 @@ inline void fill_plan(FramePlan<F>& plan, const abi::SceneView<float>& scene,
                       const abi::CameraView<float>& camera)
 {
     find_from_point<F, float>(plan.from_camera, camera.origin, scene);
+    sort_by_distance<F>(plan.from_camera);
     plan.origins = near_origins(scene, camera.origin, camera.origin);
     find_objects<F>(plan.from_near, plan.origins, scene);
     fill_common(plan.common, scene, plan.origins, camera.origin);

@@ -4,7 +4,7 @@
 #include "kernels/geometry/plane.hpp"
 #include "kernels/geometry/polygon.hpp"
 #include "kernels/geometry/quadric_filter.hpp"
-#include "kernels/geometry/sphere_filter.hpp"
+#include "kernels/geometry/sphere_order.hpp"
 
 // The kinds of objects: a new one is a file, and its name in Kinds. Its file says, with the names
 // that the files of the others have:

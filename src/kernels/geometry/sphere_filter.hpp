@@ -229,16 +229,18 @@ inline void keep_sphere(HitPacket<float>& hit, const SphereTest& test, const Sph
         keep_near_sphere(hit, test, {near.moment2, others}, rays, scale, surface);
 }
 
-/// Spheres with their bounds, in rising order. `x, y, z` is a shared origin relative to the centre,
-/// else the centre.
+/// Spheres with their bounds, in rising order or sorted by distance. `x, y, z` is a shared origin
+/// relative to the centre, else the centre.
 struct SphereFilters {
     float* x = nullptr;
     float* y = nullptr;
     float* z = nullptr;
     float* radius2 = nullptr;
     SphereBounds<float*> bounds = {};
+    float* distance = nullptr;  ///< of sorted ones from the shared origin, at least
     std::int32_t* surface = nullptr;
     int count = 0;
+    bool sorted = false;
 };
 
 /// The bounds of a packet of spheres go where the lanes of `kept` go.
@@ -272,6 +274,7 @@ inline void find_certain(SphereFilters& list, const Origins& origins, const Cone
                          const abi::SphereListView<double>& wide)
 {
     list.count = 0;
+    list.sorted = false;
     for_each_met(cone, spheres, [&](int first, std::uint32_t kept, const Vec3v<float>& center) {
         const Vec3v<float> w =
             Shared ? origin_from_centers(origins, wide, first) : broadcast(origins.center) - center;
@@ -366,14 +369,22 @@ inline void take_room(Arena& arena, SelectedSpheres<Real>& list, int count)
     take_room(arena, list.room, count);
 }
 
+/// The arrays of a list but for that of surfaces.
+struct FilterArrays {
+    float** of[12];
+};
+inline FilterArrays arrays_of(SphereFilters& list)
+{
+    SphereBounds<float*>& bounds = list.bounds;
+    return {{&list.x, &list.y, &list.z, &list.radius2, &bounds.outer2, &bounds.inner2,
+             &bounds.along, &bounds.moment, &bounds.size, &bounds.band2, &bounds.reach,
+             &list.distance}};
+}
+
 template <class Arena>
 inline void take_room(Arena& arena, SphereFilters& list, int count)
 {
-    SphereBounds<float*>& bounds = list.bounds;
-    float** const arrays[] = {&list.x,        &list.y,        &list.z,       &list.radius2,
-                              &bounds.outer2, &bounds.inner2, &bounds.along, &bounds.moment,
-                              &bounds.size,   &bounds.band2, &bounds.reach};
-    share_block(arena, arrays, padded(count));
+    share_block(arena, arrays_of(list).of, padded(count));
     list.surface = arena.template take<std::int32_t>(padded(count));
 }
 

@@ -133,6 +133,7 @@ inline void closest_tile(const abi::TileJob<Real>& job, abi::TileHits<Real>& hit
     FromPoint<F, Real> visible;
     take_objects<F>(arena, visible, scene);
     find_objects<F>(visible, camera_cone(job), scene);
+    sort_by_distance<F>(visible);
     if (!scene.tree.empty()) {
         auto& bundle = *take_bundle<F, Real>(arena);
         gather_camera<F>(job, bundle);

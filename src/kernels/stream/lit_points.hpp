@@ -143,8 +143,10 @@ inline void lit_points(const abi::SceneView<Real>& scene, const abi::PointsView<
     LitWork<F, Real> work(scratch, casters);
     RayBundle<Real>& bundle = *work.bundle;
     const bool closed = has_closed_reach(scene, light);
-    if (light.sends_rays)
+    if (light.sends_rays) {
         find_from_point<F>(work.from_light, light.vector, casters);
+        sort_by_distance<F>(work.from_light);
+    }
     for (int begin = 0; begin < view.count; begin += bundle_rays) {
         const int count = view.count - begin < bundle_rays ? view.count - begin : bundle_rays;
         gather_ways<F>(scene, view, light, begin, count, bundle);

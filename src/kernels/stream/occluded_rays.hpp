@@ -23,7 +23,7 @@ template <abi::Features F, class Objects, class Real>
         std::uint32_t blocked = 0;
         if constexpr (F.exact) {
             const Occlusion occlusion =
-                occluded<F>(packet.t_max, objects, packet.rays, own, wanted);
+                occluded<F, Order::by_distance>(packet.t_max, objects, packet.rays, own, wanted);
             blocked = occlusion.blocked;
             if (occlusion.unsure != 0)
                 blocked |= retrace_occluded<F.probe>(*scene.wide, packet.rays, own.surface,

@@ -169,6 +169,7 @@ inline void find_nearby_of(StreamWork<F, Real>& work, const abi::SceneView<Real>
     const Real first[3] = {view.org[0][begin], view.org[1][begin], view.org[2][begin]};
     if (work.shares_origin) {
         find_from_point<F, Real>(work.from_point, first, scene);
+        sort_by_distance<F>(work.from_point);
         if constexpr (F.exact)
             if (work.looks_for_common(view, begin, count))
                 fill_common(work.common, scene, near_origins(scene, first, first), first);

@@ -98,6 +98,7 @@ inline void trace_camera_of_tile(const TileRun<F, Real>& run, const abi::TileJob
     counts.camera += static_cast<unsigned>(rays);
     // Against what the tile's cone may meet; a hit's first light replaces the background.
     find_objects<F>(work.visible, camera_cone(job), scene);
+    sort_by_distance<F>(work.visible);
     begin_span(abi::Span::film, 0, abi::Part::film);
     fill_pixels(memory.color + pixel_elements * first_pixel, scene.rules.background);
     memory.hits.count = 0;

@@ -274,8 +274,8 @@ template <abi::Features F, class Objects, class Real>
         const RayPacket<Real> rays = load_rays(bundle, first);
         const OwnSurface<vint<Real>> own = common_own_of(bundle, first, wanted);
         if constexpr (F.exact) {
-            const std::uint32_t unsure =
-                visit_occluders<F>(load(bundle.t + first), lists, rays, own, take);
+            const std::uint32_t unsure = visit_occluders<F, Order::by_distance>(
+                load(bundle.t + first), lists, rays, own, take);
             doubt_lanes(bundle, first, unsure & wanted);
         } else {
             visit_occluders<F>(RayEnd<Real>{load(bundle.t + first), closed}, lists, rays, own,

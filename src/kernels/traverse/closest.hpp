@@ -37,6 +37,9 @@ inline void closest_hit(HitPacket<float>& hit, const FilteredObjects<Shared>& ob
     for_each_kind<F>([&](auto kind) {
         const auto& list = objects_of<decltype(kind)>(objects);
         for (int i = 0; i < list.count; ++i) {
+            if constexpr (Shared && requires { rest_is_behind(list, i, hit.t, scale); })
+                if (rest_is_behind(list, i, hit.t, scale))
+                    break;
             const auto& object = object_at(list, i);
             if (own.all_on(body_of(object)))
                 continue;

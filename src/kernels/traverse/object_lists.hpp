@@ -132,6 +132,19 @@ inline void find_objects(FilteredObjects<true>& objects, const Cone<float>& cone
     filter_objects<F, true>(objects, origins, cone, scene);
 }
 
+/// Puts what rays from a shared origin may meet into the order in which closest hits are found
+/// fastest.
+template <abi::Features F, class Objects>
+inline void sort_by_distance(Objects& objects)
+{
+    for_each_kind<F>([&](auto kind) {
+        auto& list = list_of<decltype(kind)>(objects);
+        if constexpr (requires { sort_by_distance(list); })
+            sort_by_distance(list);
+        return true;
+    });
+}
+
 /// What rays from `origins` may meet, wherever they go.
 template <abi::Features F>
 inline void find_objects(FilteredObjects<false>& objects, const Origins& origins,

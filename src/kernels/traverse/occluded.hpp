@@ -53,9 +53,23 @@ inline void visit_occluders(const RayEnd<Real>& end, const Objects& objects,
     });
 }
 
+/// Whether lists may be sorted by distance: what is behind the ends of all rays is not tested then.
+/// Those of a frame's lights are not, and to ask would cost a tenth of shading.
+enum class Order { any, by_distance };
+
+/// How many of a list rays up to t_end are tested against.
+template <Order O, class List>
+inline int tested_of(const List& list, const vreal<float>& t_end, const RayScale& scale)
+{
+    if constexpr (O == Order::by_distance && requires { count_before(list, t_end, scale); })
+        return count_before(list, t_end, scale);
+    else
+        return list.count;
+}
+
 /// The same by certain tests, until t_end, for rays of the origins that the objects' bounds are
 /// for. Returns the lanes in which something may be in the way; those blocked may be among them.
-template <abi::Features F, bool Shared, class Occluder>
+template <abi::Features F, Order O = Order::any, bool Shared, class Occluder>
 inline std::uint32_t visit_occluders(const vreal<float>& t_end,
                                      const FilteredObjects<Shared>& objects,
                                      const RayPacket<float>& rays,
@@ -75,7 +89,8 @@ inline std::uint32_t visit_occluders(const vreal<float>& t_end,
     const TestScope at;
     for_each_kind<F>([&](auto kind) {
         const auto& list = objects_of<decltype(kind)>(objects);
-        for (int i = 0; i < list.count; ++i) {
+        const int count = tested_of<O>(list, t_end, scale);
+        for (int i = 0; i < count; ++i) {
             const auto& object = object_at(list, i);
             if (own.all_on(body_of(object)))
                 continue;
@@ -103,14 +118,14 @@ inline std::uint32_t occluded(const RayEnd<Real>& end, const Objects& objects,
 }
 
 /// The same by certain tests.
-template <abi::Features F, bool Shared>
+template <abi::Features F, Order O = Order::any, bool Shared>
 inline Occlusion occluded(const vreal<float>& t_end, const FilteredObjects<Shared>& objects,
                           const RayPacket<float>& rays, const OwnSurface<vint<float>>& own,
                           std::uint32_t wanted)
 {
     std::uint32_t open = wanted;
     const std::uint32_t unsure =
-        visit_occluders<F>(t_end, objects, rays, own, [&](std::int32_t, std::uint32_t blocked) {
+        visit_occluders<F, O>(t_end, objects, rays, own, [&](std::int32_t, std::uint32_t blocked) {
             open &= ~blocked;
             return open != 0;
         });
