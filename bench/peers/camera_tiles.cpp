@@ -9,7 +9,8 @@ namespace packtrace::peers {
 
 CameraTiles::CameraTiles(const Scene& scene, const std::string& isa, Accuracy accuracy)
     : lowered_(lower(scene, accuracy)),
-      packed_(lowered_),
+      packed_(lowered_, frame_traversal(lowered_, Traversal::automatic,
+                                        precision<float>(kernels_of(isa)).lanes)),
       camera_(camera_view<float>(scene, lowered_)),
       kernels_(kernels_for(precision<float>(kernels_of(isa)), lowered_.features)),
       scratch_(kernels_.scratch_bytes(packed_.view(), 1)),
