@@ -319,4 +319,31 @@ TEST_CASE("a ray that starts in a polygon's plane does not meet it further on", 
     }
 }
 
+TEST_CASE("rays that are no numbers hit no polygon, and infinite ones come back", "[polygon_hits]")
+{
+    PolygonRandom random(83);
+    std::vector<RenderOptions> ways = packet_ways();
+    ways.push_back({.kernel = Kernel::scalar});
+    for (int i = 0; i < 60; ++i) {
+        const Scene scene = polygon_scene(
+            {polygon({{10.0 * random.box(1.0), 10.0 * random.box(1.0), 10.0 * random.box(1.0)}})});
+        const int axis = i % 3;
+        for (const RenderOptions& options : ways) {
+            Vec3 dir = random.box(20.0);
+            dir[axis] = std::numeric_limits<double>::quiet_NaN();
+            CAPTURE(options.isa, axis);
+            CHECK(RayScene<double>(scene, options)
+                      .closest_hit({{0, 0, 0}, {dir.x, dir.y, dir.z}})
+                      .object == -1);
+            CHECK(RayScene<float>(scene, options)
+                      .closest_hit({{0, 0, 0},
+                                    {static_cast<float>(dir.x), static_cast<float>(dir.y),
+                                     static_cast<float>(dir.z)}})
+                      .object == -1);
+            dir[axis] = std::numeric_limits<double>::infinity();
+            (void)RayScene<double>(scene, options).closest_hit({{0, 0, 0}, {dir.x, dir.y, dir.z}});
+        }
+    }
+}
+
 }  // namespace packtrace::test

@@ -99,7 +99,7 @@ public:
         const int longest_of_xy = size[0] >= size[1] ? 0 : 1;
         along_ = size[2] >= size[0] && size[2] >= size[1] ? 2 : longest_of_xy;
         across_ = along_ == 0 ? 2 : along_ - 1;
-        for (Real longest = size[along_]; longest > large; longest *= smaller)
+        for (Real longest = size[along_]; longest > large && longest <= largest; longest *= smaller)
             for (Real& component : dir_)
                 component *= smaller;
     }
@@ -130,6 +130,7 @@ private:
     static constexpr Real roundoff = std::numeric_limits<Real>::epsilon() / 2;
     /// Longer directions are made shorter, by a power of 2: products with far origins overflow.
     static constexpr Real large = 0x1p20;
+    static constexpr Real largest = std::numeric_limits<Real>::max();
     static constexpr Real smaller = 0x1p-64;
 
     /// A corner, also relative to the origin, which rounds.

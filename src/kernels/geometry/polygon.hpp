@@ -219,10 +219,12 @@ inline vreal<Real> polygon_t(const abi::PolygonRecord<Real>& polygon, const RayP
     const vreal<Real> slope = dot_across<Real>(normal, rays.dir);
     const vreal<Real> t = plane_height<Real>(polygon, rays.org) / slope;
     const vreal<Real> length = abs(rays.dir.x) + abs(rays.dir.y) + abs(rays.dir.z);
-    const auto tells = abs(slope) > vreal<Real>(edge_on<Real>) * length;
-    if (bits(tells) == all_lanes<Real>)
+    // Of rays with a NaN neither is so, and they keep their t, a NaN.
+    const auto sees_edge = abs(slope) <= vreal<Real>(edge_on<Real>) * length;
+    if (none(sees_edge))
         return t;
-    return select(tells | starts_in_plane(polygon, rays), t, between_edges(polygon, rays, t));
+    const std::uint32_t within = bits(sees_edge) & ~bits(starts_in_plane(polygon, rays));
+    return select(from_bits<Real>(within), between_edges(polygon, rays, t), t);
 }
 
 /// Lanes whose rays are so far from running in the polygon's plane that their hit is the plane's.
