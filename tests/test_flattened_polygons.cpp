@@ -27,6 +27,11 @@ Mat4 any_turn(SceneRandom& random)
     return glm::rotate(Mat4(1.0), random.between(-3.0, 3.0), any_vector(random));
 }
 
+Ray<double> ray_of(const Vec3& org, const Vec3& dir)
+{
+    return {{org.x, org.y, org.z}, {dir.x, dir.y, dir.z}};
+}
+
 /// A parallelogram around its own origin, and its two half diagonals.
 struct Flattened {
     Object object;
@@ -57,20 +62,16 @@ void check_hits(const Flattened& polygon, const RayScene<double>& scene, SceneRa
                           glm::dvec4(along * polygon.u + across * polygon.v, 1.0));
         const Vec3 org = target + 2.0 * any_vector(random);
         const Vec3 dir = target - org;
-        const double t_min = 0.0;
-        const double t_max = 1e9;
         std::vector<lab::TrueHit> found;
-        lab::find_true_hits(surface, {org, dir, t_min, t_max}, found);
+        lab::find_true_hits(surface, {org, dir, 0.0, std::numeric_limits<double>::infinity()},
+                            found);
         REQUIRE(found.size() == 1);
         if (!found[0].exists || found[0].margin < 1e-9)
             continue;
-        double t = 0.0;
-        std::int32_t object = -1;
-        scene.closest_hits({&org.x, &org.y, &org.z, &dir.x, &dir.y, &dir.z, &t_min, &t_max, 1},
-                           {&t, &object});
-        REQUIRE(object == 0);
+        const SurfaceHit<double> hit = scene.closest_hit(ray_of(org, dir));
+        REQUIRE(hit.object == 0);
         const auto truth = static_cast<double>(found[0].t);
-        CHECK(std::abs(t - truth) <= most_units * 0x1p-53 * found[0].condition * truth);
+        CHECK(std::abs(hit.t - truth) <= most_units * 0x1p-53 * found[0].condition * truth);
     }
 }
 
@@ -110,20 +111,15 @@ polygon { vertices = (-2.2024777293079203,-3.6261555703017256,-0.009361189688983
 )",
                                     "flattened", {});
     const Vec3 dir(0.6432825172674363, -0.38901870451669246, -0.659433128159501);
-    const double t_min = 0.0;
-    const double t_max = 1e9;
     for (const RenderOptions& options : packet_ways()) {
         const RayScene<double> rays(scene, options);
         for (const Vec3& org :
              {Vec3(-0.3372796396494837, 0.5335351645652102, 0.8726870417568308),
               Vec3(-0.03127676203153096, 0.678051624613728, 1.0859409553541606)}) {
             CAPTURE(options.isa, org.x);
-            double t = 0.0;
-            std::int32_t object = -1;
-            rays.closest_hits({&org.x, &org.y, &org.z, &dir.x, &dir.y, &dir.z, &t_min, &t_max, 1},
-                              {&t, &object});
-            CHECK(object == 0);
-            CHECK(std::abs(t - 1.0) < 1e-14);
+            const SurfaceHit<double> hit = rays.closest_hit(ray_of(org, dir));
+            CHECK(hit.object == 0);
+            CHECK(std::abs(hit.t - 1.0) < 1e-14);
         }
     }
 }
@@ -141,17 +137,9 @@ TEST_CASE("polygons keep their side under mirrorings", "[flattened_polygons]")
             // From a little off the own surface, on the side that its normal points to.
             const Vec3 normal = polygon_normal(std::get<Polygon>(polygon.object.surface));
             const Vec3 org(place * glm::dvec4(normal, 1.0));
-            const Vec3 dir = -org;
-            const double t_min = 0.0;
-            const double t_max = 1e9;
-            double t = 0.0;
-            double n[3] = {};
-            std::int32_t object = -1;
-            RayScene<double>(scene).closest_hits(
-                {&org.x, &org.y, &org.z, &dir.x, &dir.y, &dir.z, &t_min, &t_max, 1},
-                {&t, &object, &n[0], &n[1], &n[2]});
-            REQUIRE(object == 0);
-            CHECK(glm::dot(Vec3(n[0], n[1], n[2]), dir) < 0.0);
+            const SurfaceHit<double> hit = RayScene<double>(scene).closest_hit(ray_of(org, -org));
+            REQUIRE(hit.object == 0);
+            CHECK(glm::dot(Vec3(hit.normal[0], hit.normal[1], hit.normal[2]), org) > 0.0);
         }
     }
 }
@@ -167,14 +155,7 @@ TEST_CASE("polygons are hit from as far as rays may be", "[flattened_polygons]")
         for (const auto& [from, length] :
              {std::pair(1e120, 1e100), std::pair(1e150, 1e10), std::pair(1e150, 1.0)}) {
             CAPTURE(options.isa, from, length);
-            const double org = -from;
-            const double t_min = 0.0;
-            const double t_max = std::numeric_limits<double>::infinity();
-            double t = 0.0;
-            std::int32_t object = -1;
-            rays.closest_hits({&org, &org, &org, &length, &length, &length, &t_min, &t_max, 1},
-                              {&t, &object});
-            CHECK(object == 0);
+            CHECK(rays.closest_hit(ray_of(Vec3(-from), Vec3(length))).object == 0);
         }
     }
 }

@@ -31,6 +31,15 @@ bool is_valid(const Scene& scene)
     }
 }
 
+/// Every other one where it is in its own space.
+Object placed_star(int number, PolygonRandom& random)
+{
+    Object object = star();
+    if (number % 2 == 1)
+        object.transform = some_transform(random);
+    return object;
+}
+
 /// Of a point in its plane.
 double distance_to_triangle(const Vec3& point, const std::vector<Vec3>& corners)
 {
@@ -124,9 +133,7 @@ TEST_CASE("the reference hits polygons where 113 bits say", "[polygon_hits]")
     PolygonRandom random(41);
     int sure = 0;
     for (int i = 0; i < 20; ++i) {
-        Object object = star();
-        if (i % 2 == 1)
-            object.transform = some_transform(random);
+        const Object object = placed_star(i, random);
         const lab::WideSurface surface(object, 0);
         const reference::Bodies<double> bodies(polygon_scene({object}));
         const lab::TextbookScene<double> textbook(polygon_scene({object}));
@@ -166,9 +173,7 @@ TEST_CASE("bounds of a hit with a polygon hold the true t", "[polygon_hits]")
     const RenderOptions scalar{.kernel = Kernel::scalar};
     int proven = 0;
     for (int i = 0; i < 20; ++i) {
-        Object object = star();
-        if (i % 2 == 1)
-            object.transform = some_transform(random);
+        const Object object = placed_star(i, random);
         const lab::WideSurface surface(object, 0);
         const RayScene<double> rays(polygon_scene({object}), scalar);
         for (int ray = 0; ray < 100; ++ray) {
