@@ -6,7 +6,7 @@
 # note and themselves; nobody else includes them.
 set -u
 cd "$1" || exit 1
-rooms='simd stats geometry precision traverse shade stream fused'
+rooms='simd stats geometry precision lists bvh retrace shade stream fused'
 
 includes() { grep -Ho '#include "[^"]*"' "$@" | sed 's/#include //; s/"//g'; }
 failed=0

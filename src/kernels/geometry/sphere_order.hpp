@@ -1,6 +1,6 @@
 #pragma once
 
-#include "kernels/geometry/sphere_filter.hpp"
+#include "kernels/geometry/sphere_list.hpp"
 
 // Lists of spheres in the order in which rays from their shared origin may meet them, so that a
 // packet is not tested against those behind all that it hits.

@@ -1,10 +1,10 @@
 #pragma once
 
 #include "kernel_abi/kernel_table.hpp"
+#include "kernels/lists/occluded.hpp"
 #include "kernels/shade/hit_points.hpp"
 #include "kernels/shade/power.hpp"
 #include "kernels/stats/observe.hpp"
-#include "kernels/traverse/occluded.hpp"
 
 // Local light of a packet of hit points: note 001's diffuse and specular sums, with shadows.
 namespace packtrace::PACKTRACE_ISA {

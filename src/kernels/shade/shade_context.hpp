@@ -1,9 +1,9 @@
 #pragma once
 
 #include "kernel_abi/kernel_table.hpp"
+#include "kernels/bvh/bundle.hpp"
+#include "kernels/lists/object_sets.hpp"
 #include "kernels/shade/hit_points.hpp"
-#include "kernels/traverse/bundle.hpp"
-#include "kernels/traverse/object_sets.hpp"
 
 // What shading a tile needs besides the hits themselves.
 namespace packtrace::PACKTRACE_ISA {

@@ -2,10 +2,10 @@
 
 #include <limits>
 
+#include "kernels/lists/occluded.hpp"
+#include "kernels/retrace/retrace_occluded.hpp"
 #include "kernels/shade/lighting.hpp"
 #include "kernels/shade/shade_context.hpp"
-#include "kernels/traverse/occluded.hpp"
-#include "kernels/traverse/retrace_occluded.hpp"
 
 // Shadow rays of a packet. Those of a point light are traced from it, where they share their
 // origin: t there is 1 - t of the notes' ray from the point. Those of a light from a direction, or

@@ -1,8 +1,8 @@
 #pragma once
 
+#include "kernels/bvh/bvh_occluded.hpp"
 #include "kernels/shade/shadow.hpp"
 #include "kernels/stream/tile_memory.hpp"
-#include "kernels/traverse/bvh_occluded.hpp"
 
 // Shadow rays of a whole chunk of hits at once, where the scene has a hierarchy: one cone from
 // the light, or along it.

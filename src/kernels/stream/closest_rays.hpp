@@ -1,9 +1,9 @@
 #pragma once
 
+#include "kernels/bvh/bvh_closest.hpp"
+#include "kernels/retrace/retrace_closest.hpp"
 #include "kernels/stream/hit_writer.hpp"
 #include "kernels/stream/ray_chunks.hpp"
-#include "kernels/traverse/bvh_closest.hpp"
-#include "kernels/traverse/retrace_closest.hpp"
 
 // Closest hits of rays from outside.
 namespace packtrace::PACKTRACE_ISA {

@@ -1,8 +1,8 @@
 #pragma once
 
+#include "kernels/bvh/bvh_crossings.hpp"
+#include "kernels/lists/closest.hpp"
 #include "kernels/stream/ray_chunks.hpp"
-#include "kernels/traverse/bvh_crossings.hpp"
-#include "kernels/traverse/closest.hpp"
 
 // All hits of rays from outside.
 namespace packtrace::PACKTRACE_ISA {

@@ -1,8 +1,8 @@
 #pragma once
 
+#include "kernels/bvh/bvh_occluded.hpp"
+#include "kernels/retrace/retrace_occluded.hpp"
 #include "kernels/stream/ray_chunks.hpp"
-#include "kernels/traverse/bvh_occluded.hpp"
-#include "kernels/traverse/retrace_occluded.hpp"
 
 // Whether anything is in the way of rays from outside.
 namespace packtrace::PACKTRACE_ISA {

@@ -1,11 +1,11 @@
 #pragma once
 
 #include "kernel_abi/ray_streams.hpp"
+#include "kernels/lists/common_hit.hpp"
+#include "kernels/lists/object_sets.hpp"
 #include "kernels/precision/leave_surface.hpp"
 #include "kernels/stream/stream_values.hpp"
 #include "kernels/stream/workspace.hpp"
-#include "kernels/traverse/common_hit.hpp"
-#include "kernels/traverse/object_sets.hpp"
 
 // Rays from outside in chunks, for each of which the objects are prepared.
 namespace packtrace::PACKTRACE_ISA {

@@ -2,11 +2,11 @@
 
 #include <limits>
 
+#include "kernels/lists/object_sets.hpp"
 #include "kernels/precision/refine.hpp"
+#include "kernels/retrace/retrace_closest.hpp"
 #include "kernels/stream/camera_rays.hpp"
 #include "kernels/stream/shade_stream.hpp"
-#include "kernels/traverse/object_sets.hpp"
-#include "kernels/traverse/retrace_closest.hpp"
 
 // From rays to hit points, one generation at a time.
 namespace packtrace::PACKTRACE_ISA {
@@ -300,8 +300,8 @@ inline void trace_secondary_bundle(const abi::SceneView<Real>& scene,
         const TracedRays<Real> from = load_stream(scene, stream, first);
         store_rays(bundle, first - begin, from.rays);
         start_rays<F>(bundle, first - begin,
-                      start_of_search<F>(from.start, from.rays.dir2, no_end_yet), from.start.surface,
-                      first_lanes<Real>(end - first));
+                      start_of_search<F>(from.start, from.rays.dir2, no_end_yet),
+                      from.start.surface, first_lanes<Real>(end - first));
     }
     end_bundle(bundle, end - begin);
     closest_of_bundle<F>(scene, nearby, bundle);

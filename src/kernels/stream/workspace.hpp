@@ -1,10 +1,10 @@
 #pragma once
 
+#include "kernels/bvh/leaf_filters.hpp"
+#include "kernels/lists/object_sets.hpp"
 #include "kernels/shade/shade_context.hpp"
 #include "kernels/stream/sort_rays.hpp"
 #include "kernels/stream/tile_memory.hpp"
-#include "kernels/traverse/leaf_filters.hpp"
-#include "kernels/traverse/object_sets.hpp"
 
 // How a thread's scratch memory is divided. Sizes depend on the scene and on how many tiles are
 // rendered together.

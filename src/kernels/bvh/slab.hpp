@@ -1,6 +1,6 @@
 #pragma once
 
-#include "kernels/traverse/frustum.hpp"
+#include "kernels/bvh/frustum.hpp"
 
 // Boxes against frustums, by the distances at which the frustum's rays enter and leave the slabs
 // between opposite faces (Kay and Kajiya, "Ray Tracing Complex Scenes", 1986), in intervals.

@@ -1,8 +1,8 @@
 #pragma once
 
+#include "kernels/lists/object_lists.hpp"
 #include "kernels/precision/own_surface.hpp"
 #include "kernels/stats/observe.hpp"
-#include "kernels/traverse/object_lists.hpp"
 
 // Closest hits of a packet among lists of objects.
 namespace packtrace::PACKTRACE_ISA {

@@ -1,9 +1,9 @@
 #pragma once
 
-#include "kernels/traverse/coherent_cells.hpp"
-#include "kernels/traverse/light_buffer.hpp"
-#include "kernels/traverse/occluded_ray.hpp"
-#include "kernels/traverse/walk_lists.hpp"
+#include "kernels/bvh/coherent_cells.hpp"
+#include "kernels/bvh/light_buffer.hpp"
+#include "kernels/bvh/occluded_ray.hpp"
+#include "kernels/bvh/walk_lists.hpp"
 
 // What stands in the way of a bundle of rays among the objects of the hierarchy.
 //

@@ -1,9 +1,9 @@
 #pragma once
 
-#include "kernels/traverse/callback.hpp"
-#include "kernels/traverse/cell_rays.hpp"
-#include "kernels/traverse/near_spheres.hpp"
-#include "kernels/traverse/occluded.hpp"
+#include "kernels/bvh/cell_rays.hpp"
+#include "kernels/bvh/near_spheres.hpp"
+#include "kernels/lists/callback.hpp"
+#include "kernels/lists/occluded.hpp"
 
 namespace packtrace::PACKTRACE_ISA {
 namespace {

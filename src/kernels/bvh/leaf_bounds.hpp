@@ -1,6 +1,6 @@
 #pragma once
 
-#include "kernels/traverse/leaf_filters.hpp"
+#include "kernels/bvh/leaf_filters.hpp"
 
 // Error bounds of the objects of a hierarchy for a bundle of rays, by where those start.
 namespace packtrace::PACKTRACE_ISA {

@@ -1,8 +1,8 @@
 #pragma once
 
 #include "kernel_abi/bvh_view.hpp"
+#include "kernels/bvh/bundle.hpp"
 #include "kernels/simd/vfloat8.hpp"
-#include "kernels/traverse/bundle.hpp"
 
 // Intervals that hold the rays of a cell, of a quarter of the bundle (four cells) and of the
 // whole: of their origins, and of the reciprocals of their directions. All bounds are in single

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "kernels/traverse/walk_ray.hpp"
+#include "kernels/bvh/walk_ray.hpp"
 
 // The rays of one cell, each for itself, against a box: where boxes are small against a cell,
 // few of its rays meet them.

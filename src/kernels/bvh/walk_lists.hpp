@@ -1,7 +1,7 @@
 #pragma once
 
-#include "kernels/traverse/cell_rays.hpp"
-#include "kernels/traverse/copy_rays.hpp"
+#include "kernels/bvh/cell_rays.hpp"
+#include "kernels/bvh/copy_rays.hpp"
 
 // Rays of one octant of directions through the hierarchy, listed by the boxes they meet: a node is
 // looked at once for all of them, and no ray waits for another's branches (Barringer and

@@ -1,8 +1,8 @@
 #pragma once
 
-#include "kernels/traverse/closest_ray.hpp"
-#include "kernels/traverse/coherent_cells.hpp"
-#include "kernels/traverse/walk_lists.hpp"
+#include "kernels/bvh/closest_ray.hpp"
+#include "kernels/bvh/coherent_cells.hpp"
+#include "kernels/bvh/walk_lists.hpp"
 
 // Closest hits of a bundle of rays among the objects of the hierarchy.
 namespace packtrace::PACKTRACE_ISA {

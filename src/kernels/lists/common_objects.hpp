@@ -2,8 +2,8 @@
 
 #include "kernels/geometry/anchored_sphere.hpp"
 #include "kernels/geometry/rounded_ball.hpp"
+#include "kernels/lists/borrowed_list.hpp"
 #include "kernels/precision/lone_sphere.hpp"
-#include "kernels/traverse/borrowed_list.hpp"
 
 // Spheres, anchored spheres and planes with bounds for the origins of a group of rays and with what
 // refining needs of them, for packets that mostly hit one object (common_hit.hpp), and balls around

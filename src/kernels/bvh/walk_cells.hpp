@@ -1,8 +1,8 @@
 #pragma once
 
+#include "kernels/bvh/child_order.hpp"
+#include "kernels/bvh/slab.hpp"
 #include "kernels/stats/observe.hpp"
-#include "kernels/traverse/child_order.hpp"
-#include "kernels/traverse/slab.hpp"
 
 // A bundle of rays goes through the hierarchy as one frustum. Each node on the way is met by the
 // cells that may still see it: the frustum narrows to a quarter, and to one cell, by itself as

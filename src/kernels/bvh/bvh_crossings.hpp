@@ -1,8 +1,8 @@
 #pragma once
 
-#include "kernels/traverse/callback.hpp"
-#include "kernels/traverse/coherent_cells.hpp"
-#include "kernels/traverse/walk_lists.hpp"
+#include "kernels/bvh/coherent_cells.hpp"
+#include "kernels/bvh/walk_lists.hpp"
+#include "kernels/lists/callback.hpp"
 
 // Every hit of a bundle of rays with the objects of the hierarchy, also behind others.
 namespace packtrace::PACKTRACE_ISA {

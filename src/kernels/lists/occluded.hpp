@@ -1,8 +1,8 @@
 #pragma once
 
+#include "kernels/lists/object_lists.hpp"
 #include "kernels/precision/own_surface.hpp"
 #include "kernels/stats/observe.hpp"
-#include "kernels/traverse/object_lists.hpp"
 
 // Which rays of a packet meet any object on the way to a light.
 namespace packtrace::PACKTRACE_ISA {

@@ -3,7 +3,7 @@
 // Stands before the real header on the include path of the planted kernels: a culling slip that
 // loses the hit of one ray in ten thousand.
 #define closest_hit closest_hit_of_all
-#include "../../../../src/kernels/traverse/closest.hpp"
+#include "../../../../src/kernels/lists/closest.hpp"
 #undef closest_hit
 
 namespace packtrace::PACKTRACE_ISA {

@@ -1,7 +1,7 @@
 #pragma once
 
+#include "kernels/lists/common_objects.hpp"
 #include "kernels/precision/refine.hpp"
-#include "kernels/traverse/common_objects.hpp"
 
 // The closest hit of a packet of which all rays that hit anything hit the same object, by fewer
 // operations than the search in lists takes: a few tests tell that nothing else is near, or that it

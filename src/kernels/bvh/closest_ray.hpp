@@ -1,8 +1,8 @@
 #pragma once
 
-#include "kernels/traverse/cell_rays.hpp"
-#include "kernels/traverse/closest.hpp"
-#include "kernels/traverse/near_spheres.hpp"
+#include "kernels/bvh/cell_rays.hpp"
+#include "kernels/bvh/near_spheres.hpp"
+#include "kernels/lists/closest.hpp"
 
 // The closest hit of a single ray in the hierarchy.
 namespace packtrace::PACKTRACE_ISA {

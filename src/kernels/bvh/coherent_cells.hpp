@@ -1,8 +1,8 @@
 #pragma once
 
+#include "kernels/bvh/block_ray.hpp"
+#include "kernels/bvh/walk_cells.hpp"
 #include "kernels/geometry/kinds.hpp"
-#include "kernels/traverse/block_ray.hpp"
-#include "kernels/traverse/walk_cells.hpp"
 
 // The coherent cells of a bundle and the spheres of leaves, whatever is asked of them.
 namespace packtrace::PACKTRACE_ISA {

@@ -1,7 +1,7 @@
 #pragma once
 
+#include "kernels/bvh/leaf.hpp"
 #include "kernels/geometry/kinds.hpp"
-#include "kernels/traverse/leaf.hpp"
 
 // Error bounds of the objects of a hierarchy's runs. They take longer to find than a packet takes
 // to be tested, and hang on little: on how far the rays of a bundle start from the objects. So they

@@ -1,7 +1,7 @@
 #pragma once
 
 #include "kernel_abi/light_buffer.hpp"
-#include "kernels/traverse/occluded_ray.hpp"
+#include "kernels/bvh/occluded_ray.hpp"
 
 // What stands in the way of a bundle of rays from one point light, or towards one light from a
 // direction, by the light's own view of the hierarchy's spheres in place of the hierarchy.

@@ -1,7 +1,7 @@
 #pragma once
 
+#include "kernels/bvh/bundle.hpp"
 #include "kernels/geometry/kinds.hpp"
-#include "kernels/traverse/bundle.hpp"
 
 namespace packtrace::PACKTRACE_ISA {
 namespace {

@@ -3,7 +3,7 @@
 #include <type_traits>
 
 #include "kernels/geometry/cone.hpp"
-#include "kernels/traverse/object_lists.hpp"
+#include "kernels/lists/object_lists.hpp"
 
 // What a tile's rays are tested against: with Features::exact objects with their error bounds, else
 // what depends on a shared origin alone, computed once.

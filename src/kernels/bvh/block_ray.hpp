@@ -1,6 +1,6 @@
 #pragma once
 
-#include "kernels/traverse/leaf_bounds.hpp"
+#include "kernels/bvh/leaf_bounds.hpp"
 
 // One ray against the spheres of a block side by side, by the operations that test one sphere
 // against a packet of rays, so with the same bits.
@@ -118,5 +118,5 @@ private:
 }  // namespace packtrace::PACKTRACE_ISA
 
 #if PACKTRACE_LANES == 16
-#include "kernels/traverse/block_ray_avx512.hpp"
+#include "kernels/bvh/block_ray_avx512.hpp"
 #endif

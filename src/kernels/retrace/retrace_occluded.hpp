@@ -1,7 +1,7 @@
 #pragma once
 
-#include "kernels/traverse/bvh_occluded.hpp"
-#include "kernels/traverse/retrace.hpp"
+#include "kernels/bvh/bvh_occluded.hpp"
+#include "kernels/retrace/retrace.hpp"
 
 // Unsure occlusion, decided in double.
 namespace packtrace::PACKTRACE_ISA {

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "kernels/traverse/walk_cells.hpp"
+#include "kernels/bvh/walk_cells.hpp"
 
 // A single ray through the hierarchy, against the eight boxes of a node at once: for rays that
 // share no way.

@@ -1,7 +1,7 @@
 #pragma once
 
-#include "kernels/traverse/bvh_closest.hpp"
-#include "kernels/traverse/retrace.hpp"
+#include "kernels/bvh/bvh_closest.hpp"
+#include "kernels/retrace/retrace.hpp"
 
 // Unsure closest hits, found in double.
 namespace packtrace::PACKTRACE_ISA {

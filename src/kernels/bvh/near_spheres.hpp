@@ -1,6 +1,6 @@
 #pragma once
 
-#include "kernels/traverse/block_ray.hpp"
+#include "kernels/bvh/block_ray.hpp"
 
 // One ray against those spheres of a block that it does not miss for sure, side by side.
 namespace packtrace::PACKTRACE_ISA {

@@ -1,0 +1,188 @@
+#pragma once
+
+#include "kernels/geometry/sphere_filter.hpp"
+
+// Lists of spheres, each with the bounds of its certain tests.
+namespace packtrace::PACKTRACE_ISA {
+namespace {
+
+/// Spheres with their bounds, in rising order or sorted by distance. `x, y, z` is a shared origin
+/// relative to the centre, else the centre.
+struct SphereFilters {
+    float* x = nullptr;
+    float* y = nullptr;
+    float* z = nullptr;
+    float* radius2 = nullptr;
+    SphereBounds<float*> bounds = {};
+    float* distance = nullptr;  ///< of sorted ones from the shared origin, at least
+    std::int32_t* surface = nullptr;
+    int count = 0;
+    bool sorted = false;
+};
+
+/// The bounds of a packet of spheres go where the lanes of `kept` go.
+inline void append_bounds(SphereFilters& list, std::uint32_t kept,
+                          const SphereBounds<vreal<float>>& bounds)
+{
+    compress_store(list.bounds.outer2 + list.count, kept, bounds.outer2);
+    compress_store(list.bounds.inner2 + list.count, kept, bounds.inner2);
+    compress_store(list.bounds.along + list.count, kept, bounds.along);
+    compress_store(list.bounds.moment + list.count, kept, bounds.moment);
+    compress_store(list.bounds.size + list.count, kept, bounds.size);
+    compress_store(list.bounds.band2 + list.count, kept, bounds.band2);
+    compress_store(list.bounds.reach + list.count, kept, bounds.reach);
+}
+
+/// A shared origin relative to a packet of centres, rounded once.
+inline Vec3v<float> origin_from_centers(const Origins& origins,
+                                        const abi::SphereListView<double>& wide, int first)
+{
+    const auto from = [&](int axis, const double* center) {
+        const vreal<double> origin(double{origins.center[axis]});
+        return narrow(origin - load(center + first), origin - load(center + first + lanes<double>));
+    };
+    return {from(0, wide.center_x), from(1, wide.center_y), from(2, wide.center_z)};
+}
+
+/// Fills a list with the spheres that a cone may meet, or with all where it is not bounded.
+template <bool Shared>
+inline void find_certain(SphereFilters& list, const Origins& origins, const Cone<float>& cone,
+                         const abi::SphereListView<float>& spheres,
+                         const abi::SphereListView<double>& wide)
+{
+    list.count = 0;
+    list.sorted = false;
+    for_each_met(cone, spheres, [&](int first, std::uint32_t kept, const Vec3v<float>& center) {
+        const Vec3v<float> w =
+            Shared ? origin_from_centers(origins, wide, first) : broadcast(origins.center) - center;
+        const vreal<float> error = Shared ? vreal<float>(0.0f) : load(spheres.center_error + first);
+        const vreal<float> length =
+            (sqrt(dot(w, w)) + vreal<float>(origins.radius)) * vreal<float>(inflation) + error;
+        const vreal<float> radius = load(spheres.radius + first);
+        const Vec3v<float> place = Shared ? w : center;
+        compress_store(list.x + list.count, kept, place.x);
+        compress_store(list.y + list.count, kept, place.y);
+        compress_store(list.z + list.count, kept, place.z);
+        compress_store(list.radius2 + list.count, kept, load(spheres.radius2 + first));
+        compress_store(list.surface + list.count, kept, load(spheres.surface + first));
+        append_bounds(list, kept, sphere_bounds(radius, error, moment_error(error, length)));
+        list.count += __builtin_popcount(kept);
+    });
+}
+
+/// One sphere of a list for a packet of rays.
+template <bool Shared>
+inline Vec3v<float> origin_from(const SphereFilters& list, int i, const RayPacket<float>& rays)
+{
+    const Vec3v<float> place{vreal<float>(list.x[i]), vreal<float>(list.y[i]),
+                             vreal<float>(list.z[i])};
+    return Shared ? place : rays.org - place;
+}
+
+inline SphereTest test_of(const SphereFilters& list, int i, const Vec3v<float>& w)
+{
+    return {w,
+            vreal<float>(list.radius2[i]),
+            {vreal<float>(list.bounds.outer2[i]), vreal<float>(list.bounds.inner2[i]),
+             vreal<float>(list.bounds.along[i]), vreal<float>(list.bounds.moment[i]),
+             vreal<float>(list.bounds.size[i]), vreal<float>(list.bounds.band2[i]),
+             vreal<float>(list.bounds.reach[i])}};
+}
+
+inline ListedSphere<SphereFilters> object_at(const SphereFilters& list, int index)
+{
+    return {list, index};
+}
+
+template <bool Shared, class Own>
+inline void keep_certain(HitPacket<float>& hit, const ListedSphere<SphereFilters>& sphere,
+                         const RayPacket<float>& rays, const RayScale& scale, const Own& own)
+{
+    const auto& [list, i] = sphere;
+    const Vec3v<float> w = origin_from<Shared>(list, i, rays);
+    const SphereApproach near = approach(w, vreal<float>(list.bounds.outer2[i]), rays);
+    if (near.near != 0)
+        keep_sphere(hit, test_of(list, i, w), near, rays, scale, list.surface[i], own);
+}
+
+template <bool Shared, class Own>
+inline Occlusion occludes(const ListedSphere<SphereFilters>& sphere, const RayPacket<float>& rays,
+                          const RayScale& scale, const vreal<float>& t_end, const Own&)
+{
+    const auto& [list, i] = sphere;
+    const Vec3v<float> w = origin_from<Shared>(list, i, rays);
+    const SphereApproach near = approach(w, vreal<float>(list.bounds.outer2[i]), rays);
+    if (near.near == 0)
+        return {};
+    return occludes(test_of(list, i, w), near, rays, scale, t_end);
+}
+
+/// Lets each of `arrays` have `room` elements of one block; of none where an arena only measures.
+template <class Real, class Arena, std::size_t Count>
+inline void share_block(Arena& arena, Real** const (&arrays)[Count], std::size_t room)
+{
+    Real* const block = arena.template take<Real>(Count * room);
+    for (std::size_t i = 0; i < Count; ++i)
+        *arrays[i] = block == nullptr ? nullptr : block + i * room;
+}
+
+/// Of arrays with room for so many spheres, and for whole packets of them.
+inline std::size_t padded(int count)
+{
+    return (static_cast<std::size_t>(count) / abi::padding + 2) * abi::padding;
+}
+
+/// Room for as many spheres; `arena.take<T>(count)` gives room for `count` of T.
+template <class Arena, class Real>
+inline void take_room(Arena& arena, SharedOriginSpheres<Real>& list, int count)
+{
+    Real** const arrays[] = {&list.x, &list.y, &list.z, &list.radius2, &list.constant};
+    share_block(arena, arrays, padded(count));
+    list.surface = arena.template take<lane_int<Real>>(padded(count));
+}
+template <class Arena, class Real>
+inline void take_room(Arena& arena, SelectedSpheres<Real>& list, int count)
+{
+    take_room(arena, list.room, count);
+}
+
+/// The arrays of a list but for that of surfaces.
+struct FilterArrays {
+    float** of[12];
+};
+inline FilterArrays arrays_of(SphereFilters& list)
+{
+    SphereBounds<float*>& bounds = list.bounds;
+    return {{&list.x, &list.y, &list.z, &list.radius2, &bounds.outer2, &bounds.inner2,
+             &bounds.along, &bounds.moment, &bounds.size, &bounds.band2, &bounds.reach,
+             &list.distance}};
+}
+
+template <class Arena>
+inline void take_room(Arena& arena, SphereFilters& list, int count)
+{
+    share_block(arena, arrays_of(list).of, padded(count));
+    list.surface = arena.template take<std::int32_t>(padded(count));
+}
+
+/// The kind (kinds.hpp).
+struct Sphere : KindOf<abi::Primitive::sphere, abi::SurfaceKind::sphere> {
+    template <class Real>
+    using FromPoint = SharedOriginSpheres<Real>;
+    template <class Real>
+    using Selected = SelectedSpheres<Real>;
+    using Certain = SphereFilters;
+
+    template <class Real>
+    static const auto& list(const abi::GeometryView<Real>& scene)
+    {
+        return scene.spheres;
+    }
+    static const auto* shapes(const abi::ShapesView& shapes)
+    {
+        return shapes.spheres;
+    }
+};
+
+}  // namespace
+}  // namespace packtrace::PACKTRACE_ISA
