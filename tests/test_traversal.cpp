@@ -259,6 +259,38 @@ TEST_CASE("frames of wide packets keep to lists for longer than those of narrow 
     CHECK(frame_traversal(lower(random_spheres(600, 1)), Traversal::list, 4) == Traversal::list);
 }
 
+TEST_CASE("exact frames without mirrors or glass keep to lists for longest", "[traversal]")
+{
+    const auto chosen = [](const Scene& scene, Accuracy accuracy) {
+        return frame_traversal(lower(scene, accuracy), Traversal::automatic, 8);
+    };
+    const auto matt_spheres = [](int count) {
+        Scene scene = random_spheres(count, 1);
+        for (Object& object : scene.objects)
+            object.material = scratch(Rgb(0.5), 100.0, 0.0);
+        return scene;
+    };
+    CHECK(chosen(matt_spheres(380), Accuracy::exact) == Traversal::list);
+    CHECK(chosen(matt_spheres(390), Accuracy::exact) == Traversal::tree);
+    CHECK(chosen(matt_spheres(380), Accuracy::fast) == Traversal::tree);
+    // No ray is mirrored at depth 0.
+    Scene mirrors = random_spheres(380, 1);
+    CHECK(chosen(mirrors, Accuracy::exact) == Traversal::tree);
+    mirrors.max_depth = 0;
+    CHECK(chosen(mirrors, Accuracy::exact) == Traversal::list);
+    // A polygon counts as four.
+    Scene with_polygons = matt_spheres(200);
+    const auto add_triangle = [&](double z) {
+        const std::vector<Vec3> corners = {{0, 0, z}, {1, 0, z}, {0, 1, z}};
+        with_polygons.objects.push_back(make_object(Polygon{{corners}}, {}));
+    };
+    for (int i = 0; i < 45; ++i)
+        add_triangle(5.0 + i);
+    CHECK(chosen(with_polygons, Accuracy::exact) == Traversal::list);
+    add_triangle(4.0);
+    CHECK(chosen(with_polygons, Accuracy::exact) == Traversal::tree);
+}
+
 TEST_CASE("lists and hierarchies give the same hits and pictures", "[traversal]")
 {
     compare_on_every_isa(4, 3000, 1);

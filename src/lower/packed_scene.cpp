@@ -24,6 +24,12 @@ constexpr std::size_t frame_tree_objects(int lanes)
 {
     return lanes >= 16 ? 160 : lanes >= 8 ? 128 : 96;
 }
+/// In exact frames without mirrors or glass only short lists are left, whose bounds are found once
+/// a tile; a hierarchy's are found for each bundle of rays and leaf. So many spheres or quadrics,
+/// whatever the lanes (measured by packtrace_crossover).
+constexpr std::size_t plain_frame_tree_objects = 384;
+/// Meshes are met as quickly through a hierarchy from some 80 polygons on.
+constexpr std::size_t plain_objects_a_polygon = 4;
 
 /// So many shadow rays that run apart, to a block of spheres, pay for a light's buffer: a quarter
 /// of them where spheres are crowded, all of them where they are spread evenly
@@ -56,7 +62,8 @@ std::size_t weigh_tree_objects(const LoweredScene& lowered)
 {
     const TreeObjects objects = count_tree_objects(lowered);
     const bool with_bounds = sizeof(Real) == sizeof(float) && lowered.features.exact;
-    return objects.spheres + objects.others / (with_bounds ? bounded_objects_a_sphere : 1);
+    return objects.spheres +
+           (objects.quadrics + objects.polygons) / (with_bounds ? bounded_objects_a_sphere : 1);
 }
 
 template <class Real>
@@ -105,7 +112,13 @@ bool are_objects(const std::vector<abi::MaterialIndex>& surfaces)
 
 Traversal frame_traversal(const LoweredScene& lowered, Traversal traversal, int lanes)
 {
-    return chosen(traversal, count_tree_objects(lowered).all(), frame_tree_objects(lanes));
+    const TreeObjects objects = count_tree_objects(lowered);
+    if (lowered.features.exact && !(lowered.bounces && lowered.max_depth > 0))
+        return chosen(
+            traversal,
+            objects.spheres + objects.quadrics + objects.polygons * plain_objects_a_polygon,
+            plain_frame_tree_objects);
+    return chosen(traversal, objects.all(), frame_tree_objects(lanes));
 }
 
 LoweredScene shadow_casters(const LoweredScene& lowered)

@@ -57,8 +57,14 @@ TreeObjects count_tree_objects(const LoweredScene& lowered)
     TreeObjects count;
     for_each_surface(lowered, [&](const auto& surface) {
         using Kind = std::decay_t<decltype(surface)>;
-        if (is_in_tree(lowered, surface))
-            ++(std::is_same_v<Kind, LoweredSphere> ? count.spheres : count.others);
+        if (!is_in_tree(lowered, surface))
+            return;
+        if constexpr (std::is_same_v<Kind, LoweredSphere>)
+            ++count.spheres;
+        else if constexpr (std::is_same_v<Kind, LoweredPolygon>)
+            ++count.polygons;
+        else
+            ++count.quadrics;
     });
     return count;
 }

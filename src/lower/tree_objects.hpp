@@ -28,11 +28,12 @@ template <class Kind>
 /// How many objects of a scene can be in a hierarchy.
 struct TreeObjects {
     std::size_t spheres = 0;
-    std::size_t others = 0;
+    std::size_t quadrics = 0;
+    std::size_t polygons = 0;
 
     [[nodiscard]] std::size_t all() const
     {
-        return spheres + others;
+        return spheres + quadrics + polygons;
     }
 };
 
