@@ -49,13 +49,22 @@ py::tuple rows_of(const Matrix& value)
     return rows;
 }
 
+/// An array's rows come on a line each.
+py::object on_one_line(py::object text)
+{
+    py::list lines = text.attr("splitlines")();
+    for (std::size_t i = 0; i < lines.size(); ++i)
+        lines[i] = lines[i].attr("strip")();
+    return py::str(" ").attr("join")(lines);
+}
+
 }  // namespace
 
 void throw_wrong(const std::string& key, py::handle value, const std::string& use)
 {
     // Characters: a text that is cut within one is no message.
     constexpr py::ssize_t longest = 60;
-    const py::object all = py::repr(value);
+    const py::object all = on_one_line(py::repr(value));
     const bool is_long = PyUnicode_GET_LENGTH(all.ptr()) > longest;
     const py::object begin = all[py::slice(0, longest, 1)];
     const std::string shown = begin.attr("encode")("utf-8", "backslashreplace").cast<std::string>();
@@ -114,12 +123,16 @@ void from_python(py::handle value, const std::string& key, double& to)
 void from_python(py::handle value, const std::string& key, int& to)
 {
     const auto number = py::reinterpret_steal<py::object>(PyNumber_Index(value.ptr()));
-    const long long whole = number ? PyLong_AsLongLong(number.ptr()) : -1;
-    const bool failed = PyErr_Occurred() != nullptr;
     PyErr_Clear();
-    if (failed || PyBool_Check(value.ptr()) != 0 || whole < std::numeric_limits<int>::min() ||
-        whole > std::numeric_limits<int>::max())
+    if (!number || PyBool_Check(value.ptr()) != 0)
         throw_wrong(key, value, "a whole number");
+    constexpr int least = std::numeric_limits<int>::min();
+    constexpr int most = std::numeric_limits<int>::max();
+    int overflow = 0;
+    const long long whole = PyLong_AsLongLongAndOverflow(number.ptr(), &overflow);
+    if (overflow != 0 || whole < least || whole > most)
+        throw_wrong(key, value,
+                    "a whole number from " + std::to_string(least) + " to " + std::to_string(most));
     to = static_cast<int>(whole);
 }
 

@@ -205,6 +205,9 @@ class TestErrors(unittest.TestCase):
         self.refuses(r"material: .*class str; use the one that fits",
                      objects=[pt.Object(ball, "gold")])
         self.refuses(r"transform is \[1, 2\]; use 4 rows", objects=[pt.Object(ball, transform=[1, 2])])
+        self.refuses(r"^objects\[0\]: transform is array\(\[\[1\., 0\., 0\.\], \[0\., 1\., 0\.\], "
+                     r"\[0\., 0\., 1\.\]\]\); use 4 rows of 4 numbers\Z",
+                     objects=[pt.Object(ball, transform=np.eye(3))])
         self.refuses(r"use a matrix with the last row \(0, 0, 0, 1\)",
                      objects=[pt.Object(ball, transform=np.ones((4, 4)))])
         self.refuses(r"kind is 'egg'; use one of 'ellipsoid'", objects=[pt.Object(pt.Quadric("egg"))])
@@ -213,6 +216,9 @@ class TestErrors(unittest.TestCase):
         self.refuses(r"^lights\[0\]: type is 'sun'; use one of 'ambient'", lights=[pt.Light("sun")])
         self.refuses(r"^illumination is 'dark'; use one of", illumination="dark")
         self.refuses(r"^width is 2.5; use a whole number", width=2.5)
+        self.refuses(r"^width is 1099511627776; use a whole number from -2147483648 to 2147483647\Z",
+                     width=2**40)
+        self.refuses(r"^width is 1180591620717411303424; use a whole number from", width=2**70)
         self.refuses(r"^objects is 7; use a list", objects=7)
         self.refuses(r"^objects is <list_iterator.*>; use a list", objects=iter([pt.Object(ball)]))
         self.refuses(r"^objects\[0\]: name is '\\ud800'; use a text",
