@@ -5,6 +5,7 @@
 #include <memory>
 #include <numeric>
 #include <optional>
+#include <string>
 #include <vector>
 
 #include "bindings.hpp"
@@ -81,6 +82,13 @@ void complete_scalar(const RaysView<Real>& rays, const HitsView<Real>& hits)
                                              : org[axis][i] + hits.t[i] * dir[axis][i];
         }
     }
+}
+
+void check_count(const std::string& name, py::ssize_t count, std::size_t rays)
+{
+    if (static_cast<std::size_t>(count) != rays)
+        throw py::value_error("there are " + std::to_string(count) + " " + name + " and " +
+                              std::to_string(rays) + " rays; give one for each ray");
 }
 
 /// Columns of rays, and buffers of the threads that gather them.
@@ -268,6 +276,8 @@ private:
     void closest_from(const RayArrays& rays, const py::array& point, const Numbers& surface,
                       const HitsView<Real>& hits)
     {
+        check_count("points of starts", point.shape(0), rays.count());
+        check_count("surfaces of starts", surface.size(), rays.count());
         const HeldScene<Real> scene = ready<Real>();
         GatheredBlocks<Real, 3> points{
             ColumnBlocks<Real, 3>({column_of(point, 0), column_of(point, 1), column_of(point, 2)})};

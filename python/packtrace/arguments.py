@@ -7,14 +7,22 @@ import operator
 import os
 from typing import Any, Union
 
+import numpy as np
+
 Path = Union[str, bytes, "os.PathLike[str]", "os.PathLike[bytes]"]
+
+
+def shown(value: Any) -> str:
+    """What a value is, on one line that is not long."""
+    line = " ".join(part.strip() for part in repr(value).splitlines())
+    return line if len(line) <= 60 else line[:60] + "..."
 
 
 def whole(name: str, value: Any, most: int = 2**31 - 1) -> int:
     try:
         result = operator.index(value)
     except TypeError:
-        raise ValueError(f"{name} is {value!r}; use a whole number") from None
+        raise ValueError(f"{name} is {shown(value)}; use a whole number") from None
     if not 0 <= result <= most:
         raise ValueError(f"{name} is {result}; use a whole number from 0 to {most}")
     return result
@@ -26,15 +34,26 @@ def number(name: str, value: Any) -> float:
             raise TypeError
         return float(value)
     except (TypeError, ValueError):
-        raise ValueError(f"{name} is {value!r}; use a number") from None
+        raise ValueError(f"{name} is {shown(value)}; use a number") from None
     except OverflowError:
         raise ValueError(f"{name} is beyond double precision; use a smaller number") from None
+
+
+def precision(dtype: Any) -> np.dtype[Any]:
+    """What the argument `dtype` names."""
+    try:
+        result: np.dtype[Any] = np.dtype(dtype)
+    except (TypeError, ValueError):
+        raise ValueError(f"dtype is {shown(dtype)}; use np.float32 or np.float64") from None
+    if result not in (np.float32, np.float64):
+        raise ValueError(f"dtype is {result}; use np.float32 or np.float64")
+    return result
 
 
 def text(name: str, value: Any) -> bytes:
     """A text as UTF-8."""
     if not isinstance(value, (str, bytes)):
-        raise ValueError(f"{name} is {value!r}; use a text")
+        raise ValueError(f"{name} is {shown(value)}; use a text")
     return value if isinstance(value, bytes) else value.encode()
 
 

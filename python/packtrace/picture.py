@@ -8,7 +8,7 @@ from typing import Any, Callable, List, Literal, Optional, Tuple, Union
 import numpy as np
 
 from . import _packtrace
-from .arguments import Path, file_name, number, whole
+from .arguments import Path, file_name, number, precision, whole
 from .scene import Array, Scene
 
 
@@ -89,7 +89,7 @@ def render(scene: Scene, *, width: Optional[int] = None, height: Optional[int] =
     used, ValueError for an impossible option.
     """
     array, cut = _packtrace.render(
-        scene, width=width, height=height, dtype=_picture_dtype(dtype), frame=frame, kernel=kernel,
+        scene, width=width, height=height, dtype=precision(dtype), frame=frame, kernel=kernel,
         isa=isa, lanes=lanes, accuracy=accuracy, self_hits=self_hits, traversal=traversal,
         force_general=force_general, threads=threads, samples=samples, adaptive=adaptive,
         region=region, progress=progress)
@@ -129,13 +129,6 @@ def write_image(file: Path, picture: Array, *, gamma: float = 1.0) -> None:
 def to_png(picture: Array, *, gamma: float = 1.0) -> bytes:
     """The bytes of an 8-bit PNG file of a picture (height, width, 3)."""
     return _packtrace.to_png(_picture(picture, "picture"), number("gamma", gamma))
-
-
-def _picture_dtype(dtype: Any) -> np.dtype[Any]:
-    result = np.dtype(dtype)
-    if result not in (np.float32, np.float64):
-        raise ValueError(f"dtype is {result}; use np.float32 or np.float64")
-    return result
 
 
 def _picture(value: Any, name: str) -> Array:

@@ -16,7 +16,7 @@ from typing import Any, Dict, List, Literal, Optional, Tuple, Union
 import numpy as np
 
 from . import _packtrace
-from .arguments import whole
+from .arguments import precision, shown, whole
 from .scene import Array, Scene
 
 NO_START = -(2**31)
@@ -58,7 +58,11 @@ class Hits:
         if (self.surface is None or self.normal is None or self.point is None or
                 self.outer_start is None or self.inner_start is None):
             raise ValueError('these hits have no starts; ask for them: closest(..., detail="start")')
-        directions = np.asarray(directions, self.t.dtype)
+        try:
+            directions = np.asarray(directions, self.t.dtype)
+        except (TypeError, ValueError, OverflowError):
+            raise ValueError(f"directions is {shown(directions)}; use an array of shape "
+                             f"{self.normal.shape}") from None
         if directions.shape not in (self.normal.shape, (3,)):
             raise ValueError(f"directions have shape {directions.shape}; these hits need "
                              f"{self.normal.shape}")
@@ -120,7 +124,7 @@ class RayScene:
                                            traversal=traversal, threads=threads)
         self._scalar = kernel == "scalar"
         if dtype is not None:
-            self._native.prepare(_checked_dtype(np.dtype(dtype), "dtype"))
+            self._native.prepare(precision(dtype))
 
     def update(self, scene: Scene) -> SceneUpdate:
         """Takes over where the objects of `scene` are now: surfaces and transforms of the objects, in
@@ -160,7 +164,7 @@ class RayScene:
         starts = origins if isinstance(origins, Starts) else None
         rays = _Rays(origins if starts is None else starts.origin, directions, t_min, t_max)
         if detail not in _DETAILS:
-            raise ValueError(f"detail is {detail!r}; use one of {', '.join(map(repr, _DETAILS))}")
+            raise ValueError(f"detail is {shown(detail)}; use one of {', '.join(map(repr, _DETAILS))}")
         if detail == "start" and self._scalar:
             raise ValueError('the scalar kernel gives no starts; use detail="point" or '
                              'kernel="packet"')
@@ -188,15 +192,13 @@ class RayScene:
         if hits is not None and (hits.point is None or hits.surface is None):
             raise ValueError('these hits have no surfaces; ask for them: '
                              'closest(..., detail="start")')
-        places = _array(points if hits is None else hits.point)
+        places = _array("points", points if hits is None else hits.point)
         _checked_dtype(places.dtype, "points")
         if places.ndim == 0 or places.shape[-1] != 3:
             raise ValueError(f"points has shape {places.shape}; use (..., 3), such as (n, 3)")
         mask = np.empty(places.shape[:-1], np.bool_)
-        surface = None if hits is None or hits.surface is None else hits.surface.reshape(-1)
-        if hits is not None and surface is not None and surface.size != mask.size:
-            raise ValueError(f"hits.surface has {surface.size} elements and hits.point "
-                             f"{mask.size} points; give both as closest gave them")
+        surface = None if hits is None else _checked_part(
+            hits.surface, "hits.surface", mask.shape, np.dtype(np.int32)).reshape(-1)
         if isinstance(light, (int, np.integer)) and light < 0:
             raise ValueError(f"lights[{light}]; lights count from 0, and none from the end")
         self._native.lit(places.reshape(-1, 3), surface, whole("light", light), mask.reshape(-1))
@@ -232,7 +234,8 @@ class _Rays:
 
     def __init__(self, origins: Any, directions: Any, t_min: Any, t_max: Any) -> None:
         # What is no array has the other's precision.
-        vectors = {"origins": _array(origins, directions), "directions": _array(directions, origins)}
+        vectors = {"origins": _array("origins", origins, directions),
+                   "directions": _array("directions", directions, origins)}
         for name, array in vectors.items():
             _checked_dtype(array.dtype, name)
             if array.ndim == 0 or array.shape[-1] != 3:
@@ -261,22 +264,30 @@ class _Rays:
                     raise TypeError
                 array = np.asarray(t, self.dtype)
             except (TypeError, ValueError, OverflowError):
-                raise ValueError(f"{name} is {t!r}; use a number or an array of numbers") from None
+                raise ValueError(f"{name} is {shown(t)}; use a number or an array of numbers") from None
         if array.ndim > 0 and array.shape != self.shape:
             raise ValueError(f"{name} has shape {array.shape}; use a number or the rays' shape "
                              f"{self.shape}")
         return array
 
 
-def _array(value: Any, beside: Any = None) -> Array:
+def _array(name: str, value: Any, beside: Any = None) -> Array:
     if isinstance(value, np.ndarray):
         return value
+    if isinstance(value, Starts):
+        raise ValueError(f"{name} are Starts, which are for the origins of closest alone; use their "
+                         "array, such as starts.origin")
+    if isinstance(value, Hits):
+        raise ValueError(f"{name} are Hits; use one of their arrays, such as hits.point, or for the "
+                         "origins of closest hits.leave(directions)")
     is_single = isinstance(beside, np.ndarray) and beside.dtype == np.float32
     try:
+        if value is None:  # which NumPy takes for a NaN
+            raise TypeError
         return np.asarray(value, np.float32 if is_single else np.float64)
     except (TypeError, ValueError, OverflowError):
-        raise ValueError(f"{value!r} is no array of vectors; use a NumPy array of shape (..., 3)"
-                         ) from None
+        raise ValueError(f"{name} is {shown(value)}, which is no array of vectors; use a NumPy array "
+                         "of shape (..., 3)") from None
 
 
 def _checked_dtype(dtype: np.dtype[Any], name: str) -> np.dtype[Any]:
@@ -342,6 +353,8 @@ def _checked_hits(hits: Hits, rays: _Rays, detail: Detail) -> Hits:
         if (given.shape, given.dtype) != (array.shape, array.dtype):
             raise ValueError(f"out.{name} is {given.dtype} of shape {given.shape}; these rays need "
                              f"{array.dtype} of shape {array.shape}, as an earlier call gave it")
+        if not given.flags.writeable:
+            raise ValueError(f"out.{name} is read-only; use hits that may be overwritten")
         if given.strides != array.strides:
             raise ValueError(f"out.{name} has strides {given.strides}; hits are written with strides "
                              f"{array.strides}, as an earlier call gave them")
@@ -364,7 +377,17 @@ def _flat_starts(starts: Optional[Starts], rays: _Rays
                  ) -> Tuple[Optional[Array], Optional[Array]]:
     if starts is None:
         return None, None
-    if starts.point.shape != (*rays.shape, 3) or starts.point.dtype != rays.dtype:
-        raise ValueError(f"the starts are {starts.point.dtype} of shape {starts.point.shape}; these "
-                         f"rays are {rays.dtype} of shape {(*rays.shape, 3)}")
-    return starts.point.reshape(-1, 3), starts.surface.reshape(-1)
+    point = _checked_part(starts.point, "starts.point", (*rays.shape, 3), rays.dtype)
+    surface = _checked_part(starts.surface, "starts.surface", rays.shape, np.dtype(np.int32))
+    return point.reshape(-1, 3), surface.reshape(-1)
+
+
+def _checked_part(value: Any, name: str, shape: Tuple[int, ...], dtype: np.dtype[Any]) -> Array:
+    """An array of hits or starts, which their owner may have replaced."""
+    if not isinstance(value, (np.ndarray, np.generic)):
+        raise ValueError(f"{name} is {shown(value)}; use the array that packtrace gave")
+    array = np.asarray(value)
+    if array.shape != shape or array.dtype != dtype:
+        raise ValueError(f"{name} is {array.dtype} of shape {array.shape}; use {dtype} of shape "
+                         f"{shape}, as packtrace gave it")
+    return array

@@ -138,6 +138,8 @@ class TestRender(unittest.TestCase):
         for message, options in (("width is 0; use a number of pixels", {"width": 0}),
                                  ("height is 1.5; use a whole number", {"height": 1.5}),
                                  ("dtype is int32; use np.float32", {"dtype": np.int32}),
+                                 ("^dtype is 'x'; use np.float32", {"dtype": "x"}),
+                                 ("^height is 4294967296; use a whole number from", {"height": 2**32}),
                                  ("samples", {"samples": 0}),
                                  ("adaptive", {"adaptive": -1.0, "samples": 4}),
                                  ("accuracy is 'auto'; use one of 'fast', 'exact'",

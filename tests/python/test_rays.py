@@ -1,5 +1,6 @@
 """Rays: answers are the program's, bit for bit; arrays are neither copied nor guessed at."""
 
+import dataclasses
 import signal
 import threading
 import unittest
@@ -202,13 +203,60 @@ class TestArrays(unittest.TestCase):
         with self.assertRaisesRegex(ValueError, "surface [0-9]+ of 1;"):
             lit.lit(hits, 0)
         hits.surface = hits.surface[:5]
-        with self.assertRaisesRegex(ValueError, "5 elements"):
+        with self.assertRaisesRegex(ValueError, r"hits.surface is int32 of shape \(5,\)"):
             lit.lit(hits, 0)
         for number in (2**32, -2**32, 2**31):
             with self.assertRaisesRegex(ValueError, str(number)):
                 self.rays.bounds((0, 0, 0), (0, 0, 1), np.int64(number))
             with self.assertRaisesRegex(ValueError, str(number)):
                 self.rays.transform(np.array([number]), np.eye(4)[None])
+
+    def test_parts_of_starts_and_hits_that_were_replaced_are_refused_in_one_line(self):
+        origins, directions = random_rays(10)
+        lit = pt.RayScene(pt.Scene(objects=[pt.Object(pt.Sphere((0, 0, 5), 1))],
+                                   lights=[pt.Light("point", 1, (0, 5, 0))]))
+        hits = lit.closest(origins, directions, detail="start")
+        starts = hits.leave(directions)
+        for wrong in (starts.surface[:1], starts.surface.astype(np.int64), None, [0] * 10):
+            changed = dataclasses.replace(starts, surface=wrong)
+            with self.assertRaisesRegex(ValueError, r"^starts.surface is .*; use [^\n]*\Z"):
+                lit.closest(changed, directions)
+            changed = dataclasses.replace(hits, surface=[] if wrong is None else wrong)
+            with self.assertRaisesRegex(ValueError, r"^hits.surface is .*; use [^\n]*\Z"):
+                lit.lit(changed, 0)
+        for wrong in (starts.point[:1], starts.point.astype(np.float32), None):
+            changed = dataclasses.replace(starts, point=wrong)
+            with self.assertRaisesRegex(ValueError, r"^starts.point is .*; use [^\n]*\Z"):
+                lit.closest(changed, directions)
+        one = pt.Starts(starts.origin[3], starts.point[3], starts.surface[3])
+        self.assertEqual(lit.closest(one, directions[3]).t, lit.closest(starts, directions).t[3])
+
+    def test_the_compiled_part_reads_no_further_than_arrays_go(self):
+        # What rays.py refuses before it comes here.
+        rays = [np.ones((10, 3)), np.ones((10, 3)), np.zeros(10), np.ones(10)]
+        hits = [np.empty(10), np.empty(10, np.int32), None, None, None, None, None]
+        for points, surfaces in ((10, 1), (1, 10)):
+            with self.assertRaisesRegex(ValueError, "1 .*10 rays"):
+                self.rays._native.closest(*rays, np.ones((points, 3)), np.zeros(surfaces, np.int32),
+                                          *hits)
+
+    def test_starts_and_hits_are_no_vectors(self):
+        origins, directions = random_rays(10)
+        hits = self.rays.closest(origins, directions, detail="start")
+        starts = hits.leave(directions)
+        for ask in (self.rays.occluded, self.rays.all_hits,
+                    lambda a, b: self.rays.bounds(a, b, hits.object)):
+            with self.assertRaisesRegex(ValueError, "^origins are Starts, which are for the origins of"
+                                                    " closest alone"):
+                ask(starts, directions)
+        with self.assertRaisesRegex(ValueError, "^points are Starts"):
+            self.rays.lit(starts, 0)
+        with self.assertRaisesRegex(ValueError, "^origins are Hits; use .*hits.point"):
+            self.rays.closest(hits, directions)
+        with self.assertRaisesRegex(ValueError, "^origins is None, which is no array of vectors"):
+            self.rays.closest(dataclasses.replace(starts, origin=None), directions)
+        with self.assertRaisesRegex(ValueError, r"^directions is 'x'; use an array of shape \(10, 3\)"):
+            hits.leave("x")
 
     def test_what_is_no_number_or_array_is_refused(self):
         for ends in ((None, 9), (0, None)):
@@ -265,7 +313,7 @@ class TestArrays(unittest.TestCase):
         with self.assertRaisesRegex(ValueError, "out.normal is not None"):
             self.rays.closest(origins, directions, out=hits, detail="t")
         hits.t.flags.writeable = False
-        with self.assertRaisesRegex(ValueError, "writ"):
+        with self.assertRaisesRegex(ValueError, "^out.t is read-only; use hits"):
             self.rays.closest(origins, directions, out=hits)
 
     def test_wrong_arrays_are_refused(self):
@@ -298,6 +346,7 @@ class TestArrays(unittest.TestCase):
                                  ("isa.*mmx", {"isa": "mmx"}),
                                  ("threads is -1", {"threads": -1}),
                                  ("lanes is 'many'", {"lanes": "many"}),
+                                 ("^dtype is 'x'; use np.float32 or np.float64", {"dtype": "x"}),
                                  ("dtype is int64", {"dtype": int})):
             with self.subTest(message), self.assertRaisesRegex(ValueError, message):
                 pt.RayScene(scene, **options)
