@@ -150,6 +150,44 @@ TEST_CASE("packets and the scalar reference cut the same rays", "[min_weight]")
         }
 }
 
+TEST_CASE("a weight that equals min_weight in decimals is traced in every precision",
+          "[min_weight]")
+{
+    const auto decimals = [](int number, int digits) {
+        std::string text = std::to_string(number);
+        return "0." + std::string(static_cast<std::size_t>(digits) - text.size(), '0') + text;
+    };
+    constexpr int pixels = 5 * 5;
+    for (int percent = 5; percent <= 95; percent += 5) {
+        const Scene scene = parse(
+            "image_size = 5 x 5\nillumination = general\nmax_depth = 4\n"
+            "light { type = ambient intensity = 1 }\n"
+            "plane { point = (0, 0, 5) normal = (0, 0, -1) ambient = 0.5 reflect = " +
+            decimals(percent, 2) +
+            " }\n"
+            "plane { point = (0, 0, -5) normal = (0, 0, 1) ambient = 0.5 reflect = " +
+            decimals(percent, 2) + " }\n");
+        int power = 1;
+        for (int bounces = 1; bounces <= 3; ++bounces) {
+            power *= percent;
+            const double weight = std::stod(decimals(power, 2 * bounces));
+            const CutRays expected = render_cut<long double>(scene, weight, scalar_options()).cut;
+            CAPTURE(percent, bounces, weight);
+            CHECK(expected.rays == pixels);
+            const auto check_same = [&](const CutRays& cut) {
+                CHECK(cut.rays == expected.rays);
+                CHECK(cut.bound == Approx(expected.bound).epsilon(1e-5));
+            };
+            check_same(render_cut<float>(scene, weight).cut);
+            check_same(render_cut<double>(scene, weight).cut);
+            check_same(render_cut<float>(scene, weight, scalar_options()).cut);
+            check_same(render_cut<double>(scene, weight, scalar_options()).cut);
+            // One that is a thousandth less is not.
+            CHECK(render_cut<double>(scene, weight * 1.001).cut.bound > 1.01 * expected.bound);
+        }
+    }
+}
+
 TEST_CASE("what is cut depends on no width, number of threads, hierarchy or kernel", "[min_weight]")
 {
     std::vector<std::string> isas = fused_isas();

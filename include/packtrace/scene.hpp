@@ -37,7 +37,8 @@ struct Scene {
     Illumination illumination = Illumination::scratch;
     int max_depth = 3;  ///< reflections and refractions after the camera ray, >= 0
     /// A mirrored or refracted ray is not traced, and brings nothing, where its colour would be
-    /// multiplied by less than this in every channel on its way to the eye; 0 … 1.
+    /// multiplied by less than this in every channel on its way to the eye; 0 … 1. What is less by
+    /// no more than 2⁻¹⁶ of it, as products are by rounding, counts as equal.
     double min_weight = 0.0;
     DepthLimit depth_limit = DepthLimit::local;
     ShadowKind shadows = ShadowKind::opaque;

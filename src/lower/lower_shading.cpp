@@ -6,6 +6,8 @@
 #include <glm/geometric.hpp>
 #include <glm/matrix.hpp>
 
+#include "core/cut_rays.hpp"
+
 namespace packtrace {
 namespace {
 
@@ -178,7 +180,7 @@ void lower_model_rules(const Scene& scene, LoweredScene& lowered)
     lowered.background = scene.background;
     lowered.limit_color = limit_color(scene);
     lowered.max_depth = scene.max_depth;
-    lowered.min_weight = scene.min_weight;
+    lowered.min_weight = least_traced_weight(scene.min_weight);
     lowered.shadows = scene.shadows != ShadowKind::none;
     lowered.visible_lights = scene.illumination == Illumination::sketch;
     lowered.units = scratch ? abi::RayUnits::as_given : abi::RayUnits::unit;

@@ -43,7 +43,7 @@ struct LoweredScene : SurfaceLists {
     Rgb background{0.0};
     Rgb limit_color{0.0};  ///< what rays beyond the depth limit bring
     int max_depth = 0;
-    double min_weight = 0.0;  ///< Scene::min_weight
+    double min_weight = 0.0;  ///< least_traced_weight()
     bool shadows = true;
     bool flat = false;  ///< see prune()
     bool transparent_shadows = false;

@@ -3,6 +3,7 @@
 #include <packtrace/image.hpp>
 #include <packtrace/render.hpp>
 #include <packtrace/scene.hpp>
+#include "core/cut_rays.hpp"
 #include "reference/surfaces/bodies.hpp"
 #include "reference/surfaces/hits.hpp"
 #include "reference/vec3.hpp"
@@ -140,7 +141,7 @@ struct World {
     Color<Real> background;
     ShadowKind shadows;
     int max_depth;
-    Real min_weight;
+    Real min_weight;  ///< least_traced_weight()
     Canvas<Real> canvas;
     SelfHits self_hits;
 
@@ -154,7 +155,7 @@ World<Real>::World(const Scene& scene, SelfHits rule)
       background(scene.background),
       shadows(scene.shadows),
       max_depth(scene.max_depth),
-      min_weight(static_cast<Real>(scene.min_weight)),
+      min_weight(static_cast<Real>(least_traced_weight(scene.min_weight))),
       canvas(scene),
       self_hits(rule)
 {

@@ -92,7 +92,8 @@ inline const Rows<Scene> rows<Scene>{
         "reflections and refractions after the camera ray"),
     row("min_weight", number(share), &Scene::min_weight,
         "a mirrored or refracted ray is not traced where its colour would be multiplied by less in "
-        "every channel on its way to the eye; `render` says how far off that can make a pixel"),
+        "every channel on its way to the eye (what is less by at most 2^-16 of it counts as "
+        "equal); `render` says how far off that can make a pixel"),
     row("depth_limit", choice<DepthLimit>(), &Scene::depth_limit,
         "`general` only: what a ray adds that would have to go deeper")
         .only_if([](const Scene& scene) { return scene.illumination == Illumination::general; },
