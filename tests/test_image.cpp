@@ -136,8 +136,14 @@ TEST_CASE("gamma raises a PNG's values to its inverse", "[image]")
     write_image(folder / "a.png", image_of(1, 1, {0.25f, nan, -0.25f}), {.gamma = 2.0});
     CHECK(read_image(folder / "a.png").rgb == Pixels{128.0f / 255, 0, 0});
     for (const double bad : {0.0, -1.0, std::nan(""), static_cast<double>(inf)})
-        CHECK_THROWS_AS(write_image(folder / "b.png", gradient(1, 1), {.gamma = bad}),
-                        std::invalid_argument);
+        for (const char* name : {"b.png", "b.pfm", "b.hdr"})
+            CHECK_THROWS_AS(write_image(folder / name, gradient(1, 1), {.gamma = bad}),
+                            std::invalid_argument);
+    for (const char* name : {"b.pfm", "b.hdr"})
+        CHECK(refusal<std::invalid_argument>(
+                  [&] { write_image(folder / name, gradient(1, 1), {.gamma = 2.2}); }) ==
+              "gamma: only PNG has one; .pfm and .hdr hold linear values; leave it out or "
+              "write .png");
     CHECK(folder.names() == std::vector<std::string>{"a.png"});
 }
 

@@ -15,7 +15,8 @@ struct PACKTRACE_API ImageError : std::runtime_error {
 };
 
 struct ImageWriteOptions {
-    /// PNG only: values are raised to 1 / gamma before rounding; 1 writes them linear.
+    /// PNG only: values are raised to 1 / gamma before rounding; 1 writes them linear. Other
+    /// formats take 1 alone.
     double gamma = 1.0;
     /// At most 2000 printable ASCII characters that say what made the picture; empty for none. A
     /// PNG keeps it in a text chunk, other formats in a file beside the picture, named as the
@@ -28,8 +29,8 @@ struct ImageWriteOptions {
 /// (32-bit float) or `.hdr` (Radiance RGBE). Values are rounded once, from `Real` (float, double or
 /// long double) to what the file holds; a Radiance file is made from floats. Writes to a temporary
 /// name beside `file` and renames it when complete. Throws ImageError, and std::invalid_argument
-/// for a gamma that is not positive and finite, a recipe that is no such text, and an `image` whose
-/// `rgb` has not three values a pixel.
+/// for a gamma that is not positive and finite or that the format has not, a recipe that is no such
+/// text, and an `image` whose `rgb` has not three values a pixel.
 template <class Real>
 PACKTRACE_API void write_image(const std::filesystem::path& file, const Image<Real>& image,
                                const ImageWriteOptions& options = {});

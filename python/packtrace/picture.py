@@ -121,7 +121,8 @@ def read_image(file: Path) -> Picture:
 
 def write_image(file: Path, picture: Array, *, gamma: float = 1.0) -> None:
     """Writes a picture (height, width, 3) by the file's extension: .png (8 bits, raised to 1 / gamma),
-    .pfm (float32) or .hdr. The file appears whole or not at all. Raises ImageError."""
+    .pfm (float32) or .hdr, which are linear and take no gamma. The file appears whole or not at all.
+    Raises ImageError, and ValueError for an impossible gamma."""
     _packtrace.write_image(file_name(file), _picture(picture, "picture"),
                            number("gamma", gamma))
 

@@ -80,6 +80,15 @@ Bytes encode(ImageFormat format, const Image<Real>& image, const ImageWriteOptio
         return encode_hdr(convert<float>(image));
 }
 
+/// What a PNG may have, its encoder checks.
+void check_gamma(ImageFormat format, double gamma)
+{
+    if (format != ImageFormat::png && gamma != 1.0)
+        throw std::invalid_argument(
+            "gamma: only PNG has one; .pfm and .hdr hold linear values; leave it out or write "
+            ".png");
+}
+
 void check_recipe(const std::string& recipe)
 {
     const auto printable = [](char letter) { return letter >= ' ' && letter <= '~'; };
@@ -133,6 +142,7 @@ void write_image(const std::filesystem::path& file, const Image<Real>& image,
                  const ImageWriteOptions& options)
 {
     const ImageFormat format = image_format(file);
+    check_gamma(format, options.gamma);
     check_recipe(options.recipe);
     if (image.width < 1 || image.height < 1)
         throw ImageError(file.string() + ": can't write a picture without pixels");

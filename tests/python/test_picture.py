@@ -182,6 +182,8 @@ class TestCompare(unittest.TestCase):
         calls = {"gamma is 'a'; use a number": lambda: pt.to_png(a, gamma="a"),
                  "gamma is None; use a number": lambda: pt.write_image("a.png", a, gamma=None),
                  "gamma is beyond double": lambda: pt.to_png(a, gamma=10**400),
+                 "gamma: only PNG has one": lambda: pt.write_image("a.pfm", a, gamma=2.2),
+                 "gamma: only PNG has one; ": lambda: pt.write_image("a.hdr", a, gamma=2.2),
                  "threshold is '1'; use a number": lambda: pt.compare(a, a, threshold="1"),
                  "worst is 1.5; use a whole number": lambda: pt.compare(a, a, worst=1.5),
                  "worst is -1; use a whole number": lambda: pt.compare(a, a, worst=-1),
