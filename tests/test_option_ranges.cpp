@@ -88,6 +88,25 @@ TEST_CASE("values that an enumeration lacks are refused", "[option_ranges]")
             "traversal: 9; choose from 0 to 2");
 }
 
+TEST_CASE("what only packets have a choice of is refused by the scalar kernel", "[option_ranges]")
+{
+    const auto refused = [](const auto& change, const std::string& choice) {
+        RenderOptions options{.kernel = Kernel::scalar};
+        change(options);
+        const std::string wanted = "the scalar kernel has no " + choice +
+                                   ", only packets do; leave it out or use the packet kernel";
+        CHECK(refusal<std::invalid_argument>([&] { (void)render<float>(one_ball(), options); }) ==
+              wanted);
+        CHECK(refusal<std::invalid_argument>([&] { RayScene<double>(one_ball(), options); }) ==
+              wanted);
+    };
+    refused([](RenderOptions& options) { options.isa = "avx2"; }, "isa");
+    refused([](RenderOptions& options) { options.width = 8; }, "lanes");
+    refused([](RenderOptions& options) { options.traversal = Traversal::tree; }, "traversal");
+    refused([](RenderOptions& options) { options.accuracy = Accuracy::fast; }, "fast accuracy");
+    refused([](RenderOptions& options) { options.force_general = true; }, "force_general");
+}
+
 TEST_CASE("reports and profiles refuse what they can't measure by", "[option_ranges]")
 {
     for (const int repetitions : {0, -1, 1001}) {

@@ -48,12 +48,13 @@ struct Region {
     [[nodiscard]] bool operator==(const Region&) const = default;
 };
 
+/// What is marked "packet kernel" the scalar kernel refuses, but for the defaults.
 struct RenderOptions {
     Kernel kernel = Kernel::packet;
-    std::string isa = "auto";  ///< packet kernel: see choose_isa
-    Accuracy accuracy = Accuracy::exact;
+    std::string isa = "auto";             ///< packet kernel: see choose_isa
+    Accuracy accuracy = Accuracy::exact;  ///< packet kernel
     SelfHits self_hits = default_self_hits;
-    int width = 0;  ///< packet kernel: float lanes 4, 8 or 16; 0 is any
+    int width = 0;  ///< packet kernel: float lanes 1, 4, 8 or 16; 0 is any
     Traversal traversal = Traversal::automatic;  ///< packet kernel
     /// Packet kernel: run the one that knows everything, and leave nothing out of the scene. The
     /// picture is the same, bit for bit, unless objects share one place (docs/features.md).

@@ -14,6 +14,7 @@
 #include <packtrace/isa.hpp>
 #include <packtrace/validate.hpp>
 
+#include "render/check_options.hpp"
 #include "render/moved_objects.hpp"
 
 namespace packtrace::python {
@@ -27,6 +28,7 @@ public:
         : scene_(std::move(scene)), options_(options)
     {
         validate(scene_);
+        check_kernel(options_);
         // Throws where there is no such kernel.
         if (options_.kernel == Kernel::packet)
             options_.isa = choose_isa(options_.isa, options_.width).name;

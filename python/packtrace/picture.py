@@ -76,7 +76,7 @@ def render(scene: Scene, *, width: Optional[int] = None, height: Optional[int] =
     width, height: pixels, instead of the scene's; one alone keeps the picture's shape.
     frame: the frame of the scene's animation, 0 being the first.
     kernel, isa, lanes, accuracy, self_hits, traversal: as for RayScene.
-    force_general: uses the kernel that knows everything; the picture is the same.
+    force_general: uses the packet kernel that knows everything; the picture is the same.
     threads: 0 is one a processor. The picture is the same whatever their number.
     samples: a pixel, 1 to 1024, whose mean is its colour.
     adaptive: contrast of 0 or more above which a pixel gets its samples; others get one.

@@ -100,7 +100,7 @@ class RayScene:
     """A scene made ready for rays. It copies what it needs: later changes to `scene` count when
     `update` is called.
 
-    kernel: "packet", or "scalar" for the reference.
+    kernel: "packet", or "scalar" for the reference, which refuses isa, lanes, traversal and "fast".
     isa: instruction set of the packet kernel, see `packtrace.isas()`; "auto" takes the widest.
     lanes: 1, 4, 8 or 16 rays of floats in a packet; 0 is any.
     accuracy: "exact", or "fast" for single precision alone in rays of float32.

@@ -19,18 +19,35 @@ inline void check_enumeration(const std::string& option, Enumeration value, Enum
     check_number(option, static_cast<int>(value), 0, static_cast<int>(last));
 }
 
-inline void check_enumerations(const RenderOptions& options)
+/// Throws std::invalid_argument for a choice that only packets have.
+inline void check_scalar(const RenderOptions& options)
+{
+    const char* const choice = options.isa != "auto"                       ? "isa"
+                               : options.width != 0                        ? "lanes"
+                               : options.traversal != Traversal::automatic ? "traversal"
+                               : options.accuracy != Accuracy::exact       ? "fast accuracy"
+                               : options.force_general                     ? "force_general"
+                                                                           : nullptr;
+    if (choice != nullptr)
+        throw std::invalid_argument(std::string("the scalar kernel has no ") + choice +
+                                    ", only packets do; leave it out or use the packet kernel");
+}
+
+/// Throws std::invalid_argument for values that are none, and for what the kernel has no choice of.
+inline void check_kernel(const RenderOptions& options)
 {
     check_enumeration("kernel", options.kernel, Kernel::scalar);
     check_enumeration("accuracy", options.accuracy, Accuracy::exact);
     check_enumeration("self_hits", options.self_hits, SelfHits::exact);
     check_enumeration("traversal", options.traversal, Traversal::tree);
+    if (options.kernel == Kernel::scalar)
+        check_scalar(options);
 }
 
 /// Returns the options. Throws std::invalid_argument with one line for those that are impossible.
 inline const RenderOptions& checked_options(const RenderOptions& options)
 {
-    check_enumerations(options);
+    check_kernel(options);
     check_number("threads", options.threads, 0, most_threads);
     check_number("samples", options.samples, 1, most_samples);
     if (!options.adaptive)

@@ -50,7 +50,7 @@ template <class Real>
 RayScene<Real>::RayScene(const Scene& scene, const RenderOptions& options)
     : state_(std::make_unique<State>(scene))
 {
-    check_enumerations(options);
+    check_kernel(options);
     if (options.kernel == Kernel::scalar) {
         validate(scene);
         state_->backend = scalar_backend<Real>(scene);

@@ -350,6 +350,9 @@ class TestArrays(unittest.TestCase):
                                  ("dtype is int64", {"dtype": int})):
             with self.subTest(message), self.assertRaisesRegex(ValueError, message):
                 pt.RayScene(scene, **options)
+        for choice in ({"isa": "avx2"}, {"lanes": 8}, {"traversal": "tree"}, {"accuracy": "fast"}):
+            with self.assertRaisesRegex(ValueError, "^the scalar kernel has no [^\n]*; leave it out"):
+                pt.RayScene(scene, kernel="scalar", **choice)
         with self.assertRaisesRegex(pt.SceneError, "radius"):
             pt.RayScene(pt.Scene(objects=[pt.Object(pt.Sphere(radius=-1))]))
 
