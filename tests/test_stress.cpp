@@ -637,6 +637,10 @@ TEST_CASE("the stress command prints rows, a verdict, JSON and its families", "[
     CHECK(run_packtrace({"stress", "--family", "nonsense"}).exit_code == 2);
     CHECK(run_packtrace({"stress", "--rays", "0"}).exit_code == 2);
     CHECK(run_packtrace({"stress", "--mode", "nonsense"}).exit_code == 2);
+    const ProgramResult doubles =
+        run_packtrace({"stress", "--precision", "double", "--mode", "fast"});
+    CHECK(doubles.exit_code == 2);
+    CHECK_THAT(doubles.err, ContainsSubstring("--mode: only packets of floats have a choice"));
     CHECK(run_packtrace({"stress", "--self-hits", "nonsense"}).exit_code == 2);
 }
 

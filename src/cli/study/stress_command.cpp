@@ -82,6 +82,10 @@ lab::StressOptions stress_options(const StressArguments& arguments)
         throw CLI::ValidationError(
             "--isa, --mode, --traversal: only packets have them; add --kernel packet or leave "
             "them out");
+    const auto& precisions = arguments.options.precisions;
+    if (!arguments.options.modes.empty() && !lab::wanted(precisions, "single"))
+        throw CLI::ValidationError(
+            "--mode: only packets of floats have a choice; leave it out or add --precision single");
     lab::StressOptions options = arguments.options;
     if (arguments.isa)
         options.isa = chosen_isa({arguments.isa, {}}).name;
