@@ -1,6 +1,7 @@
 // Regions of a picture, and renders that are stopped.
 #include <packtrace/renderer.hpp>
 
+#include <chrono>
 #include <stop_token>
 #include <string>
 #include <thread>
@@ -167,6 +168,23 @@ TEST_CASE("another thread can stop a render", "[region]")
     const RenderOptions options{.samples = 1024, .stop = source.get_token()};
     const std::jthread stopper([&] { source.request_stop(); });
     CHECK_THROWS_AS((void)render<float>(quadrics_of_size(1024, 1024), options), StopError);
+}
+
+TEST_CASE("the scalar kernel stops within a row", "[region]")
+{
+    double reached = 0.0;
+    std::stop_source source;
+    const RenderOptions options{.kernel = Kernel::scalar,
+                                .samples = 256,
+                                .progress = [&](double share) { reached = share; },
+                                .stop = source.get_token()};
+    const std::jthread stopper([&] {
+        std::this_thread::sleep_for(std::chrono::milliseconds(20));
+        source.request_stop();
+    });
+    // Rows are reported when they are done.
+    CHECK_THROWS_AS((void)render<float>(quadrics_of_size(65536, 1), options), StopError);
+    CHECK(reached == 0.0);
 }
 
 TEST_CASE("render --region writes a part of the picture", "[region]")

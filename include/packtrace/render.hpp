@@ -71,8 +71,8 @@ struct RenderOptions {
     /// Called now and then with the share of the picture done, in [0, 1]; may be called from
     /// any thread, one at a time.
     std::function<void(double)> progress = {};
-    /// When a stop is requested rendering throws StopError, some tiles later. A scene is made ready
-    /// to the end.
+    /// When a stop is requested rendering throws StopError, some tiles later, or some pixels with
+    /// the scalar kernel. A scene is made ready to the end.
     std::stop_token stop = {};
     /// Within the picture. Not set: all of it. The image has the region's size, and its pixels have
     /// the bits they have in the whole picture. Rays are counted of all tiles of 16 x 16 pixels

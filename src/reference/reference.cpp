@@ -40,21 +40,9 @@ Color<Real> Reference<Real, Recorder>::trace_ray(const Vec3<Real>& org, const Ve
 }
 
 template <class Real, class Recorder>
-Color<Real> Reference<Real, Recorder>::trace_pixel(int i, int j) const
+Color<Real> Reference<Real, Recorder>::trace_pixel(int i, int j, CutCounter* cuts) const
 {
-    return trace_ray(world_.canvas.position, world_.canvas.canvas_to_viewport(i, j));
-}
-
-// The last lines of note 001, one row of them.
-template <class Real, class Recorder>
-void Reference<Real, Recorder>::trace_row(int j, const Region& region, Image<Real>& image,
-                                          CutCounter* cuts) const
-{
-    for (int i = region.x; i < region.x + region.width; ++i) {
-        const Vec3<Real> D = world_.canvas.canvas_to_viewport(i, j);
-        const Color<Real> color = trace_ray(world_.canvas.position, D, cuts);
-        put_pixel(image, i - region.x, j - region.y, color);
-    }
+    return trace_ray(world_.canvas.position, world_.canvas.canvas_to_viewport(i, j), cuts);
 }
 
 template <class Real, class Recorder>

@@ -29,16 +29,12 @@ public:
     Reference& operator=(const Reference&) = delete;
 
     /// The colour of the pixel in column `i` and row `j`, not clamped.
-    [[nodiscard]] Color<Real> trace_pixel(int i, int j) const;
+    [[nodiscard]] Color<Real> trace_pixel(int i, int j, CutCounter* cuts = nullptr) const;
 
     /// The colour along a camera ray; `dir` as the camera makes it, which for `scratch` counts:
     /// t begins at 1.
     [[nodiscard]] Color<Real> trace_ray(const Vec3<Real>& org, const Vec3<Real>& dir,
                                         CutCounter* cuts = nullptr) const;
-
-    /// Fills row `j` of `region`, the part of the picture that `image` holds.
-    void trace_row(int j, const Region& region, Image<Real>& image,
-                   CutCounter* cuts = nullptr) const;
 
     /// The mean colour of the pixel over samples at `places`, as Camera::pixel_sample has them.
     [[nodiscard]] Color<Real> trace_samples(int i, int j, const std::vector<Vec2>& places,

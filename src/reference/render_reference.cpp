@@ -34,8 +34,9 @@ public:
     void trace(Image<Real>& image)
     {
         if (options_.samples == 1)
-            each_row(region_,
-                     [&](int j, Cuts* cuts) { reference_.trace_row(j, region_, image, cuts); });
+            each_pixel(region_, [&](int i, int j, Cuts* cuts) {
+                put_pixel(image, i - region_.x, j - region_.y, reference_.trace_pixel(i, j, cuts));
+            });
         else
             trace_all(image, region_, sample_pattern(options_.samples));
     }
@@ -49,11 +50,10 @@ public:
         for (int row = 0; row < wide.height; ++row)
             contrast.mark_row(row);
         const std::vector<Vec2> pattern = sample_pattern(options_.samples);
-        each_row(region_, [&](int j, Cuts* cuts) {
-            for (int i = region_.x; i < region_.x + region_.width; ++i)
-                if (contrast(i - around.x, j - around.y))
-                    put_pixel(wide, i - around.x, j - around.y,
-                              reference_.trace_samples(i, j, pattern, cuts));
+        each_pixel(region_, [&](int i, int j, Cuts* cuts) {
+            if (contrast(i - around.x, j - around.y))
+                put_pixel(wide, i - around.x, j - around.y,
+                          reference_.trace_samples(i, j, pattern, cuts));
         });
         copy_region({region_.x - around.x, region_.y - around.y, region_.width, region_.height},
                     wide, image);
@@ -65,11 +65,21 @@ private:
     /// `image` holds `part`. Of its pixels those asked for count.
     void trace_all(Image<Real>& image, const Region& part, const std::vector<Vec2>& places)
     {
+        each_pixel(part, [&](int i, int j, Cuts* cuts) {
+            put_pixel(
+                image, i - part.x, j - part.y,
+                reference_.trace_samples(i, j, places, region_.contains(i, j) ? cuts : nullptr));
+        });
+    }
+
+    /// Calls `work(i, j, cuts)` for the pixels of `part`, until a stop is asked for: a row of many
+    /// samples in glass can take minutes.
+    template <class Work>
+    void each_pixel(const Region& part, const Work& work)
+    {
         each_row(part, [&](int j, Cuts* cuts) {
-            for (int i = part.x; i < part.x + part.width; ++i)
-                put_pixel(image, i - part.x, j - part.y,
-                          reference_.trace_samples(i, j, places,
-                                                   region_.contains(i, j) ? cuts : nullptr));
+            for (int i = part.x; i < part.x + part.width && !rows_.is_stopped(); ++i)
+                work(i, j, cuts);
         });
     }
 
@@ -82,7 +92,7 @@ private:
             [&](const tbb::blocked_range<int>& some) {
                 for (int j = some.begin(); j != some.end() && !rows_.is_stopped(); ++j) {
                     work_on(j, work);
-                    if (region_.contains(region_.x, j))
+                    if (region_.contains(region_.x, j) && !rows_.is_stopped())
                         rows_.finish_piece();
                 }
             },
