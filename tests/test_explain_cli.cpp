@@ -166,8 +166,11 @@ TEST_CASE("explain takes the accuracy and the rule of self-hits", "[explain_cli]
     CHECK(trees(four_spheres_file, {"--accuracy", "fast"})["packets"] !=
           trees(four_spheres_file, {"--accuracy", "exact"})["packets"]);
     CHECK(explain({"--pixel", "1,1", "--accuracy", "most"}).exit_code == 2);
-    CHECK(explain({"--pixel", "1,1", "--precision", "double", "--accuracy", "fast"}).exit_code ==
-          2);
+    const ProgramResult doubles =
+        explain({"--pixel", "1,1", "--precision", "double", "--accuracy", "fast"});
+    CHECK(doubles.exit_code == 2);
+    // There is no --kernel here.
+    CHECK_THAT(doubles.err, ContainsSubstring("leave it out or use --precision single;"));
 }
 
 TEST_CASE("explain names the picture's size for a pixel outside it", "[explain_cli]")

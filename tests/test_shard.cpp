@@ -156,6 +156,13 @@ TEST_CASE("parts that do not belong together are not joined", "[shard]")
     }
 }
 
+TEST_CASE("join refuses standard input as a part", "[shard]")
+{
+    const ProgramResult result = run_packtrace({"join", "-"});
+    CHECK(result.exit_code == 2);
+    CHECK_THAT(result.err, ContainsSubstring("'-' is not a file; parts are read twice"));
+}
+
 TEST_CASE("parts that are cut or changed are not joined", "[shard]")
 {
     const Bench bench(500);

@@ -54,7 +54,8 @@ def generate_sphereflake(depth: int = 4, *, reflective: float = 0.0, ground: boo
 
 def generate_random_spheres(count: int, radius: float, *, seed: int = 1,
                             reflective: float = 0.0) -> Scene:
-    """Spheres of one radius, their centers spread evenly over the unit cube."""
+    """Spheres of one radius, their centers spread evenly over the unit cube. `seed` is 0 to 2**64 - 1;
+    those up to 2**31 - 1 are also the program's."""
     return _packtrace.generate_random_spheres(_whole("count", count), _number("radius", radius),
                                               _whole("seed", seed, 2**64 - 1),
                                               _number("reflective", reflective))

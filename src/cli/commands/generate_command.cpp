@@ -76,7 +76,8 @@ void add_random(CLI::App& generate, const TakeScene& take)
         ->type_name("N");
     add_radius(*command, arguments->options.radius, "Radius of each (default 0.001)");
     command
-        ->add_option("--seed", arguments->options.seed, "Seed of the random positions (default 1)")
+        ->add_option("--seed", arguments->options.seed,
+                     "Seed of the random positions, 0 to 2147483647 (default 1)")
         ->check(whole_number(0, std::numeric_limits<int>::max()))
         ->type_name("N");
 }

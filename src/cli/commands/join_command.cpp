@@ -9,6 +9,7 @@
 
 #include "cli/command.hpp"
 #include "cli/options/shard.hpp"
+#include "cli/options/validators.hpp"
 #include "cli/output/distinct_files.hpp"
 #include "cli/output/output.hpp"
 #include "cli/study/study.hpp"
@@ -168,9 +169,12 @@ void add_join(CLI::App& app)
     CLI::App* command = app.add_subcommand("join", "Make one file of the parts that --shard wrote");
     const auto arguments = std::make_shared<JoinArguments>();
     command
-        ->add_option("PART", arguments->parts,
-                     "All parts, in any order: of intersect --shard, or of stress --shard --json")
+        ->add_option(
+            "PART", arguments->parts,
+            "All parts, in any order: files of intersect --shard, or of stress --shard --json")
         ->required()
+        ->check(validator([](const std::string& text) { return text != "-"; },
+                          "a file; parts are read twice, which standard input can't be"))
         ->type_name("");
     command->add_option("-o,--output", arguments->output, "File to write (default standard output)")
         ->check(file_name())

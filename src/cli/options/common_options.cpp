@@ -204,8 +204,9 @@ void apply(const AccuracyArguments& arguments, const std::string& kernel,
 {
     if (arguments.accuracy && (kernel == "scalar" || precision != "single"))
         throw CLI::ValidationError(
-            "--accuracy: only packets of floats have a choice; leave it out or use "
-            "--kernel packet --precision single");
+            "--accuracy: only packets of floats have a choice; leave it out or use" +
+            std::string(kernel == "scalar" ? " --kernel packet" : "") +
+            (precision != "single" ? " --precision single" : ""));
     options.accuracy = value_or(arguments.accuracy, options.accuracy);
     options.self_hits = value_or(arguments.self_hits, options.self_hits);
 }

@@ -75,9 +75,11 @@ RenderOptions checked_options(const RenderArguments& arguments)
 void add_region_option(CLI::App& command, RenderArguments& arguments)
 {
     command
-        .add_option("--region", arguments.region,
-                    "Render a part of the picture alone: column and row of its first pixel, from "
-                    "the upper left, its width and height (default all of it)")
+        .add_option(
+            "--region", arguments.region,
+            "Render a part of the picture alone: column and row of its first pixel, from "
+            "the upper left, its width and height (default all of it). Not with --resume or "
+            "--certainty")
         ->check(validator([](const std::string& text) { return parse_region(text).has_value(); },
                           "a region such as 100,50,320,240: column and row of its first pixel, "
                           "width and height"))

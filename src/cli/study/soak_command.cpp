@@ -169,7 +169,9 @@ void add_soak(CLI::App& app)
         ->excludes(files)
         ->check(whole_number(1, most_scenes))
         ->type_name("N");
-    command->add_option("--seed", arguments->options.seed, "Seed of the random scenes (default 1)")
+    command
+        ->add_option("--seed", arguments->options.seed,
+                     "Seed of the random scenes, 0 to 2147483647 (default 1)")
         ->check(whole_number(0, std::numeric_limits<int>::max()))
         ->type_name("N");
     command

@@ -48,7 +48,8 @@ void add_stress_options(CLI::App& command, StressArguments& arguments)
     command.add_option("--rays", options.rays, "Rays of each family (default 4096)")
         ->check(whole_number(1, most_rays))
         ->type_name("N");
-    command.add_option("--seed", options.seed, "Seed of the random rays (default 1)")
+    command
+        .add_option("--seed", options.seed, "Seed of the random rays, 0 to 2147483647 (default 1)")
         ->check(whole_number(0, std::numeric_limits<int>::max()))
         ->type_name("N");
     add_word_option(command, "--kernel", options.kernels, "Only this kernel (repeatable)",
