@@ -425,7 +425,7 @@ TEST_CASE("what casts no shadow is in no light's way", "[lit]")
     Scene scene = crowd(150);
     for (std::size_t i = 0; i < scene.objects.size(); i += 2)
         scene.objects[i].casts_shadow = false;
-    RenderOptions options{.traversal = Traversal::tree};
+    const RenderOptions options{.traversal = Traversal::tree};
     const RayScene<float> rays(scene, options);
     const auto seen = look(rays, 3000, {0, 1, -6}, 2, {0, -1, 6}, 4);
     check_spheres(scene, options, seen, rays);
@@ -441,8 +441,7 @@ TEST_CASE("what casts no shadow is in no light's way", "[lit]")
     scene.shadows = ShadowKind::none;
     CHECK(lit(RayScene<float>(scene, options), seen.points(), 2) == hits);
     for (const Kernel kernel : {Kernel::packet, Kernel::scalar}) {
-        options.kernel = kernel;
-        const RayScene<double> without(scene, options);
+        const RayScene<double> without(scene, {.kernel = kernel});
         CHECK(one_point(without, {0, std::nan(""), 0}, 0) == Mask{0});
         CHECK(one_point(without, {0, 2, 0}, 0) == Mask{1});
     }
