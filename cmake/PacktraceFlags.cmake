@@ -3,6 +3,8 @@
 #   -fno-tree-vectorize     GCC 12 turns a*b-c, a*b+c into fmaddsub in spite of contract=off
 #   -fno-math-errno         square roots without a call into libm
 #   -fno-trapping-math      nothing reads the floating-point exception flags
+#   -fno-fast-math          a project around this one may be compiled with -ffast-math or -Ofast, by which
+#                           neither errors nor NaNs are as they are written
 # -fno-tree-vectorize is GCC's; clang contracts only what it is told to.
 # -Wno-restrict: GCC 12 warns of "literal" + std::string without cause (its bug 105651).
 # -Wno-subobject-linkage: in unity builds it takes sources for headers.
@@ -13,7 +15,7 @@ if(CMAKE_SYSTEM_PROCESSOR MATCHES "aarch64|arm64")
 endif()
 add_library(packtrace_flags INTERFACE)
 target_compile_options(packtrace_flags INTERFACE
-    -ffp-contract=off -fno-math-errno -fno-trapping-math
+    -fno-fast-math -ffp-contract=off -fno-math-errno -fno-trapping-math
     $<$<CXX_COMPILER_ID:GNU>:-fno-tree-vectorize>
     -Wall -Wextra -Wpedantic -Wshadow -Wconversion -Wsign-conversion
     $<$<CXX_COMPILER_ID:GNU>:-Wno-restrict>

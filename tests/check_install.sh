@@ -190,11 +190,42 @@ subproject() {
     done
 }
 
+# macros_of COMMAND: what a command that compiles predefines.
+macros_of() {
+    sh -c "${1%% -MD *} -dM -E -x c++ /dev/null"
+}
+
+# In a project that asks for less exact numbers, and for this processor alone, packtrace's own sources
+# are compiled as ever.
+foreign_flags() {
+    configure foreign -DPACKTRACE_SOURCE="$source" -DPACKTRACE_ISAS="$isas" \
+        "-DFLAGS=-Ofast;-ffast-math;-march=native;-flto"
+    ninja -C "$folder/foreign" -t commands | grep -e '/src/kernels/table\.cpp$' -e '/Unity/unity_0_cxx.cxx$' \
+        -e '/src/lower/packed_scene\.cpp$' >"$folder/commands"
+    [ "$(grep -c kernels/table "$folder/commands")" -gt 0 ] || fail "no kernel is compiled"
+    while IFS= read -r command; do
+        ! macros_of "$command" | grep -e __FAST_MATH__ -e '__FINITE_MATH_ONLY__ 1' ||
+            fail "compiled with -ffast-math: $command"
+        case $command in
+        *PACKTRACE_ISA=sse42*)
+            ! macros_of "$command" | grep __AVX__ || fail "sse42 is compiled for AVX: $command" ;;
+        esac
+        case $command in
+        *kernels/table.cpp)
+            echo "$command" | grep -q -e ' -fno-lto' || fail "kernels see link-time optimisation" ;;
+        esac
+    done <"$folder/commands"
+}
+
 case $way in
 prefix) install_prefix ;;
 find_package) find_package ;;
 pkg_config) pkg_config ;;
 examples) examples ;;
-add_subdirectory | fetch_content) subproject ;;
+add_subdirectory)
+    subproject
+    foreign_flags
+    ;;
+fetch_content) subproject ;;
 *) fail "unknown way '$way'" ;;
 esac

@@ -5,7 +5,7 @@
 #
 # -finline-limit and its kin make GCC inline xsimd's one-line functions everywhere, so that no
 # weak copy of them leaves the object. -Wno-maybe-uninitialized: GCC 12's own AVX-512 header
-# starts from undefined registers. -fno-stack-protector: Ubuntu's compilers guard each function that
+# starts from undefined registers. -fno-lto: a project around this one may ask for it. -fno-stack-protector: Ubuntu's compilers guard each function that
 # has arrays on its stack, which is every one here, and call libc where a guard is broken.
 # Probes are asked for shares of a frame, not for speed: they execute some 10 % more instructions so,
 # and take little more than half as long to build, which with all instruction sets is a minute and a
@@ -22,6 +22,12 @@ set(PACKTRACE_KERNELS "" CACHE INTERNAL "Instruction sets compiled in")
 # general ones only: each set costs seconds to build and a quarter of a megabyte.
 set(with_feature_sets avx2 avx512 neon64)
 option(PACKTRACE_FEATURE_SETS "Kernels for sets of features; without them, the general ones only" ON)
+
+# Before the flags of an instruction set, so that those of a project around this one add none.
+set(baseline "")
+if(CMAKE_SYSTEM_PROCESSOR MATCHES "x86_64|AMD64")
+    set(baseline -march=x86-64 -mno-avx)
+endif()
 
 # Unless PACKTRACE_ISAS leaves it out.
 function(packtrace_kernel isa lanes)
@@ -51,8 +57,8 @@ function(packtrace_kernel isa lanes)
     target_compile_definitions(packtrace_kernels_${isa} PRIVATE
         PACKTRACE_ISA=${isa} PACKTRACE_LANES=${lanes} PACKTRACE_FEATURE_SETS=${feature_sets})
     target_include_directories(packtrace_kernels_${isa} PRIVATE ${CMAKE_CURRENT_SOURCE_DIR})
-    target_compile_options(packtrace_kernels_${isa} PRIVATE ${ARGN} -fvisibility=hidden -fno-exceptions
-        -fno-stack-protector
+    target_compile_options(packtrace_kernels_${isa} PRIVATE ${baseline} ${ARGN} -fvisibility=hidden
+        -fno-exceptions -fno-lto -fno-stack-protector
         $<$<CXX_COMPILER_ID:GNU>:-Wno-maybe-uninitialized$<SEMICOLON>-Wno-uninitialized>
         $<$<NOT:$<CONFIG:Release,RelWithDebInfo,MinSizeRel>>:-O2>
         "$<$<CONFIG:Release>:${optimisation}>"
