@@ -86,8 +86,11 @@ inline void for_each_met(const Cone<Real>& cone, const abi::SphereListView<Real>
         const Vec3v<Real> center{load(spheres.center_x + first), load(spheres.center_y + first),
                                  load(spheres.center_z + first)};
         std::uint32_t kept = first_lanes<Real>(spheres.count - first);
+        // Rounding may have moved a centre out of the cone that is far away for the sphere's size.
         if (cone.bounded)
-            kept &= bits(may_meet<Real>(cone, center - base, load(spheres.radius + first)));
+            kept &= bits(
+                may_meet<Real>(cone, center - base,
+                               load(spheres.radius + first) + load(spheres.center_error + first)));
         if (kept != 0)
             visit(first, kept, center);
     }

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <type_traits>
+
 #include "kernels/geometry/kinds.hpp"
 
 // The objects that rays are tested against, a list of each kind: all of a scene, or those that a
@@ -153,8 +155,11 @@ inline void find_objects(FilteredObjects<false>& objects, const Origins& origins
     filter_objects<F, false>(objects, origins, Cone<float>{}, scene);
 }
 
-/// Gives `objects`, which need not be initialised, room for those of a scene with features `F`. In
-/// place: a copy of lists costs a tile more than to fill them.
+/// So many spheres of a hierarchy are picked for lists, at most.
+inline constexpr int most_picked_spheres = 20;
+
+/// Gives `objects`, which need not be initialised, room for those of a scene with features `F`, and
+/// for spheres of its hierarchy. In place: a copy of lists costs a tile more than to fill them.
 template <abi::Features F, class Objects, class Arena, class Real>
 inline void take_objects(Arena& arena, Objects& objects, const abi::GeometryView<Real>& scene)
 {
@@ -163,7 +168,9 @@ inline void take_objects(Arena& arena, Objects& objects, const abi::GeometryView
         return true;
     });
     for_each_kind<F>([&](auto kind) {
-        take_room(arena, list_of<decltype(kind)>(objects), kind.list(scene).count);
+        const bool picks = std::is_same_v<decltype(kind), Sphere> && !scene.tree.empty();
+        take_room(arena, list_of<decltype(kind)>(objects),
+                  kind.list(scene).count + (picks ? most_picked_spheres : 0));
         return true;
     });
 }

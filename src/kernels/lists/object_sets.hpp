@@ -20,6 +20,7 @@ template <abi::Features F, class Real>
 struct LightObjects {
     FromPoint<F, Real> from_point;
     FromAnywhere<F, Real> along;
+    bool are_all;  ///< nothing of a hierarchy is missing
 };
 
 /// Where a run of rays starts.
@@ -116,33 +117,36 @@ inline void find_from_point(FromPoint<F, Real>& objects, const Real (&point)[3],
     find_objects<F>(objects, anywhere, scene);
 }
 
-/// Prepares the objects for a run of rays.
+/// The cone of a run of rays from a box.
 template <abi::Features F, class Real>
-inline void find_nearby(FromAnywhere<F, Real>& objects, const Real* const (&org)[3],
-                        const Real* const (&dir)[3], int count, const abi::SceneView<Real>& scene)
+inline Cone<Real> cone_nearby(const Box<Real>& box, const Real* const (&dir)[3], int count)
 {
-    const Box<Real> box = box_of_run(org, count);
     if constexpr (F.exact) {
         const Origins origins = origins_in(box.low, box.high);
-        filter_objects<F, false>(objects, origins,
-                                 cone_of(origins.center, origins.radius, dir, count), scene);
+        return cone_of(origins.center, origins.radius, dir, count);
     } else {
         const Ball<Real> ball = ball_around(box);
-        find_objects<F>(objects, cone_of(ball.center, ball.radius, dir, count), scene);
+        return cone_of(ball.center, ball.radius, dir, count);
     }
 }
 
-/// Prepares the objects for rays from a box to a light that sends none.
+/// Prepares the objects for rays of a cone from a box.
 template <abi::Features F, class Real>
-inline void find_along(FromAnywhere<F, Real>& objects, const Box<Real>& box,
-                       const abi::LightRecord<Real>& light, const abi::SceneView<Real>& casters)
+inline void find_nearby(FromAnywhere<F, Real>& objects, const Box<Real>& box,
+                        const Cone<Real>& cone, const abi::SceneView<Real>& scene)
 {
-    const Cone<Real> cone = light.kind == abi::LightKind::point ? cone_to(light.vector, box)
-                                                                : parallel_cone(light.vector, box);
     if constexpr (F.exact)
-        filter_objects<F, false>(objects, origins_in(box.low, box.high), cone, casters);
+        filter_objects<F, false>(objects, origins_in(box.low, box.high), cone, scene);
     else
-        find_objects<F>(objects, cone, casters);
+        find_objects<F>(objects, cone, scene);
+}
+
+/// The cone of rays from a box to a light that sends none.
+template <class Real>
+inline Cone<Real> cone_along(const Box<Real>& box, const abi::LightRecord<Real>& light)
+{
+    return light.kind == abi::LightKind::point ? cone_to(light.vector, box)
+                                               : parallel_cone(light.vector, box);
 }
 
 }  // namespace

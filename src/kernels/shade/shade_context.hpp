@@ -73,13 +73,19 @@ struct ShadeContext {
     const LightObjects<F, Real>* occluders;  ///< for each light
     /// The surfaces at the hits, by packet; null where shading alone looks at them.
     const SurfacePacket<Real>* surfaces;
-    /// For each light, what the hits see of it; null where packets find out by themselves.
+    /// For each light, what the hits see of it, see has_shadows(); null without a hierarchy.
     const LightShadows<F, Real>* shadows;
     int depth;  ///< reflections and refractions before these hits
     abi::RayCounts* counts;
     /// By pixel of the tile, the most light it may lack for rays that are not traced, in
     /// abi::lack_unit; null where all are.
     double* lacks;
+
+    /// Whether it was found out before what the hits see of a light.
+    bool has_shadows(int light) const
+    {
+        return shadows != nullptr && !occluders[light].are_all;
+    }
 
     bool spawns() const
     {

@@ -289,7 +289,7 @@ inline std::uint32_t unshadowed(const ShadeContext<F, Real>& context, int light,
     if (!context.scene->lighting.lights.data[light].casts_shadow || wanted == 0)
         return wanted;
     count_shadow_rays(*context.counts, first, wanted);
-    if (context.shadows != nullptr)
+    if (context.has_shadows(light))
         return count_lit<Real>(wanted, wanted & context.shadows[light].lit_lanes(first));
     const ShadowScope shadow(abi::Part::ray_generation);
     tell_live(wanted);
@@ -327,7 +327,7 @@ inline Vec3v<Real> transmitted(const ShadeContext<F, Real>& context, int light,
     Vec3v<Real> share{one, one, one};
     count_shadow_rays(*context.counts, first, wanted);
     context.counts->stages |= abi::stage_glass_shadows;
-    if (context.shadows != nullptr)
+    if (context.has_shadows(light))
         return context.shadows[light].shares(first);
     const ShadowScope shadow(abi::Part::ray_generation);
     tell_live(wanted);

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "kernels/bvh/pick_spheres.hpp"
 #include "kernels/geometry/cone.hpp"
 #include "kernels/stream/bundle_shadow.hpp"
 #include "kernels/stream/shade_stream.hpp"
@@ -19,13 +20,14 @@ struct TileRun {
     abi::RayCounts& counts;
 };
 
-/// Per light, what may stand between it and the hit points.
+/// Per light, what may stand between it and the hit points. Whether that is all in lists.
 template <abi::Features F, class Real>
-inline void find_occluders(const TileRun<F, Real>& run)
+inline bool find_occluders(const TileRun<F, Real>& run)
 {
     // Where no light has shadows there is no room for their occluders either.
     if (run.work.occluders == nullptr)
-        return;
+        return true;
+    bool by_lists = true;
     const abi::SceneView<Real>& scene = run.scene;
     const HitStream<F, Real>& hits = run.work.memory->hits;
     const Box<Real> box = box_of(hits.point, hits.count);
@@ -36,11 +38,18 @@ inline void find_occluders(const TileRun<F, Real>& run)
         run.counts.stages |= abi::stage_blockers;
         LightObjects<F, Real>& occluders = run.work.occluders[i];
         const abi::SceneView<Real>& casters = casters_of(scene);
-        if (light.sends_rays)
-            find_objects<F>(occluders.from_point, segment_cone(light.vector, box), casters);
-        else
-            find_along<F>(occluders.along, box, light, casters);
+        if (light.sends_rays) {
+            const Cone<Real> cone = segment_cone(light.vector, box);
+            find_objects<F>(occluders.from_point, cone, casters);
+            occluders.are_all = picks_all<F>(occluders.from_point, cone, casters);
+        } else {
+            const Cone<Real> cone = cone_along(box, light);
+            find_nearby<F>(occluders.along, box, cone, casters);
+            occluders.are_all = picks_all<F>(occluders.along, box, cone, casters);
+        }
+        by_lists &= occluders.are_all;
     }
+    return by_lists;
 }
 
 /// For a scene with a hierarchy, the surfaces at the hits, which every light's rays start from.
@@ -58,7 +67,8 @@ template <abi::Features F, class Real>
 inline void find_shadows(const TileRun<F, Real>& run, const ShadeContext<F, Real>& context)
 {
     for (int light = 0; light < run.scene.lighting.lights.count; ++light)
-        if (run.scene.lighting.lights.data[light].casts_shadow)
+        if (run.scene.lighting.lights.data[light].casts_shadow &&
+            !run.work.occluders[light].are_all)
             find_shadows(context, run.work.memory->hits, light, *run.work.bundle,
                          run.work.shadows[light]);
 }
@@ -88,9 +98,6 @@ template <abi::Features F, class Real>
 inline RayStream<F, Real>* shade_chunk(const TileRun<F, Real>& run, PixelWrite write, int depth,
                                        RayStream<F, Real>* next)
 {
-    const ShadeContext<F, Real> context{
-        &run.scene, run.work.occluders, run.work.surfaces, run.work.shadows,
-        depth,      &run.counts,        run.work.lacks};
     const HitStream<F, Real>& hits = run.work.memory->hits;
     if (hits.count == 0)
         return nullptr;
@@ -98,14 +105,21 @@ inline RayStream<F, Real>* shade_chunk(const TileRun<F, Real>& run, PixelWrite w
     run.counts.stages |= abi::stage_normals;
     if constexpr (F.exact)
         run.counts.stages |= abi::stage_refined;
-    if (run.work.surfaces != nullptr) {
+    begin_span(abi::Span::shadows, depth, abi::Part::beams);
+    const bool by_lists = find_occluders(run);
+    const ShadeContext<F, Real> context{&run.scene,
+                                        run.work.occluders,
+                                        by_lists ? nullptr : run.work.surfaces,
+                                        by_lists ? nullptr : run.work.shadows,
+                                        depth,
+                                        &run.counts,
+                                        run.work.lacks};
+    if (!by_lists) {
         begin_span(abi::Span::shade, depth, abi::Part::surface);
         find_surfaces(run);
-    }
-    begin_span(abi::Span::shadows, depth, abi::Part::beams);
-    find_occluders(run);
-    if (run.work.shadows != nullptr)
+        begin_span(abi::Span::shadows, depth, abi::Part::beams);
         find_shadows(run, context);
+    }
     begin_span(abi::Span::shade, depth, abi::Part::surface);
     if (!context.spawns())
         next = nullptr;
@@ -137,10 +151,13 @@ template <abi::Features F, class Real>
     tell_pixels(rays.pixel + begin);
     if constexpr (F.probe)
         tell_chunk(refracted_rays(rays, begin, end), end - begin);
-    find_nearby<F, Real>(
-        run.work.nearby, {rays.org[0] + begin, rays.org[1] + begin, rays.org[2] + begin},
-        {rays.dir[0] + begin, rays.dir[1] + begin, rays.dir[2] + begin}, end - begin, run.scene);
-    if (run.scene.tree.empty())
+    const int count = end - begin;
+    const Box<Real> box =
+        box_of_run<Real>({rays.org[0] + begin, rays.org[1] + begin, rays.org[2] + begin}, count);
+    const Cone<Real> cone = cone_nearby<F, Real>(
+        box, {rays.dir[0] + begin, rays.dir[1] + begin, rays.dir[2] + begin}, count);
+    find_nearby<F>(run.work.nearby, box, cone, run.scene);
+    if (picks_all<F>(run.work.nearby, box, cone, run.scene))
         trace_secondary(run.scene, rays, begin, end, run.work.nearby, *run.work.memory, run.counts);
     else
         trace_secondary_bundle(run.scene, rays, begin, end, run.work.nearby, *run.work.bundle,

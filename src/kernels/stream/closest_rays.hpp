@@ -63,7 +63,7 @@ template <bool Starts, abi::Features F, class Objects, class Real>
 template <Refine R, abi::Features F, class Objects>
 [[gnu::noinline]] void common_chunk_in_lists(const abi::SceneView<float>& scene,
                                              const Objects& objects, const CommonObjects& common,
-                                             CommonPause& pause, const abi::RaysView<float>& view,
+                                             TryPause& pause, const abi::RaysView<float>& view,
                                              int begin, int end, HitWriter<F, float>& writer)
 {
     constexpr Origin origin = Objects::shared ? Origin::shared : Origin::any;
@@ -160,7 +160,7 @@ inline void closest_hits(const abi::SceneView<Real>& scene, const abi::RaysView<
     work.wants_common = scene.tree.empty();
     HitWriter<F, Real> writer(scene, hits);
     for_each_chunk(work, scene, view, [&](int begin, int end) {
-        if (!scene.tree.empty())
+        if (!work.by_lists)
             closest_chunk_in_tree(scene, work, view, begin, end, writer);
         else if (work.shares_origin)
             closest_chunk(scene, work, work.from_point, view, begin, end, writer);

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "kernels/bvh/pick_spheres.hpp"
 #include "kernels/stream/camera_rays.hpp"
 #include "kernels/stream/trace_stream.hpp"
 #include "kernels/stream/workspace.hpp"
@@ -132,9 +133,11 @@ inline void closest_tile(const abi::TileJob<Real>& job, abi::TileHits<Real>& hit
     Arena arena(job.scratch);
     FromPoint<F, Real> visible;
     take_objects<F>(arena, visible, scene);
-    find_objects<F>(visible, camera_cone(job), scene);
+    const Cone<Real> cone = camera_cone(job);
+    find_objects<F>(visible, cone, scene);
+    const bool are_all = picks_all<F>(visible, cone, scene);
     sort_by_distance<F>(visible);
-    if (!scene.tree.empty()) {
+    if (!are_all) {
         auto& bundle = *take_bundle<F, Real>(arena);
         gather_camera<F>(job, bundle);
         closest_of_bundle<F>(scene, visible, bundle);

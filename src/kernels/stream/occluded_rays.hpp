@@ -86,7 +86,7 @@ inline void occluded_rays(const abi::SceneView<Real>& scene, const abi::RaysView
 {
     StreamWork<F, Real> work(scratch, scene);
     for_each_chunk(work, scene, view, [&](int begin, int end) {
-        if (!scene.tree.empty())
+        if (!work.by_lists)
             occluded_chunk_in_tree(scene, work, view, begin, end, mask);
         else if (work.shares_origin)
             occluded_chunk_in_lists<F>(scene, work.from_point, view, begin, end, mask);

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "kernel_abi/ray_streams.hpp"
+#include "kernels/bvh/pick_spheres.hpp"
 #include "kernels/lists/common_hit.hpp"
 #include "kernels/lists/object_sets.hpp"
 #include "kernels/precision/leave_surface.hpp"
@@ -60,8 +61,8 @@ inline StartPacket<Real> start_of(const abi::SceneView<Real>& scene,
 }
 
 /// After packets without a common hit more and more are not asked for one, so that rays without a
-/// common way cost next to nothing.
-struct CommonPause {
+/// common way cost next to nothing; likewise chunks for which nothing can be picked.
+struct TryPause {
     static constexpr int longest = 256;
     int length = 1;
     int left = 0;
@@ -98,9 +99,11 @@ struct StreamWork {
     FromAnywhere<F, Real> nearby;
     FromPoint<F, Real> from_point;  ///< in place of `nearby` for rays from one point
     bool shares_origin = false;     ///< the chunk's rays are such rays
+    bool by_lists = false;          ///< the chunk's rays may meet nothing that is not in lists
+    TryPause picking;               ///< of chunks for which nothing could be picked
     CommonObjects common;           ///< in exact mode, without a hierarchy
     bool wants_common = false;      ///< closest hits are asked for, without a hierarchy
-    CommonPause pause;              ///< of the packets before
+    TryPause pause;                 ///< of packets without a common hit
     RayBundle<Real>* bundle = nullptr;
     std::size_t bytes = 0;
 
@@ -112,9 +115,9 @@ struct StreamWork {
         if constexpr (F.exact)
             if (scene.tree.empty())
                 common.take(arena, scene);
-        if (scene.tree.empty())
+        if (F.exact || scene.tree.empty())
             take_objects<F>(arena, from_point, scene);
-        else
+        if (!scene.tree.empty())
             bundle = take_bundle<F, Real>(arena);
         bytes = arena.used();
     }
@@ -159,13 +162,82 @@ inline bool start_together(const abi::RaysView<Real>& view, int begin, int count
     return true;
 }
 
+/// Where the rays of a chunk start, and the directions that they run in. A cone that is not bounded
+/// where that can't be told for sure.
+struct ChunkBounds {
+    Box<float> box;
+    Cone<float> cone;
+};
+
+inline ChunkBounds bounds_of_chunk(const abi::RaysView<float>& view, int begin, int count)
+{
+    PacketBox<float> origins;
+    vmask<float> certain = from_bits<float>(all_lanes<float>);
+    vreal<float> reach2(0.0f);
+    for (int ray = 0; ray < count; ray += lanes<float>) {
+        origins.add(load_some3(view.org, begin + ray, count - ray));
+        RayPacket<float> rays;
+        rays.dir = load_some3(view.dir, begin + ray, count - ray);
+        rays.dir2 = dot(rays.dir, rays.dir);
+        rays.t_min = load_some(view.t_min + begin + ray, count - ray);
+        certain = certain & certifiable(rays) & (rays.t_min >= vreal<float>(0.0f));
+        const vreal<float> t_max = load_some(view.t_max + begin + ray, count - ray);
+        // Rays with a NaN as their end go nowhere.
+        reach2 = max(rays.dir2 * t_max * t_max, reach2);
+    }
+    ChunkBounds bounds;
+    bounds.box = origins.box();
+    const Origins start = origins_in(bounds.box.low, bounds.box.high);
+    if (!all(certain) || !certifiable(start))
+        return bounds;
+    bounds.cone = cone_of(start.center, start.radius,
+                          {view.dir[0] + begin, view.dir[1] + begin, view.dir[2] + begin}, count);
+    const float reach = square_root(largest_lane<float>(reach2)) * inflation + start.radius;
+    if (reach < largest_reach<float>)
+        bounds.cone.reach = reach;
+    return bounds;
+}
+
+/// Fewer rays are not worth what is picked for them.
+inline constexpr int fewest_picking = 64;
+
+/// Picks from the hierarchy what a chunk's rays may meet, where that is worth it and little. False
+/// where they have to go through it.
+template <abi::Features F>
+inline bool pick_for_chunk(StreamWork<F, float>& work, const abi::SceneView<float>& scene,
+                           const abi::RaysView<float>& view, int begin, int count)
+{
+    if (count < fewest_picking || !work.picking.is_over() || !run_together(view, begin))
+        return false;
+    const ChunkBounds bounds = bounds_of_chunk(view, begin, count);
+    work.picking.record(false);
+    if (!bounds.cone.bounded)
+        return false;
+    work.shares_origin = view.start_surface == nullptr && start_together(view, begin, count);
+    if (work.shares_origin) {
+        find_objects<F>(work.from_point, bounds.cone, scene);
+        work.by_lists = picks_all<F>(work.from_point, bounds.cone, scene);
+        sort_by_distance<F>(work.from_point);
+    } else {
+        find_nearby<F>(work.nearby, bounds.box, bounds.cone, scene);
+        work.by_lists = picks_all<F>(work.nearby, bounds.box, bounds.cone, scene);
+    }
+    if (work.by_lists)
+        work.picking.record(true);
+    return work.by_lists;
+}
+
 /// Prepares the lists for a chunk of a stream.
 template <abi::Features F, class Real>
 inline void find_nearby_of(StreamWork<F, Real>& work, const abi::SceneView<Real>& scene,
                            const abi::RaysView<Real>& view, int begin, int count)
 {
+    work.by_lists = scene.tree.empty();
+    if constexpr (F.exact)
+        if (!work.by_lists && pick_for_chunk(work, scene, view, begin, count))
+            return;
     work.shares_origin =
-        scene.tree.empty() && view.start_surface == nullptr && start_together(view, begin, count);
+        work.by_lists && view.start_surface == nullptr && start_together(view, begin, count);
     const Real first[3] = {view.org[0][begin], view.org[1][begin], view.org[2][begin]};
     if (work.shares_origin) {
         find_from_point<F, Real>(work.from_point, first, scene);

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "kernels/bvh/pick_spheres.hpp"
 #include "kernels/stream/camera_rays.hpp"
 #include "kernels/stream/chunk.hpp"
 
@@ -97,7 +98,9 @@ inline void trace_camera_of_tile(const TileRun<F, Real>& run, const abi::TileJob
     const int rays = job.samples != nullptr ? job.samples->count : job.width * job.height;
     counts.camera += static_cast<unsigned>(rays);
     // Against what the tile's cone may meet; a hit's first light replaces the background.
-    find_objects<F>(work.visible, camera_cone(job), scene);
+    const Cone<Real> cone = camera_cone(job);
+    find_objects<F>(work.visible, cone, scene);
+    const bool are_all = picks_all<F>(work.visible, cone, scene);
     sort_by_distance<F>(work.visible);
     begin_span(abi::Span::film, 0, abi::Part::film);
     fill_pixels(memory.color + pixel_elements * first_pixel, scene.rules.background);
@@ -105,8 +108,9 @@ inline void trace_camera_of_tile(const TileRun<F, Real>& run, const abi::TileJob
     if constexpr (F.probe)
         memory.hits.probe = job.probe;
     begin_span(abi::Span::trace, 0, abi::Part::ray_generation);
-    if (!scene.tree.empty()) {
+    if (!scene.tree.empty())
         counts.stages |= abi::stage_hierarchy;
+    if (!are_all) {
         trace_camera_bundle(job, first_pixel, work.visible, *work.bundle, memory, counts);
     } else if (is_probed<F>(job) || !work.visible.empty() || scene.lighting.seen_within > 0) {
         trace_camera(job, first_pixel, work.visible, memory, counts);

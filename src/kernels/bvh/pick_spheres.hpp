@@ -1,0 +1,193 @@
+#pragma once
+
+#include "kernels/bvh/block_ray.hpp"
+#include "kernels/lists/object_sets.hpp"
+
+// The spheres of a hierarchy that the rays of a cone may meet, put into lists: where they are few,
+// packets are tested against lists sooner than they find their way through the hierarchy.
+namespace packtrace::PACKTRACE_ISA {
+namespace {
+
+/// In larger hierarchies tiles mostly meet too much for it to be worth a try.
+inline constexpr int most_picking_nodes = 1000;
+/// So many nodes, and so many leaves, are looked at, at most.
+inline constexpr int most_open_nodes = 48;
+inline constexpr int most_open_leaves = 64;
+
+/// The children of a node whose boxes the rays of a cone may meet, by the balls around them.
+inline std::uint32_t children_met(const Cone<float>& cone, const abi::BvhNode& node)
+{
+    const Vec3v<float> base = broadcast(cone.base);
+    const vreal<float> half(0.5f);
+    std::uint32_t met = 0;
+    for (int first = 0; first < abi::node_width; first += lanes<float>) {
+        const auto corner = [&](const float(&of)[3][abi::node_width]) {
+            return Vec3v<float>{load_of_block(of[0], first), load_of_block(of[1], first),
+                                load_of_block(of[2], first)};
+        };
+        const Vec3v<float> high = corner(node.high);
+        const Vec3v<float> center = scale<float>(half, corner(node.low) + high);
+        const Vec3v<float> edge = high - center;
+        const vreal<float> radius = sqrt(dot(edge, edge));
+        met |= (bits(may_meet<float>(cone, center - base, radius)) & all_lanes<float>) << first;
+    }
+    return met & ((1u << abi::node_width) - 1);
+}
+
+/// Spheres of a leaf, side by side.
+struct LeafPacket {
+    Vec3v<float> center;
+    vreal<float> radius;
+
+    LeafPacket(const abi::SphereBlock<float>& block, int first)
+        : center(load_of_block(block.center[0], first), load_of_block(block.center[1], first),
+                 load_of_block(block.center[2], first)),
+          radius(load_of_block(block.radius, first))
+    {
+    }
+};
+
+/// The spheres of a leaf that the rays of a cone may meet. `error` is that of their centres.
+inline std::uint32_t spheres_met(const Cone<float>& cone, const abi::SphereBlock<float>& block,
+                                 const vreal<float>& error)
+{
+    const Vec3v<float> base = broadcast(cone.base);
+    std::uint32_t met = 0;
+    for (int first = 0; first < abi::node_width; first += lanes<float>) {
+        const LeafPacket spheres(block, first);
+        const auto meets = (spheres.radius >= vreal<float>(0.0f)) &
+                           may_meet<float>(cone, spheres.center - base, spheres.radius + error);
+        met |= (bits(meets) & all_lanes<float>) << first;
+    }
+    return met & ((1u << abi::node_width) - 1);
+}
+
+/// Spheres of a leaf.
+struct PickedLeaf {
+    std::uint32_t block;
+    std::uint32_t spheres;
+};
+
+/// What a cone's rays may meet of a hierarchy.
+struct PickedLeaves {
+    PickedLeaf leaves[most_picked_spheres];
+    int count = 0;
+    int spheres = 0;
+
+    /// False where there are too many.
+    bool add(std::uint32_t block, std::uint32_t met)
+    {
+        spheres += __builtin_popcount(met);
+        if (met != 0 && spheres <= most_picked_spheres)
+            leaves[count++] = {block, met};
+        return spheres <= most_picked_spheres;
+    }
+};
+
+/// Finds what the rays of a cone may meet of a hierarchy, if that is little and spheres alone.
+inline bool find_few(PickedLeaves& picked, const Cone<float>& cone, const abi::BvhView<float>& tree)
+{
+    std::uint32_t open[most_open_nodes + abi::node_width] = {0};
+    const vreal<float> error(tree.center_error);
+    int next = 0;
+    int end = 1;
+    int leaves = 0;
+    while (next < end) {
+        const abi::BvhNode& node = tree.nodes[open[next++]];
+        for (std::uint32_t met = children_met(cone, node); met != 0; met &= met - 1) {
+            const std::uint32_t child = node.child[__builtin_ctz(met)];
+            if (!abi::is_leaf(child)) {
+                open[end++] = child;
+                continue;
+            }
+            const std::uint32_t block = child & abi::block_mask;
+            if (abi::is_run(child) || ++leaves > most_open_leaves ||
+                !picked.add(block, spheres_met(cone, tree.blocks[block], error)))
+                return false;
+        }
+        if (end > most_open_nodes)
+            return false;
+    }
+    return true;
+}
+
+/// Appends spheres of a leaf to a list. `origins` are those of the rays; where they are shared, the
+/// list has them relative to the centres.
+template <bool Shared>
+inline void append_leaf(SphereFilters& list, const Origins& origins,
+                        const abi::BvhView<float>& tree, const PickedLeaf& leaf)
+{
+    const std::int32_t* const surfaces =
+        tree.block_surfaces + std::size_t{leaf.block} * abi::node_width;
+    const vreal<float> error(tree.center_error);
+    for (int first = 0; first < abi::node_width; first += lanes<float>) {
+        const std::uint32_t kept = leaf.spheres >> first & all_lanes<float>;
+        if (kept == 0)
+            continue;
+        const LeafPacket spheres(tree.blocks[leaf.block], first);
+        const Vec3v<float> w = broadcast(origins.center) - spheres.center;
+        const vreal<float> length =
+            (sqrt(dot(w, w)) + vreal<float>(origins.radius)) * vreal<float>(inflation) + error;
+        const Vec3v<float> place = Shared ? w : spheres.center;
+        compress_store(list.x + list.count, kept, place.x);
+        compress_store(list.y + list.count, kept, place.y);
+        compress_store(list.z + list.count, kept, place.z);
+        compress_store(list.radius2 + list.count, kept, spheres.radius * spheres.radius);
+        append_bounds(list, kept,
+                      sphere_bounds(spheres.radius, error, moment_error(error, length)));
+        for (std::uint32_t left = kept; left != 0; left &= left - 1)
+            list.surface[list.count++] = surfaces[first + __builtin_ctz(left)];
+    }
+}
+
+/// Adds what rays of `cone`, from `origins`, may meet of a scene's hierarchy to what they may meet
+/// of its lists. False where that is too much, and nothing is added.
+template <bool Shared>
+[[gnu::noinline]] bool pick_spheres(FilteredObjects<Shared>& objects, const Origins& origins,
+                                    const Cone<float>& cone, const abi::BvhView<float>& tree)
+{
+    PickedLeaves picked;
+    if (!cone.bounded || tree.node_count > most_picking_nodes || !find_few(picked, cone, tree))
+        return false;
+    SphereFilters& list = list_of<Sphere>(objects);
+    for (int i = 0; i < picked.count; ++i)
+        append_leaf<Shared>(list, origins, tree, picked.leaves[i]);
+    objects.count += picked.spheres;
+    if (objects.count == 1 && list.count == 1)
+        objects.one = body_of(object_at(list, 0));
+    return true;
+}
+
+/// What rays of `cone` from one point may meet is in `objects` without the hierarchy; adds what of
+/// that they may meet. False where they have to go through it.
+template <abi::Features F, class Real>
+inline bool picks_all(FromPoint<F, Real>& objects, const Cone<Real>& cone,
+                      const abi::SceneView<Real>& scene)
+{
+    if (scene.tree.empty())
+        return true;
+    if constexpr (F.exact) {
+        Origins origins;
+        for (int axis = 0; axis < 3; ++axis)
+            origins.center[axis] = cone.base[axis];
+        return pick_spheres<true>(objects, origins, cone, scene.tree);
+    } else {
+        return false;
+    }
+}
+
+/// The same of rays from a box.
+template <abi::Features F, class Real>
+inline bool picks_all(FromAnywhere<F, Real>& objects, const Box<Real>& box, const Cone<Real>& cone,
+                      const abi::SceneView<Real>& scene)
+{
+    if (scene.tree.empty())
+        return true;
+    if constexpr (F.exact)
+        return pick_spheres<false>(objects, origins_in(box.low, box.high), cone, scene.tree);
+    else
+        return false;
+}
+
+}  // namespace
+}  // namespace packtrace::PACKTRACE_ISA
