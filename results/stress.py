@@ -2,7 +2,9 @@
 """Writes results/stress.json: ten million extreme rays, family by family, without their times.
 With --exact, results/stress_exact.json: as many in the default mode alone, with its verdict.
 
-usage: results/stress.py [--exact] build/release/packtrace [RAYS_OF_EACH_FAMILY]
+usage: results/stress.py [--exact] [--isa=NAME] build/release/packtrace [RAYS_OF_EACH_FAMILY]
+The instruction set is avx512, unless another is named: results differ between those with FMA in nothing
+but their times.
 """
 import json
 import subprocess
@@ -10,7 +12,8 @@ import sys
 
 from provenance import commit, write
 
-COMMAND = ["--precision", "single", "--kernel", "packet", "--kernel", "textbook", "--isa", "avx512"]
+ISA = next((argument[6:] for argument in sys.argv if argument.startswith("--isa=")), "avx512")
+COMMAND = ["--precision", "single", "--kernel", "packet", "--kernel", "textbook", "--isa", ISA]
 LEFT_OUT = ("ns_per_ray", "pareto")  # of use only from a machine at rest
 
 
@@ -32,8 +35,8 @@ def rows_of(program, family, rays):
 
 
 def write_exact(program, rays):
-    arguments = ["stress", "--kernel", "packet", "--mode", "exact", "--precision", "single", "--isa",
-                 "avx512", "--seed", "7", "--rays", str(rays)]
+    arguments = ["stress", "--kernel", "packet", "--mode", "exact", "--precision", "single", "--isa", ISA,
+                 "--seed", "7", "--rays", str(rays)]
     report = {"command": "packtrace " + " ".join(arguments), "commit": commit()}
     done = subprocess.run([program, *arguments, "--json"], capture_output=True, text=True)
     report |= json.loads(done.stdout)
@@ -44,7 +47,7 @@ def write_exact(program, rays):
 
 def main():
     exact = "--exact" in sys.argv
-    positional = [argument for argument in sys.argv[1:] if argument != "--exact"]
+    positional = [argument for argument in sys.argv[1:] if not argument.startswith("--")]
     if not positional:
         sys.exit(__doc__)
     program = positional[0]

@@ -26,7 +26,7 @@ constexpr std::size_t frame_tree_objects(int lanes)
 }
 /// In exact frames without mirrors or glass only short lists are left, whose bounds are found once
 /// a tile; a hierarchy's are found for each bundle of rays and leaf. So many spheres or quadrics,
-/// whatever the lanes (measured by packtrace_crossover).
+/// whatever the lanes (results/tree_designs.json).
 constexpr std::size_t plain_frame_tree_objects = 384;
 /// Meshes are met as quickly through a hierarchy from some 80 polygons on.
 constexpr std::size_t plain_objects_a_polygon = 4;
