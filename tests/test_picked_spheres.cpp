@@ -71,7 +71,7 @@ RayColumns<Real> running_together(Way way, double spread, unsigned seed)
     RayColumns<Real> rays;
     Vec3 eye(0.0);
     Vec3 middle(0.0);
-    for (int i = 0; i < 24 * 256 + 90; ++i) {
+    for (int i = 0; i < 8 * 256 + 90; ++i) {
         if (i % 256 == 0) {
             eye = Vec3(0, 0, 6) + 9.0 * random.vector();
             middle = Vec3(0, 0, 6) + 3.0 * random.vector();
