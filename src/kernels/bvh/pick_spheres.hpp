@@ -126,15 +126,10 @@ inline void append_leaf(SphereFilters& list, const Origins& origins,
             continue;
         const LeafPacket spheres(tree.blocks[leaf.block], first);
         const Vec3v<float> w = broadcast(origins.center) - spheres.center;
-        const vreal<float> length =
-            (sqrt(dot(w, w)) + vreal<float>(origins.radius)) * vreal<float>(inflation) + error;
-        const Vec3v<float> place = Shared ? w : spheres.center;
-        compress_store(list.x + list.count, kept, place.x);
-        compress_store(list.y + list.count, kept, place.y);
-        compress_store(list.z + list.count, kept, place.z);
-        compress_store(list.radius2 + list.count, kept, spheres.radius * spheres.radius);
-        append_bounds(list, kept,
-                      sphere_bounds(spheres.radius, error, moment_error(error, length)));
+        append_certain(list, kept,
+                       {Shared ? w : spheres.center, w, spheres.radius,
+                        spheres.radius * spheres.radius, error},
+                       origins);
         for (std::uint32_t left = kept; left != 0; left &= left - 1)
             list.surface[list.count++] = surfaces[first + __builtin_ctz(left)];
     }

@@ -33,6 +33,31 @@ inline void append_bounds(SphereFilters& list, std::uint32_t kept,
     compress_store(list.bounds.reach + list.count, kept, bounds.reach);
 }
 
+/// Spheres of a packet, for rays from some origins.
+struct CertainSpheres {
+    Vec3v<float> place;   ///< as lists have it: the origin relative to the centre, or the centre
+    Vec3v<float> origin;  ///< the middle of the origins relative to the centre
+    vreal<float> radius;
+    vreal<float> radius2;
+    vreal<float> center_error;
+};
+
+/// Those of `kept` become the last of a list.
+inline void append_certain(SphereFilters& list, std::uint32_t kept, const CertainSpheres& spheres,
+                           const Origins& origins)
+{
+    const vreal<float>& error = spheres.center_error;
+    const vreal<float> length =
+        (sqrt(dot(spheres.origin, spheres.origin)) + vreal<float>(origins.radius)) *
+            vreal<float>(inflation) +
+        error;
+    compress_store(list.x + list.count, kept, spheres.place.x);
+    compress_store(list.y + list.count, kept, spheres.place.y);
+    compress_store(list.z + list.count, kept, spheres.place.z);
+    compress_store(list.radius2 + list.count, kept, spheres.radius2);
+    append_bounds(list, kept, sphere_bounds(spheres.radius, error, moment_error(error, length)));
+}
+
 /// A shared origin relative to a packet of centres, rounded once.
 inline Vec3v<float> origin_from_centers(const Origins& origins,
                                         const abi::SphereListView<double>& wide, int first)
@@ -56,16 +81,11 @@ inline void find_certain(SphereFilters& list, const Origins& origins, const Cone
         const Vec3v<float> w =
             Shared ? origin_from_centers(origins, wide, first) : broadcast(origins.center) - center;
         const vreal<float> error = Shared ? vreal<float>(0.0f) : load(spheres.center_error + first);
-        const vreal<float> length =
-            (sqrt(dot(w, w)) + vreal<float>(origins.radius)) * vreal<float>(inflation) + error;
-        const vreal<float> radius = load(spheres.radius + first);
-        const Vec3v<float> place = Shared ? w : center;
-        compress_store(list.x + list.count, kept, place.x);
-        compress_store(list.y + list.count, kept, place.y);
-        compress_store(list.z + list.count, kept, place.z);
-        compress_store(list.radius2 + list.count, kept, load(spheres.radius2 + first));
         compress_store(list.surface + list.count, kept, load(spheres.surface + first));
-        append_bounds(list, kept, sphere_bounds(radius, error, moment_error(error, length)));
+        append_certain(list, kept,
+                       {Shared ? w : center, w, load(spheres.radius + first),
+                        load(spheres.radius2 + first), error},
+                       origins);
         list.count += __builtin_popcount(kept);
     });
 }
