@@ -208,6 +208,24 @@ TEST_CASE("the same where a quadric has no bounds", "[no_cliff]")
         }
 }
 
+TEST_CASE("the same where small bodies lie on a large ball", "[no_cliff]")
+{
+    const Scene scene = parse_scene(R"(image_size = 400 x 400  illumination = whitted
+        camera { position = (0.00015, 0.00054, -0.00038)  look_at = (0, 0, 0)  fov = 52.7 }
+        sphere { center = (0, -3.9723512, 0)  radius = 3.97205667  diffuse = 0.7 }
+        cylinder { z_range = (-0.9, 0.8)  capped = true
+                   scale = (6.39700681e-5, 4.2434e-5, 3.739065e-5)
+                   rotate = (1, 0.532, 0.569, 164.57)
+                   translate = (-0.00022908982, -2.23571908e-5, -0.0001430703)  diffuse = 0.7 }
+        light { type = point  intensity = 0.5  position = (9.7592, 4.72690665, -9.43972355) })",
+                                    "ball", {});
+    const Image<double> truth = render_scalar<double>(scene);
+    for (const RenderOptions& options : packet_ways()) {
+        CAPTURE(options.isa, options.traversal);
+        CHECK(pixels_off(render<float>(scene, options), truth) <= 4);
+    }
+}
+
 TEST_CASE("a light near one body and far from another keeps the near one's shadow", "[no_cliff]")
 {
     const char* const scenes[] = {// A ball's shadow on a wall, with and without a speck beside.

@@ -37,6 +37,38 @@ struct Bodies {
     }
 };
 
+/// Spheres that a light is not well outside of, say one that is the ground.
+struct LargeSpheres {
+    double least = infinite;  ///< the smallest one's radius
+    double off = infinite;    ///< how far the light is from their surfaces
+    double reach = 0.0;       ///< and from their furthest point
+
+    /// False where the sphere is a body as others are.
+    bool add(const LoweredSphere& sphere, const Vec3& light)
+    {
+        const double distance = glm::length(light - sphere.center);
+        const double height = std::abs(distance - sphere.radius);
+        if (height > well_outside * sphere.radius)
+            return false;
+        least = std::min(least, sphere.radius);
+        off = std::min(off, height);
+        reach = std::max(reach, distance + sphere.radius);
+        return true;
+    }
+    template <class Surface>
+    static bool add(const Surface&, const Vec3&)
+    {
+        return false;
+    }
+
+    /// Whether rays from any of their points pass the light, and what is as near to it as they are,
+    /// where they should.
+    [[nodiscard]] bool are_met_well() const
+    {
+        return std::min(least, off) > well_off * reach;
+    }
+};
+
 /// How far a point is from what has no bounds, at least.
 double distance_to(const LoweredPlane& plane, const Vec3& point)
 {
@@ -84,14 +116,20 @@ double distance_to(const Surface&, const Vec3&)
 bool is_far(const Vec3& light, const LoweredScene& lowered)
 {
     Bodies bodies;
+    LargeSpheres spheres;
     double off = infinite;
     for_each_surface(lowered, [&](const auto& surface) {
+        if (spheres.add(surface, light))
+            return;
         if constexpr (requires { box_of(surface); })
             if (is_bounded(surface))
                 return bodies.add(box_of(surface));
         off = std::min(off, distance_to(surface, light));
     });
     if (bodies.least == infinite)
+        return false;
+    // Of a surface without bounds there are points that are too far off for both.
+    if (spheres.reach > 0.0 && (off < infinite || !spheres.are_met_well()))
         return false;
     const double radius = 0.5 * glm::length(bodies.high - bodies.low);
     const double distance = glm::length(light - 0.5 * (bodies.low + bodies.high));
