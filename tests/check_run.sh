@@ -128,6 +128,14 @@ fake cmake 'case $1 in --preset) ;; *) echo "noise of ninja"; exit 1 ;; esac'
 ends 1 demo
 prints 'noise of ninja'
 prints 'the build failed'
+rm -f configured
+ends 2 build all
+prints "./run build: takes no options, but 'all'"
+ends 2 fuzz soon
+prints "'soon' is no number of seconds"
+ends 0 install --help
+prints '^./run install  *install the packages'
+[ ! -e configured ] || wrong 'what was only asked about was built'
 ends 2 dmeo
 prints "unknown command 'dmeo'"
 exit "$failed"

@@ -4,17 +4,42 @@
 #include <filesystem>
 #include <fstream>
 #include <iterator>
+#include <stdexcept>
 #include <string>
 #include <string_view>
+#include <system_error>
 #include <vector>
 
-#include "core/scratch_folder.hpp"
+#include <stdlib.h>
 
 namespace packtrace::test {
 
-/// A folder of a test.
-class TempFolder : public ScratchFolder {
+/// A folder of a test among the system's temporary files, removed with all it holds.
+class TempFolder {
 public:
+    TempFolder()
+    {
+        std::string name = (std::filesystem::temp_directory_path() / "packtrace-XXXXXX").string();
+        if (mkdtemp(name.data()) == nullptr)
+            throw std::runtime_error(name + ": can't make a temporary folder; set TMPDIR");
+        path_ = name;
+    }
+    ~TempFolder()
+    {
+        std::error_code ignored;
+        std::filesystem::remove_all(path_, ignored);
+    }
+    TempFolder(const TempFolder&) = delete;
+    TempFolder& operator=(const TempFolder&) = delete;
+
+    [[nodiscard]] const std::filesystem::path& path() const
+    {
+        return path_;
+    }
+    [[nodiscard]] std::filesystem::path operator/(std::string_view name) const
+    {
+        return path_ / name;
+    }
     /// The names in it, sorted, hidden ones too.
     [[nodiscard]] std::vector<std::string> names() const
     {
@@ -24,6 +49,9 @@ public:
         std::sort(names.begin(), names.end());
         return names;
     }
+
+private:
+    std::filesystem::path path_;
 };
 
 inline void write_text(const std::filesystem::path& file, std::string_view text)

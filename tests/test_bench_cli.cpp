@@ -7,6 +7,7 @@
 #include <nlohmann/json.hpp>
 
 #include "catch.hpp"
+#include "killed_program.hpp"
 #include "run_program.hpp"
 
 namespace packtrace::test {
@@ -104,6 +105,30 @@ TEST_CASE("bench says so, with an exit code of its own, when it can't tell", "[b
     CHECK_THAT(result.err, ContainsSubstring("more --repetitions"));
 }
 
+TEST_CASE("bench leaves no program behind that it has started", "[bench_cli]")
+{
+    if (std::string_view(PACKTRACE_CLI).ends_with("_emulated"))
+        return;
+    const TempFolder folder;
+    // Says that it has begun, and that it is told to end.
+    const std::filesystem::path other = folder / "other";
+    const std::filesystem::path begun = folder / "begun";
+    const std::filesystem::path ended = folder / "ended";
+    write_text(other, "#!/bin/sh\ntrap 'echo >" + ended.string() + "; exit 1' TERM\necho >" +
+                          begun.string() + "\nwhile sleep 0.1; do :; done\n");
+    std::filesystem::permissions(other, std::filesystem::perms::owner_all);
+    const auto is_there = [](const std::filesystem::path& file) {
+        return std::filesystem::exists(file);
+    };
+    const int status =
+        kill_program({PACKTRACE_CLI, "bench", four_spheres_file, "--against", other.string()},
+                     SIGTERM, [&] { return is_there(begun); });
+    CHECK(WIFSIGNALED(status));
+    for (int i = 0; i < 1000 && !is_there(ended); ++i)
+        std::this_thread::sleep_for(std::chrono::milliseconds(10));
+    CHECK(is_there(ended));
+}
+
 TEST_CASE("bench compares with another program by turns", "[bench_cli]")
 {
     // The program starts itself, too, which an emulated one can't.
@@ -156,7 +181,7 @@ TEST_CASE("bench refuses a baseline that is none", "[bench_cli]")
     CHECK_THAT(
         failure(
             R"({"packtrace_bench": 1, "lines": [{"name": "a", "milliseconds": 1, "ratios": [1]}]})"),
-        ContainsSubstring("no line of what was measured"));
+        ContainsSubstring("no line of these scenes"));
     // Another scene of the same name, by itself and beside it.
     write_text(folder / "four_spheres.scene", "sphere { center = (0, 0, 3)  radius = 1 }");
     const std::string kept = (folder / "kept.json").string();

@@ -182,6 +182,12 @@ TEST_CASE("wrong use exits 2 with one line and leaves no file", "[cli]")
         {{"rendr"}, "unknown subcommand 'rendr'"},
         {{"render"}, "SCENE is required"},
         {{"render", four_spheres}, "--output is required"},
+        {{"info", ""}, "'' is not a file's name"},
+        {{"demo", ""}, "'' is not a file's name"},
+        {{"bench", four_spheres, ""}, "'' is not a file's name"},
+        {{"render", four_spheres, "-o", ""}, "'' is not a file's name"},
+        {{"report", four_spheres, "-o", ""}, "'' is not a folder's name"},
+        {{"stress", "--cases", ""}, "'' is not a folder's name"},
         {{"render", four_spheres, "-o", out, "--kernel", "gpu"}, "'gpu' is not packet or scalar"},
         {{"render", four_spheres, "-o", out, "--precision", "half"},
          "'half' is not single, double or extended"},
@@ -303,6 +309,9 @@ TEST_CASE("a scene from standard input that can't be used is told so", "[cli]")
     const ProgramResult nothing = run_packtrace({"render", "-", "-o", out});
     CHECK(nothing.exit_code == 1);
     CHECK(is_one_line(nothing.err));
+    const ProgramResult unreadable = run_packtrace({"render", "-", "-o", out}, "", "/");
+    CHECK(unreadable.exit_code == 1);
+    CHECK(unreadable.err == "standard input: can't read: Is a directory\n");
     const ProgramResult twice =
         run_packtrace({"report", "-", "-", "-o", folder / "report"}, "", four_spheres);
     CHECK(twice.exit_code == 1);

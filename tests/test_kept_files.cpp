@@ -70,6 +70,11 @@ TEST_CASE("no output takes the place of what the command reads", "[kept_files]")
     desk.check_refused({"intersect", scene, rays, "-o", rays, "--resume"}, reason);
     desk.check_refused({"compare", picture, picture, "--heatmap", desk.at("link.pfm")}, reason);
     desk.check_refused({"join", rays, "-o", rays}, reason);
+    desk.check_refused({"bench", scene, "-o", scene}, reason);
+    desk.check_refused({"bench", scene, "--baseline", rays, "-o", rays}, reason);
+    std::filesystem::copy_file(scene, desk.at("b.png"));
+    desk.check_refused({"demo", desk.at("b.png"), "-o", desk.at("")}, reason);
+    CHECK(read_text(desk.at("b.png")) == desk_scene);
 }
 
 TEST_CASE("no two outputs of a command are one file", "[kept_files]")

@@ -93,6 +93,33 @@ TEST_CASE("output through a link replaces the file that the link leads to", "[ou
     CHECK(read_text(folder / "real.pfm").starts_with("PF"));
 }
 
+TEST_CASE("a file that is replaced keeps its permissions", "[outputs]")
+{
+    const TempFolder folder;
+    const std::filesystem::path picture = folder / "a.pfm";
+    for (const unsigned mode : {0600u, 0664u, 0640u}) {
+        write_text(picture, "before");
+        REQUIRE(chmod(picture.c_str(), mode) == 0);
+        CHECK(render_small(picture).exit_code == 0);
+        struct stat found {};
+        REQUIRE(stat(picture.c_str(), &found) == 0);
+        CHECK((found.st_mode & 0777u) == mode);
+        CHECK(read_text(picture).starts_with("PF"));
+    }
+}
+
+TEST_CASE("output into a file without a name replaces nothing", "[outputs]")
+{
+    const TempFolder folder;
+    const std::filesystem::path file = folder / "a";
+    const int handle = open(file.c_str(), O_RDWR | O_CREAT, 0600);
+    std::filesystem::remove(file);
+    write_file("/dev/fd/" + std::to_string(handle), "text");
+    CHECK(lseek(handle, 0, SEEK_END) == 4);
+    CHECK(folder.names().empty());
+    close(handle);
+}
+
 TEST_CASE("output into a pipe goes through the pipe", "[outputs]")
 {
     const TempFolder folder;

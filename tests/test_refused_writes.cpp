@@ -97,6 +97,20 @@ TEST_CASE("in a folder that may not be written to a run ends with one line", "[r
     }
 }
 
+TEST_CASE("a file that may not be written to is not replaced", "[refused_writes]")
+{
+    const TempFolder folder;
+    const std::filesystem::path picture = folder / "a.pfm";
+    write_text(picture, "before");
+    std::filesystem::permissions(picture, std::filesystem::perms::owner_read);
+    const ProgramResult result = run_without_privileges(
+        {"render", four_spheres_file, "--size", "8x8", "-q", "-o", picture.string()});
+    CHECK(result.exit_code == 1);
+    CHECK_THAT(result.err, ContainsSubstring("Permission denied"));
+    CHECK(read_text(picture) == "before");
+    CHECK(folder.names().size() == 1);
+}
+
 TEST_CASE("a scene that may not be read is refused in one line", "[refused_writes]")
 {
     const TempFolder folder;

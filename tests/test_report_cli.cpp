@@ -143,6 +143,34 @@ TEST_CASE("a folder that can't be made is named with the reason", "[report_cli]"
     }
 }
 
+TEST_CASE("where no truth can be kept a report is made without", "[report_cli]")
+{
+    const TempFolder folder;
+    write_text(folder / "file", "");
+    const std::string out = (folder / "out").string();
+    const std::string nowhere = (folder / "file" / "home").string();
+    const std::vector<std::string> words{
+        "report", four_spheres_file, "--size", "8x8", "--quick", "-q", "-o", out};
+    const ProgramResult kept_none =
+        run_packtrace(words, "XDG_CACHE_HOME= HOME=" + shell_quoted(nowhere));
+    CHECK(kept_none.exit_code == 0);
+    CHECK_THAT(kept_none.err, ContainsSubstring("warning: " + nowhere));
+    CHECK_THAT(kept_none.err, ContainsSubstring("--cache"));
+    CHECK(std::filesystem::exists(folder / "out" / "report.md"));
+    // Nor in a folder that hangs on where the program is started.
+    const ProgramResult relative =
+        run_packtrace(words, "XDG_CACHE_HOME=packtrace_relative HOME=" + shell_quoted(folder / ""));
+    CHECK(relative.exit_code == 0);
+    CHECK_FALSE(std::filesystem::exists("packtrace_relative"));
+    CHECK(std::filesystem::exists(folder / ".cache" / "packtrace"));
+    // One that was asked for has to do.
+    std::vector<std::string> asked = words;
+    asked.insert(asked.end(), {"--cache", nowhere});
+    const ProgramResult refused = run_packtrace(asked);
+    CHECK(refused.exit_code == 1);
+    CHECK_THAT(refused.err, ContainsSubstring(nowhere));
+}
+
 TEST_CASE("report refuses wrong use in one line", "[report_cli]")
 {
     const TempFolder folder;

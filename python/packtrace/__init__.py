@@ -34,6 +34,11 @@ __all__ = [
 ]
 
 
+def __dir__() -> List[str]:
+    """What the package offers, without what it is made with."""
+    return __all__
+
+
 def read_scene(file: Path) -> Scene:
     """Reads a scene file (docs/scene.md). Raises SceneError: "file:line:column: what, why, what to
     do". What the reader had to mend becomes a Python warning."""

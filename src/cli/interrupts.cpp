@@ -11,6 +11,7 @@
 #include <unistd.h>
 
 #include "core/atomic_file.hpp"
+#include "core/run_filter.hpp"
 #include "scene/language/quote.hpp"
 
 namespace packtrace::cli {
@@ -53,6 +54,7 @@ void end_by(int signal)
     const char* const given = given_line.load();
     if (given != nullptr)
         say(given);
+    end_filter();
     const bool removed = remove_all_temporaries() > 0;
     if (given == nullptr)
         say(removed ? removal_line.data() : usual_line.data());

@@ -222,10 +222,25 @@ AtomicFile::AtomicFile(std::filesystem::path target) : target_(followed(std::mov
         throw FileError(target_, "can't write", errno);
     if (is_there && S_ISDIR(found.st_mode))
         throw FileError(target_, "can't write", EISDIR);
-    if (is_there && !S_ISREG(found.st_mode))
+    if (is_there && access(target_.c_str(), W_OK) != 0)
+        throw FileError(target_, "can't write", errno);
+    std::error_code ignored;
+    // A link is followed, unless the file that it leads to has no name.
+    if (is_there && (!S_ISREG(found.st_mode) || std::filesystem::is_symlink(target_, ignored))) {
         open_directly();
-    else
-        open_temporary();
+        return;
+    }
+    open_temporary();
+    if (is_there)
+        belong_as(found);
+}
+
+void AtomicFile::belong_as(const struct stat& replaced)
+{
+    const int handle = fileno(file_.get());
+    // Who may not give a file away keeps it, and some file systems have no permissions.
+    [[maybe_unused]] const int given = fchown(handle, replaced.st_uid, replaced.st_gid);
+    [[maybe_unused]] const int set = fchmod(handle, replaced.st_mode & 0777u);
 }
 
 void AtomicFile::open_directly()

@@ -5,15 +5,18 @@
 #include <span>
 #include <string_view>
 
+#include <sys/stat.h>
+
 #include "core/read_file.hpp"
 
 namespace packtrace {
 
 /// A file that appears complete or not at all: bytes go to a temporary name beside `target`,
 /// `commit` renames it. Without a commit the destructor removes it and leaves what was at
-/// `target` untouched. A link is followed: the file it leads to is replaced. What is no regular
-/// file, such as a pipe or a device, is written to directly. The constructor also calls
-/// remove_left_over(). Everything but the destructor throws FileError.
+/// `target` untouched. A link is followed: the file it leads to is replaced, and keeps its
+/// permissions and, where the system allows, its owner; other hard links to it keep what they have.
+/// What is no regular file, such as a pipe or a device, or has no name, is written to directly. The
+/// constructor also calls remove_left_over(). Everything but the destructor throws FileError.
 class AtomicFile {
 public:
     explicit AtomicFile(std::filesystem::path target);
@@ -28,6 +31,7 @@ public:
 private:
     void open_directly();
     void open_temporary();
+    void belong_as(const struct stat& replaced);
     bool create_temporary(int attempt);
     void remove_temporary();
 

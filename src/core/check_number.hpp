@@ -4,6 +4,8 @@
 #include <stdexcept>
 #include <string>
 
+#include "core/text.hpp"
+
 // Options of the library's callers: each fault is one line that says what there is instead.
 namespace packtrace {
 
@@ -24,7 +26,7 @@ inline void check_number(const std::string& option, int number, int least, int m
 inline void check_not_negative(const std::string& option, double number)
 {
     if (!(number >= 0.0) || !std::isfinite(number))
-        throw std::invalid_argument(option + ": " + std::to_string(number) +
+        throw std::invalid_argument(option + ": " + brief(number, 6) +
                                     "; choose a finite number >= 0");
 }
 

@@ -1,27 +1,29 @@
 #include "core/text.hpp"
 
-#include <cstdio>
+#include <array>
+#include <charconv>
 
 namespace packtrace {
 namespace {
 
-std::string printed(const char* format, int digits, double value)
+/// With a point, whatever locale a program around the library has chosen.
+std::string printed(double value, std::chars_format format, int digits)
 {
-    char text[64];
-    std::snprintf(text, sizeof text, format, digits, value);
-    return text;
+    std::array<char, 512> text;
+    char* const begin = text.data();
+    return {begin, std::to_chars(begin, begin + text.size(), value, format, digits).ptr};
 }
 
 }  // namespace
 
 std::string fixed(double value, int decimals)
 {
-    return printed("%.*f", decimals, value);
+    return printed(value, std::chars_format::fixed, decimals);
 }
 
 std::string brief(double value, int digits)
 {
-    return printed("%.*g", digits, value);
+    return printed(value, std::chars_format::general, digits);
 }
 
 std::string joined(const std::vector<std::string>& words, std::string_view between)

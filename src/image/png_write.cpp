@@ -1,6 +1,7 @@
 // Pictures as PNG: stb_image_write with libdeflate behind it, one filter and one level, chosen in
 // results/png.json.
 #include "core/checksum.hpp"
+#include "core/text.hpp"
 #include "image/bytes.hpp"
 #include "image/formats.hpp"
 
@@ -112,7 +113,7 @@ Bytes encode_png(const Image<Real>& image, const PngSettings& settings)
 {
     if (!(settings.gamma > 0.0) || std::isinf(settings.gamma))
         throw std::invalid_argument(
-            "gamma is " + std::to_string(settings.gamma) +
+            "gamma is " + brief(settings.gamma, 6) +
             "; give a positive number, such as 2.2, or 1 for linear values");
     const auto round = [&](int y, int rows, std::uint8_t* to) {
         const std::size_t count =

@@ -21,6 +21,7 @@
 #include "cli/options/scene_input.hpp"
 #include "cli/options/thread_limit.hpp"
 #include "cli/options/validators.hpp"
+#include "cli/output/distinct_files.hpp"
 #include "cli/output/text_table.hpp"
 #include "core/atomic_file.hpp"
 #include "lab/harness/statistics.hpp"
@@ -179,16 +180,33 @@ void print_split(const std::vector<DemoEntry>& entries)
     }
 }
 
-void write_pictures(const std::filesystem::path& folder, const std::string& stem,
-                    const std::vector<DemoEntry>& entries)
-{
-    const std::filesystem::path file = folder / (stem + ".png");
-    write_image(file, convert<float>(entries.back().image));
-    std::cout << "picture           " << language::escape(file.string()) << '\n';
-    const std::filesystem::path map = folder / (stem + "_error.png");
-    write_image(map, heatmap(entries.back().image, entries.front().image));
-    std::cout << "its error         " << language::escape(map.string()) << '\n';
-}
+/// What is written into the folder.
+struct DemoPictures {
+    std::filesystem::path picture;
+    std::filesystem::path error;
+
+    DemoPictures(const std::filesystem::path& folder, const std::string& stem)
+        : picture(folder / (stem + ".png")), error(folder / (stem + "_error.png"))
+    {
+    }
+
+    /// Throws FileError where they can't be written, or would replace the scene.
+    void check(const std::string& scene) const
+    {
+        for (const std::filesystem::path& file : {picture, error}) {
+            check_not_read(file.string(), {scene});
+            check_image_writable(file);
+        }
+    }
+
+    void write(const std::vector<DemoEntry>& entries) const
+    {
+        write_image(picture, convert<float>(entries.back().image));
+        std::cout << "picture           " << language::escape(picture.string()) << '\n';
+        write_image(error, heatmap(entries.back().image, entries.front().image));
+        std::cout << "its error         " << language::escape(error.string()) << '\n';
+    }
+};
 
 /// Of the folder that the program runs in or, where that has none, as it is installed.
 std::string default_scene()
@@ -205,12 +223,13 @@ std::string default_scene()
 
 void run_demo(const DemoArguments& arguments)
 {
-    SceneInput input =
-        read_scene_input(arguments.scene.empty() ? default_scene() : arguments.scene);
+    const std::string file = arguments.scene.empty() ? default_scene() : arguments.scene;
+    SceneInput input = read_scene_input(file);
     Scene& scene = input.scene;
     apply(arguments.picture, scene);
     make_folders(arguments.folder);
-    check_image_writable(arguments.folder / (input.stem + ".png"));
+    const DemoPictures pictures(arguments.folder, input.stem);
+    pictures.check(file);
 
     limit_threads(arguments.threads);
     std::vector<DemoEntry> entries = demo_entries(arguments.threads);
@@ -222,7 +241,7 @@ void run_demo(const DemoArguments& arguments)
     std::cout << '\n';
     print_split(entries);
     std::cout << '\n';
-    write_pictures(arguments.folder, input.stem, entries);
+    pictures.write(entries);
 }
 
 }  // namespace
@@ -235,8 +254,10 @@ void add_demo(CLI::App& app)
     command
         ->add_option("SCENE", arguments->scene,
                      "Scene file (default scenes/four_spheres.scene); - is standard input")
+        ->check(file_name())
         ->type_name("");
     command->add_option("-o,--output", arguments->folder, "Folder for the pictures (default demo)")
+        ->check(folder_name())
         ->type_name("DIR");
     add_picture_options(*command, arguments->picture);
     add_threads_option(*command, arguments->threads);

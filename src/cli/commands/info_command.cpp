@@ -249,6 +249,7 @@ void add_info(CLI::App& app)
     CLI::Option* const scene =
         command
             ->add_option("SCENE", arguments->scene, "Scene file to look into; - is standard input")
+            ->check(file_name())
             ->type_name("");
     add_isa_options(*command, arguments->isa);
     CLI::Option* const json = command->add_flag("--json", arguments->json, "Print JSON");

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <cerrno>
+#include <cstdio>
 #include <filesystem>
 #include <iostream>
 #include <set>
@@ -10,6 +12,8 @@
 
 #include <CLI/CLI.hpp>
 
+#include "cli/options/validators.hpp"
+#include "core/read_file.hpp"
 #include "scene/language/source.hpp"
 
 namespace packtrace::cli {
@@ -37,11 +41,12 @@ inline CLI::Option* add_scene_option(CLI::App& command, std::string& file)
 {
     return command.add_option("SCENE", file, "Scene file; - is standard input")
         ->required()
+        ->check(file_name())
         ->type_name("");
 }
 
 /// Reads it; warnings go to standard error. Throws SceneError, also where standard input has been
-/// read before.
+/// read before, and FileError where that can't be read.
 [[nodiscard]] inline SceneInput read_scene_input(const std::string& file)
 {
     const bool piped = file == "-";
@@ -51,6 +56,9 @@ inline CLI::Option* add_scene_option(CLI::App& command, std::string& file)
     if (piped && std::cin.eof())
         throw SceneError(input.name + ": has been read already; give - for one scene only");
     input.text = piped ? language::load_text(std::cin, input.name) : language::load_text(file);
+    // Of which the stream, that is of the C library's, tells nothing.
+    if (piped && std::ferror(stdin) != 0)
+        throw FileError(input.name, "can't read", errno);
     input.scene = parse_scene(input.text, input.name, [](const std::string& line) {
         std::cerr << "warning: " << line << '\n';
     });

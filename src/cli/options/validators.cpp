@@ -99,6 +99,11 @@ CLI::Validator own_file_name()
                      "the name of a file of its own");
 }
 
+CLI::Validator folder_name()
+{
+    return validator([](const std::string& text) { return !text.empty(); }, "a folder's name");
+}
+
 CLI::Validator one_of(std::vector<std::string> words)
 {
     std::string wanted = words.front();

@@ -32,6 +32,7 @@ namespace packtrace::cli {
 [[nodiscard]] CLI::Validator file_name();
 /// The same, and not -, where standard output has something else.
 [[nodiscard]] CLI::Validator own_file_name();
+[[nodiscard]] CLI::Validator folder_name();
 /// One of a few words, which shells offer.
 [[nodiscard]] CLI::Validator one_of(std::vector<std::string> words);
 /// Takes any text: shells offer these words, and who reads the option says what is wrong.

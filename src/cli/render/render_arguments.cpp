@@ -38,6 +38,7 @@ void add_render_options(CLI::App& command, RenderArguments& arguments)
     add_scene_option(command, arguments.scene);
     command.add_option("-o,--output", arguments.output, "Picture to write: .png, .pfm or .hdr")
         ->required()
+        ->check(file_name())
         ->type_name("IMAGE");
     command
         .add_option("--certainty", arguments.certainty,

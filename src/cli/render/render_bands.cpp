@@ -71,9 +71,11 @@ BandTally render_bands(const RenderArguments& arguments, const Scene& scene,
     const RenderBand render =
         band_renderer(scene, arguments.kernel.precision, options, file.samples());
 
+    note_progress(arguments, 0, tally.bands);
     JobQueue writer;
     for (; number < tally.bands; ++number) {
         if (std::optional<FinishedBand> kept = file.kept(number)) {
+            note_progress(arguments, number + 1, tally.bands);
             ++tally.found;
             tally.cut += kept->cut;
             writer.add([&file, samples = std::move(kept->samples)] { file.write(samples); });

@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <charconv>
 #include <iostream>
 #include <memory>
@@ -12,6 +13,7 @@
 #include "cli/options/scene_input.hpp"
 #include "cli/options/thread_limit.hpp"
 #include "cli/options/validators.hpp"
+#include "cli/output/distinct_files.hpp"
 #include "cli/output/output.hpp"
 #include "cli/output/text_table.hpp"
 #include "cli/study/bench_file.hpp"
@@ -117,8 +119,7 @@ void measure_alone(const std::vector<ReportScene>& scenes, const BenchArguments&
 // The words of a command line that measures the same.
 std::vector<std::string> bench_words(const BenchArguments& arguments)
 {
-    std::vector<std::string> words = arguments.scenes;
-    words.insert(words.end(), {"--size", *arguments.picture.size});
+    std::vector<std::string> words{"--size", *arguments.picture.size};
     if (arguments.picture.depth)
         words.insert(words.end(), {"--depth", std::to_string(*arguments.picture.depth)});
     if (arguments.picture.min_weight)
@@ -126,6 +127,8 @@ std::vector<std::string> bench_words(const BenchArguments& arguments)
                      {"--min-weight", language::to_text(*arguments.picture.min_weight)});
     if (arguments.isa)
         words.insert(words.end(), {"--isa", *arguments.isa});
+    words.emplace_back("--");
+    words.insert(words.end(), arguments.scenes.begin(), arguments.scenes.end());
     return words;
 }
 
@@ -253,6 +256,20 @@ void check_same_scenes(const BenchFigures& now, const BenchFigures& before,
                                      " is another scene; measure this one's baseline");
 }
 
+// Before they are measured.
+void check_any_compared(const std::vector<ReportScene>& scenes, const BenchFigures& before,
+                        const std::string& baseline)
+{
+    const auto is_measured = [&](const BenchLine& line) {
+        return std::any_of(scenes.begin(), scenes.end(), [&](const ReportScene& scene) {
+            return line.name.starts_with(scene.name + ", ");
+        });
+    };
+    if (std::none_of(before.lines.begin(), before.lines.end(), is_measured))
+        throw std::runtime_error(baseline +
+                                 ": has no line of these scenes; give the same scenes");
+}
+
 // Every run of a program reads the scenes anew.
 void check_files(const BenchArguments& arguments)
 {
@@ -274,8 +291,12 @@ void run_bench_command(const BenchArguments& arguments)
         throw CLI::ValidationError(
             "--max-slowdown: nothing is compared; give --baseline or --against");
     // Before the work, so that a wrong name doesn't cost it.
-    if (!arguments.output.empty())
+    if (!arguments.output.empty()) {
+        std::vector<std::string> inputs = arguments.scenes;
+        inputs.insert(inputs.end(), {arguments.baseline, arguments.against});
+        check_not_read(arguments.output, inputs);
         check_writable(arguments.output);
+    }
     result.figures.now.picture = picture_text(arguments.picture);
     if (!arguments.baseline.empty()) {
         result.figures.before = read_bench_file(arguments.baseline);
@@ -290,7 +311,10 @@ void run_bench_command(const BenchArguments& arguments)
         scenes.push_back({name, std::move(input.scene)});
         apply(arguments.picture, scenes.back().scene);
     }
-    check_same_scenes(result.figures.now, result.figures.before, arguments.baseline);
+    if (!arguments.baseline.empty()) {
+        check_any_compared(scenes, result.figures.before, arguments.baseline);
+        check_same_scenes(result.figures.now, result.figures.before, arguments.baseline);
+    }
     if (arguments.against.empty())
         measure_alone(scenes, arguments, result);
     else
@@ -338,6 +362,7 @@ void add_bench(CLI::App& app)
     const auto arguments = std::make_shared<BenchArguments>();
     command->add_option("SCENE", arguments->scenes, "Scene files; - is standard input")
         ->required()
+        ->check(file_name())
         ->type_name("");
     add_picture_options(*command, arguments->picture);
     add_isa_option(*command, arguments->isa, "Only this instruction set (default all there are)");

@@ -109,19 +109,19 @@ std::string bench_text(const BenchFigures& figures)
     return json_text(json);
 }
 
-BenchFigures read_bench_file(const std::filesystem::path& file)
+BenchFigures read_bench_text(const std::string& text, const std::string& name)
 {
-    const Json json = Json::parse(read_file(file), nullptr, false);
+    const Json json = Json::parse(text, nullptr, false);
     if (!is_bench(json))
-        throw std::runtime_error(file.string() + ": not a file that packtrace bench -o writes");
+        throw std::runtime_error(name + ": not a file that packtrace bench -o writes");
     BenchFigures figures;
     // Earlier versions wrote none, nor scenes, nor references.
     if (const Json picture = json.value("picture", Json()); picture.is_string())
         figures.picture = picture;
     const Json scenes = json.value("scenes", Json::object());
-    for (const auto& [name, checksum] : scenes.items())
+    for (const auto& [scene, checksum] : scenes.items())
         if (checksum.is_string())
-            figures.scenes.emplace(name, checksum);
+            figures.scenes.emplace(scene, checksum);
     for (const Json& line : json["lines"])
         figures.lines.push_back(bench_line_of(line));
     for (const Json& reference : json.value("references", Json::array()))
@@ -130,6 +130,11 @@ BenchFigures read_bench_file(const std::filesystem::path& file)
             figures.references.push_back(
                 {reference["name"], {1.0}, {1e-3 * reference["milliseconds"].get<double>()}});
     return figures;
+}
+
+BenchFigures read_bench_file(const std::filesystem::path& file)
+{
+    return read_bench_text(read_file(file), file.string());
 }
 
 }  // namespace packtrace::cli

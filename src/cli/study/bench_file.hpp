@@ -25,8 +25,9 @@ struct BenchFigures {
 /// The text of a file that a later run takes as its baseline.
 [[nodiscard]] std::string bench_text(const BenchFigures& figures);
 
-/// Reads such a file, whatever version wrote it. Throws std::runtime_error, in one line, for any
-/// other.
+/// What such a text says, whatever version wrote it; `name` is for messages. Throws
+/// std::runtime_error, in one line, for any other.
+[[nodiscard]] BenchFigures read_bench_text(const std::string& text, const std::string& name);
 [[nodiscard]] BenchFigures read_bench_file(const std::filesystem::path& file);
 
 }  // namespace packtrace::cli

@@ -2,9 +2,10 @@
 
 #include <filesystem>
 #include <stdexcept>
+#include <string>
+#include <utility>
 
 #include "core/run_filter.hpp"
-#include "core/scratch_folder.hpp"
 
 namespace packtrace::cli {
 namespace {
@@ -12,19 +13,20 @@ namespace {
 // Of so many in a row the median is one sample.
 constexpr const char* repetitions_of_a_run = "3";
 
+// Where a program writes its figures: standard output has its table.
+constexpr int figures_descriptor = 3;
+
 BenchFigures run_once(const std::string& program, const std::vector<std::string>& words)
 {
-    const ScratchFolder folder;
-    const std::filesystem::path file = folder / "figures.json";
-    std::vector<std::string> command{program, "bench"};
+    std::vector<std::string> command{program, "bench", "--repetitions", repetitions_of_a_run, "-o",
+                                     "/dev/fd/" + std::to_string(figures_descriptor)};
     command.insert(command.end(), words.begin(), words.end());
-    command.insert(command.end(), {"--repetitions", repetitions_of_a_run, "-o", file.string()});
-    const FilterResult result = run_filter(command, "");
+    const FilterResult result = run_filter(command, "", figures_descriptor);
     if (!result.started)
         throw std::runtime_error(program + ": can't be run; give a packtrace program");
-    if (result.exit_code != 0 || !std::filesystem::exists(file))
+    if (result.exit_code != 0 || result.output.empty())
         throw std::runtime_error(program + ": its 'bench' fails; run it by hand to see why");
-    BenchFigures figures = read_bench_file(file);
+    BenchFigures figures = read_bench_text(result.output, program + ": its 'bench' answers");
     for (BenchLine& line : figures.lines)
         line.ratios = {line.ratio()};
     return figures;

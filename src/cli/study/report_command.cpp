@@ -24,17 +24,36 @@
 #include "lab/report/plot.hpp"
 #include "lab/report/report_text.hpp"
 #include "render/check_options.hpp"
+#include "scene/language/quote.hpp"
 
 namespace packtrace::cli {
 namespace {
 
+/// By the XDG Base Directory Specification, to which relative folders are none.
 std::filesystem::path default_cache()
 {
-    if (const char* folder = std::getenv("XDG_CACHE_HOME"); folder != nullptr && *folder != '\0')
-        return std::filesystem::path(folder) / "packtrace";
-    if (const char* home = std::getenv("HOME"); home != nullptr && *home != '\0')
-        return std::filesystem::path(home) / ".cache" / "packtrace";
+    const auto folder_of = [](const char* variable) {
+        const char* const value = std::getenv(variable);
+        const std::filesystem::path folder = value == nullptr ? "" : value;
+        return folder.is_absolute() ? folder : std::filesystem::path();
+    };
+    if (const std::filesystem::path caches = folder_of("XDG_CACHE_HOME"); !caches.empty())
+        return caches / "packtrace";
+    if (const std::filesystem::path home = folder_of("HOME"); !home.empty())
+        return home / ".cache" / "packtrace";
     return {};
+}
+
+/// Why no file can be kept in a folder; empty if it can, or there is none.
+std::string fault_of(const std::filesystem::path& cache)
+{
+    try {
+        if (!cache.empty())
+            check_folder(cache);
+    } catch (const FileError& error) {
+        return error.what();
+    }
+    return "";
 }
 
 void add_measure_options(CLI::App& command, ReportArguments& arguments)
@@ -62,6 +81,7 @@ void add_measure_options(CLI::App& command, ReportArguments& arguments)
         .add_option(
             "--cache", arguments.cache,
             "Folder in which reference pictures are kept (default packtrace in the user's cache)")
+        ->check(folder_name())
         ->type_name("DIR");
 }
 
@@ -71,9 +91,11 @@ void add_report_options(CLI::App& command, ReportArguments& arguments)
 {
     command.add_option("SCENE", arguments.scenes, "Scene files; - is standard input")
         ->required()
+        ->check(file_name())
         ->type_name("");
     command.add_option("-o,--output", arguments.folder, "Folder for the report")
         ->required()
+        ->check(folder_name())
         ->type_name("DIR");
     add_picture_options(command, arguments.picture);
     add_measure_options(command, arguments);
@@ -134,6 +156,8 @@ ReportOptions report_options(const ReportArguments& arguments)
     options.repetitions = arguments.repetitions.value_or(options.repetitions);
     options.truth_samples = arguments.truth_samples.value_or(options.truth_samples);
     options.cache = arguments.cache ? std::filesystem::path(*arguments.cache) : default_cache();
+    if (!arguments.cache && !fault_of(options.cache).empty())
+        options.cache.clear();
     options.max_time = 1e-3 * arguments.max_time_ms;
     return options;
 }
@@ -141,6 +165,11 @@ ReportOptions report_options(const ReportArguments& arguments)
 void check_report_target(const ReportArguments& arguments)
 {
     check_plots();
+    if (arguments.cache)
+        check_folder(*arguments.cache);
+    else if (const std::string fault = fault_of(default_cache()); !fault.empty())
+        std::cerr << "warning: " << language::escape(fault)
+                  << "; reference pictures are not kept; name a folder for them with --cache\n";
     make_folders(arguments.folder);
     check_writable(arguments.folder / "report.md");
 }

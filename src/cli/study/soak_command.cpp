@@ -158,6 +158,7 @@ void add_soak(CLI::App& app)
         command
             ->add_option("SCENE", arguments->files,
                          "Check these scene files in place of random scenes; - is standard input")
+            ->check(file_name())
             ->type_name("");
     command
         ->add_option("--minutes", arguments->minutes,
@@ -192,6 +193,7 @@ void add_soak(CLI::App& app)
     command
         ->add_option("--cases", arguments->cases,
                      "Write the scenes of findings into this folder (default .)")
+        ->check(folder_name())
         ->type_name("FOLDER");
     add_threads_option(*command, arguments->threads);
     command->callback([arguments] { run(*arguments); });

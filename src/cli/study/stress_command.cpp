@@ -70,6 +70,7 @@ void add_stress_options(CLI::App& command, StressArguments& arguments)
     command
         .add_option("--cases", arguments.cases,
                     "Write the first wrong ray of each row, and its scene, into this folder")
+        ->check(folder_name())
         ->type_name("FOLDER");
     command.add_flag("--json", arguments.json, "Print JSON");
 }
@@ -122,7 +123,7 @@ void note_progress(std::size_t done, std::size_t families, const std::vector<Str
 void run_stress_command(const StressArguments& arguments)
 {
     if (arguments.list)
-        return print_stress_families(arguments.json);
+        return print_stress_families(arguments);
     lab::StressOptions options = stress_options(arguments);
     if (arguments.shard)
         take_shard(arguments, options);

@@ -31,7 +31,7 @@ void add_stress_options(CLI::App& command, StressArguments& arguments);
 /// that are none.
 [[nodiscard]] lab::StressOptions stress_options(const StressArguments& arguments);
 
-void print_stress_families(bool as_json);
+void print_stress_families(const StressArguments& arguments);
 
 /// Prints the rows of a stress test and its verdict, or JSON, and writes the cases that are asked
 /// for. Throws FileError.

@@ -168,19 +168,20 @@ void write_cases(const std::filesystem::path& folder, const std::vector<StressRo
 
 }  // namespace
 
-void print_stress_families(bool as_json)
+void print_stress_families(const StressArguments& arguments)
 {
-    if (as_json) {
-        auto json = nlohmann::ordered_json::array();
-        for (const auto& family : lab::list_stress_families())
-            json.push_back({{"family", family.name}, {"rays", family.what}});
-        std::cout << json_text(json);
-        return;
-    }
+    auto json = nlohmann::ordered_json::array();
     TextTable table(2, {"family", "rays"});
-    for (const auto& family : lab::list_stress_families())
+    for (const auto& family : lab::list_stress_families()) {
+        if (!lab::wanted(arguments.options.families, family.name))
+            continue;
+        json.push_back({{"family", family.name}, {"rays", family.what}});
         table.add({family.name, family.what});
-    table.print(std::cout);
+    }
+    if (arguments.json)
+        std::cout << json_text(json);
+    else
+        table.print(std::cout);
 }
 
 void print_stress(const StressArguments& arguments, const std::vector<StressRow>& rows)

@@ -14,24 +14,33 @@ inline constexpr int most_picking_nodes = 1000;
 inline constexpr int most_open_nodes = 48;
 inline constexpr int most_open_leaves = 64;
 
+/// A bit for each of a node's children, or of a leaf's spheres, that `meets(first)` tells, side by
+/// side from `first` on.
+template <class Meets>
+inline std::uint32_t each_met(const Meets& meets)
+{
+    std::uint32_t met = 0;
+    for (int first = 0; first < abi::node_width; first += lanes<float>)
+        met |= (bits(meets(first)) & all_lanes<float>) << first;
+    return met & ((1u << abi::node_width) - 1);
+}
+
+inline Vec3v<float> load_points(const float (&of)[3][abi::node_width], int first)
+{
+    return {load_of_block(of[0], first), load_of_block(of[1], first), load_of_block(of[2], first)};
+}
+
 /// The children of a node whose boxes the rays of a cone may meet, by the balls around them.
 inline std::uint32_t children_met(const Cone<float>& cone, const abi::BvhNode& node)
 {
     const Vec3v<float> base = broadcast(cone.base);
-    const vreal<float> half(0.5f);
-    std::uint32_t met = 0;
-    for (int first = 0; first < abi::node_width; first += lanes<float>) {
-        const auto corner = [&](const float(&of)[3][abi::node_width]) {
-            return Vec3v<float>{load_of_block(of[0], first), load_of_block(of[1], first),
-                                load_of_block(of[2], first)};
-        };
-        const Vec3v<float> high = corner(node.high);
-        const Vec3v<float> center = scale<float>(half, corner(node.low) + high);
+    return each_met([&](int first) {
+        const Vec3v<float> high = load_points(node.high, first);
+        const Vec3v<float> center =
+            scale<float>(vreal<float>(0.5f), load_points(node.low, first) + high);
         const Vec3v<float> edge = high - center;
-        const vreal<float> radius = sqrt(dot(edge, edge));
-        met |= (bits(may_meet<float>(cone, center - base, radius)) & all_lanes<float>) << first;
-    }
-    return met & ((1u << abi::node_width) - 1);
+        return may_meet<float>(cone, center - base, sqrt(dot(edge, edge)));
+    });
 }
 
 /// Spheres of a leaf, side by side.
@@ -40,9 +49,7 @@ struct LeafPacket {
     vreal<float> radius;
 
     LeafPacket(const abi::SphereBlock<float>& block, int first)
-        : center(load_of_block(block.center[0], first), load_of_block(block.center[1], first),
-                 load_of_block(block.center[2], first)),
-          radius(load_of_block(block.radius, first))
+        : center(load_points(block.center, first)), radius(load_of_block(block.radius, first))
     {
     }
 };
@@ -52,14 +59,11 @@ inline std::uint32_t spheres_met(const Cone<float>& cone, const abi::SphereBlock
                                  const vreal<float>& error)
 {
     const Vec3v<float> base = broadcast(cone.base);
-    std::uint32_t met = 0;
-    for (int first = 0; first < abi::node_width; first += lanes<float>) {
+    return each_met([&](int first) {
         const LeafPacket spheres(block, first);
-        const auto meets = (spheres.radius >= vreal<float>(0.0f)) &
-                           may_meet<float>(cone, spheres.center - base, spheres.radius + error);
-        met |= (bits(meets) & all_lanes<float>) << first;
-    }
-    return met & ((1u << abi::node_width) - 1);
+        return (spheres.radius >= vreal<float>(0.0f)) &
+               may_meet<float>(cone, spheres.center - base, spheres.radius + error);
+    });
 }
 
 /// Spheres of a leaf.
@@ -161,14 +165,10 @@ inline bool picks_all(FromPoint<F, Real>& objects, const Cone<Real>& cone,
 {
     if (scene.tree.empty())
         return true;
-    if constexpr (F.exact) {
-        Origins origins;
-        for (int axis = 0; axis < 3; ++axis)
-            origins.center[axis] = cone.base[axis];
-        return pick_spheres<true>(objects, origins, cone, scene.tree);
-    } else {
+    if constexpr (F.exact)
+        return pick_spheres<true>(objects, origins_at(cone.base), cone, scene.tree);
+    else
         return false;
-    }
 }
 
 /// The same of rays from a box.

@@ -76,6 +76,12 @@ inline bool certifiable(const Origins& origins)
     return within;
 }
 
+/// All at one point.
+inline Origins origins_at(const float (&point)[3])
+{
+    return {{point[0], point[1], point[2]}};
+}
+
 /// The ball around a box of origins, and around places that are off them by offset_origin().
 inline Origins origins_in(const float (&low)[3], const float (&high)[3])
 {

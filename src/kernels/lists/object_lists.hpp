@@ -128,10 +128,7 @@ template <abi::Features F>
 inline void find_objects(FilteredObjects<true>& objects, const Cone<float>& cone,
                          const abi::SceneView<float>& scene)
 {
-    Origins origins;
-    for (int axis = 0; axis < 3; ++axis)
-        origins.center[axis] = cone.base[axis];
-    filter_objects<F, true>(objects, origins, cone, scene);
+    filter_objects<F, true>(objects, origins_at(cone.base), cone, scene);
 }
 
 /// Puts what rays from a shared origin may meet into the order in which closest hits are found

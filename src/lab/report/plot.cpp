@@ -167,6 +167,16 @@ std::string script_of(const Plot& plot)
     return script.str();
 }
 
+/// The last line that gnuplot says of a script, for messages.
+std::string complaint_of(const std::string& script)
+{
+    std::string said = run_filter({"gnuplot"}, script, STDERR_FILENO).output;
+    while (!said.empty() && (said.back() == '\n' || said.back() == ' '))
+        said.pop_back();
+    const std::string line = said.substr(said.rfind('\n') + 1);
+    return (line.empty() ? "" : " (" + line + ")") + "; is there room for temporary files?";
+}
+
 }  // namespace
 
 const char* series_color(std::size_t series)
@@ -188,11 +198,12 @@ void check_plots()
 
 std::string draw_svg(const Plot& plot)
 {
-    const FilterResult drawn = run_filter({"gnuplot"}, script_of(plot));
+    const std::string script = script_of(plot);
+    const FilterResult drawn = run_filter({"gnuplot"}, script);
     if (!drawn.started)
         check_plots();
     if (drawn.exit_code != 0 || drawn.output.find("</svg>") == std::string::npos)
-        throw PlotError("gnuplot could not draw '" + plot.title + "'");
+        throw PlotError("gnuplot could not draw '" + plot.title + "'" + complaint_of(script));
     return drawn.output;
 }
 

@@ -78,7 +78,8 @@ void set_times(StudyReport& report, std::vector<std::vector<double>> seconds);
 /// The middle half of a run's times, seconds; its median where there are none.
 [[nodiscard]] Interval middle_times(const ReportRun& run);
 
-/// Whether the middle halves of their times do not overlap, and that of `run` is the lower.
+/// Whether the middle halves of their times do not overlap, and that of `run` is the lower; of one
+/// time each that can't be told.
 [[nodiscard]] bool surely_faster(const ReportRun& run, const ReportRun& other);
 
 /// Sets each run's standing among the others.

@@ -56,7 +56,7 @@ void run_stress_on_ranks(const World& world, const cli::StressArguments& argumen
 {
     if (arguments.list) {
         if (world.is_first())
-            cli::print_stress_families(arguments.json);
+            cli::print_stress_families(arguments);
         return;
     }
     const auto start = std::chrono::steady_clock::now();
