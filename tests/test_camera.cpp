@@ -38,6 +38,45 @@ TEST_CASE("looking along up is refused", "[camera]")
     CHECK_THROWS_AS(look_at({0, 0, 0}, {0, 3, 0}, {0, 1, 0}), std::invalid_argument);
 }
 
+namespace {
+
+int pixels_hit(const auto& image)
+{
+    int count = 0;
+    for (std::size_t i = 0; i < image.rgb.size(); i += 3)
+        count += image.rgb[i] > 0 ? 1 : 0;
+    return count;
+}
+
+/// In single precision and in double, by every instruction set.
+void check_pixels_hit(const Scene& scene)
+{
+    const int truth = pixels_hit(test::render_scalar<long double>(scene));
+    REQUIRE(truth > 0);
+    for (const std::string& isa : test::supported_isas()) {
+        CAPTURE(isa);
+        CHECK(pixels_hit(test::render_packets<float>(scene, isa)) == truth);
+        CHECK(pixels_hit(test::render_packets<double>(scene, isa)) == truth);
+    }
+}
+
+}  // namespace
+
+TEST_CASE("a picture does not hang on how far off its viewport is", "[camera]")
+{
+    for (const char* size : {"1e-15", "1e-12", "1e-11", "1e-9", "1", "3e9", "1e11", "1e13"}) {
+        CAPTURE(size);
+        const std::string far = size;
+        check_pixels_hit(
+            parse_scene("image_size = 64 x 64  illumination = whitted  viewport_size = " + far +
+                            " x " + far + "  projection_plane_d = " + far + R"(
+            background = rgb(0, 0, 1)
+            sphere { center = (0, 0, 5)  radius = 1  ambient = 1 }
+            light { type = ambient  intensity = 1 })",
+                        "far", {}));
+    }
+}
+
 TEST_CASE("views of nearly half a turn lose no object of any tile", "[camera]")
 {
     const char* const scenes[] = {
@@ -47,24 +86,13 @@ TEST_CASE("views of nearly half a turn lose no object of any tile", "[camera]")
         "sphere { center = (173.068672, 0.0576, 0.145593)  radius = 0.121942  ambient = 1 }\n",
         "image_size = 17 x 18  viewport_size = 6.60296e7 x 0.0267464\n"
         "plane { point = (0, -1.301969, 0)  normal = (0, 1, 0)  ambient = 1 }\n"};
-    const auto pixels_hit = [](const auto& image) {
-        int count = 0;
-        for (std::size_t i = 0; i < image.rgb.size(); i += 3)
-            count += image.rgb[i] > 0 ? 1 : 0;
-        return count;
-    };
     for (const char* text : scenes) {
         const Scene scene =
             parse_scene("illumination = whitted  background = rgb(0, 0, 1)\n" + std::string(text) +
                             "light { type = ambient  intensity = 1 }\n",
                         "wide", {});
-        const int truth = pixels_hit(test::render_scalar<long double>(scene));
-        REQUIRE(truth > 0);
-        for (const std::string& isa : test::supported_isas()) {
-            CAPTURE(text, isa);
-            CHECK(pixels_hit(test::render_packets<float>(scene, isa)) == truth);
-            CHECK(pixels_hit(test::render_packets<double>(scene, isa)) == truth);
-        }
+        CAPTURE(text);
+        check_pixels_hit(scene);
     }
 }
 

@@ -226,6 +226,23 @@ TEST_CASE("the same where small bodies lie on a large ball", "[no_cliff]")
     }
 }
 
+TEST_CASE("the same beside a second large ball", "[no_cliff]")
+{
+    Scene scene = parse_scene(R"(image_size = 300 x 200  illumination = whitted
+        camera { position = (-3, 4, -6)  look_at = (-1, 0, -0.5)  fov = 40 }
+        sphere { center = (0, -1e5, 0)  radius = 1e5  diffuse = 0.7 }
+        sphere { center = (0, 0, 0)  radius = 0.01  diffuse = 0.7 }
+        sphere { center = (0, 0, 0)  radius = 1  diffuse = 0.7 }
+        sphere { center = (-3e6, 0, 0)  radius = 1e6  diffuse = 0.7 }
+        light { type = point  intensity = 0.5  position = (310000, 500000, 200000) })",
+                              "balls", {});
+    const Image<double> truth = render_scalar<double>(scene);
+    for (const RenderOptions& options : packet_ways()) {
+        CAPTURE(options.isa, options.traversal);
+        CHECK(pixels_off(render<float>(scene, options), truth) <= 4);
+    }
+}
+
 TEST_CASE("a light near one body and far from another keeps the near one's shadow", "[no_cliff]")
 {
     const char* const scenes[] = {// A ball's shadow on a wall, with and without a speck beside.

@@ -1,8 +1,10 @@
 #include <algorithm>
 #include <cmath>
 #include <cstring>
+#include <deque>
 #include <limits>
 #include <random>
+#include <span>
 #include <vector>
 
 #include <glm/geometric.hpp>
@@ -12,6 +14,7 @@
 #include <packtrace/render.hpp>
 
 #include "catch.hpp"
+#include "page_end.hpp"
 #include "render/ray_columns.hpp"
 #include "render_scene.hpp"
 #include "scenes.hpp"
@@ -191,6 +194,58 @@ TEST_CASE("rays that run together have the answers of rays by themselves", "[pic
                 check_rays<float>(scene, way, spread, ++seed);
     }
     check_rays<double>(sparse_spheres(300, 9, 0.0), Way::from_eye, 0.05, 9);
+}
+
+TEST_CASE("nothing beyond the rays' arrays is read where spheres are picked", "[picked_spheres]")
+{
+    const Scene scene = sparse_spheres(40, 3, 0.0);
+    const RayColumns<float> rays = running_together<float>(Way::from_eye, 0.01, 3);
+    for (const std::string& isa : supported_isas()) {
+        const RayScene<float> by_tree(scene, {.isa = isa, .traversal = Traversal::tree});
+        for (const std::size_t count : {65u, 67u, 100u, 255u}) {
+            // deque: what is in it is not moved.
+            std::deque<PageEnd<float>> column;
+            for (const std::vector<float>& values : rays.columns)
+                column.emplace_back(std::span(values).first(count));
+            const auto at = [&](std::size_t i) { return column[i].data(); };
+            const RaysView<float> view{at(0), at(1), at(2), at(3), at(4),
+                                       at(5), at(6), at(7), count};
+            Answers<float> found{std::vector<float>(count), std::vector<std::int32_t>(count),
+                                 std::vector<std::uint8_t>(count)};
+            by_tree.closest_hits(view, {found.t.data(), found.object.data()});
+            by_tree.occluded(view, found.mask.data());
+            RayColumns<float> some = rays;
+            for (std::vector<float>& values : some.columns)
+                values.resize(count);
+            INFO(isa << ", " << count << " rays");
+            check_same(found, answers(by_tree, some, too_few_to_pick));
+        }
+    }
+}
+
+TEST_CASE("a ray with a NaN takes nothing from those beside it", "[picked_spheres]")
+{
+    Scene scene;
+    for (int i = 0; i < 64; ++i)
+        add_sphere(scene, {3.0 * i, 0, 20}, 1, scratch(Rgb(0.5), -1, 0));
+    constexpr std::size_t count = 64;
+    constexpr std::size_t bad = 48;
+    for (std::size_t column = 0; column < 8; ++column) {
+        RayColumns<float> rays;
+        for (std::size_t i = 0; i < count; ++i)
+            rays.add({0, 0, 0}, {0, 0, 1}, 0, i % 8 == 0 ? 100 : 1);
+        rays.columns[column][bad] = std::numeric_limits<float>::quiet_NaN();
+        for (const std::string& isa : supported_isas()) {
+            INFO(isa << ", column " << column);
+            const RayScene<float> by_tree(scene, {.isa = isa, .traversal = Traversal::tree});
+            const Answers<float> found = answers(by_tree, rays, in_one_call);
+            for (std::size_t i = 0; i < count; ++i) {
+                const bool hits = i % 8 == 0 && i != bad;
+                CHECK(found.object[i] == (hits ? 0 : -1));
+                CHECK(found.mask[i] == (hits ? 1 : 0));
+            }
+        }
+    }
 }
 
 TEST_CASE("frames by picked spheres have the pictures of lists", "[picked_spheres]")

@@ -41,27 +41,26 @@ struct Bodies {
 struct LargeSpheres {
     double least = infinite;  ///< the smallest one's radius
     double off = infinite;    ///< how far the light is from their surfaces
-    double reach = 0.0;       ///< and from their furthest point
+    double reach = 0.0;       ///< and at most from a point of one that it may shine on
 
     /// False where the sphere is a body as others are.
-    bool add(const LoweredSphere& sphere, const Vec3& light)
+    template <class Sphere>
+    bool add(const Sphere& sphere, const Vec3& light)
     {
         const double distance = glm::length(light - sphere.center);
         const double height = std::abs(distance - sphere.radius);
         if (height > well_outside * sphere.radius)
             return false;
+        const double way = distance < sphere.radius
+                               ? distance + sphere.radius
+                               : std::sqrt(height * (distance + sphere.radius));
         least = std::min(least, sphere.radius);
         off = std::min(off, height);
-        reach = std::max(reach, distance + sphere.radius);
+        reach = std::max(reach, way);
         return true;
     }
-    template <class Surface>
-    static bool add(const Surface&, const Vec3&)
-    {
-        return false;
-    }
 
-    /// Whether rays from any of their points pass the light, and what is as near to it as they are,
+    /// Whether rays from any of these points pass the light, and what is as near to it as they are,
     /// where they should.
     [[nodiscard]] bool are_met_well() const
     {
@@ -111,30 +110,64 @@ double distance_to(const Surface&, const Vec3&)
     return infinite;
 }
 
+/// What a light may be far from.
+class Surroundings {
+public:
+    explicit Surroundings(const Vec3& light) : light_(light)
+    {
+    }
+
+    void add(const LoweredSphere& sphere)
+    {
+        if (spheres_.add(sphere, light_))
+            any_large_ = true;
+        else
+            bodies_.add(box_of(sphere));
+    }
+    void add(const LoweredAnchoredSphere& sphere)
+    {
+        spheres_.add(sphere, light_);
+        off_ = std::min(off_, distance_to(sphere, light_));
+    }
+    template <class Surface>
+    void add(const Surface& surface)
+    {
+        if constexpr (requires { box_of(surface); })
+            if (is_bounded(surface))
+                return bodies_.add(box_of(surface));
+        endless_ = true;
+        off_ = std::min(off_, distance_to(surface, light_));
+    }
+
+    [[nodiscard]] bool are_far() const
+    {
+        if (bodies_.least == infinite)
+            return false;
+        // Of a surface without bounds there are points that are too far off for large spheres.
+        if (any_large_ && (endless_ || !spheres_.are_met_well()))
+            return false;
+        const double radius = 0.5 * glm::length(bodies_.high - bodies_.low);
+        const double distance = glm::length(light_ - 0.5 * (bodies_.low + bodies_.high));
+        return distance > largest_distance * bodies_.least && distance > well_outside * radius &&
+               off_ > well_off * distance;
+    }
+
+private:
+    Vec3 light_;
+    Bodies bodies_;
+    LargeSpheres spheres_;
+    bool any_large_ = false;  ///< beside anchored ones
+    bool endless_ = false;    ///< something has no bounds
+    double off_ = infinite;   ///< the light from what is no body
+};
+
 }  // namespace
 
 bool is_far(const Vec3& light, const LoweredScene& lowered)
 {
-    Bodies bodies;
-    LargeSpheres spheres;
-    double off = infinite;
-    for_each_surface(lowered, [&](const auto& surface) {
-        if (spheres.add(surface, light))
-            return;
-        if constexpr (requires { box_of(surface); })
-            if (is_bounded(surface))
-                return bodies.add(box_of(surface));
-        off = std::min(off, distance_to(surface, light));
-    });
-    if (bodies.least == infinite)
-        return false;
-    // Of a surface without bounds there are points that are too far off for both.
-    if (spheres.reach > 0.0 && (off < infinite || !spheres.are_met_well()))
-        return false;
-    const double radius = 0.5 * glm::length(bodies.high - bodies.low);
-    const double distance = glm::length(light - 0.5 * (bodies.low + bodies.high));
-    return distance > largest_distance * bodies.least && distance > well_outside * radius &&
-           off > well_off * distance;
+    Surroundings surroundings(light);
+    for_each_surface(lowered, [&](const auto& surface) { surroundings.add(surface); });
+    return surroundings.are_far();
 }
 
 }  // namespace packtrace

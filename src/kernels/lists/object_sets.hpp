@@ -4,6 +4,7 @@
 
 #include "kernels/geometry/cone.hpp"
 #include "kernels/lists/object_lists.hpp"
+#include "kernels/simd/stream_values.hpp"
 
 // What a tile's rays are tested against: with Features::exact objects with their error bounds, else
 // what depends on a shared origin alone, computed once.
@@ -42,8 +43,8 @@ inline Real sum_of(const Real* values, int count)
     for (; i + lanes<Real> <= count; i += lanes<Real>)
         total = total + load(values + i);
     if (i < count)
-        total =
-            select(from_bits<Real>(first_lanes<Real>(count - i)), total + load(values + i), total);
+        total = select(from_bits<Real>(first_lanes<Real>(count - i)),
+                       total + load_some(values + i, count - i), total);
     alignas(64) Real by_lane[lanes<Real>];
     store(by_lane, total);
     Real sum = 0;
@@ -67,7 +68,7 @@ inline Real narrowest_cosine2(const Real* const (&dir)[3], int count, const Real
     const Vec3v<Real> middle = broadcast(axis);
     vreal<Real> least(Real(1));
     for (int i = 0; i < count; i += lanes<Real>) {
-        const Vec3v<Real> d{load(dir[0] + i), load(dir[1] + i), load(dir[2] + i)};
+        const Vec3v<Real> d = load_some3(dir, i, count - i);
         const vreal<Real> along = dot(middle, d);
         const vreal<Real> cosine2 = along * abs(along) / dot(d, d);
         const std::uint32_t live = first_lanes<Real>(count - i);

@@ -14,7 +14,7 @@ inline Real dot3(const Real (&a)[3], const Real (&b)[3])
     return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
 }
 
-/// A tile's middle direction, and from there the way to its right and upper edge.
+/// A tile's middle direction, of unit length, and from there the way to its right and upper edge.
 template <class Real>
 struct TileAxes {
     Real middle[3], right[3], up[3];
@@ -32,6 +32,10 @@ struct TileAxes {
             right[i] = half * camera.right[i];
             up[i] = half * camera.up[i];
         }
+        const Real length = square_root(dot3(middle, middle));
+        for (Real(*const axis)[3] : {&middle, &right, &up})
+            for (Real& component : *axis)
+                component /= length;
     }
 };
 
@@ -51,23 +55,21 @@ inline constexpr Real largest_tangent = Real(16);
 /// The squared tangent of the angle between a tile's middle and its farthest corner; negative
 /// when a corner is nearly a right angle away or more.
 template <class Real>
-inline Real widest_tangent2(const TileAxes<Real>& tile, Real length)
+inline Real widest_tangent2(const TileAxes<Real>& tile)
 {
-    const Real right_along = dot3(tile.right, tile.middle) / length;
-    const Real up_along = dot3(tile.up, tile.middle) / length;
+    const Real right_along = dot3(tile.right, tile.middle);
+    const Real up_along = dot3(tile.up, tile.middle);
     const Real sides2 = dot3(tile.right, tile.right) + dot3(tile.up, tile.up);
     Real right_across[3], up_across[3];
     cross3(right_across, tile.right, tile.middle);
     cross3(up_across, tile.up, tile.middle);
-    const Real across2 =
-        (dot3(right_across, right_across) + dot3(up_across, up_across)) / (length * length);
-    const Real cross = Real(2) * dot3(right_across, up_across) / (length * length);
+    const Real across2 = dot3(right_across, right_across) + dot3(up_across, up_across);
+    const Real cross = Real(2) * dot3(right_across, up_across);
     Real widest = 0;
     for (int corner = 0; corner < 4; ++corner) {
         const Real x = (corner & 1) ? Real(1) : Real(-1);
         const Real y = (corner & 2) ? Real(1) : Real(-1);
-        const Real offset_along = x * right_along + y * up_along;
-        const Real along = length + offset_along;
+        const Real along = Real(1) + (x * right_along + y * up_along);
         // A corner is no further away than the longer diagonal, which is below twice the sides.
         if (!(along > 0) ||
             Real(2) * sides2 > largest_tangent<Real> * largest_tangent<Real> * along * along)
@@ -83,12 +85,11 @@ template <class Real>
 inline Cone<Real> camera_cone(const abi::TileJob<Real>& job)
 {
     const TileAxes<Real> tile(job);
-    const Real length = square_root(dot3(tile.middle, tile.middle));
-    const Real widest = widest_tangent2(tile, length);
+    const Real widest = widest_tangent2(tile);
     Cone<Real> cone;
     for (int i = 0; i < 3; ++i) {
         cone.base[i] = job.camera->origin[i];
-        cone.axis[i] = tile.middle[i] / length;
+        cone.axis[i] = tile.middle[i];
     }
     if (widest < 0)
         return cone;

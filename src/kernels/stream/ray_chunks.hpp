@@ -5,7 +5,7 @@
 #include "kernels/lists/common_hit.hpp"
 #include "kernels/lists/object_sets.hpp"
 #include "kernels/precision/leave_surface.hpp"
-#include "kernels/stream/stream_values.hpp"
+#include "kernels/simd/stream_values.hpp"
 #include "kernels/stream/workspace.hpp"
 
 // Rays from outside in chunks, for each of which the objects are prepared.
@@ -183,7 +183,7 @@ inline ChunkBounds bounds_of_chunk(const abi::RaysView<float>& view, int begin, 
         certain = certain & certifiable(rays) & (rays.t_min >= vreal<float>(0.0f));
         const vreal<float> t_max = load_some(view.t_max + begin + ray, count - ray);
         // Rays with a NaN as their end go nowhere.
-        reach2 = max(rays.dir2 * t_max * t_max, reach2);
+        reach2 = max(reach2, rays.dir2 * t_max * t_max);
     }
     ChunkBounds bounds;
     bounds.box = origins.box();
