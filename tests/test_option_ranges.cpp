@@ -138,5 +138,5 @@ TEST_CASE("pictures are refused sides below 0, times that are not theirs, and od
     const Image<float> image(2, 2);
     CHECK(refusal<std::invalid_argument>([&] {
               (void)compare(image, image, {.threshold = -1.0});
-          }) == "threshold: -1.000000; choose a finite number >= 0");
+          }) == "threshold: -1; choose a finite number >= 0");
 }
