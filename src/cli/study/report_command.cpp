@@ -85,6 +85,26 @@ void add_measure_options(CLI::App& command, ReportArguments& arguments)
         ->type_name("DIR");
 }
 
+// A word of a command line as a shell reads it.
+std::string quoted(const std::string& word)
+{
+    constexpr std::string_view plain =
+        "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789-_./,:=+%@";
+    if (!word.empty() && word.find_first_not_of(plain) == std::string::npos)
+        return word;
+    return "'" + replaced(word, '\'', "'\\''") + "'";
+}
+
+// Two runs of one number would have one name.
+std::vector<int> each_once(const std::vector<int>& numbers)
+{
+    std::vector<int> once;
+    for (const int number : numbers)
+        if (std::find(once.begin(), once.end(), number) == once.end())
+            once.push_back(number);
+    return once;
+}
+
 }  // namespace
 
 void add_report_options(CLI::App& command, ReportArguments& arguments)
@@ -112,16 +132,6 @@ void add_report_options(CLI::App& command, ReportArguments& arguments)
     command.add_flag("--quick", arguments.quick,
                      "Fewer runs: the widest packets, 3 repetitions, up to 16 samples");
     command.add_flag("-q,--quiet", arguments.quiet, "No progress bar");
-}
-
-// A word of a command line as a shell reads it.
-std::string quoted(const std::string& word)
-{
-    constexpr std::string_view plain =
-        "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789-_./,:=+%@";
-    if (!word.empty() && word.find_first_not_of(plain) == std::string::npos)
-        return word;
-    return "'" + replaced(word, '\'', "'\\''") + "'";
 }
 
 std::string report_command(const std::string& program, const CLI::App& command,
@@ -159,6 +169,7 @@ ReportOptions report_options(const ReportArguments& arguments)
     if (!arguments.cache && !fault_of(options.cache).empty())
         options.cache.clear();
     options.max_time = 1e-3 * arguments.max_time_ms;
+    options.threads = each_once(options.threads);
     return options;
 }
 
