@@ -7,7 +7,6 @@
 #include <climits>
 #include <csignal>
 #include <cstring>
-#include <ctime>
 #include <map>
 #include <mutex>
 #include <string>
@@ -19,6 +18,8 @@
 #include <sys/file.h>
 #include <sys/stat.h>
 #include <unistd.h>
+
+#include "core/signal_gate.hpp"
 
 namespace packtrace {
 namespace {
@@ -120,58 +121,8 @@ struct TemporarySlot {
 };
 std::array<TemporarySlot, 64> temporaries;
 
-/// A signal ends the program: no temporary file may appear any more.
-std::atomic<bool> interrupted{false};
-
-/// How many threads are between the decision to create a file and its entry in a slot.
-std::atomic<int> creators{0};
-
-[[noreturn]] void wait_for_the_end()
-{
-    while (true)
-        pause();
-}
-
-/// While one lives, the handler of signals waits before it looks at the slots. No signal reaches
-/// this thread meanwhile, so that the handler never waits for itself.
-class Creation {
-public:
-    Creation()
-    {
-        sigset_t all;
-        sigfillset(&all);
-        pthread_sigmask(SIG_SETMASK, &all, &before_);
-        ++creators;
-        // The handler has either seen the count, or set this before.
-        is_late_ = interrupted.load();
-    }
-
-    ~Creation()
-    {
-        --creators;
-        pthread_sigmask(SIG_SETMASK, &before_, nullptr);
-    }
-
-    Creation(const Creation&) = delete;
-    Creation& operator=(const Creation&) = delete;
-
-    [[nodiscard]] bool is_late() const
-    {
-        return is_late_;
-    }
-
-private:
-    sigset_t before_{};
-    bool is_late_ = false;
-};
-
-/// Waits for files that are being created, a second at most: a file system may hang.
-void wait_for_creators()
-{
-    constexpr timespec moment = {.tv_sec = 0, .tv_nsec = 100'000};
-    for (int i = 0; i < 10'000 && creators.load() > 0; ++i)
-        nanosleep(&moment, nullptr);
-}
+/// Between the decision to create a file and its entry in a slot.
+SignalGate creation;
 
 /// The number of the slot; -1 if all are taken or the name is too long.
 int note_temporary(const std::filesystem::path& file)
@@ -253,8 +204,8 @@ void AtomicFile::open_directly()
 bool AtomicFile::create_temporary(int attempt)
 {
     temporary_ = temporary_name(target_, attempt);
-    const Creation creation;
-    if (creation.is_late())
+    const SignalGate::Passage passage(creation);
+    if (passage.is_late())
         return false;
     file_.reset(std::fopen(temporary_.c_str(), "wbxe"));
     if (file_)
@@ -308,7 +259,7 @@ void AtomicFile::commit()
     std::error_code error;
     std::filesystem::rename(temporary_, target_, error);
     // The handler of signals has taken the file away.
-    if (error && interrupted.load())
+    if (error && creation.is_closed())
         wait_for_the_end();
     if (error)
         throw FileError(target_, "can't write", error.value());
@@ -362,8 +313,7 @@ void check_writable(const std::filesystem::path& target)
 
 int remove_all_temporaries()
 {
-    interrupted.store(true);
-    wait_for_creators();
+    creation.close();
     int removed = 0;
     for (TemporarySlot& slot : temporaries)
         if (slot.complete.load())

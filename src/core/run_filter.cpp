@@ -9,13 +9,16 @@
 #include <sys/wait.h>
 
 #include "core/read_file.hpp"
+#include "core/signal_gate.hpp"
 
 extern char** environ;
 
 namespace packtrace {
 namespace {
 
+/// The program that is waited for, and between the decision to start it and that it is noted here.
 std::atomic<pid_t> running{0};
+SignalGate starting;
 
 /// A pipe, of which programs that are started get the one end that they are given.
 class Pipe {
@@ -64,28 +67,59 @@ private:
     int ends_[2] = {-1, -1};
 };
 
-/// The process; 0 if it can't be started.
-pid_t start(const std::vector<std::string>& command, int input, int answers, int answers_on)
+/// What becomes of a program's descriptors.
+class Descriptors {
+public:
+    Descriptors(int input, int answers, int answers_on)
+    {
+        posix_spawn_file_actions_init(&actions_);
+        posix_spawn_file_actions_adddup2(&actions_, input, STDIN_FILENO);
+        // The pipe may have the very number; a copy to itself would be closed again.
+        if (answers != answers_on)
+            posix_spawn_file_actions_adddup2(&actions_, answers, answers_on);
+        else
+            fcntl(answers, F_SETFD, 0);
+        for (const int other : {STDOUT_FILENO, STDERR_FILENO})
+            if (other != answers_on)
+                posix_spawn_file_actions_addopen(&actions_, other, "/dev/null", O_WRONLY, 0);
+    }
+    ~Descriptors()
+    {
+        posix_spawn_file_actions_destroy(&actions_);
+    }
+    Descriptors(const Descriptors&) = delete;
+    Descriptors& operator=(const Descriptors&) = delete;
+
+    [[nodiscard]] const posix_spawn_file_actions_t* actions() const
+    {
+        return &actions_;
+    }
+
+private:
+    posix_spawn_file_actions_t actions_;
+};
+
+/// Starts a program and notes it. The process; 0 if it can't be started.
+pid_t start(const std::vector<std::string>& command, const Descriptors& descriptors)
 {
-    posix_spawn_file_actions_t actions;
-    posix_spawn_file_actions_init(&actions);
-    posix_spawn_file_actions_adddup2(&actions, input, STDIN_FILENO);
-    // The pipe may have the number that it is asked for on; a copy of itself would be closed again.
-    if (answers != answers_on)
-        posix_spawn_file_actions_adddup2(&actions, answers, answers_on);
-    else
-        fcntl(answers, F_SETFD, 0);
-    for (const int other : {STDOUT_FILENO, STDERR_FILENO})
-        if (other != answers_on)
-            posix_spawn_file_actions_addopen(&actions, other, "/dev/null", O_WRONLY, 0);
     std::vector<char*> words;
     for (const std::string& word : command)
         words.push_back(const_cast<char*>(word.c_str()));
     words.push_back(nullptr);
+    const SignalGate::Passage passage(starting);
+    if (passage.is_late())
+        return 0;
+    posix_spawnattr_t attributes;
+    posix_spawnattr_init(&attributes);
+    posix_spawnattr_setflags(&attributes, POSIX_SPAWN_SETSIGMASK);
+    posix_spawnattr_setsigmask(&attributes, &passage.blocked_before());
     pid_t child = 0;
-    const int error = posix_spawnp(&child, words.front(), &actions, nullptr, words.data(), environ);
-    posix_spawn_file_actions_destroy(&actions);
-    return error == 0 ? child : 0;
+    if (posix_spawnp(&child, words.front(), descriptors.actions(), &attributes, words.data(),
+                     environ) != 0)
+        child = 0;
+    posix_spawnattr_destroy(&attributes);
+    running.store(child);
+    return child;
 }
 
 }  // namespace
@@ -102,11 +136,13 @@ FilterResult run_filter(const std::vector<std::string>& command, const std::stri
         std::fflush(in.get()) != 0)
         return result;
     std::rewind(in.get());
-    const pid_t child = start(command, fileno(in.get()), out.writing_end(), answers_on);
+    const pid_t child =
+        start(command, Descriptors(fileno(in.get()), out.writing_end(), answers_on));
+    if (child == 0 && starting.is_closed())
+        wait_for_the_end();
     result.started = child != 0;
     if (!result.started)
         return result;
-    running.store(child);
     result.output = out.read_all();
     int status = 0;
     waitpid(child, &status, 0);
@@ -117,6 +153,7 @@ FilterResult run_filter(const std::vector<std::string>& command, const std::stri
 
 void end_filter()
 {
+    starting.close();
     const pid_t child = running.load();
     if (child != 0)
         kill(child, SIGTERM);

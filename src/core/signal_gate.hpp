@@ -1,0 +1,79 @@
+#pragma once
+
+#include <atomic>
+#include <csignal>
+#include <ctime>
+
+#include <unistd.h>
+
+namespace packtrace {
+
+/// Lets a handler of signals that ends the program wait for what threads are in the middle of, such
+/// as a file that is there and not yet noted as one to remove.
+class SignalGate {
+public:
+    /// While one lives, the handler waits. No signal reaches this thread meanwhile, so that the
+    /// handler never waits for itself.
+    class Passage {
+    public:
+        explicit Passage(SignalGate& gate) : gate_(gate)
+        {
+            sigset_t all;
+            sigfillset(&all);
+            pthread_sigmask(SIG_SETMASK, &all, &before_);
+            ++gate_.within_;
+            // The handler has either seen the count, or closed the gate before.
+            is_late_ = gate_.is_closed();
+        }
+        ~Passage()
+        {
+            --gate_.within_;
+            pthread_sigmask(SIG_SETMASK, &before_, nullptr);
+        }
+        Passage(const Passage&) = delete;
+        Passage& operator=(const Passage&) = delete;
+
+        /// The program ends: nothing may begin any more.
+        [[nodiscard]] bool is_late() const
+        {
+            return is_late_;
+        }
+        /// The signals that this thread had blocked before.
+        [[nodiscard]] const sigset_t& blocked_before() const
+        {
+            return before_;
+        }
+
+    private:
+        SignalGate& gate_;
+        sigset_t before_{};
+        bool is_late_ = false;
+    };
+
+    /// For the handler: all who come from now on are late. Waits for those within, a second at
+    /// most, as a file system may hang. Takes no lock and allocates nothing.
+    void close()
+    {
+        constexpr timespec moment = {.tv_sec = 0, .tv_nsec = 100'000};
+        closed_.store(true);
+        for (int i = 0; i < 10'000 && within_.load() > 0; ++i)
+            nanosleep(&moment, nullptr);
+    }
+    [[nodiscard]] bool is_closed() const
+    {
+        return closed_.load();
+    }
+
+private:
+    std::atomic<bool> closed_{false};
+    std::atomic<int> within_{0};
+};
+
+/// For threads that are late.
+[[noreturn]] inline void wait_for_the_end()
+{
+    while (true)
+        pause();
+}
+
+}  // namespace packtrace
