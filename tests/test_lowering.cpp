@@ -12,6 +12,7 @@
 
 #include "catch.hpp"
 #include "lower/packed_scene.hpp"
+#include "lower/packed_tree.hpp"
 #include "lower/prune.hpp"
 #include "scenes.hpp"
 
@@ -320,6 +321,37 @@ TEST_CASE("whether a sphere is anchored depends on nothing else of its scene", "
         other.objects.emplace_back().surface = capped_cylinder();
         CHECK(anchored_objects(other) == anchored);
     }
+}
+
+TEST_CASE("every child of a hierarchy's nodes names something that there is", "[lowering]")
+{
+    for (const bool polygons : {false, true})
+        for (const bool spheres : {false, true}) {
+            CAPTURE(polygons, spheres);
+            Scene scene;
+            for (int i = 0; i < 141; ++i) {
+                const Object other = polygons
+                                         ? make_object(polygon({{0, 0, 0}, {0, 1, 0}, {1, 0, 0}}))
+                                         : make_object(ellipsoid());
+                const bool is_sphere = spheres && i % 3 == 0;
+                scene.objects.push_back(translate(
+                    is_sphere ? make_object(Sphere{}) : packtrace::scale(other, {1, 0.5, 1}),
+                    {3.0 * (i % 12), 3.0 * (i / 12), 0.0}));
+            }
+            const PackedTree<float> tree(lower(scene));
+            const abi::BvhView<float>& view = tree.view();
+            const int in_runs = 141 - (spheres ? 47 : 0);
+            REQUIRE(view.node_count > 1);
+            for (int i = 0; i < view.node_count; ++i)
+                for (const std::uint32_t child : view.nodes[i].child) {
+                    if (!abi::is_leaf(child))
+                        CHECK(static_cast<int>(child) < view.node_count);
+                    else if (abi::is_run(child))
+                        CHECK(abi::first_of_run(child) + abi::run_count(child) <= in_runs);
+                    else
+                        CHECK(static_cast<int>(child & abi::block_mask) < tree.block_count());
+                }
+        }
 }
 
 }  // namespace packtrace

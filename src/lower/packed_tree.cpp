@@ -167,12 +167,23 @@ std::vector<const LoweredPolygon*> polygons_of_runs(const LoweredScene& lowered,
     return polygons;
 }
 
-void name_leaves(std::span<abi::BvhNode> nodes, const std::vector<std::uint32_t>& names)
+/// What a child is named that is not there: a leaf that is, as rays from infinitely far away meet
+/// any box.
+std::uint32_t absent_name(const LeafCounts& count)
+{
+    return count[sphere_item] > 0 ? abi::leaf_bit : abi::leaf_bit | abi::run_bit;
+}
+
+void name_leaves(std::span<abi::BvhNode> nodes, const std::vector<std::uint32_t>& names,
+                 std::uint32_t absent)
 {
     for (abi::BvhNode& node : nodes)
-        for (int slot = 0; slot < abi::node_width; ++slot)
-            if (abi::is_leaf(node.child[slot]) && node.low[0][slot] <= node.high[0][slot])
-                node.child[slot] = names[node.child[slot] & ~abi::leaf_bit];
+        for (int slot = 0; slot < abi::node_width; ++slot) {
+            if (!abi::is_leaf(node.child[slot]))
+                continue;
+            const bool is_there = node.low[0][slot] <= node.high[0][slot];
+            node.child[slot] = is_there ? names[node.child[slot] & ~abi::leaf_bit] : absent;
+        }
 }
 
 /// How far rounding to Real moves the centre of any of the spheres, at most.
@@ -321,7 +332,7 @@ void PackedTree<Real>::pack_leaves(const LoweredScene& lowered, const Bvh& bvh)
     });
     polygon_corners_ =
         PackedCorners<Real>(polygons_of_runs(lowered, bvh), {polygons_.data(), polygons_.size()});
-    name_leaves({nodes_.data(), nodes_.size()}, names);
+    name_leaves({nodes_.data(), nodes_.size()}, names, absent_name(count));
 }
 
 /// The run begins with the number `first`, and `records` with the number `base`.
