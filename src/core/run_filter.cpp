@@ -16,8 +16,10 @@ extern char** environ;
 namespace packtrace {
 namespace {
 
-/// The program that is waited for, and between the decision to start it and that it is noted here.
+/// The program that is waited for; 0: none.
 std::atomic<pid_t> running{0};
+
+/// Between the decision to start a program and that it is noted as running.
 SignalGate starting;
 
 /// A pipe, of which programs that are started get the one end that they are given.
