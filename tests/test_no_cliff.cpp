@@ -169,6 +169,16 @@ int pixels_off(const Image<float>& image, const Image<double>& truth)
     return off;
 }
 
+/// Packets of floats, in every way, against the scalar reference in double.
+void check_like_scalar(const Scene& scene, int most_off)
+{
+    const Image<double> truth = render_scalar<double>(scene);
+    for (const RenderOptions& options : packet_ways()) {
+        CAPTURE(options.isa, options.traversal);
+        CHECK(pixels_off(render<float>(scene, options), truth) <= most_off);
+    }
+}
+
 }  // namespace
 
 TEST_CASE("shadows stay where they are however far a light is", "[no_cliff]")
@@ -199,12 +209,8 @@ TEST_CASE("the same where a quadric has no bounds", "[no_cliff]")
                                    "translate = (0.5, 0, 1) }"};
     for (const std::string& quadric : endless)
         for (const double distance : {1e4, 1e6, 1e8}) {
-            const Scene scene = lit_from(distance, quadric);
-            const Image<double> truth = render_scalar<double>(scene);
-            for (const RenderOptions& options : packet_ways()) {
-                CAPTURE(quadric, distance, options.isa, options.traversal);
-                CHECK(pixels_off(render<float>(scene, options), truth) <= 2);
-            }
+            CAPTURE(quadric, distance);
+            check_like_scalar(lit_from(distance, quadric), 2);
         }
 }
 
@@ -219,28 +225,20 @@ TEST_CASE("the same where small bodies lie on a large ball", "[no_cliff]")
                    translate = (-0.00022908982, -2.23571908e-5, -0.0001430703)  diffuse = 0.7 }
         light { type = point  intensity = 0.5  position = (9.7592, 4.72690665, -9.43972355) })",
                                     "ball", {});
-    const Image<double> truth = render_scalar<double>(scene);
-    for (const RenderOptions& options : packet_ways()) {
-        CAPTURE(options.isa, options.traversal);
-        CHECK(pixels_off(render<float>(scene, options), truth) <= 4);
-    }
+    check_like_scalar(scene, 4);
 }
 
 TEST_CASE("the same beside a second large ball", "[no_cliff]")
 {
-    Scene scene = parse_scene(R"(image_size = 300 x 200  illumination = whitted
+    const Scene scene = parse_scene(R"(image_size = 300 x 200  illumination = whitted
         camera { position = (-3, 4, -6)  look_at = (-1, 0, -0.5)  fov = 40 }
         sphere { center = (0, -1e5, 0)  radius = 1e5  diffuse = 0.7 }
         sphere { center = (0, 0, 0)  radius = 0.01  diffuse = 0.7 }
         sphere { center = (0, 0, 0)  radius = 1  diffuse = 0.7 }
         sphere { center = (-3e6, 0, 0)  radius = 1e6  diffuse = 0.7 }
         light { type = point  intensity = 0.5  position = (310000, 500000, 200000) })",
-                              "balls", {});
-    const Image<double> truth = render_scalar<double>(scene);
-    for (const RenderOptions& options : packet_ways()) {
-        CAPTURE(options.isa, options.traversal);
-        CHECK(pixels_off(render<float>(scene, options), truth) <= 4);
-    }
+                                    "balls", {});
+    check_like_scalar(scene, 4);
 }
 
 TEST_CASE("a light near one body and far from another keeps the near one's shadow", "[no_cliff]")
@@ -266,12 +264,8 @@ TEST_CASE("a light near one body and far from another keeps the near one's shado
            sphere { center = (0.5, -0.99995, 0.2)  radius = 0.00005  diffuse = 1 }
            light { type = point  position = (0.3, 1.2999999, 0.7)  intensity = 1 })"};
     for (const char* const text : scenes) {
-        const Scene scene = parse_scene(text, "near", {});
-        const Image<double> truth = render_scalar<double>(scene);
-        for (const RenderOptions& options : packet_ways()) {
-            CAPTURE(text, options.isa, options.traversal);
-            CHECK(pixels_off(render<float>(scene, options), truth) <= 4);
-        }
+        CAPTURE(text);
+        check_like_scalar(parse_scene(text, "near", {}), 4);
     }
 }
 

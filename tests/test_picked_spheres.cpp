@@ -1,6 +1,5 @@
 #include <algorithm>
 #include <cmath>
-#include <cstring>
 #include <deque>
 #include <limits>
 #include <random>
@@ -14,6 +13,7 @@
 #include <packtrace/render.hpp>
 
 #include "catch.hpp"
+#include "different_bits.hpp"
 #include "page_end.hpp"
 #include "render/ray_columns.hpp"
 #include "render_scene.hpp"
@@ -144,22 +144,13 @@ Answers<Real> answers(const RayScene<Real>& scene, const RayColumns<Real>& rays,
     return found;
 }
 
-/// How many differ, bit for bit: misses have the ends of their rays, which may be NaN.
-template <class Element>
-std::size_t changed(const std::vector<Element>& a, const std::vector<Element>& b)
-{
-    std::size_t count = 0;
-    for (std::size_t i = 0; i < a.size(); ++i)
-        count += std::memcmp(&a[i], &b[i], sizeof(Element)) != 0 ? 1u : 0u;
-    return count;
-}
-
+/// Misses have the ends of their rays, which may be NaN.
 template <class Real>
 void check_same(const Answers<Real>& picked, const Answers<Real>& other)
 {
-    CHECK(changed(picked.t, other.t) == 0);
-    CHECK(changed(picked.object, other.object) == 0);
-    CHECK(changed(picked.mask, other.mask) == 0);
+    CHECK(different_bits(picked.t, other.t) == 0);
+    CHECK(different_bits(picked.object, other.object) == 0);
+    CHECK(different_bits(picked.mask, other.mask) == 0);
 }
 
 /// Alone, and in batches that are too small for anything to be picked.

@@ -1,7 +1,6 @@
 // The highlights' power, x^n for x in [0, 1 + 1e-6] and n from 1 to 10000, against long double.
-#include <cstring>
-
 #include "catch.hpp"
+#include "different_bits.hpp"
 #include "power_error.hpp"
 #include "simd_packet.hpp"
 
@@ -55,15 +54,6 @@ int wrong_underflows(const PowerSamples<Real>& samples, const std::vector<Real>&
         wrong += zero && exact > smallest * (1 + doubt);
     }
     return wrong;
-}
-
-template <class Real>
-int different_bits(const std::vector<Real>& a, const std::vector<Real>& b)
-{
-    int different = 0;
-    for (std::size_t i = 0; i < a.size(); ++i)
-        different += std::memcmp(&a[i], &b[i], sizeof(Real)) != 0;
-    return different;
 }
 
 }  // namespace

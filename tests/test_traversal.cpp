@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstring>
 #include <limits>
 #include <random>
 #include <vector>
@@ -14,6 +13,7 @@
 #include <glm/gtc/matrix_transform.hpp>
 
 #include "catch.hpp"
+#include "different_bits.hpp"
 #include "lower/packed_scene.hpp"
 #include "lower/tree_objects.hpp"
 #include "render/ray_columns.hpp"
@@ -114,16 +114,6 @@ RayColumns<Real> many_rays(int count, unsigned seed)
     return rays;
 }
 
-template <class Elements>
-std::size_t differing(const Elements& a, const Elements& b)
-{
-    std::size_t count = 0;
-    for (std::size_t i = 0; i < a.size(); ++i)
-        if (std::memcmp(&a[i], &b[i], sizeof(a[i])) != 0)
-            ++count;
-    return count;
-}
-
 template <class Real>
 struct Results {
     std::vector<Real> t;
@@ -158,11 +148,11 @@ template <class Real>
 void compare_results(const Results<Real>& list, const Results<Real>& tree)
 {
     CHECK(list.hits > list.t.size() / 20);
-    CHECK(differing(list.t, tree.t) == 0);
-    CHECK(differing(list.object, tree.object) == 0);
-    CHECK(differing(list.mask, tree.mask) == 0);
+    CHECK(different_bits(list.t, tree.t) == 0);
+    CHECK(different_bits(list.object, tree.object) == 0);
+    CHECK(different_bits(list.mask, tree.mask) == 0);
     REQUIRE(list.all_t.size() == tree.all_t.size());
-    CHECK(differing(list.all_t, tree.all_t) == 0);
+    CHECK(different_bits(list.all_t, tree.all_t) == 0);
 }
 
 template <class Real>
@@ -191,7 +181,7 @@ Frame<Real> frame_of(const Scene& scene, RenderOptions options, Traversal traver
 template <class Real>
 void compare_frames(const Frame<Real>& list, const Frame<Real>& tree)
 {
-    CHECK(differing(list.picture.rgb, tree.picture.rgb) == 0);
+    CHECK(different_bits(list.picture.rgb, tree.picture.rgb) == 0);
     CHECK(list.counts.shadow == tree.counts.shadow);
     CHECK(list.counts.reflected == tree.counts.reflected);
     CHECK(list.counts.reflected > 0);
@@ -355,8 +345,8 @@ TEST_CASE("a few objects very far from the rest are in no hierarchy", "[traversa
     std::vector<float> t(rays.size());
     std::vector<std::int32_t> object(rays.size());
     moving.closest_hits(rays.view(), {t.data(), object.data()});
-    CHECK(differing(t, results.t) == 0);
-    CHECK(differing(object, results.object) == 0);
+    CHECK(different_bits(t, results.t) == 0);
+    CHECK(different_bits(object, results.object) == 0);
     const Ray<float> up{{0, 100, 0}, {0, 1, 0}};
     CHECK(moving.closest_hit(up).object == 0);
 

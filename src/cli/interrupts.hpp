@@ -12,7 +12,8 @@ struct Interruption {
 };
 
 /// From now on Ctrl-C, SIGTERM and SIGHUP end what the program has started, remove its unfinished
-/// files and say so in one line; the program then ends by that signal (exit codes 130, 143 and 129 in a shell).
+/// files and say so in one line; the program then ends by that signal (exit codes 130, 143 and 129
+/// in a shell).
 void clean_up_when_interrupted(const Interruption& interruption = {});
 
 /// From now on a file that would outgrow the limit of `ulimit -f` is an error of the write, as a

@@ -37,6 +37,13 @@ struct Bodies {
     }
 };
 
+/// How far a point is from a sphere's surface.
+template <class Sphere>
+double height_over(const Sphere& sphere, const Vec3& point)
+{
+    return std::abs(glm::length(point - sphere.center) - sphere.radius);
+}
+
 /// Spheres that a light is not well outside of, say one that is the ground.
 struct LargeSpheres {
     double least = infinite;  ///< the smallest one's radius
@@ -47,10 +54,10 @@ struct LargeSpheres {
     template <class Sphere>
     bool add(const Sphere& sphere, const Vec3& light)
     {
-        const double distance = glm::length(light - sphere.center);
-        const double height = std::abs(distance - sphere.radius);
+        const double height = height_over(sphere, light);
         if (height > well_outside * sphere.radius)
             return false;
+        const double distance = glm::length(light - sphere.center);
         const double way = distance < sphere.radius
                                ? distance + sphere.radius
                                : std::sqrt(height * (distance + sphere.radius));
@@ -72,10 +79,6 @@ struct LargeSpheres {
 double distance_to(const LoweredPlane& plane, const Vec3& point)
 {
     return std::abs(glm::dot(plane.normal, point - plane.point));
-}
-double distance_to(const LoweredAnchoredSphere& sphere, const Vec3& point)
-{
-    return std::abs(glm::length(point - sphere.center) - sphere.radius);
 }
 /// On a way δ a quadric's F changes by |∇F| |δ| + bend |δ|² at most, where bend is the sum of its
 /// squares' sizes: the way to F = 0 is no shorter than the root of that.
@@ -127,7 +130,7 @@ public:
     void add(const LoweredAnchoredSphere& sphere)
     {
         spheres_.add(sphere, light_);
-        off_ = std::min(off_, distance_to(sphere, light_));
+        off_ = std::min(off_, height_over(sphere, light_));
     }
     template <class Surface>
     void add(const Surface& surface)

@@ -25,6 +25,11 @@ std::optional<Number> parse(const std::string& text)
     return value;
 }
 
+CLI::Validator not_empty(std::string wanted)
+{
+    return validator([](const std::string& text) { return !text.empty(); }, std::move(wanted));
+}
+
 }  // namespace
 
 bool parse_numbers(std::string_view text, char separator, std::span<int> numbers)
@@ -90,7 +95,7 @@ CLI::Validator whole_number(int least, int most)
 
 CLI::Validator file_name()
 {
-    return validator([](const std::string& text) { return !text.empty(); }, "a file's name");
+    return not_empty("a file's name");
 }
 
 CLI::Validator own_file_name()
@@ -101,7 +106,7 @@ CLI::Validator own_file_name()
 
 CLI::Validator folder_name()
 {
-    return validator([](const std::string& text) { return !text.empty(); }, "a folder's name");
+    return not_empty("a folder's name");
 }
 
 CLI::Validator one_of(std::vector<std::string> words)

@@ -44,12 +44,15 @@ std::filesystem::path default_cache()
     return {};
 }
 
-/// Why no file can be kept in a folder; empty if it can, or there is none.
+/// Why no file can be kept in a folder, which is made; empty if it can, or there is none. Ranks of
+/// one job may ask at once, so what is made stays.
 std::string fault_of(const std::filesystem::path& cache)
 {
     try {
-        if (!cache.empty())
-            check_folder(cache);
+        if (!cache.empty()) {
+            make_folders(cache);
+            check_writable(cache / ".packtrace");
+        }
     } catch (const FileError& error) {
         return error.what();
     }
