@@ -3,7 +3,7 @@ the content of its file in results/ to Markdown. write_figures.py puts them in t
 import statistics
 
 # The default mode of accuracy, and the one that had its place before.
-DEFAULT_MODES = ("exact", "auto")
+DEFAULT_MODE = "exact"
 
 
 def table(head, rows, left=1):
@@ -45,28 +45,19 @@ def over(tracer, peer):
     return spread([theirs / ours for ours, theirs in zip(tracer["seconds"], peer["seconds"])])
 
 
-def default_mode(report):
-    names = {t["tracer"].split()[2] for race in report["races"] for t in race["tracers"]
-             if t["tracer"].startswith("packtrace")}
-    return next(mode for mode in DEFAULT_MODES if mode in names)
-
-
-def about_mode(mode):
-    if mode == DEFAULT_MODES[0]:
-        return f"The default mode is `{mode}`."
-    return f"The default mode was `{mode}` at this commit; `{DEFAULT_MODES[0]}` has replaced it since."
+def rates_of(report):
+    return f"{source(report['context'])} The default mode is `{DEFAULT_MODE}`."
 
 
 def peers_rows(report, isa):
-    mode = default_mode(report)
     for race in report["races"]:
         tracers = race["tracers"]
         user = fastest(tracers, "embree user")
-        ours = fastest(tracers, f"packtrace {isa} {mode} stream")
+        ours = fastest(tracers, f"packtrace {isa} {DEFAULT_MODE} stream")
         yield ([race["scene"], race["kind"], digits(user["mrays_median"]),
                 digits(ours["mrays_median"]), over(ours, user),
                 over(fastest(tracers, f"packtrace {isa} fast stream"), user)],
-               [over(fastest(tracers, f"packtrace {isa} {mode} tiles"), user),
+               [over(fastest(tracers, f"packtrace {isa} {DEFAULT_MODE} tiles"), user),
                 over(fastest(tracers, f"packtrace {isa} fast tiles"), user),
                 over(ours, fastest(tracers, "embree sphere"))])
 
@@ -74,14 +65,13 @@ def peers_rows(report, isa):
 def peers_summary(report):
     head = ["scene", "rays", "Embree", "packtrace, default mode", "ratio", "ratio of `fast`"]
     rows = [short for short, _ in peers_rows(report, "avx512")]
-    return f"{source(report['context'])} {about_mode(default_mode(report))}\n\n" + table(head, rows, 2)
+    return f"{rates_of(report)}\n\n" + table(head, rows, 2)
 
 
 def peers_rates(report):
-    mode = default_mode(report)
-    head = ["scene", "rays", "Embree `user`", f"`{mode}` stream", "× user", "`fast` stream × user",
-            f"`{mode}` tiles × user", "`fast` tiles × user", f"`{mode}` stream × sphere"]
-    parts = [f"{source(report['context'])} {about_mode(mode)}"]
+    head = ["scene", "rays", "Embree `user`", f"`{DEFAULT_MODE}` stream", "× user", "`fast` stream × user",
+            f"`{DEFAULT_MODE}` tiles × user", "`fast` tiles × user", f"`{DEFAULT_MODE}` stream × sphere"]
+    parts = [rates_of(report)]
     raced = {t["tracer"].split()[1] for t in report["races"][0]["tracers"]}
     for isa in (isa for isa in ("avx512", "avx2") if isa in raced):
         parts += [f"With `{isa}`:", table(head, [a + b for a, b in peers_rows(report, isa)], 2)]
@@ -411,8 +401,6 @@ TABLES = {
     "results/peers_frames.json: frames": peers_frames,
     "results/instructions.json: functions": instruction_table,
     "results/roofline.json: functions": roofline,
-    "results/peers_avx2.json: rates": peers_rates,
-    "results/peers_frames_avx2.json: frames": peers_frames,
     "results/exact_cost.json: tables": exact_cost,
     "results/exact_cost.json: ranges": exact_cost_ranges,
     "results/lone_rays.json: table": lone_rays,

@@ -19,7 +19,7 @@ import sys
 import tempfile
 import time
 
-from provenance import FOLDER, commit, machine, write
+from provenance import FOLDER, commit_of_build, machine, write
 from ratios import share
 
 RANKS = [1 << i for i in range(13)]
@@ -144,7 +144,7 @@ def main():
     if len(arguments) not in (1, 2):
         sys.exit(__doc__)
     build = arguments[0]
-    built_of = None if trial else commit()
+    built_of = None if trial else commit_of_build(build)
     load = machine()
     size, race_size, bands = (2048, 2048, 8) if trial else (16384, 4096, 48)
     repetitions = int(arguments[1]) if len(arguments) > 1 else 2 if trial else 9

@@ -12,14 +12,13 @@ measured, and the file is results/exact_cost_ISA.json.
 """
 import json
 import pathlib
-import re
 import statistics
 import subprocess
 import sys
 import tempfile
 
-from provenance import commit, commit_of_build, machine, write
-from ratios import share
+from provenance import commit_of_build, machine, write
+from ratios import by_turns, frame_milliseconds, share
 
 ROOT = pathlib.Path(__file__).resolve().parents[1]
 RAYS = [("four_spheres", 512, ("avx512", "avx2")), ("spheres32", 512, ("avx512", "avx2")),
@@ -40,11 +39,13 @@ def rates(build, scene, size, isa, options):
     return json.loads(done.stdout)
 
 
-def milliseconds(build, scene, isa, options, folder):
-    command = [f"{build}/packtrace", "render", scene, "--size", "512x512", "--threads", "1", "--isa",
-               isa, "-o", f"{folder}/frame.pfm"] + options["frame"]
-    done = subprocess.run(command, capture_output=True, text=True, check=True)
-    return float(re.search(r"([\d.]+) ms", done.stdout + done.stderr).group(1))
+def rows_of_rays(ways, scene, size, isa, repetitions):
+    """A row for each kind of rays that `exact` and another of the ways have, (build, options) each."""
+    found = by_turns(ways, repetitions, lambda way: rates(way[0], scene, size, isa, way[1]))
+    return [row_of({"scene": scene, "isa": isa, "rays": kind, "unit": "million rays a second"},
+                   {name: [run[kind] for run in runs] for name, runs in found.items() if kind in runs[0]},
+                   lambda rate: rate)
+            for kind in found["exact"][0]]
 
 
 def row_of(of, times, speed):
@@ -65,37 +66,26 @@ def chosen(isas, only):
 def main():
     if len(sys.argv) < 2:
         sys.exit(__doc__)
-    built_of = commit()
+    built_of = commit_of_build(sys.argv[1])
     before = None
     builds = {"exact": (sys.argv[1], DEFAULT), "fast": (sys.argv[1], FAST),
               "double": (sys.argv[1], DOUBLE), "note": (sys.argv[1], NOTE)}
     if len(sys.argv) > 2:
         builds["before"] = (sys.argv[2], DEFAULT)
         before = f"{commit_of_build(sys.argv[2])} in its default mode"
+    with_rays = {mode: way for mode, way in builds.items() if way[1]["rays"] is not None}
     repetitions = int(sys.argv[3]) if len(sys.argv) > 3 else 9
     only = sys.argv[4] if len(sys.argv) > 4 else None
     rows = []
     load = machine()
     for scene, size, isas in RAYS:
         for isa in chosen(isas, only):
-            found = {}
-            for _ in range(repetitions):
-                for mode, (build, options) in builds.items():
-                    if options["rays"] is None:
-                        continue
-                    for kind, rate in rates(build, scene, size, isa, options).items():
-                        found.setdefault(kind, {}).setdefault(mode, []).append(rate)
-            for kind, times in found.items():
-                rows.append(row_of({"scene": scene, "isa": isa, "rays": kind,
-                                    "unit": "million rays a second"}, times, lambda x: x))
+            rows += rows_of_rays(with_rays, scene, size, isa, repetitions)
     with tempfile.TemporaryDirectory() as folder:
         for scene in FRAMES:
             for isa in chosen(("avx512", "avx2"), only):
-                times = {}
-                for _ in range(repetitions):
-                    for mode, (build, options) in builds.items():
-                        times.setdefault(mode, []).append(
-                            milliseconds(build, ROOT / f"scenes/{scene}.scene", isa, options, folder))
+                times = by_turns(builds, repetitions, lambda way: frame_milliseconds(
+                    way[0], ROOT / f"scenes/{scene}.scene", 512, isa, folder, way[1]["frame"]))
                 rows.append(row_of({"scene": scene, "isa": isa, "rays": "frame 512x512",
                                     "unit": "milliseconds"}, times, lambda x: 1 / x))
     write({"command": " ".join(["results/exact_cost.py build/release BEFORE", *sys.argv[3:]]),

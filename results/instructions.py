@@ -15,7 +15,7 @@ import subprocess
 import sys
 import tempfile
 
-from provenance import commit, commit_of_build, machine, write
+from provenance import commit_of_build, machine, write
 
 ROOT = pathlib.Path(__file__).resolve().parents[1]
 SCENES = ["four_spheres", "whitted", "quadrics", "mirror_room"]
@@ -121,7 +121,7 @@ def main():
     if len(sys.argv) not in (2, 3):
         sys.exit(__doc__)
     builds = dict(zip(("now", "before"), sys.argv[1:]))
-    report = {"commit": commit(), "machine": machine(), "isa": "avx2", "pixels": PIXELS,
+    report = {"commit": commit_of_build(sys.argv[1]), "machine": machine(), "isa": "avx2", "pixels": PIXELS,
               "size": SIZE, "rows": []}
     if "before" in builds:
         report["before"] = commit_of_build(builds["before"])

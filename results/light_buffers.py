@@ -15,8 +15,8 @@ import subprocess
 import sys
 import tempfile
 
-from provenance import commit, commit_of_build, machine, write
-from ratios import share
+from provenance import commit_of_build, machine, write
+from ratios import by_turns, frame_milliseconds, share
 
 SCENES = {
     "flake4": ["sphereflake", "--depth", "4"],
@@ -41,13 +41,6 @@ def make(build, scene, name):
                            path.read_text()))
 
 
-def milliseconds(build, scene, folder, size=1024):
-    command = [f"{build}/packtrace", "render", scene, "--size", f"{size}x{size}", "--threads", "1", "--isa", "avx512",
-               "-o", f"{folder}/frame.pfm"]
-    done = subprocess.run(command, capture_output=True, text=True, check=True)
-    return float(re.search(r"([\d.]+) ms", done.stdout + done.stderr).group(1))
-
-
 def row_of(name, times):
     row = {"scene": name, "ms": statistics.median(times["now"]), "before_ms": statistics.median(times["before"]),
            "share": share(times["now"], times["before"])}
@@ -58,7 +51,7 @@ def row_of(name, times):
 def main():
     if len(sys.argv) < 3:
         sys.exit(__doc__)
-    built_of = commit()
+    built_of = commit_of_build(sys.argv[1])
     builds = {"now": sys.argv[1], "before": sys.argv[2]}
     repetitions = int(sys.argv[3]) if len(sys.argv) > 3 else 9
     load = machine()
@@ -67,11 +60,8 @@ def main():
         for name in [*SCENES, *(f"{name}, parallel" for name in PARALLEL)]:
             scene = f"{folder}/scene.scene"
             make(sys.argv[1], scene, name)
-            times = {build: [] for build in builds}
-            for _ in range(repetitions):
-                for build, path in builds.items():
-                    times[build].append(milliseconds(path, scene, folder))
-            rows.append(row_of(name, times))
+            rows.append(row_of(name, by_turns(builds, repetitions, lambda build: frame_milliseconds(
+                build, scene, 1024, "avx512", folder))))
     write({"command": "results/light_buffers.py build/release BEFORE", "commit": built_of,
            "before": commit_of_build(sys.argv[2]), "machine": load, "machine_after": machine(),
            "repetitions": repetitions, "frames": rows}, "light_buffers.json")

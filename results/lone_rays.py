@@ -8,8 +8,8 @@ BUILD and BEFORE are build folders with `bench/scaling/packtrace_rays`.
 """
 import sys
 
-from exact_cost import DEFAULT, row_of, rates
-from provenance import commit, commit_of_build, machine, write
+from exact_cost import DEFAULT, rows_of_rays
+from provenance import commit_of_build, machine, write
 
 SCENES = [("spheres32", "avx512"), ("spheres64", "avx512"), ("spheres128", "avx512"),
           ("spheres64", "avx2"), ("flake4", "avx512")]
@@ -23,18 +23,12 @@ def main():
     ways = {"exact": (sys.argv[1], DEFAULT), "double": (sys.argv[1], DOUBLE),
             "before": (sys.argv[2], DEFAULT)}
     repetitions = int(sys.argv[3]) if len(sys.argv) == 4 else 9
-    report = {"command": "results/lone_rays.py build/release BEFORE", "commit": commit(),
+    report = {"command": "results/lone_rays.py build/release BEFORE", "commit": commit_of_build(sys.argv[1]),
               "before": commit_of_build(sys.argv[2]), "machine": machine(),
               "repetitions": repetitions, "rows": []}
     for scene, isa in SCENES:
-        found = {}
-        for _ in range(repetitions):
-            for way, (build, options) in ways.items():
-                for kind, rate in rates(build, scene, SIZE, isa, options).items():
-                    found.setdefault(kind, {}).setdefault(way, []).append(rate)
-        report["rows"] += [row_of({"scene": scene, "isa": isa, "rays": kind,
-                                   "unit": "million rays a second"}, of, lambda rate: rate)
-                           for kind, of in found.items() if "double" in of]
+        report["rows"] += [row for row in rows_of_rays(ways, scene, SIZE, isa, repetitions)
+                           if "double" in row]
     write(report | {"machine_after": machine()}, "lone_rays.json")
 
 

@@ -16,16 +16,16 @@ import sys
 import tempfile
 import time
 
-from light_buffers import make, milliseconds
-from provenance import commit, commit_of_build, machine, write
-from ratios import share
+from light_buffers import make
+from provenance import commit_of_build, machine, write
+from ratios import by_turns, frame_milliseconds, share
 
 SCENES = ["flake5", "mirrored flake4", "mirrored flake5", "random100k"]
 RAYS = 200_000
 
 
 def frame(build, scene, folder):
-    return 1e-3 * milliseconds(build, scene, folder, 512)
+    return 1e-3 * frame_milliseconds(build, scene, 512, "avx512", folder)
 
 
 def rays(build, scene, folder):
@@ -47,7 +47,7 @@ def main():
         sys.exit(__doc__)
     builds = {"now": sys.argv[1], "before": sys.argv[2]}
     repetitions = int(sys.argv[3]) if len(sys.argv) == 4 else 9
-    report = {"command": "results/parallel_rays.py build/release BEFORE", "commit": commit(),
+    report = {"command": "results/parallel_rays.py build/release BEFORE", "commit": commit_of_build(sys.argv[1]),
               "before": commit_of_build(sys.argv[2]), "machine": machine(), "repetitions": repetitions, "rows": []}
     with tempfile.TemporaryDirectory() as folder:
         write_rays(folder)
@@ -57,10 +57,7 @@ def main():
             for what, measured in (("frame, parallel light", frame), ("parallel rays", rays)):
                 if measured is rays and name != "random100k":
                     continue
-                times = {build: [] for build in builds}
-                for _ in range(repetitions):
-                    for build, path in builds.items():
-                        times[build].append(measured(path, scene, folder))
+                times = by_turns(builds, repetitions, lambda build: measured(build, scene, folder))
                 row = {"scene": name, "what": what, "seconds": statistics.median(times["now"]),
                        "before": statistics.median(times["before"]), "share": share(times["now"], times["before"])}
                 print(json.dumps(row))

@@ -1,10 +1,10 @@
 #!/usr/bin/env python3
-"""Writes results/stress.json: ten million extreme rays, family by family, without their times.
-With --exact, results/stress_exact.json: as many in the default mode alone, with its verdict.
+"""Writes results/stress.json: twenty million extreme rays in each mode, family by family, without their
+times. With --exact, results/stress_exact.json: half as many in the default mode alone, with its verdict.
 
 usage: results/stress.py [--exact] [--isa=NAME] build/release/packtrace [RAYS_OF_EACH_FAMILY]
-The instruction set is avx512, unless another is named: results differ between those with FMA in nothing
-but their times.
+The instruction set is avx512, unless another is named (the kept files are of avx2): those with FMA differ
+in nothing but their times.
 """
 import json
 import subprocess
@@ -62,4 +62,5 @@ def main():
     write(report, "stress.json")
 
 
-main()
+if __name__ == "__main__":
+    main()

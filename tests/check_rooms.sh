@@ -1,10 +1,12 @@
 #!/bin/sh
-# check_rooms.sh SRC
+# check_rooms.sh SRC ARCHITECTURE.md
 #
-# The rooms of the kernels stand in an order (docs/architecture.md), and a file includes only what
-# is in its own room or in one before it. Kernels see kernel_abi, the kernel of the one-dimensional
-# note and themselves; nobody else includes them.
+# A folder of the sources includes only what the table of docs/architecture.md says. The rooms of the
+# kernels stand in an order, and a file includes only what is in its own room or in one before it.
+# Kernels see kernel_abi, the kernel of the one-dimensional note and themselves; nobody else
+# includes them.
 set -u
+table=$(grep '^| `src/' "$2")
 cd "$1" || exit 1
 rooms='simd stats geometry precision lists bvh retrace shade stream fused'
 
@@ -28,6 +30,26 @@ strays=$(find kernels -mindepth 1 -maxdepth 1 -type d | grep -Ev "^kernels/($kno
 found=$(includes onedim/onedim_kernel.hpp onedim/bit_transpose.hpp |
     grep -Ev ':(kernel_abi/|kernels/simd/|onedim/bit_transpose)')
 [ -z "$found" ] || { echo "more than kernel_abi and kernels/simd:"; echo "$found"; failed=1; }
+
+# By line a folder and what it sees: names out of its last column, or all folders above it.
+above=''
+while IFS='|' read -r _ folder _ sees _; do
+    folder=$(echo "$folder" | tr -d '` ' | sed 's/^src\///')
+    [ -d "$folder" ] || { echo "docs/architecture.md: there is no src/$folder"; failed=1; continue; }
+    case $sees in *"all above"*) sees=$above ;; esac
+    may=$(echo "$sees" | tr -c 'a-z_\n' '|')
+    files=$(find "$folder" -name '*.[hc]pp')
+    # shellcheck disable=SC2086
+    found=$(includes $files | grep -Ev ":($folder|$may)/" | grep '/.*:.*/')
+    [ -z "$found" ] || { echo "src/$folder sees more than docs/architecture.md says:"; echo "$found"; failed=1; }
+    above="$above $folder"
+done <<EOF
+$table
+EOF
+for folder in */; do
+    echo "$table" | grep -q "^| \`src/${folder%/}\`" ||
+        { echo "docs/architecture.md does not list src/${folder%/}"; failed=1; }
+done
 
 others=$(find . -name '*.[hc]pp' ! -path './kernels/*' ! -path './onedim/onedim_kernel.hpp' \
     ! -path './onedim/bit_transpose.hpp')

@@ -138,10 +138,7 @@ TEST_CASE("the page opens in a browser without an error, and its slider and plot
           "[report_page][slow]")
 {
     const std::string name = browser();
-    if (name.empty()) {
-        WARN("skipped: no browser; apt-get install chromium");
-        return;
-    }
+    REQUIRE(!name.empty());  // apt-get install chromium
     const TempFolder folder;
     const std::string file = write_page(folder);
     const PageResult plain = open_page(name, folder, file);
@@ -190,10 +187,7 @@ TEST_CASE("the page opens in a browser without an error, and its slider and plot
 TEST_CASE("a page with an error is found out", "[report_page][slow]")
 {
     const std::string name = browser();
-    if (name.empty()) {
-        WARN("skipped: no browser; apt-get install chromium");
-        return;
-    }
+    REQUIRE(!name.empty());  // apt-get install chromium
     const TempFolder folder;
     write_text(folder / "bad.html", "<html><script>nothing.at.all();</script></html>");
     CHECK_THAT(open_page(name, folder, (folder / "bad.html").string()).console,

@@ -96,7 +96,7 @@ struct TestUse {
     int depth = 0;
     std::string rays;         ///< "closest" or "shadow"
     std::string tested;       ///< "nodes", or a kind of object: "spheres"
-    std::uint64_t tests = 0;  ///< of packets against one object; nodes by beams of several rays
+    std::uint64_t tests = 0;  ///< of packets against one object; nodes by frustums of several rays
     /// Objects: pairs of a live ray and an object in them. Nodes: met by single rays.
     std::uint64_t single = 0;
 };

@@ -155,8 +155,9 @@ public:
         objects(value, result.objects);
         for (const py::object& light : elements_of(value.attr("lights"), "lights"))
             result.lights.push_back(about(at_index("lights", result.lights.size()), [&] {
-                return is_a(light, "Light") ? light_of(light)
-                                            : wrong_class<Light>(light, "a Light");
+                if (!is_a(light, "Light"))
+                    wrong_class(light, "a Light");
+                return light_of(light);
             }));
         if (const py::object moves = value.attr("animation"); !moves.is_none())
             result.animation = animation(moves);
@@ -172,8 +173,7 @@ private:
         return py::isinstance(value, type);
     }
 
-    template <class T>
-    [[noreturn]] static T wrong_class(py::handle value, const std::string& use)
+    [[noreturn]] static void wrong_class(py::handle value, const std::string& use)
     {
         throw py::value_error("is of the class " + type_of(value) + "; use " + use);
     }
@@ -181,7 +181,7 @@ private:
     void camera(py::handle value, Camera& to)
     {
         if (!is_a(value, "Camera"))
-            wrong_class<Camera>(value, "a Camera");
+            wrong_class(value, "a Camera");
         to.position = field<Vec3>(value, "position");
         to.rotation = field<Mat3>(value, "rotation");
         to.viewport = field<Vec2>(value, "viewport");
@@ -208,7 +208,7 @@ private:
     {
         return about(at_index("objects", number), [&] {
             if (!is_a(value, "Object"))
-                wrong_class<Object>(value, "an Object, such as Object(Sphere((0, 0, 5), 1))");
+                wrong_class(value, "an Object, such as Object(Sphere((0, 0, 5), 1))");
             Object result;
             result.name = field<std::string>(value, "name");
             return about(result.name.empty() ? "" : "'" + result.name + "'", [&] {
@@ -261,9 +261,9 @@ private:
         else if (is_a(value, "GeneralMaterial"))
             result.model = general_of(value);
         else
-            wrong_class<Material>(value,
-                                  "the one that fits the illumination, such as "
-                                  "ScratchMaterial");
+            wrong_class(value,
+                        "the one that fits the illumination, such as "
+                        "ScratchMaterial");
         result.name = field<std::string>(value, "name");
         result.color = color_field(value, "color");
         if (const py::object checker = value.attr("checker"); !checker.is_none())

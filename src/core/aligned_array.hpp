@@ -8,7 +8,8 @@
 
 namespace packtrace {
 
-/// Memory for `size` elements of a plain type, all bytes zero, as take_pages() gives it.
+/// `size` elements of a plain type, each as T{} unless unset() made them, aligned to 64 bytes at
+/// least.
 template <class T>
 class AlignedArray {
     static_assert(std::is_trivially_copyable_v<T>);

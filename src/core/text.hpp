@@ -1,10 +1,13 @@
 #pragma once
 
+#include <charconv>
+#include <optional>
 #include <string>
 #include <string_view>
+#include <system_error>
 #include <vector>
 
-// Small steps of making texts.
+// Small steps of making texts, and numbers of them.
 namespace packtrace {
 
 /// A number with a fixed count of decimals.
@@ -12,6 +15,16 @@ namespace packtrace {
 
 /// A number with so many digits, and an exponent where it needs one.
 [[nodiscard]] std::string brief(double value, int digits = 3);
+
+/// The number that all of `text` is; nothing where it is none, or out of range.
+template <class Number>
+[[nodiscard]] std::optional<Number> parse_number(std::string_view text)
+{
+    Number value{};
+    const char* const end = text.data() + text.size();
+    const auto [stop, error] = std::from_chars(text.data(), end, value);
+    return error == std::errc() && stop == end ? std::optional(value) : std::nullopt;
+}
 
 /// What `text` makes of each item, with `between` between each two.
 template <class Items, class Text>

@@ -1,9 +1,9 @@
 #include "image/y4m.hpp"
 
+#include "core/text.hpp"
 #include "image/bytes.hpp"
 
 #include <algorithm>
-#include <charconv>
 #include <cstdint>
 #include <limits>
 #include <numeric>
@@ -29,12 +29,9 @@ std::uint8_t sample(const ColorPlane& plane, const std::uint8_t* rgb)
 std::optional<std::int64_t> digits(std::string_view text)
 {
     constexpr std::size_t most = 9;
-    std::int64_t number = 0;
-    const char* const end = text.data() + text.size();
     if (text.empty() || text.size() > most || text.front() == '-')
         return std::nullopt;
-    const auto [stop, error] = std::from_chars(text.data(), end, number);
-    return error == std::errc() && stop == end ? std::optional(number) : std::nullopt;
+    return parse_number<std::int64_t>(text);
 }
 
 /// In lowest terms.

@@ -18,9 +18,10 @@ struct alignas(64) LightBlock {
 struct LightCell {
     std::int32_t first = 0;
     std::int32_t count = 0;
-    /// No sphere of the cell is nearer to the light: by the square of the distance from a point
-    /// light, by the distance ahead of `origin` for one from a direction.
+    /// All is lit that is not behind this depth, as no sphere begins before it. Depths are squares
+    /// of the distance from a point light, and distances ahead of `origin` of parallel light.
     float near = 0;
+    float dark = 0;  ///< nothing is lit behind it, as a sphere that fills the cell ends before it
 };
 
 /// The spheres of a hierarchy as a light sees them, in a square grid of cells across its view of

@@ -8,7 +8,7 @@ namespace packtrace::abi {
 
 /// Spans follow each other through a tile without a gap; each generation has its own.
 enum class Span : std::int32_t {
-    setup,     ///< what the tile's beam may meet
+    setup,     ///< what the tile's cone may meet
     trace,     ///< rays to their closest hits
     shadows,   ///< what may stand between the hits and lights; with a hierarchy the shadow rays
     shade,     ///< local light, child rays; without a hierarchy shadow rays, packet by packet
@@ -19,9 +19,9 @@ inline constexpr int span_count = 6;
 
 /// What the time of a span goes to.
 enum class Part : std::int32_t {
-    beams,           ///< the objects that a beam may meet
+    cones,           ///< the objects that a cone may meet
     ray_generation,  ///< of camera and shadow rays; of others the loading
-    boxes,           ///< traversal: nodes of the hierarchy, beams and orders of rays
+    boxes,           ///< traversal: nodes of the hierarchy, frustums and orders of rays
     spheres,
     anchored_spheres,
     planes,
@@ -99,7 +99,7 @@ struct PixelRays {
 struct WorkCounts {
     PacketCounts work[packet_work_count];
     TestCounts tests[role_count][primitive_count];
-    std::uint64_t group_nodes[role_count] = {};  ///< nodes met by beams of rays
+    std::uint64_t group_nodes[role_count] = {};  ///< nodes met by frustums of rays
     std::uint64_t ray_nodes[role_count] = {};    ///< nodes met by single rays
     std::uint64_t untraced = 0;                  ///< camera rays of tiles that can meet nothing
     std::uint64_t refracted = 0;                 ///< of the rays traced

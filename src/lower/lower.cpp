@@ -13,6 +13,7 @@
 #include "lower/lowered_scene.hpp"
 #include "lower/prune.hpp"
 #include "lower/tree_objects.hpp"
+#include "scene/casting_objects.hpp"
 
 // Runs of objects are lowered in parallel, and joined in their order.
 namespace packtrace {
@@ -21,12 +22,11 @@ namespace {
 /// By surface whether it casts a shadow; none where all do.
 std::vector<bool> casting_surfaces(const Scene& scene, const LoweredScene& lowered)
 {
+    const std::vector<bool> objects = casting_objects(scene);
     std::vector<bool> casts;
-    const auto casts_shadow = [](const Object& object) { return object.casts_shadow; };
-    if (std::all_of(scene.objects.begin(), scene.objects.end(), casts_shadow))
-        return casts;
-    for (const abi::MaterialIndex& index : lowered.material_index)
-        casts.push_back(scene.objects[static_cast<std::size_t>(index.object)].casts_shadow);
+    if (!objects.empty())
+        for (const abi::MaterialIndex& index : lowered.material_index)
+            casts.push_back(objects[static_cast<std::size_t>(index.object)]);
     return casts;
 }
 

@@ -189,25 +189,26 @@ std::vector<float> dark_depths(const std::vector<SeenSphere>& spheres, const Lig
 
 /// The spheres of each cell, one cell's after the other's.
 struct CellSpheres {
-    std::vector<int> first;  ///< by cell, and the end of the last
+    std::vector<float> dark;  ///< by cell, dark_depths()
+    std::vector<int> first;   ///< by cell, and the end of the last
     std::vector<int> place;
 };
 
 CellSpheres sort_into_cells(const std::vector<SeenSphere>& spheres, const LightAxes& axes)
 {
-    const std::vector<float> dark = dark_depths(spheres, axes);
+    CellSpheres cells;
+    cells.dark = dark_depths(spheres, axes);
     const auto for_each_lit = [&](const SeenSphere& sphere, const auto& visit) {
         const double near = sphere.radius < 0.0 ? 0.0 : sphere.near();
         for_each_cell(sphere, axes.size, [&](int cell) {
-            if (near <= double{dark[static_cast<std::size_t>(cell)]})
+            if (near <= double{cells.dark[static_cast<std::size_t>(cell)]})
                 visit(static_cast<std::size_t>(cell));
         });
     };
-    CellSpheres cells;
-    cells.first.assign(dark.size() + 1, 0);
+    cells.first.assign(cells.dark.size() + 1, 0);
     for (const SeenSphere& sphere : spheres)
         for_each_lit(sphere, [&](std::size_t cell) { ++cells.first[cell + 1]; });
-    for (std::size_t cell = 0; cell < dark.size(); ++cell)
+    for (std::size_t cell = 0; cell < cells.dark.size(); ++cell)
         cells.first[cell + 1] += cells.first[cell];
     cells.place.resize(static_cast<std::size_t>(cells.first.back()));
     std::vector<int> next(cells.first.begin(), cells.first.end() - 1);
@@ -267,17 +268,31 @@ void sort_by_size(std::span<int> places, const std::vector<SeenSphere>& spheres)
     });
 }
 
-/// LightCell::near.
-float nearest(std::span<const int> places, const std::vector<SeenSphere>& spheres,
-              const LightAxes& axes)
+/// A depth as LightCell has it, of spheres that begin there.
+float depth_in_front(double depth, const LightAxes& axes)
+{
+    if (axes.parallel)
+        return static_cast<float>(depth - depth_margin * axes.size / axes.scale);
+    const double nearer = std::max(0.0, depth * (1.0 - size_margin));
+    return static_cast<float>(nearer * nearer);
+}
+
+/// The same of a sphere that ends there.
+float depth_behind(double depth, const LightAxes& axes)
+{
+    if (axes.parallel)
+        return static_cast<float>(depth + depth_margin * axes.size / axes.scale);
+    const double further = depth * (1.0 + size_margin);
+    return static_cast<float>(further * further);
+}
+
+/// Where the first of some spheres begins.
+double nearest(std::span<const int> places, const std::vector<SeenSphere>& spheres)
 {
     double distance = 1e18;
     for (const int place : places)
         distance = std::min(distance, spheres[static_cast<std::size_t>(place)].near());
-    if (axes.parallel)
-        return static_cast<float>(distance - depth_margin * axes.size / axes.scale);
-    distance = std::max(0.0, distance * (1.0 - size_margin));
-    return static_cast<float>(distance * distance);
+    return distance;
 }
 
 void fill_blocks(std::span<abi::LightBlock> blocks, std::span<const int> places,
@@ -333,7 +348,8 @@ PackedLightBuffer::PackedLightBuffer(const abi::LightRecord<float>& light,
         const std::span<int> places(sorted.place.data() + sorted.first[cell],
                                     sorted.place.data() + sorted.first[cell + 1]);
         sort_by_size(places, spheres);
-        cells_[cell].near = nearest(places, spheres, axes);
+        cells_[cell].near = depth_in_front(nearest(places, spheres), axes);
+        cells_[cell].dark = depth_behind(double{sorted.dark[cell]}, axes);
         fill_blocks(
             {blocks_.data() + cells_[cell].first, static_cast<std::size_t>(cells_[cell].count)},
             places, tree);

@@ -18,7 +18,7 @@ constexpr std::size_t stream_tree_objects = 32;
 /// Quadrics and polygons with error bounds: camera rays from 40, rays of all directions from 600.
 /// So many count as one sphere.
 constexpr std::size_t bounded_objects_a_sphere = 4;
-/// Frames: their tiles pick from lists what their beams meet, and test it a packet at a time, so
+/// Frames: their tiles pick from lists what their cones meet, and test it a packet at a time, so
 /// that lists stay ahead for longer the wider the packets are.
 constexpr std::size_t frame_tree_objects(int lanes)
 {

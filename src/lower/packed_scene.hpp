@@ -28,8 +28,8 @@ namespace packtrace {
 template <class Real>
 class PackedScene {
 public:
-    /// Throws std::invalid_argument for polygons, which no kernel traces.
-    /// `keep`, if any, gets the hierarchy, if any, as refit() needs it.
+    /// Where `keep` is given and the scene gets a hierarchy, `keep` becomes the tree that refit()
+    /// needs.
     explicit PackedScene(const LoweredScene& lowered, Traversal traversal = Traversal::automatic,
                          Bvh* keep = nullptr);
     PackedScene(const PackedScene&) = delete;

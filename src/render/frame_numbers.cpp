@@ -1,22 +1,19 @@
 #include "render/frame_numbers.hpp"
 
 #include <algorithm>
-#include <charconv>
 #include <optional>
 #include <stdexcept>
 #include <string>
+
+#include "core/text.hpp"
 
 namespace packtrace {
 namespace {
 
 std::optional<int> whole_number(std::string_view text)
 {
-    int value = 0;
-    const char* end = text.data() + text.size();
-    const auto [stop, error] = std::from_chars(text.data(), end, value);
-    if (error != std::errc{} || stop != end || value < 0)
-        return std::nullopt;
-    return value;
+    const std::optional<int> value = parse_number<int>(text);
+    return value && *value >= 0 ? value : std::nullopt;
 }
 
 bool is_digit(char c)

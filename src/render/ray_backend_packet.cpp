@@ -18,10 +18,10 @@
 #include "dispatch/kernels.hpp"
 #include "lower/move_objects.hpp"
 #include "lower/packed_scene.hpp"
-#include "render/casting_objects.hpp"
 #include "render/lit_scene.hpp"
 #include "render/ray_backend.hpp"
 #include "render/ray_pieces.hpp"
+#include "scene/casting_objects.hpp"
 
 namespace packtrace {
 namespace {

@@ -6,8 +6,8 @@
 #include "reference/shadow.hpp"
 #include "reference/surfaces/bodies.hpp"
 #include "reference/surfaces/hits.hpp"
-#include "render/casting_objects.hpp"
 #include "render/ray_backend.hpp"
+#include "scene/casting_objects.hpp"
 
 namespace packtrace {
 namespace {

@@ -10,15 +10,6 @@
 
 namespace packtrace {
 
-/// Column and row of a pixel by its number along a tile's Z-order curve.
-[[nodiscard]] inline std::pair<int, int> z_order_place(int number)
-{
-    int place[2] = {};
-    for (int bit = 0; (1 << bit) < abi::tile_pixels; ++bit)
-        place[bit % 2] |= ((number >> bit) & 1) << (bit / 2);
-    return {place[0], place[1]};
-}
-
 /// Gathers the samples of single pixels of a tile and renders them as many at a time as a kernel
 /// takes: `render(samples, rgb)`. A pixel's samples are added up in the pattern's order.
 template <class Real>

@@ -15,6 +15,20 @@
 
 namespace packtrace {
 
+/// Calls `visit(number, x, y)` for the pixels of a tile; kernels number all there can be along a
+/// Z-order curve.
+template <class Visit>
+void for_each_pixel(const Region& tile, const Visit& visit)
+{
+    for (int number = 0; number < abi::tile_pixels; ++number) {
+        int place[2] = {tile.x, tile.y};
+        for (int bit = 0; (1 << bit) < abi::tile_pixels; ++bit)
+            place[bit % 2] += ((number >> bit) & 1) << (bit / 2);
+        if (tile.contains(place[0], place[1]))
+            visit(number, place[0], place[1]);
+    }
+}
+
 /// How a picture is cut, or a region of it that begins where a tile does: into squares, row by row,
 /// whose edge is that of a tile or of several.
 class TileGrid {

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <memory>
 #include <stdexcept>
+#include <utility>
 
 #include "dispatch/kernels.hpp"
 #include "lower/prune.hpp"
@@ -19,8 +20,8 @@ Vec2 only_sample(const Scene& scene, const RenderOptions& options)
     return options.samples > 1 ? Vec2(0.5) : scene.camera.pixel_sample;
 }
 
-/// Leaves out what the picture does not need, or puts in all there is.
-const LoweredScene& fitted(LoweredScene& lowered, const RenderOptions& options)
+/// Without what the picture does not need, or with all there is.
+LoweredScene fit(LoweredScene lowered, const RenderOptions& options)
 {
     if (!options.force_general)
         prune(lowered);
@@ -58,16 +59,24 @@ int tiles_together(const Scene& scene, bool sorts_mirrored)
 template <class Real>
 TileRenderer<Real>::TileRenderer(const Scene& scene, LoweredScene lowered,
                                  const abi::KernelTable& table, const RenderOptions& options)
-    : kernels_(kernels_for(precision<Real>(table), fitted(lowered, options).features)),
-      packed_(lowered, frame_traversal(lowered, options.traversal, precision<Real>(table).lanes)),
-      rays_for_buffers_(camera_rays_for_buffers(packed_, lowered.bounces)),
+    : TileRenderer(scene, Fitted{fit(std::move(lowered), options)}, table, options)
+{
+}
+
+template <class Real>
+TileRenderer<Real>::TileRenderer(const Scene& scene, const Fitted& fitted,
+                                 const abi::KernelTable& table, const RenderOptions& options)
+    : kernels_(kernels_for(precision<Real>(table), fitted.scene.features)),
+      packed_(fitted.scene,
+              frame_traversal(fitted.scene, options.traversal, precision<Real>(table).lanes)),
+      rays_for_buffers_(camera_rays_for_buffers(packed_, fitted.scene.bounces)),
       pattern_(sample_pattern(options.samples)),
-      once_(camera_view<Real>(scene, lowered, only_sample(scene, options))),
-      corner_(camera_view<Real>(scene, lowered, Vec2(0.0))),
-      fused_(fused_for(precision<Real>(table), lowered.features, packed_.view())),
+      once_(camera_view<Real>(scene, fitted.scene, only_sample(scene, options))),
+      corner_(camera_view<Real>(scene, fitted.scene, Vec2(0.0))),
+      fused_(fused_for(precision<Real>(table), fitted.scene.features, packed_.view())),
       plan_(make_plan(fused_, packed_.view(), once_)),
       render_tiles_(fused_ != nullptr ? fused_->render_tiles : kernels_.render_tiles),
-      sorts_mirrored_(sorts_mirrored(lowered.features, packed_.view())),
+      sorts_mirrored_(sorts_mirrored(fitted.scene.features, packed_.view())),
       scratch_bytes_(
           fused_ != nullptr
               ? fused_->scratch_bytes(packed_.view())
@@ -204,13 +213,10 @@ abi::RayCounts TileRenderer<Real>::refine(const Canvas<Real>& canvas,
         job.rgb = rgb;
         counts += render_tiles_(&job, 1);
     });
-    for (int number = 0; number < abi::tile_pixels; ++number) {
-        const auto [column, row] = z_order_place(number);
-        const int x = tile.x + column;
-        const int y = tile.y + row;
-        if (tile.contains(x, y) && contrast(x - canvas.first_column, y - canvas.first_row))
-            batch.add_pixel(column, row, canvas.pixel(x, y));
-    }
+    for_each_pixel(tile, [&](int, int x, int y) {
+        if (contrast(x - canvas.first_column, y - canvas.first_row))
+            batch.add_pixel(x - tile.x, y - tile.y, canvas.pixel(x, y));
+    });
     batch.finish();
     return counts;
 }

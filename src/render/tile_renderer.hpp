@@ -85,6 +85,13 @@ private:
         std::ptrdiff_t row_stride;
     };
 
+    /// A scene without what the picture does not need.
+    struct Fitted {
+        LoweredScene scene;
+    };
+
+    TileRenderer(const Scene& scene, const Fitted& fitted, const abi::KernelTable& table,
+                 const RenderOptions& options);
     [[nodiscard]] const abi::SceneView<Real>& view() const;
     [[nodiscard]] abi::TileJob<Real> job_of(const abi::CameraView<Real>& camera, const Region& tile,
                                             abi::Observation* observation) const;

@@ -251,7 +251,7 @@ void add_info(CLI::App& app)
             ->add_option("SCENE", arguments->scene, "Scene file to look into; - is standard input")
             ->check(file_name())
             ->type_name("");
-    add_isa_options(*command, arguments->isa);
+    add_isa_and_width(*command, arguments->isa);
     CLI::Option* const json = command->add_flag("--json", arguments->json, "Print JSON");
     const auto tables = language::key_table_names();
     std::vector<std::string> names(tables.begin(), tables.end());

@@ -160,7 +160,7 @@ void add_onedim(CLI::App& app)
     command->add_option("--solver", arguments->solver, "How to solve them (default bitsliced)")
         ->check(one_of({"scalar", "linear", "bitsliced"}))
         ->type_name("scalar|linear|bitsliced");
-    add_isa_options(*command, arguments->isa);
+    add_isa_and_width(*command, arguments->isa);
     command->add_option("--output", arguments->output, "How to write answers (default words)")
         ->check(one_of({"words", "compact", "note"}))
         ->type_name("words|compact|note");

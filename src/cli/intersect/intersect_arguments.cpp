@@ -15,7 +15,7 @@ void add_options(CLI::App& command, KernelArguments& arguments)
     add_precision_option(command, arguments.precision, "double (default) or single");
     add_traversal_option(command, arguments.traversal);
     add_accuracy_option(command, arguments.accuracy);
-    add_isa_options(command, arguments.isa);
+    add_isa_and_width(command, arguments.isa);
     add_threads_option(command, arguments.threads);
 }
 

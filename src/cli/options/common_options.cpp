@@ -41,7 +41,7 @@ void add_accuracy_option(CLI::App& command, AccuracyArguments& arguments)
                     words_of<Accuracy>());
 }
 
-void add_accuracy_options(CLI::App& command, AccuracyArguments& arguments)
+void add_accuracy_and_self_hits(CLI::App& command, AccuracyArguments& arguments)
 {
     add_accuracy_option(command, arguments);
     add_word_option(command, "--self-hits", arguments.self_hits,
@@ -69,7 +69,7 @@ void add_isa_option(CLI::App& command, std::optional<std::string>& isa, const st
     command.add_option("--isa", isa, meaning)->check(offers(names))->type_name("NAME");
 }
 
-void add_isa_options(CLI::App& command, IsaArguments& arguments)
+void add_isa_and_width(CLI::App& command, IsaArguments& arguments)
 {
     add_isa_option(command, arguments.isa,
                    "Instruction set (default PACKTRACE_ISA, else the widest; see info)");
@@ -146,11 +146,11 @@ void add_kernel_options(CLI::App& command, KernelArguments& arguments)
                     "single (default), double, or extended (scalar only)",
                     {"single", "double", "extended"});
     add_traversal_option(command, arguments.traversal);
-    add_accuracy_options(command, arguments.accuracy);
+    add_accuracy_and_self_hits(command, arguments.accuracy);
     command.add_flag("--force-general", arguments.force_general,
                      "Run the general packet kernel, and keep objects and lights that cannot "
                      "be seen; the picture is the same");
-    add_isa_options(command, arguments.isa);
+    add_isa_and_width(command, arguments.isa);
     add_threads_option(command, arguments.threads);
 }
 

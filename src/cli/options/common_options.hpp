@@ -82,7 +82,7 @@ struct SamplingArguments {
 
 void add_accuracy_option(CLI::App& command, AccuracyArguments& arguments);
 /// `--accuracy`, and `--self-hits` for what traces secondary rays.
-void add_accuracy_options(CLI::App& command, AccuracyArguments& arguments);
+void add_accuracy_and_self_hits(CLI::App& command, AccuracyArguments& arguments);
 void add_traversal_option(CLI::App& command, std::optional<std::string>& traversal);
 /// packet or scalar.
 void add_kernel_option(CLI::App& command, std::string& kernel);
@@ -92,7 +92,7 @@ void add_sampling_options(CLI::App& command, SamplingArguments& arguments);
 /// `--isa` alone, for chosen_isa().
 void add_isa_option(CLI::App& command, std::optional<std::string>& isa, const std::string& meaning);
 /// `--isa` and `--width`.
-void add_isa_options(CLI::App& command, IsaArguments& arguments);
+void add_isa_and_width(CLI::App& command, IsaArguments& arguments);
 /// `--size` alone.
 void add_size_option(CLI::App& command, PictureArguments& arguments);
 void add_picture_options(CLI::App& command, PictureArguments& arguments);

@@ -13,16 +13,15 @@
 namespace packtrace::cli {
 namespace {
 
-// The number that all of `text` is, if it is one.
-template <class Number>
-std::optional<Number> parse(const std::string& text)
+/// Finite numbers that `accepts` says yes to.
+CLI::Validator number(bool (*accepts)(double), std::string wanted)
 {
-    Number value{};
-    const char* end = text.data() + text.size();
-    const auto [stop, error] = std::from_chars(text.data(), end, value);
-    if (error != std::errc{} || stop != end)
-        return std::nullopt;
-    return value;
+    return validator(
+        [accepts](const std::string& text) {
+            const std::optional<double> value = parse_number<double>(text);
+            return value && std::isfinite(*value) && accepts(*value);
+        },
+        std::move(wanted));
 }
 
 CLI::Validator not_empty(std::string wanted)
@@ -58,35 +57,24 @@ CLI::Validator validator(std::function<bool(const std::string&)> accepts, std::s
 
 CLI::Validator non_negative_number()
 {
-    const auto accepts = [](const std::string& text) {
-        const std::optional<double> value = parse<double>(text);
-        return value && std::isfinite(*value) && *value >= 0.0;
-    };
-    return validator(accepts, "a number from 0 up");
+    return number([](double value) { return value >= 0.0; }, "a number from 0 up");
 }
 
 CLI::Validator positive_number()
 {
-    const auto accepts = [](const std::string& text) {
-        const std::optional<double> value = parse<double>(text);
-        return value && std::isfinite(*value) && *value > 0.0;
-    };
-    return validator(accepts, "a number above 0");
+    return number([](double value) { return value > 0.0; }, "a number above 0");
 }
 
 CLI::Validator share()
 {
-    const auto accepts = [](const std::string& text) {
-        const std::optional<double> value = parse<double>(text);
-        return value && *value >= 0.0 && *value <= 1.0;
-    };
-    return validator(accepts, "a number from 0 to 1");
+    return number([](double value) { return value >= 0.0 && value <= 1.0; },
+                  "a number from 0 to 1");
 }
 
 CLI::Validator whole_number(int least, int most)
 {
     const auto accepts = [least, most](const std::string& text) {
-        const std::optional<int> value = parse<int>(text);
+        const std::optional<int> value = parse_number<int>(text);
         return value && *value >= least && *value <= most;
     };
     return validator(

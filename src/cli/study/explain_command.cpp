@@ -105,8 +105,8 @@ void add_explain(CLI::App& app)
         ->type_name("X,Y");
     add_precision_option(*command, arguments->precision,
                          "Of the packets: single (default) or double");
-    add_accuracy_options(*command, arguments->accuracy);
-    add_isa_options(*command, arguments->isa);
+    add_accuracy_and_self_hits(*command, arguments->accuracy);
+    add_isa_and_width(*command, arguments->isa);
     add_picture_options(*command, arguments->picture);
     command->add_flag("--json", arguments->json, "Print both trees as JSON");
     command->callback([arguments] { run_explain(*arguments); });

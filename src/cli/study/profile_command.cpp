@@ -103,12 +103,12 @@ void add_profile(CLI::App& app)
     const auto arguments = std::make_shared<ProfileArguments>();
     add_scene_option(*command, arguments->scene);
     add_precision_option(*command, arguments->precision, "single (default) or double");
-    add_accuracy_options(*command, arguments->accuracy);
-    add_isa_options(*command, arguments->isa);
+    add_accuracy_and_self_hits(*command, arguments->accuracy);
+    add_isa_and_width(*command, arguments->isa);
     add_picture_options(*command, arguments->picture);
     add_sampling_options(*command, arguments->sampling);
     command->add_option("--threads", arguments->threads, "Threads (default 1)")
-        ->check(whole_number(1, 1024))
+        ->check(whole_number(1, most_threads))
         ->type_name("N");
     command->add_option("--repetitions", arguments->repetitions, "Frames of each kind (default 9)")
         ->check(whole_number(1, most_repetitions))

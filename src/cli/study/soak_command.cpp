@@ -65,8 +65,7 @@ void print_report(const SoakArguments& arguments, const lab::SoakReport& report)
     make_folders(arguments.cases);
     write_file(scene, "# " + report.finding.what + "\n" + scene_text(report.scene));
     if (report.finding.ray)
-        write_file(rays,
-                   "ox,oy,oz,dx,dy,dz,t_min,t_max\n" + lab::csv_of(*report.finding.ray) + "\n");
+        write_file(rays, lab::csv_of(*report.finding.ray));
     std::cout << "scene " << report.number << ": " << report.finding.what << '\n';
     print_commands(report.finding, language::escape(scene.string()),
                    language::escape(rays.string()));

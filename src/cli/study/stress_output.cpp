@@ -161,8 +161,7 @@ void write_cases(const std::filesystem::path& folder, const std::vector<StressRo
         for (const std::string& part : {row.mode, row.isa.substr(0, row.isa.find(' '))})
             name += part.empty() ? "" : "-" + part;
         write_file(folder / (name + ".scene"), "# " + row.example + "\n" + row.example_scene);
-        write_file(folder / (name + ".csv"),
-                   "ox,oy,oz,dx,dy,dz,t_min,t_max\n" + row.example_ray + "\n");
+        write_file(folder / (name + ".csv"), row.example_ray);
     }
 }
 

@@ -222,15 +222,16 @@ inline void occluders_of_others(const abi::BvhView<Real>& tree, RayBundle<Real>&
                   OccludersOfListed<F, Real>{tree, slabs, bundle, closed, occluder});
 }
 
-/// Lists are let go of rays that are blocked, frustums are not: cells go in lists earlier than
-/// where closest hits are looked for; results/tree_designs.json.
+/// Blocked rays leave a list but still widen a frustum, so that shadow rays go in lists at a
+/// smaller spread than closest hits; results/tree_designs.json.
 inline constexpr float blocked_spread = 0.7f;
 /// A light's buffer is quicker than lists: cells go there earlier still;
 /// results/light_buffers.json.
 inline constexpr float buffered_spread = 0.2f;
 
 /// Meets the active rays of a bundle with what blocks them in the hierarchy. Those that share no
-/// way go by the `buffer` of the light that all rays start at or run towards, if there is one.
+/// way go by the `buffer` of the light that all rays start at or run towards, if there is one. What
+/// it blocks ends, without a call of `occluder`.
 template <abi::Features F, class Real>
 [[gnu::noinline]] void visit_occluders_in_tree(const abi::BvhView<Real>& tree,
                                                const abi::LightBuffer* buffer,
@@ -247,7 +248,7 @@ template <abi::Features F, class Real>
     if constexpr (F.exact)
         if (buffer != nullptr && others != 0) {
             const std::uint32_t beyond = cells_beyond(*buffer, bundle, others);
-            occluders_in_light_buffer(*buffer, *tree.shapes, bundle, others & ~beyond, occluder);
+            end_in_light_buffer(*buffer, *tree.shapes, bundle, others & ~beyond);
             others = beyond;
         }
     if (others != 0)

@@ -2,21 +2,36 @@
 
 #include "kernel_abi/light_buffer.hpp"
 #include "kernels/bvh/occluded_ray.hpp"
+#include "kernels/simd/float_bits.hpp"
 
 // What stands in the way of a bundle of rays from one point light, or towards one light from a
 // direction, by the light's own view of the hierarchy's spheres in place of the hierarchy.
 namespace packtrace::PACKTRACE_ISA {
 namespace {
 
-/// Where the rays of a packet lie in the grid, in cells.
+/// Where the rays of a packet lie in the grid.
 struct LightCells {
-    alignas(64) float column[lanes<float>];
-    alignas(64) float row[lanes<float>];
-    alignas(64) float depth[lanes<float>];  ///< as LightCell::near has it
-    std::uint32_t inside;                   ///< the lanes that any cell sees
+    alignas(64) std::int32_t cell[lanes<float>];  ///< of those that are inside
+    alignas(64) float depth[lanes<float>];        ///< as LightCell has it, where segments end
+    std::uint32_t inside;                         ///< the lanes that any cell sees
 };
 
-inline LightCells cells_of(const abi::LightBuffer& buffer, const RayPacket<float>& rays)
+/// The cell of each place in [0, size), but for those on the line between two, which are in either.
+inline vreal<float> cell_number(const vreal<float>& place)
+{
+    return to_real<float>(to_int<float>(place - vreal<float>(0.5f)));
+}
+
+/// How far from the light segments end, towards the points that it may light.
+inline vreal<float> segment_depth(const abi::LightBuffer& buffer, const RayPacket<float>& rays,
+                                  const vreal<float>& t_end, const vreal<float>& ahead)
+{
+    return buffer.parallel ? nmadd(rays.t_min, sqrt(rays.dir2), ahead)
+                           : rays.dir2 * (t_end * t_end);
+}
+
+inline LightCells cells_of(const abi::LightBuffer& buffer, const RayPacket<float>& rays,
+                           const vreal<float>& t_end)
 {
     const vreal<float> zero(0.0f);
     const vreal<float> size(static_cast<float>(buffer.size));
@@ -28,9 +43,8 @@ inline LightCells cells_of(const abi::LightBuffer& buffer, const RayPacket<float
     const vreal<float> column = madd(dot(seen, broadcast(buffer.across)), inverse, half);
     const vreal<float> row = madd(dot(seen, broadcast(buffer.up)), inverse, half);
     LightCells cells;
-    store(cells.column, column);
-    store(cells.row, row);
-    store(cells.depth, buffer.parallel ? ahead : rays.dir2);
+    store(cells.cell, to_int<float>(madd(cell_number(row), size, cell_number(column))));
+    store(cells.depth, segment_depth(buffer, rays, t_end, ahead));
     cells.inside =
         bits((ahead > zero) & (column >= zero) & (row >= zero) & (column < size) & (row < size));
     return cells;
@@ -55,13 +69,6 @@ inline std::uint32_t cells_beyond(const abi::LightBuffer& buffer, const RayBundl
     return beyond;
 }
 
-inline const abi::LightCell& cell_at(const abi::LightBuffer& buffer, const LightCells& cells,
-                                     int lane)
-{
-    return buffer.cells[static_cast<int>(cells.row[lane]) * buffer.size +
-                        static_cast<int>(cells.column[lane])];
-}
-
 /// What a packet of a block's spheres does to a ray.
 inline Occlusion spheres_occlude(const LoneRay& ray, const RayBundle<float>& bundle, int number,
                                  const abi::LightBlock& block, int first)
@@ -69,16 +76,17 @@ inline Occlusion spheres_occlude(const LoneRay& ray, const RayBundle<float>& bun
     count_tests(abi::Primitive::sphere, 1);
     const SphereTest test = test_of(ray, bundle, block, first);
     SphereApproach near = approach(test.w, test.bounds.outer2, ray.rays);
+    if (near.near == 0)
+        return {};
     near.near &= ~bits(int_equal(load(block.surface + first), vint<float>(bundle.own[number])));
     if (near.near == 0)
         return {};
     return occludes(test, near, ray.rays, ray.scale, vreal<float>(bundle.t[number]));
 }
 
-/// The ray against the spheres of its cell.
-inline void occluders_in_cell(const abi::LightBuffer& buffer, const abi::LightCell& cell,
-                              const abi::ShapesView& shapes, RayBundle<float>& bundle, int number,
-                              const Occluder& occluder)
+/// Whether a sphere of its cell is in the way of a ray for sure.
+inline bool is_dark(const abi::LightBuffer& buffer, const abi::LightCell& cell,
+                    const abi::ShapesView& shapes, RayBundle<float>& bundle, int number)
 {
     const PartScope part(abi::Part::spheres);
     tell_live(all_lanes<float>);
@@ -86,38 +94,39 @@ inline void occluders_in_cell(const abi::LightBuffer& buffer, const abi::LightCe
     for (int i = cell.first; i < cell.first + cell.count; ++i) {
         const abi::LightBlock& block = buffer.blocks[i];
         for (int first = 0; first < abi::light_block_width; first += lanes<float>) {
+            if (block.surface[first] < 0)
+                return false;
             const Occlusion occlusion = spheres_occlude(ray, bundle, number, block, first);
-            std::uint32_t blocked = occlusion.blocked;
-            if (blocked == 0)
-                blocked = blocked_by_double(bundle, number, shapes, block.surface + first,
-                                            occlusion.unsure);
-            if (blocked != 0 &&
-                !goes_behind(bundle, number, block.surface[first + __builtin_ctz(blocked)],
-                             occluder))
-                return;
+            if (occlusion.blocked != 0 ||
+                blocked_by_double(bundle, number, shapes, block.surface + first,
+                                  occlusion.unsure) != 0)
+                return true;
         }
     }
+    return false;
 }
 
-/// Meets the active rays of `cells` of a bundle, which all start at the light or run towards it,
-/// with what blocks them among the spheres that the light sees.
-[[gnu::noinline]] inline void occluders_in_light_buffer(const abi::LightBuffer& buffer,
-                                                        const abi::ShapesView& shapes,
-                                                        RayBundle<float>& bundle,
-                                                        std::uint32_t cells,
-                                                        const Occluder& occluder)
+/// Ends the active rays of `cells` of a bundle, which all start at the light or run towards it,
+/// that a sphere is in the way of among those that the light sees.
+[[gnu::noinline]] inline void end_in_light_buffer(const abi::LightBuffer& buffer,
+                                                  const abi::ShapesView& shapes,
+                                                  RayBundle<float>& bundle, std::uint32_t cells)
 {
     for (int first = 0; first < bundle_rays; first += lanes<float>) {
         const std::uint32_t active = active_lanes(bundle, first);
         if ((cells >> first / cell_rays & 1) == 0 || active == 0)
             continue;
-        const LightCells seen = cells_of(buffer, load_rays(bundle, first));
+        const LightCells seen = cells_of(buffer, load_rays(bundle, first), load(bundle.t + first));
+        std::uint32_t dark = 0;
         for (std::uint32_t left = active & seen.inside; left != 0; left &= left - 1) {
             const int lane = __builtin_ctz(left);
-            const abi::LightCell& cell = cell_at(buffer, seen, lane);
-            if (seen.depth[lane] > cell.near)
-                occluders_in_cell(buffer, cell, shapes, bundle, first + lane, occluder);
+            const abi::LightCell& cell = buffer.cells[seen.cell[lane]];
+            const float depth = seen.depth[lane];
+            if (depth > cell.dark ||
+                (depth > cell.near && is_dark(buffer, cell, shapes, bundle, first + lane)))
+                dark |= left & -left;
         }
+        finish_lanes(bundle, first, dark);
     }
 }
 

@@ -272,31 +272,81 @@ inline void mirror_rays(const FusedTile<F>& tile, PathState<F>& path, PathStart&
     start.second = find_second(tile, hits, dir, path.active);
 }
 
+/// Turns the normals of a packet's hits where rays along `dir` come from inside.
+template <abi::Features F>
+inline void turn_hits(LitHits& hits, const FusedTile<F>& tile, const Vec3v<float>& dir)
+{
+    // Of copies alone the address is taken: all else stays in registers.
+    const HitState at = hits.at;
+    const Vec3v<float> way = dir;
+    LitHits turned{.at = at,
+                   .normal = hits.normal,
+                   .normal_dir = hits.normal_dir,
+                   .floor_dir2 = hits.floor_dir2,
+                   .leaving = 0,
+                   .turned = 0,
+                   .again = 0,
+                   .is_far = false,
+                   .are_plain = false};
+    turn_normals(turned, tile, way);
+    hits.normal = turned.normal;
+    hits.normal_dir = turned.normal_dir;
+    hits.leaving = turned.leaving;
+    hits.turned = turned.turned;
+    hits.again |= turned.leaving;
+}
+
+/// Finds what the active rays of a packet hit.
+template <Generation G, abi::Features F>
+inline void find_hits(const FusedTile<F>& tile, const CommonLists& candidates,
+                      const PathState<F>& path, PathStart& start)
+{
+    HitState& hit = start.at;
+    CommonHit common;
+    constexpr Origin origin = G == Generation::camera ? Origin::shared : Origin::any;
+    const std::int32_t own = G == Generation::camera ? -1 : start.common;
+    if (path.is_plain && find_common_hit<Refine::place, origin>(common, tile.plan.common,
+                                                                candidates, rays_of<G>(tile, path),
+                                                                tile.eye, own, path.active)) {
+        hit.point = common.point;
+        hit.outward = common.outward;
+        hit.common = common.surface;
+        hit.lanes = common.lanes;
+        return;
+    }
+    const RayPacket<float> rays = rays_of<G>(tile, path);
+    HitState found;
+    find_any_hits<G>(found, tile, rays, path.is_far, start, path.active);
+    hit = found;
+}
+
+/// Adds what lights bring to a packet's hits, and puts mirrored rays in the place of its rays.
+template <Generation G, abi::Features F>
+inline void shade_hits(const FusedTile<F>& tile, PathState<F>& path, PathStart& start,
+                       const LitHits& hits, const PlanMaterial& material, int depth)
+{
+    const abi::SceneView<float>& scene = tile.scene;
+    Vec3v<float> color = material.packet.ambient;
+    for (const PlanLight& light : tile.plan.lights)
+        add_light(tile, light, hits, path, material, color);
+    if (depth < scene.rules.max_depth) {
+        add_hits<G>(path, color * material.packet.local, hits.at.lanes);
+        mirror_rays(tile, path, start, hits, material);
+    } else {
+        const Vec3v<float> share = material.packet.reflect + material.packet.transmit;
+        add_hits<G>(path, madd<float>(share, broadcast(scene.rules.limit_color), color),
+                    hits.at.lanes);
+    }
+}
+
 /// Traces a generation of a packet, adds what it brings, and puts mirrored rays in its place.
 template <Generation G, abi::Features F>
 inline void trace_generation(const FusedTile<F>& tile, const CommonLists& candidates,
                              PathState<F>& path, PathStart& start, int depth)
 {
-    const abi::SceneView<float>& scene = tile.scene;
-    const std::uint32_t active = path.active;
-    HitState& hit = start.at;
-    CommonHit common;
-    constexpr Origin origin = G == Generation::camera ? Origin::shared : Origin::any;
-    const std::int32_t own = G == Generation::camera ? -1 : start.common;
-    if (path.is_plain &&
-        find_common_hit<Refine::place, origin>(common, tile.plan.common, candidates,
-                                               rays_of<G>(tile, path), tile.eye, own, active)) {
-        hit.point = common.point;
-        hit.outward = common.outward;
-        hit.common = common.surface;
-        hit.lanes = common.lanes;
-    } else {
-        const RayPacket<float> rays = rays_of<G>(tile, path);
-        HitState found;
-        find_any_hits<G>(found, tile, rays, path.is_far, start, active);
-        hit = found;
-    }
-    add_escaped<G>(tile, path, active & ~hit.lanes);
+    find_hits<G>(tile, candidates, path, start);
+    const HitState& hit = start.at;
+    add_escaped<G>(tile, path, path.active & ~hit.lanes);
     path.active = 0;
     if (hit.lanes == 0)
         return;
@@ -310,37 +360,19 @@ inline void trace_generation(const FusedTile<F>& tile, const CommonLists& candid
         material = &mixed;
     }
     // Of what faces the ray nothing is inside, nor turned.
-    LitHits hits{hit,
-                 hit.outward,
-                 dot(hit.outward, path.dir),
-                 material->floor2 * path.dir2,
-                 0,
-                 0,
-                 F.quadrics && tile.plan.surfaces[hit.common].met_again ? hit.lanes : 0,
-                 (far_lanes(tile.plan.common, hit.point) & hit.lanes) != 0,
-                 false};
-    if ((bits(hits.normal_dir > vreal<float>(0.0f)) & hit.lanes) != 0) {
-        const HitState copy = hit;
-        LitHits turned{copy, hits.normal, hits.normal_dir, hits.floor_dir2, 0, 0, 0, false, false};
-        const Vec3v<float> dir = path.dir;
-        turn_normals(turned, tile, dir);
-        hits.normal = turned.normal;
-        hits.normal_dir = turned.normal_dir;
-        hits.leaving = turned.leaving;
-        hits.turned = turned.turned;
-        hits.again |= turned.leaving;
-    }
+    LitHits hits{.at = hit,
+                 .normal = hit.outward,
+                 .normal_dir = dot(hit.outward, path.dir),
+                 .floor_dir2 = material->floor2 * path.dir2,
+                 .leaving = 0,
+                 .turned = 0,
+                 .again = F.quadrics && tile.plan.surfaces[hit.common].met_again ? hit.lanes : 0,
+                 .is_far = (far_lanes(tile.plan.common, hit.point) & hit.lanes) != 0,
+                 .are_plain = false};
+    if ((bits(hits.normal_dir > vreal<float>(0.0f)) & hit.lanes) != 0)
+        turn_hits(hits, tile, path.dir);
     hits.are_plain = hits.again == 0 && !hits.is_far;
-    Vec3v<float> color = material->packet.ambient;
-    for (const PlanLight& light : tile.plan.lights)
-        add_light(tile, light, hits, path, *material, color);
-    if (depth < scene.rules.max_depth) {
-        add_hits<G>(path, color * material->packet.local, hit.lanes);
-        mirror_rays(tile, path, start, hits, *material);
-    } else {
-        const Vec3v<float> share = material->packet.reflect + material->packet.transmit;
-        add_hits<G>(path, madd<float>(share, broadcast(scene.rules.limit_color), color), hit.lanes);
-    }
+    shade_hits<G>(tile, path, start, hits, *material, depth);
 }
 
 }  // namespace

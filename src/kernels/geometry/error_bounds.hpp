@@ -82,7 +82,7 @@ inline Origins origins_at(const float (&point)[3])
     return {{point[0], point[1], point[2]}};
 }
 
-/// The ball around a box of origins, and around places that are off them by offset_origin().
+/// The ball around a box of origins, and around places that are off them by origin_offset().
 inline Origins origins_in(const float (&low)[3], const float (&high)[3])
 {
     Origins origins;

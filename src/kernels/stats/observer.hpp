@@ -17,7 +17,7 @@ struct Observer {
     std::uint64_t last = 0;             ///< reading of the clock
     abi::Span span = abi::Span::setup;
     abi::Role role = abi::Role::own;
-    abi::Part part = abi::Part::beams;
+    abi::Part part = abi::Part::cones;
     std::uint32_t live = 0;                ///< rays in the packet that objects are tested against
     double refracted_share = 0;            ///< of the chunk that is traced
     const std::int32_t* pixels = nullptr;  ///< of the rays at hand; null: their own numbers

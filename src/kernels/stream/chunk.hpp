@@ -105,7 +105,7 @@ inline RayStream<F, Real>* shade_chunk(const TileRun<F, Real>& run, PixelWrite w
     run.counts.stages |= abi::stage_normals;
     if constexpr (F.exact)
         run.counts.stages |= abi::stage_refined;
-    begin_span(abi::Span::shadows, depth, abi::Part::beams);
+    begin_span(abi::Span::shadows, depth, abi::Part::cones);
     const bool by_lists = find_occluders(run);
     const ShadeContext<F, Real> context{&run.scene,
                                         run.work.occluders,
@@ -117,7 +117,7 @@ inline RayStream<F, Real>* shade_chunk(const TileRun<F, Real>& run, PixelWrite w
     if (!by_lists) {
         begin_span(abi::Span::shade, depth, abi::Part::surface);
         find_surfaces(run);
-        begin_span(abi::Span::shadows, depth, abi::Part::beams);
+        begin_span(abi::Span::shadows, depth, abi::Part::cones);
         find_shadows(run, context);
     }
     begin_span(abi::Span::shade, depth, abi::Part::surface);

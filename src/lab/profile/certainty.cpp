@@ -11,7 +11,6 @@
 #include "lab/profile/observed_frame.hpp"
 #include "lab/profile/work_rows.hpp"
 #include "render/check_options.hpp"
-#include "render/sample_batch.hpp"
 #include "render/tile_loop.hpp"
 #include "render/tile_renderer.hpp"
 
@@ -50,16 +49,11 @@ struct TileRecord {
 /// Tiles write to pixels of their own.
 void take_pixels(const TileRecord& record, const Region& tile, Certainty& certainty)
 {
-    for (int number = 0; number < abi::tile_pixels; ++number) {
-        const auto [column, row] = z_order_place(number);
-        const int x = tile.x + column;
-        const int y = tile.y + row;
-        if (!tile.contains(x, y))
-            continue;
+    for_each_pixel(tile, [&](int number, int x, int y) {
         const abi::PixelRays& rays = record.pixels[static_cast<std::size_t>(number)];
         certainty.pixels[static_cast<std::size_t>(y) * static_cast<std::size_t>(certainty.width) +
                          static_cast<std::size_t>(x)] = {rays.traced, rays.unsure, rays.undecided};
-    }
+    });
 }
 
 Certainty observe_tiles(const Scene& scene, const RenderOptions& options)

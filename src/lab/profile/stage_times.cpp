@@ -93,7 +93,7 @@ enum Rays : std::size_t { camera, reflected, refracted, shadow, hits, rays_count
 constexpr const char* rays_names[] = {"camera", "reflected", "refracted", "shadow", "hits"};
 
 constexpr const char* part_names[] = {
-    "beams and what they may meet",
+    "cones and what they may meet",
     "ray generation",
     "traversal of boxes",
     "spheres",

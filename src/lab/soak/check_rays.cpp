@@ -1,6 +1,5 @@
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 #include <glm/geometric.hpp>
 
@@ -59,8 +58,7 @@ StressGroup group_of(Scene scene, std::vector<StressRay> rays)
     StressGroup group = stress_group(std::move(scene));
     for (StressRay& ray : rays) {
         round_to_precision<Real>(ray);
-        group.expected.push_back(
-            expect(ray, group.hits_of(ray), std::numeric_limits<Real>::epsilon() / 2.0));
+        group.expected.push_back(expect(ray, group.hits_of(ray), roundoff_of<Real>));
     }
     group.rays = std::move(rays);
     return group;
@@ -99,7 +97,7 @@ std::string fault_in(const StressGroup& group, const StressRun& run, std::size_t
     // Packets of doubles may be a few last places off where double does not decide.
     if (sizeof(Real) == sizeof(double) && !group.expected[i].decided(double_band))
         return "";
-    Evaluation evaluation(std::numeric_limits<Real>::epsilon() / 2.0);
+    Evaluation evaluation(roundoff_of<Real>);
     evaluate_ray(evaluation, group, run, i);
     Errors errors = evaluation.errors();
     // Doubles are not refined, and 1 of 100 normals may be off.
@@ -117,7 +115,7 @@ bool counts(const SoakWay& way, const StressGroup& group, const StressRun& run, 
 {
     if (way.precision == "double" || way.options.accuracy == Accuracy::exact)
         return true;
-    const double roundoff = std::numeric_limits<Real>::epsilon() / 2.0;
+    const double roundoff = roundoff_of<Real>;
     const Expected& expected = group.expected[i];
     return expected.decided(undecided_band * roundoff) &&
            verdict_of(expected, run.answers[i], undecided_band * roundoff, roundoff) ==

@@ -257,8 +257,11 @@ void evaluate_ray(Evaluation& evaluation, const StressGroup& group, const Stress
 std::string csv_of(const StressRay& ray)
 {
     char text[256];
-    std::snprintf(text, sizeof text, "%.17g,%.17g,%.17g,%.17g,%.17g,%.17g,%.17g,%.17g", ray.org.x,
-                  ray.org.y, ray.org.z, ray.dir.x, ray.dir.y, ray.dir.z, ray.t_min, ray.t_max);
+    std::snprintf(text, sizeof text,
+                  "ox,oy,oz,dx,dy,dz,t_min,t_max\n"
+                  "%.17g,%.17g,%.17g,%.17g,%.17g,%.17g,%.17g,%.17g\n",
+                  ray.org.x, ray.org.y, ray.org.z, ray.dir.x, ray.dir.y, ray.dir.z, ray.t_min,
+                  ray.t_max);
     return text;
 }
 

@@ -81,7 +81,7 @@ void evaluate_ray(Evaluation& evaluation, const StressGroup& group, const Stress
 [[nodiscard]] std::string example_text(const StressGroup& group, std::size_t scene, std::size_t ray,
                                        const Answer& answer, const char* fault);
 
-/// A ray as a line of the CSV that `packtrace intersect` reads.
+/// A ray as a CSV file that `packtrace intersect` reads.
 [[nodiscard]] std::string csv_of(const StressRay& ray);
 
 }  // namespace packtrace::lab

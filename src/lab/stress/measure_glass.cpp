@@ -1,10 +1,10 @@
 #include <cmath>
-#include <limits>
 
 #include <glm/geometric.hpp>
 
 #include "lab/stress/stress_family.hpp"
 #include "lab/stress/stress_measure.hpp"
+#include "lab/stress/stress_subject.hpp"
 #include "lab/truth/wide.hpp"
 
 // Total internal reflection: from inside a ball of glass, at its critical angle.
@@ -74,7 +74,7 @@ Bend bend_at(const Sphere& sphere, double ior, const RayNode& ray)
 template <class Real>
 void evaluate_glass_tree(const Scene& scene, const RayNode& tree, MeasureRun& run)
 {
-    const double roundoff = std::numeric_limits<Real>::epsilon() / 2.0;
+    const double roundoff = roundoff_of<Real>;
     const Sphere& sphere = std::get<Sphere>(scene.objects[0].surface);
     const double ior = std::get<GeneralMaterial>(scene.objects[0].material.model).ior;
     const Bend bend = bend_at(sphere, ior, tree);

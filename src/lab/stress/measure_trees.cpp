@@ -1,10 +1,10 @@
 #include <cmath>
-#include <limits>
 
 #include <glm/geometric.hpp>
 
 #include "lab/stress/stress_family.hpp"
 #include "lab/stress/stress_measure.hpp"
+#include "lab/stress/stress_subject.hpp"
 #include "lab/truth/wide.hpp"
 
 // Deep ray trees: in a room of mirrors, and inside a mirrored ball.
@@ -133,7 +133,7 @@ bool bounce(const Scene& scene, Path& path, double roundoff)
 template <class Real>
 double evaluate_bounces(const Scene& scene, const RayNode& tree, MeasureRun& run)
 {
-    const double roundoff = std::numeric_limits<Real>::epsilon() / 2.0;
+    const double roundoff = roundoff_of<Real>;
     Errors& errors = run.errors;
     Path path{wide(tree.org), wide(tree.dir)};
     path.dir = path.dir / square_root(dot(path.dir, path.dir));

@@ -167,7 +167,7 @@ void add_secondary(const StressGroup& group, const LeftHitColumns<Real>& primary
     for (const TrueHit& other : hits)
         if (other.exists && other.object == hit.object)
             one.own_object = std::min(one.own_object, static_cast<double>(other.t));
-    one.expected = expect(ray, std::move(hits), std::numeric_limits<Real>::epsilon() / 2.0);
+    one.expected = expect(ray, std::move(hits), roundoff_of<Real>);
     if (others && !one.expected.decided(told_apart))
         return;
     const WideVec P = wide(group.rays[i].org) + hit.t * wide(group.rays[i].dir);

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <iterator>
-#include <limits>
 #include <stdexcept>
 
 #include <tbb/parallel_for.h>
@@ -42,9 +41,6 @@ auto sum_of_groups(std::size_t groups, const Of& of)
         sum.add(some);
     return sum;
 }
-
-template <class Real>
-constexpr double roundoff_of = std::numeric_limits<Real>::epsilon() / 2.0;
 
 template <class Real>
 Errors evaluate_run(const StressGroup& group, const StressRun& run)

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <variant>
 
 #include <tbb/parallel_for.h>
@@ -130,8 +129,7 @@ StressGroup make_group(const StressFamily& family, std::uint64_t seed, std::size
     for (int i = 0; i < rays; ++i) {
         StressRay ray = one.ray(random);
         round_to_precision<Real>(ray);
-        Expected expected =
-            expect(ray, group.hits_of(ray), std::numeric_limits<Real>::epsilon() / 2.0);
+        Expected expected = expect(ray, group.hits_of(ray), roundoff_of<Real>);
         if (family.closed && group.surfaces[0].capped) {
             constexpr double well = 1e-6;
             const double depth = depth_inside(group.surfaces[0], ray);

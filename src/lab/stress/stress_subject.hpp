@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <limits>
 #include <string>
 #include <vector>
 
@@ -13,6 +14,10 @@
 
 // Groups of rays with their truth, the kernels that are tried, and what each is asked of a group.
 namespace packtrace::lab {
+
+/// Half the distance from 1 to the next number.
+template <class Real>
+inline constexpr double roundoff_of = double{std::numeric_limits<Real>::epsilon()} / 2.0;
 
 // stress_group.cpp
 
