@@ -9,6 +9,7 @@
 #include <packtrace/render.hpp>
 
 #include "catch.hpp"
+#include "core/text.hpp"
 #include "image/y4m.hpp"
 #include "run_program.hpp"
 
@@ -147,8 +148,7 @@ TEST_CASE("--frames renders again what another scene or other options made", "[f
             words.insert(words.end(), run.words.begin(), run.words.end());
             const ProgramResult result = studio.render("f%d" + ending, words, run.scene);
             CHECK(result.exit_code == 0);
-            CHECK_THAT(result.err,
-                       ContainsSubstring(std::to_string(run.rendered) + " frames rendered"));
+            CHECK_THAT(result.err, ContainsSubstring(counted(run.rendered, "frame") + " rendered"));
             if (run.rendered == 0)
                 CHECK_THAT(result.err, ContainsSubstring("2 were there already"));
             else if (&run != &runs.front())
@@ -172,7 +172,7 @@ TEST_CASE("--frames renders again what is no picture, or no longer the one it wa
         // One frame under a plain name says nothing of what made it.
         CHECK(studio.render("f0" + ending, {"--frame", "3", "-q"}).exit_code == 0);
         const ProgramResult second = studio.render("f%d" + ending, {"--frames", "0..1"});
-        CHECK_THAT(second.err, ContainsSubstring("1 frames rendered"));
+        CHECK_THAT(second.err, ContainsSubstring("1 frame rendered"));
         CHECK_THAT(second.err, ContainsSubstring("1 were there already"));
         CHECK(read_text(studio.folder / ("f0" + ending)) == frame);
     }

@@ -148,7 +148,7 @@ TEST_CASE("a width that no instruction set has is refused", "[isa]")
 {
     const ScopedVariable unset(variable, std::nullopt);
     CHECK(refusal("auto", 5) ==
-          "no instruction set of this machine has 5 lanes; it can run:" + supported_text());
+          "width: no instruction set of this machine has 5 lanes; it can run:" + supported_text());
 }
 
 // The next two are for a processor without AVX, which check_without_avx.sh emulates.
@@ -163,7 +163,7 @@ TEST_CASE("without AVX sse42 is chosen, and forcing more is a clean error", "[.w
             CHECK(refusal(wider.name, 0) ==
                   "isa: this machine cannot run '" + wider.name + "'; it can run: sse42");
     CHECK(refusal("auto", 8) ==
-          "no instruction set of this machine has 8 lanes; it can run: sse42");
+          "width: no instruction set of this machine has 8 lanes; it can run: sse42");
 }
 
 TEST_CASE("the AVX kernels are run without asking the processor", "[.unchecked_avx]")

@@ -420,6 +420,38 @@ TEST_CASE("a lamp in the wall of a dome lights all of it, and one behind the wal
     }
 }
 
+TEMPLATE_TEST_CASE("a lamp beyond where a long cone is cut lights nothing of its far end", "[lit]",
+                   float, double)
+{
+    // Its place has the sign of what is inside, in the half of the cone that is not there, and lies
+    // next to the near end for what is this far away.
+    const double heights[] = {1e3, 1e5, 1e7, sizeof(TestType) == sizeof(float) ? 1e8 : 1e13};
+    for (const double height : heights) {
+        const std::string z_range = "z_range = (-0.25, " + std::to_string(height) + ")";
+        const Scene scene = parse_scene("cone { " + z_range + R"(  capped = yes
+                   matrix = (2.5, 0, 0, -0.75, 0, 2, 0, 1.9, 0, 0, 0.9, 2.2) }
+            light { type = point  position = (-0.7, 3.7, -1.6)  intensity = 1 }
+        )",
+                                        "cone", {});
+        for (const RenderOptions& options : packet_ways()) {
+            CAPTURE(height, options.isa, options.traversal);
+            const RayScene<TestType> rays(scene, options);
+            const auto seen =
+                look(rays, 500, {0, 0, 2 * height}, 0.1 * height, {0, 0, 0.9 * height}, height);
+            const Mask mask = lit(rays, seen.points());
+            int hits = 0;
+            int reached = 0;
+            for (std::size_t i = 0; i < seen.count(); ++i)
+                if (seen.object[i] == 0 && seen.surface[i] == 2) {
+                    ++hits;
+                    reached += mask[i];
+                }
+            CHECK(hits > 100);
+            CHECK(reached == 0);
+        }
+    }
+}
+
 TEST_CASE("what casts no shadow is in no light's way", "[lit]")
 {
     Scene scene = crowd(150);

@@ -179,4 +179,48 @@ TEST_CASE("a cone whose numbers are rounded has its apex", "[quadric_hits]")
     CHECK(hit.t == Approx(5.2).epsilon(1e-14));
 }
 
+TEMPLATE_TEST_CASE("rays along an open tube hit nothing beyond its ends", "[quadric_hits]", float,
+                   double)
+{
+    // Each runs along the very wall, where rounding may tell a hit or a miss; the tube is between
+    // `low` and `high` of it.
+    struct Along {
+        std::string tube;
+        Ray<TestType> ray;
+        TestType low, high;
+    };
+    const Along cases[] = {
+        {"cylinder { z_range = (0, 1)  matrix = (1, 1, 1, 0, -1, 1, 2, 0, 0, -1, 1, 0) }",
+         {.org = {8, 13, 7}, .dir = {-1, -2, -1}},
+         6,
+         7},
+        {"cylinder { z_range = (0, 1)  matrix = (1, 1, 3, 0, -1, 1, 2, 0, 0, -1, 1, 0) }",
+         {.org = {17, 11, 7}, .dir = {-3, -2, -1}},
+         5,
+         6},
+        {"quadric { coefficients = (1, 0, 0, 0, 0, 0, 0, -1, 0, 0)  z_range = (0, 1)"
+         "  matrix = (1, 2, 1, 0, 0, 1, 3, 0, 1, 0, 1, 0) }",
+         {.org = {29, 61, 21}, .dir = {-1, -3, -1}},
+         18,
+         19}};
+    for (const Along& along : cases) {
+        const Scene scene = parse_scene(along.tube, "tube", {});
+        for (const RenderOptions& options : packet_ways()) {
+            CAPTURE(along.tube, options.isa, options.traversal);
+            const RayScene<TestType> traced(scene, options);
+            const auto is_on_tube = [&](const SurfaceHit<TestType>& hit) {
+                return hit.t > along.low * TestType(0.999) && hit.t < along.high * TestType(1.001);
+            };
+            const SurfaceHit<TestType> hit = traced.closest_hit(along.ray);
+            CHECK((hit.object == -1 || is_on_tube(hit)));
+            for (const SurfaceHit<TestType>& one : traced.all_hits(along.ray))
+                CHECK(is_on_tube(one));
+            Ray<TestType> shorter = along.ray;
+            shorter.t_max = along.low - 1;
+            CHECK(traced.closest_hit(shorter).object == -1);
+            CHECK(!traced.occluded(shorter));
+        }
+    }
+}
+
 }  // namespace packtrace::test

@@ -161,8 +161,10 @@ TEST_CASE("a truth with no more samples than its runs is refused", "[report]")
 {
     ReportOptions options = short_options();
     options.truth_samples = 4;
-    CHECK_THROWS_WITH(report(small_scene(), options),
-                      "report: a truth of 4 samples a pixel cannot judge runs of 4; give it more");
+    CHECK_THROWS_WITH(
+        report(small_scene(), options),
+        "report: a truth of 4 samples a pixel (truth_samples, --truth-spp) cannot judge runs of 4 "
+        "(samples, adaptive); give it more");
 }
 
 TEST_CASE("each run is timed as often as asked, and its median lies between these times",

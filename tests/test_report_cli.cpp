@@ -143,6 +143,37 @@ TEST_CASE("a folder that can't be made is named with the reason", "[report_cli]"
     }
 }
 
+TEST_CASE("a report that is refused leaves no folder behind", "[report_cli]")
+{
+    const TempFolder folder;
+    const std::string out = (folder / "a" / "out").string();
+    const ProgramResult result =
+        run_packtrace({"report", four_spheres_file, "-o", out, "--quick", "--truth-spp", "16",
+                       "--cache", (folder / "cache").string()});
+    CHECK(result.exit_code == 1);
+    CHECK_THAT(result.err, ContainsSubstring("(truth_samples, --truth-spp) cannot judge"));
+    CHECK(folder.names().empty());
+    for (const char* threads : {"1,,2", ",1", "1,", "", "0", "1;2", "1025"})
+        CHECK_THAT(
+            run_packtrace({"report", four_spheres_file, "-o", out, "--threads", threads}).err,
+            ContainsSubstring("with commas between them"));
+    CHECK(folder.names().empty());
+}
+
+TEST_CASE("report.md says a scene's name as it is, and links to its pictures", "[report_cli]")
+{
+    const TempFolder folder;
+    const std::filesystem::path scene = folder / "a|b%20#1 [x](y) <z>.scene";
+    write_text(scene, read_text(four_spheres_file));
+    const ProgramResult result =
+        run_report(folder, {scene.string(), "-o", (folder / "out").string(), "--repetitions", "1"});
+    CAPTURE(result.err);
+    REQUIRE(result.exit_code == 0);
+    const std::string page = read_text(folder / "out" / "report.md");
+    CHECK_THAT(page, ContainsSubstring("\n## a\\|b%20\\#1 \\[x\\]\\(y\\) \\<z\\>, 40 x 32\n"));
+    CHECK_THAT(page, ContainsSubstring("![the truth](a%7Cb%2520%231%20%5Bx%5D%28y%29%20%3Cz%3E/"));
+}
+
 TEST_CASE("where no truth can be kept a report is made without", "[report_cli]")
 {
     const TempFolder folder;

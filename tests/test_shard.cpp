@@ -226,7 +226,7 @@ TEST_CASE("shards of an animation are all of its frames", "[shard]")
         const ProgramResult result = render("part%d.png", {"--shard", shard});
         CHECK(result.exit_code == 0);
         CHECK_THAT(result.err,
-                   ContainsSubstring(shard == "0/3" ? "2 frames rendered" : "1 frames rendered"));
+                   ContainsSubstring(shard == "0/3" ? "2 frames rendered" : "1 frame rendered"));
     }
     for (const std::string frame : {"1", "2", "3", "4"})
         CHECK(read_text(folder / ("part" + frame + ".png")) ==

@@ -424,8 +424,8 @@ TEST_CASE("a verdict names the families that are wrong", "[stress]")
     CHECK(lab::faults_of(good).empty());
     CHECK(lab::without_faults({good}));
     CHECK(lab::stress_verdict({good}) ==
-          "verdict: exact is right in all 1 families (0 wrong decisions, 0 self-hits, 0 second "
-          "hits lost, 100 rays)");
+          "verdict: exact is right in the family " + good.family +
+              " (0 wrong decisions, 0 self-hits, 0 second hits lost, 100 rays)");
     StressRow bad = good;
     bad.family = "rims";
     bad.wrong = bad.lost = 3;
@@ -433,13 +433,14 @@ TEST_CASE("a verdict names the families that are wrong", "[stress]")
     CHECK(bad.faults == std::vector<std::string>{"3 lost"});
     CHECK_FALSE(lab::without_faults({good, bad}));
     CHECK(lab::stress_verdict({good, bad}) ==
-          "verdict: exact is WRONG in rims (3 wrong decisions, 0 self-hits, 0 second hits lost, "
-          "200 rays)");
+          "verdict: exact is WRONG in rims: 3 lost (3 wrong decisions, 0 self-hits, 0 second hits "
+          "lost, 200 rays)");
     StressRow bounded = good;
     bounded.bounds = 300;
     CHECK(lab::stress_verdict({bounded}) ==
-          "verdict: exact is right in all 1 families (0 wrong decisions, 0 self-hits, 0 second "
-          "hits lost, 0 of 300 bounds missed, 100 rays)");
+          "verdict: exact is right in the family " + good.family +
+              " (0 wrong decisions, 0 self-hits, 0 second hits lost, 0 of 300 bounds missed, 100 "
+              "rays)");
     // What is beyond the bounds because double has no more digits is named, and no fault.
     StressRow limit = good;
     limit.family = "far";
@@ -617,7 +618,8 @@ TEST_CASE("the stress command prints rows, a verdict, JSON and its families", "[
     const ProgramResult table = with({"--kernel", "packet", "--mode", exact});
     CHECK(table.exit_code == 0);
     CHECK(table.out.find("plane") != std::string::npos);
-    CHECK(table.out.find("verdict: " + exact + " is right in all 1 families") != std::string::npos);
+    CHECK(table.out.find("verdict: " + exact + " is right in the family plane") !=
+          std::string::npos);
     CHECK(table.out.find("fast") == std::string::npos);
 
     const auto json = nlohmann::json::parse(with({"--json", "--precision", "single"}).out);

@@ -19,8 +19,7 @@ struct ImageWriteOptions {
     /// formats take 1 alone.
     double gamma = 1.0;
     /// At most 2000 printable ASCII characters that say what made the picture; empty for none. A
-    /// PNG keeps it in a text chunk, other formats in a file beside the picture, named as the
-    /// picture with
+    /// PNG keeps it in a text chunk, other formats in a file beside the picture: its name with
     /// `.recipe` added.
     std::string recipe = {};
 };

@@ -145,7 +145,8 @@ struct Profile {
 };
 
 /// `text` is read as a scene for the stages' sake, then changed as `scene` says: size, depth.
-/// `Real` is float or double.
+/// `Real` is float or double. Throws std::invalid_argument for options out of their ranges, and
+/// SceneError for a scene that cannot be used; so do trace_tiles() and pixel_costs().
 template <class Real>
 [[nodiscard]] PACKTRACE_API Profile profile(const std::string& text, const Scene& scene,
                                             const ProfileOptions& options = {});
@@ -163,13 +164,13 @@ struct TileSpan {
 /// The tiles or blocks of one frame, by their start.
 template <class Real>
 [[nodiscard]] PACKTRACE_API std::vector<TileSpan> trace_tiles(const Scene& scene,
-                                                              const ProfileOptions& options);
+                                                              const ProfileOptions& options = {});
 
 /// Seconds of each pixel's rays, in reading order: packets full of that pixel alone, over their
 /// lanes. What rays of neighbours cost each other by parting ways is not in it.
 template <class Real>
 [[nodiscard]] PACKTRACE_API std::vector<double> pixel_costs(const Scene& scene,
-                                                            const ProfileOptions& options);
+                                                            const ProfileOptions& options = {});
 
 /// The costs as a picture, black for the least through blue, green, yellow and red to white for
 /// the most, over a bar with its scale in nanoseconds.

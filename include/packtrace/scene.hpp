@@ -12,8 +12,9 @@
 
 namespace packtrace {
 
-/// What a shadow ray does at a blocker: nothing is tested, any blocker stops the light, or
-/// each blocker passes its transparency on (note 002's pseudo-soft shadows).
+/// How occluders affect light. none: there are no shadow rays. opaque: any occluder stops the
+/// light. transparent: each occluder passes on the share that its material transmits (note 002's
+/// pseudo-soft shadows).
 enum class ShadowKind { none, opaque, transparent };
 
 /// What a ray gets at the depth limit of the `general` model; the notes have their own rule.

@@ -13,7 +13,7 @@ struct PACKTRACE_API StopError : std::runtime_error {
     using std::runtime_error::runtime_error;
 };
 
-/// What a long query of rays tells of itself, and what ends it early.
+/// Progress and cancellation of a long query of rays.
 struct QueryWatch {
     /// When a stop is requested the query throws StopError after some thousand more rays.
     std::stop_token stop = {};

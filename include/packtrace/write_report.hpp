@@ -17,8 +17,8 @@ struct ReportConditions {
     std::string commit;
     std::string command;
     std::string flags = {};  ///< of the compiler, for the kernels
-    double load_before =
-        0.0;  ///< of the machine when the program started: programs that run or wait
+    /// Of the machine when the program started: programs that run or wait.
+    double load_before = 0.0;
     double load_after = 0.0;  ///< when all was measured
 };
 

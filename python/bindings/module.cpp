@@ -3,6 +3,8 @@
 #include <pybind11/pybind11.h>
 
 #include <string>
+#include <string_view>
+#include <utility>
 
 #include <packtrace/image_io.hpp>
 #include <packtrace/read_scene.hpp>
@@ -30,6 +32,22 @@ void raise(const char* name, const std::string& text)
     PyErr_SetString(type.ptr(), text.c_str());
 }
 
+/// A message about a scene with the names that Python has for what the scene language calls
+/// something else.
+std::string with_python_names(std::string text)
+{
+    constexpr std::pair<std::string_view, std::string_view> names[] = {
+        {"'image_size'", "'width' x 'height'"},
+        {"'viewport_size'", "'viewport'"},
+        {"'projection_plane_d'", "'distance'"},
+        {"'vertices'", "'contours'"},
+        {"'matrix'", "'transform'"}};
+    for (const auto& [ours, theirs] : names)
+        if (const std::size_t at = text.find(ours); at != std::string::npos)
+            text.replace(at, ours.size(), theirs);
+    return text;
+}
+
 /// Errors whose text is not the one that the library's has.
 void translate_texts()
 {
@@ -38,7 +56,7 @@ void translate_texts()
             std::rethrow_exception(thrown);
         } catch (const packtrace::language::SceneFaultError& error) {
             // A scene made in Python is that of its lists: what is wrong is at "lights[0]".
-            raise("SceneError", error.fault.text_by_index());
+            raise("SceneError", with_python_names(error.fault.text_by_index()));
         } catch (const packtrace::ImageError& error) {
             // A file's name need not be UTF-8, which Python's texts are.
             raise("ImageError", packtrace::language::escape(error.what()));

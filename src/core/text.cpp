@@ -26,6 +26,11 @@ std::string brief(double value, int digits)
     return printed(value, std::chars_format::general, digits);
 }
 
+std::string counted(std::int64_t number, std::string_view what)
+{
+    return std::to_string(number) + " " + std::string(what) + (number == 1 ? "" : "s");
+}
+
 std::string joined(const std::vector<std::string>& words, std::string_view between)
 {
     return joined(words, between, [](const std::string& word) { return word; });

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <charconv>
+#include <cstdint>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -25,6 +26,9 @@ template <class Number>
     const auto [stop, error] = std::from_chars(text.data(), end, value);
     return error == std::errc() && stop == end ? std::optional(value) : std::nullopt;
 }
+
+/// "1 frame", "2 frames".
+[[nodiscard]] std::string counted(std::int64_t number, std::string_view what);
 
 /// What `text` makes of each item, with `between` between each two.
 template <class Items, class Text>

@@ -44,7 +44,8 @@ IsaInfo widest(int width, const std::vector<IsaInfo>& isas)
     for (auto isa = isas.rbegin(); isa != isas.rend(); ++isa)
         if (isa->supported && (width == 0 || isa->lanes_single == width))
             return *isa;
-    throw std::invalid_argument("no instruction set of this machine has " + std::to_string(width) +
+    throw std::invalid_argument("width: no instruction set of this machine has " +
+                                std::to_string(width) +
                                 " lanes; it can run:" + supported_names(isas));
 }
 

@@ -73,7 +73,7 @@ void check_length(const Header& header, std::size_t size)
     if (raster % sizeof(float) != 0 || raster / sizeof(float) != samples)
         throw ImageError("the raster has " + std::to_string(raster) + " bytes where a picture of " +
                          std::to_string(header.width) + " x " + std::to_string(header.height) +
-                         " needs " + std::to_string(samples) + " floats");
+                         " needs " + std::to_string(samples) + " floats of 4 bytes");
 }
 
 }  // namespace

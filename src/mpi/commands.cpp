@@ -4,7 +4,9 @@
 #include <cstdio>
 #include <iostream>
 #include <stdexcept>
+#include <string>
 #include <utility>
+#include <vector>
 
 #include <packtrace/isa.hpp>
 #include <packtrace/read_scene.hpp>
@@ -31,11 +33,19 @@ Scene generate(const std::string& words)
     CLI::App* generators = app.add_subcommand("generate", "");
     cli::add_generators(*generators, [&](Scene scene) { made = std::move(scene); });
     app.require_subcommand(1);
+    const std::vector<std::string> list = CLI::detail::split_up(words);
+    std::vector<const char*> arguments{"packtrace"};
+    for (const std::string& word : list)
+        arguments.push_back(word.c_str());
+    const auto count = static_cast<int>(arguments.size());
     try {
-        app.parse(words, false);
+        app.parse(count, arguments.data());
+    } catch (const CLI::Success&) {
+        throw std::runtime_error(
+            "SCENE: " + language::quote(words) +
+            " asks for help in place of a scene; see packtrace generate --help");
     } catch (const CLI::ParseError& error) {
-        const char* const none = "";
-        throw std::runtime_error("SCENE: " + cli::usage_error(app, error, 1, &none));
+        throw std::runtime_error("SCENE: " + cli::usage_error(app, error, count, arguments.data()));
     }
     return made;
 }

@@ -250,6 +250,10 @@ class TestErrors(unittest.TestCase):
                      objects=[pt.Object(pt.Sphere(center))])
 
     def test_values_that_no_scene_may_have(self):
+        with self.assertRaisesRegex(pt.SceneError, "'width' x 'height' .*65537"):
+            pt.Scene(width=65537).validate()
+        with self.assertRaisesRegex(pt.SceneError, "'viewport'"):
+            pt.Scene(camera=pt.Camera(viewport=(0, 1))).validate()
         with self.assertRaisesRegex(pt.SceneError, "ball.*radius.*above 0"):
             pt.Scene(objects=[pt.Object(pt.Sphere((0, 0, 5), -1), name="ball")]).validate()
         with self.assertRaisesRegex(pt.SceneError, "illumination"):

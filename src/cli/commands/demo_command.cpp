@@ -182,17 +182,22 @@ void print_split(const std::vector<DemoEntry>& entries)
 
 /// What is written into the folder.
 struct DemoPictures {
+    std::filesystem::path folder;
     std::filesystem::path picture;
     std::filesystem::path error;
 
-    DemoPictures(const std::filesystem::path& folder, const std::string& stem)
-        : picture(folder / (stem + ".png")), error(folder / (stem + "_error.png"))
+    DemoPictures(const std::filesystem::path& into, const std::string& stem)
+        : folder(into), picture(into / (stem + ".png")), error(into / (stem + "_error.png"))
     {
     }
 
     /// Throws FileError where they can't be written, or would replace the scene.
     void check(const std::string& scene) const
     {
+        check_folder(folder);
+        std::error_code ignored;
+        if (!std::filesystem::exists(folder, ignored))
+            return;
         for (const std::filesystem::path& file : {picture, error}) {
             check_not_read(file.string(), {scene});
             check_image_writable(file);
@@ -201,6 +206,7 @@ struct DemoPictures {
 
     void write(const std::vector<DemoEntry>& entries) const
     {
+        make_folders(folder);
         write_image(picture, convert<float>(entries.back().image));
         std::cout << "picture           " << language::escape(picture.string()) << '\n';
         write_image(error, heatmap(entries.back().image, entries.front().image));
@@ -227,7 +233,6 @@ void run_demo(const DemoArguments& arguments)
     SceneInput input = read_scene_input(file);
     Scene& scene = input.scene;
     apply(arguments.picture, scene);
-    make_folders(arguments.folder);
     const DemoPictures pictures(arguments.folder, input.stem);
     pictures.check(file);
 
@@ -235,8 +240,8 @@ void run_demo(const DemoArguments& arguments)
     std::vector<DemoEntry> entries = demo_entries(arguments.threads);
     render_rounds(scene, arguments.rounds, entries);
     std::cout << language::escape(input.name) << ", " << scene.width << " x " << scene.height
-              << ", median of " << arguments.rounds
-              << " renders; errors against the scalar reference in double\n\n";
+              << ", median of " << counted(arguments.rounds, "render")
+              << "; errors against the scalar reference in double\n\n";
     print_table(entries);
     std::cout << '\n';
     print_split(entries);

@@ -76,7 +76,7 @@ FrameRange frames_of(const AnimationArguments& arguments, const Scene& scene)
 void print_tally(const std::string& output, const FrameTally& tally)
 {
     std::string text =
-        language::escape(output) + ": " + std::to_string(tally.rendered) + " frames rendered";
+        language::escape(output) + ": " + counted(tally.rendered, "frame") + " rendered";
     if (tally.rendered > 0)
         text += " in " + seconds_text(tally.rendering, tally.rendered) + "; written in " +
                 seconds_text(tally.writing, tally.rendered) + "; both in " +

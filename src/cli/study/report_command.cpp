@@ -59,6 +59,21 @@ std::string fault_of(const std::filesystem::path& cache)
     return "";
 }
 
+/// The numbers of a text such as 1,2,4; nothing where it is another.
+std::optional<std::vector<int>> thread_counts(std::string_view text)
+{
+    std::vector<int> counts;
+    for (std::size_t begin = 0; begin <= text.size();) {
+        const std::size_t end = std::min(text.find(',', begin), text.size());
+        const std::optional<int> count = parse_number<int>(text.substr(begin, end - begin));
+        if (!count || *count < 1 || *count > most_threads)
+            return std::nullopt;
+        counts.push_back(*count);
+        begin = end + 1;
+    }
+    return counts;
+}
+
 void add_measure_options(CLI::App& command, ReportArguments& arguments)
 {
     command
@@ -75,10 +90,16 @@ void add_measure_options(CLI::App& command, ReportArguments& arguments)
                     "Error above which a pixel counts as off (default 1/255)")
         ->check(non_negative_number())
         ->type_name("T");
-    command.add_option("--threads", arguments.options.threads, "Numbers of threads (default 1,2)")
-        ->check(whole_number(1, most_threads))
-        ->delimiter(',')
-        ->allow_extra_args(false)
+    command
+        .add_option_function<std::string>(
+            "--threads",
+            [&threads = arguments.options.threads](const std::string& text) {
+                threads = *thread_counts(text);
+            },
+            "Numbers of threads (default 1,2)")
+        ->check(validator([](const std::string& text) { return thread_counts(text).has_value(); },
+                          "whole numbers from 1 to " + std::to_string(most_threads) +
+                              " with commas between them"))
         ->type_name("N[,N…]");
     command
         .add_option(
@@ -152,7 +173,7 @@ std::string report_command(const std::string& program, const CLI::App& command,
                 for (const std::string& word : option->results())
                     typed += " " + quoted(word);
         }
-    return typed;
+    return language::escape(typed);
 }
 
 ReportOptions report_options(const ReportArguments& arguments)
@@ -184,8 +205,10 @@ void check_report_target(const ReportArguments& arguments)
     else if (const std::string fault = fault_of(default_cache()); !fault.empty())
         std::cerr << "warning: " << language::escape(fault)
                   << "; reference pictures are not kept; name a folder for them with --cache\n";
-    make_folders(arguments.folder);
-    check_writable(arguments.folder / "report.md");
+    check_folder(arguments.folder);
+    std::error_code ignored;
+    if (std::filesystem::exists(arguments.folder, ignored))
+        check_writable(arguments.folder / "report.md");
 }
 
 int report_threads(const ReportOptions& options)

@@ -62,7 +62,7 @@ inline std::uint32_t cells_beyond(const abi::LightBuffer& buffer, const RayBundl
         if ((cells >> first / cell_rays & 1) == 0)
             continue;
         const Vec3v<float> d = load_rays(bundle, first).org - broadcast(buffer.origin);
-        const auto near = abs(d.x) + abs(d.y) + abs(d.z) <= vreal<float>(buffer.reach);
+        const auto near = size_of(d) <= vreal<float>(buffer.reach);
         if ((active_lanes(bundle, first) & ~bits(near)) != 0)
             beyond |= 1u << first / cell_rays;
     }

@@ -218,7 +218,7 @@ inline vreal<Real> polygon_t(const abi::PolygonRecord<Real>& polygon, const RayP
     const Vec3v<Real> normal = broadcast(polygon.normal);
     const vreal<Real> slope = dot_across<Real>(normal, rays.dir);
     const vreal<Real> t = plane_height<Real>(polygon, rays.org) / slope;
-    const vreal<Real> length = abs(rays.dir.x) + abs(rays.dir.y) + abs(rays.dir.z);
+    const vreal<Real> length = size_of(rays.dir);
     // Of rays with a NaN neither is so, and they keep their t, a NaN.
     const auto sees_edge = abs(slope) <= vreal<Real>(edge_on<Real>) * length;
     if (none(sees_edge))

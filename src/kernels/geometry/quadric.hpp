@@ -61,6 +61,20 @@ inline ClipCrossings<Real> clip_crossings(const abi::QuadricRecord<Real>& quadri
 /// there. A plane that only touches a bowl would cut a hole into it otherwise.
 template <class Real>
 inline constexpr Real clip_slack = Real(4) * std::numeric_limits<Real>::epsilon();
+/// The same at most: a ray along a cylinder, to rounding, is nearest to the centre endlessly far
+/// off.
+template <class Real>
+inline constexpr Real most_clip_slack = sizeof(Real) == sizeof(float) ? Real(0x1p-12)
+                                                                      : Real(0x1p-20);
+
+/// How far from the t of a clipping plane a root still counts that is found from `start`.
+template <class Real>
+inline vreal<Real> slack_at_clip(const vreal<Real>& clip_t, const vreal<Real>& start)
+{
+    const vreal<Real> size = abs(clip_t);
+    return min(vreal<Real>(clip_slack<Real>) * (size + abs(start)),
+               vreal<Real>(most_clip_slack<Real>) * size);
+}
 
 /// Calls `visit(valid, t, piece)` for the places where the rays cross the clipped and capped
 /// surface: piece 0 is the side, 1 and 2 the low and the high cap. A t may be infinite, and a piece
@@ -99,8 +113,8 @@ inline void visit_crossings(const abi::QuadricRecord<Real>& quadric,
     const ClipCrossings<Real> clip = clip_crossings<Real>(quadric, origin.height, rays.dir);
     LineInterval<Real> kept = clip.between;
     if (!quadric.capped) {
-        kept.low = kept.low - vreal<Real>(clip_slack<Real>) * (abs(kept.low) + abs(start));
-        kept.high = kept.high + vreal<Real>(clip_slack<Real>) * (abs(kept.high) + abs(start));
+        kept.low = kept.low - slack_at_clip<Real>(kept.low, start);
+        kept.high = kept.high + slack_at_clip<Real>(kept.high, start);
     }
     const auto between = [&](const vreal<Real>& t) { return (t >= kept.low) & (t <= kept.high); };
     const auto visit_side = [&] {

@@ -50,7 +50,7 @@ inline constexpr double nearly_met = sizeof(Real) == sizeof(float) ? 0x1p-12 : 0
 inline vreal<float> met_again_error(const StartPacket<float>& start, const vreal<float>& dir2)
 {
     const Vec3v<float>& at = start.point;
-    const vreal<float> size = abs(at.x) + abs(at.y) + abs(at.z);
+    const vreal<float> size = size_of(at);
     return madd(vreal<float>(0x1p-21f) * size, rough_inverse_sqrt(dir2),
                 vreal<float>(0x1p-20f) * start.second.t);
 }
@@ -238,8 +238,7 @@ inline Vec3v<Real> origin_offset(Real start_error, const Vec3v<Real>& point,
                                  const Vec3v<Real>& outward)
 {
     const vreal<Real> size =
-        madd(vreal<Real>(size_share<Real>), abs(point.x) + abs(point.y) + abs(point.z),
-             magnitude_dot(outward, point));
+        madd(vreal<Real>(size_share<Real>), size_of(point), magnitude_dot(outward, point));
     return scale<Real>(vreal<Real>(start_error) * size, outward);
 }
 

@@ -159,12 +159,6 @@ template <Refine R>
     }
 }
 
-/// |x| + |y| + |z|.
-inline vreal<double> size_of(const Vec3v<double>& v)
-{
-    return abs(v.x) + abs(v.y) + abs(v.z);
-}
-
 /// Points of one surface that were found along rays, moved onto it: the rounding of t leaves them
 /// further off than what lies in the same place is told apart by. No further than `most`, which is
 /// what rounding does, so that no apex throws them away.

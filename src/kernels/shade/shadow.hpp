@@ -84,27 +84,52 @@ inline Real way_end(const abi::LightRecord<Real>& light)
     return light.kind == abi::LightKind::directional ? static_cast<Real>(__builtin_inf()) : Real(1);
 }
 
-/// Lanes of `near`, which meet their own body again near a point light, for which that is behind
-/// it: outside where they come from inside, or inside. What lies on the body is on neither side.
+/// How far a place is beyond the planes that clip a side; none is beyond those of another piece.
+template <class Shape>
+inline double height_beyond_clip(const Shape& shape, unsigned piece, const Vec3v<double>& place)
+{
+    if constexpr (requires { shape.clipped; })
+        if (shape.clipped && piece == 0)
+            return first_lane<double>(
+                max(height_over(shape, 1, place), height_over(shape, 2, place)));
+    return -__builtin_inf();
+}
+
+/// The share of a way within which it may be rounding that has the body end before a light, or
+/// behind it.
+template <class Real>
+inline constexpr Real ends_at_light = sizeof(Real) == sizeof(float) ? Real(0x1p-12) : Real(0x1p-30);
+
+/// How far beyond a clipping plane rounding may put a light, of the size of coordinates, at most.
+template <class Real>
+inline constexpr Real clip_margin = sizeof(Real) == sizeof(float) ? Real(0x1p-30) : Real(0x1p-46);
+
+/// Lanes of `near`, whose rays from `point` meet their own body again at a light, or nearly, for
+/// which that is before it: outside where they come from inside, or inside. What lies on the body
+/// is on neither side. Beyond the planes that clip the body's side, its equation tells nothing, but
+/// there the way has left it: from a point of the body to where it meets that, it is between them.
 template <class Real>
 [[gnu::noinline]] std::uint32_t behind_own_body(const abi::ShapesView& shapes,
-                                                const vint<Real>& surface,
+                                                const vint<Real>& surface, const Vec3v<Real>& point,
                                                 const abi::LightRecord<Real>& light,
                                                 std::uint32_t outside, std::uint32_t near)
 {
     const double place[3] = {double{light.vector[0]}, double{light.vector[1]},
                              double{light.vector[2]}};
+    const vreal<Real> size = size_of(point) + size_of(broadcast(light.vector));
     std::uint32_t behind = 0;
     for_each_distinct<Real>(surface, near, [&](lane_int<Real> number, vmask<Real> same) {
-        const double height =
-            with_shape(shapes, shapes.index[number], [&](const auto& shape, unsigned piece) {
-                return first_lane<double>(height_over(shape, piece, broadcast(place)));
-            });
         const std::uint32_t lanes_of = bits(same) & near;
-        if (height > 0)
-            behind |= lanes_of & ~outside;
-        if (height < 0)
-            behind |= lanes_of & outside;
+        with_shape(shapes, shapes.index[number], [&](const auto& shape, unsigned piece) {
+            const double height = first_lane<double>(height_over(shape, piece, broadcast(place)));
+            const double beyond = height_beyond_clip(shape, piece, broadcast(place));
+            if (height > 0)
+                behind |= lanes_of & ~outside;
+            if (height < 0)
+                behind |= lanes_of & outside;
+            behind |= lanes_of & bits(size * vreal<Real>(clip_margin<Real>) <
+                                      vreal<Real>(static_cast<Real>(beyond)));
+        });
     });
     return behind;
 }
@@ -127,12 +152,11 @@ inline std::uint32_t own_shadow(const abi::SceneView<Real>& scene,
     const std::uint32_t before = bits(again.t < end) & wanted;
     if (light.kind == abi::LightKind::directional)
         return before;
-    // Near enough for rounding to move either beyond the other, by far, in both precisions.
-    const std::uint32_t near =
-        bits(abs(again.t - end) < vreal<Real>(static_cast<Real>(nearly_met<float>))) & wanted;
+    const std::uint32_t near = bits(abs(again.t - end) < vreal<Real>(ends_at_light<Real>)) & wanted;
     if (near == 0)
         return before;
-    return (before & ~near) | behind_own_body<Real>(shapes, again.surface, light, outside, near);
+    return (before & ~near) |
+           behind_own_body<Real>(shapes, again.surface, surface.point, light, outside, near);
 }
 
 /// Where the way from a point to a light begins that sends no rays: behind the point itself, so

@@ -85,6 +85,13 @@ inline vreal<Real> magnitude_dot(const Vec3v<Real>& a, const Vec3v<Real>& b)
     return madd(abs(a.x), abs(b.x), madd(abs(a.y), abs(b.y), abs(a.z) * abs(b.z)));
 }
 
+/// |x| + |y| + |z|.
+template <class Real>
+inline vreal<Real> size_of(const Vec3v<Real>& v)
+{
+    return abs(v.x) + abs(v.y) + abs(v.z);
+}
+
 template <class Real>
 inline Vec3v<Real> cross(const Vec3v<Real>& a, const Vec3v<Real>& b)
 {

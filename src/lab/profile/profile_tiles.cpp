@@ -7,6 +7,7 @@
 #include <string>
 
 #include <packtrace/profile.hpp>
+#include <packtrace/validate.hpp>
 
 #include "core/arena.hpp"
 #include "core/seconds_since.hpp"
@@ -53,6 +54,7 @@ std::string nanoseconds(double seconds)
 template <class Real>
 std::vector<TileSpan> trace_tiles(const Scene& scene, const ProfileOptions& options)
 {
+    validate(scene);
     RenderOptions sampling = render_options(options);
     sampling.adaptive.reset();
     const LoweredScene lowered = lower(scene, accuracy_in<Real>(sampling), sampling.self_hits);
@@ -91,6 +93,7 @@ std::vector<TileSpan> trace_tiles(const Scene& scene, const ProfileOptions& opti
 template <class Real>
 std::vector<double> pixel_costs(const Scene& scene, const ProfileOptions& options)
 {
+    validate(scene);
     const LoweredScene lowered =
         lower(scene, accuracy_in<Real>(render_options(options)), options.self_hits);
     const auto& table = precision<Real>(kernels_of(choose_isa(options.isa).name));

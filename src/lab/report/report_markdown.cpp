@@ -5,10 +5,42 @@
 namespace packtrace {
 namespace {
 
-/// A text as a cell of a table, in which a bar would end it.
-std::string cell(const std::string& text)
+/// A text as code in a cell of a table, in which a bar would end it.
+std::string code_cell(const std::string& text)
 {
-    return replaced(text, '|', "\\|");
+    const bool has_fence = text.find('`') != std::string::npos;
+    return (has_fence ? "`` " : "`") + replaced(text, '|', "\\|") + (has_fence ? " ``" : "`");
+}
+
+/// A text whose letters are no marks.
+std::string plain(const std::string& text)
+{
+    constexpr std::string_view marks = "\\`*_{}[]<>()#+!|&~";
+    std::string result;
+    for (const char c : text) {
+        if (marks.find(c) != std::string_view::npos)
+            result += '\\';
+        result += c;
+    }
+    return result;
+}
+
+/// A file's name as a link has it (RFC 3986).
+std::string link_to(const std::string& file)
+{
+    constexpr std::string_view unreserved =
+        "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789-._~/";
+    constexpr const char* digits = "0123456789ABCDEF";
+    std::string result;
+    for (const char c : file) {
+        if (unreserved.find(c) != std::string_view::npos) {
+            result += c;
+            continue;
+        }
+        const auto byte = static_cast<unsigned char>(c);
+        result += {'%', digits[byte >> 4u], digits[byte & 15u]};
+    }
+    return result;
 }
 
 void write_conditions(std::ostream& to, const ReportOptions& options,
@@ -16,7 +48,7 @@ void write_conditions(std::ostream& to, const ReportOptions& options,
 {
     to << "# Error against run time\n\n"
        << "| | |\n|---|---|\n"
-       << "| command | `" << cell(conditions.command) << "` |\n"
+       << "| command | " << code_cell(conditions.command) << " |\n"
        << "| commit | " << conditions.commit << " |\n"
        << "| processor | " << conditions.processor << ", " << conditions.processors << " in use |\n"
        << "| compiler | " << conditions.compiler << " |\n\n"
@@ -57,7 +89,7 @@ void write_run(std::ostream& to, const ReportRun& run)
 void write_study(std::ostream& to, const SceneReport& scene, const StudyReport& study,
                  const ReportOptions& options)
 {
-    to << "\n### " << scene.name << ": " << name_of(study.study) << "\n\n"
+    to << "\n### " << plain(scene.name) << ": " << name_of(study.study) << "\n\n"
        << "Truth: " << study.truth << "; " << brief(study.truth_seconds) << " s"
        << (study.truth_cached ? " when it was made" : "") << ".\n\n"
        << "| run | ms | spread | Mrays/s | RMSE | max | PSNR, dB | pixels off | where |\n"
@@ -67,7 +99,7 @@ void write_study(std::ostream& to, const SceneReport& scene, const StudyReport& 
     to << '\n';
     for (const std::string& line : judgement(study, options))
         to << "- " << line << '\n';
-    to << "\n![error against time](<" << plot_file(scene, study) << ">)\n";
+    to << "\n![error against time](" << link_to(plot_file(scene, study)) << ")\n";
 }
 
 void write_classes(std::ostream& to, const std::vector<SceneReport>& scenes)
@@ -88,8 +120,9 @@ std::string report_markdown(const std::vector<SceneReport>& scenes, const Report
     std::ostringstream text;
     write_conditions(text, options, conditions);
     for (const SceneReport& scene : scenes) {
-        text << "\n## " << scene.name << ", " << scene.width << " x " << scene.height << "\n\n"
-             << "![the truth](<" << picture_file(scene, scene.studies.front(), 0) << ">)\n";
+        text << "\n## " << plain(scene.name) << ", " << scene.width << " x " << scene.height
+             << "\n\n"
+             << "![the truth](" << link_to(picture_file(scene, scene.studies.front(), 0)) << ")\n";
         for (const StudyReport& study : scene.studies)
             write_study(text, scene, study, options);
     }

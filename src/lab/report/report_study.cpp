@@ -48,9 +48,10 @@ void check_truth(const ReportOptions& options)
     for (const auto& [samples, contrast] : options.adaptive)
         most = std::max(most, samples);
     if (options.truth_samples <= most)
-        throw std::invalid_argument("report: a truth of " + std::to_string(options.truth_samples) +
-                                    " samples a pixel cannot judge runs of " +
-                                    std::to_string(most) + "; give it more");
+        throw std::invalid_argument(
+            "report: a truth of " + std::to_string(options.truth_samples) +
+            " samples a pixel (truth_samples, --truth-spp) cannot judge runs of " +
+            std::to_string(most) + " (samples, adaptive); give it more");
 }
 
 void stop_if_asked(const ReportOptions& options)

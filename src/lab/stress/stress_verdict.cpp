@@ -43,15 +43,15 @@ public:
     std::vector<std::string> list;
 };
 
-/// Names of families, each once, in their order.
-std::string families_of(const std::vector<StressRow>& rows, const std::string& precision)
+/// The families with faults, each once, in their order, and the faults of the first row of each.
+std::string faulty_families(const std::vector<StressRow>& rows, const std::string& precision)
 {
-    std::vector<std::string> names;
+    std::set<std::string> named;
+    std::vector<std::string> texts;
     for (const StressRow& row : rows)
-        if (row.precision == precision && !row.faults.empty() &&
-            std::find(names.begin(), names.end(), row.family) == names.end())
-            names.push_back(row.family);
-    return joined(names);
+        if (row.precision == precision && !row.faults.empty() && named.insert(row.family).second)
+            texts.push_back(row.family + ": " + joined(row.faults));
+    return joined(texts, "; ");
 }
 
 /// Where t is off by more than 1 ulp of single precision, or a normal by more than 1e-6, because
@@ -96,7 +96,7 @@ std::string verdict_of_precision(const std::vector<StressRow>& rows, const std::
     if (families.empty())
         return "";
     const std::string name = precision == "single" ? mode : precision;
-    const std::string bad = families_of(rows, precision);
+    const std::string bad = faulty_families(rows, precision);
     const std::string counts =
         std::to_string(wrong) + " wrong decisions, " + std::to_string(self_hits) + " self-hits, " +
         std::to_string(lost) + " second hits lost, " +
@@ -105,8 +105,10 @@ std::string verdict_of_precision(const std::vector<StressRow>& rows, const std::
              : std::to_string(missed) + " of " + std::to_string(bounds) + " bounds missed, ") +
         std::to_string(rays) + " rays";
     return name +
-           (bad.empty() ? " is right in all " + std::to_string(families.size()) + " families"
-                        : " is WRONG in " + bad) +
+           (!bad.empty() ? " is WRONG in " + bad
+            : families.size() == 1
+                ? " is right in the family " + *families.begin()
+                : " is right in all " + std::to_string(families.size()) + " families") +
            " (" + counts + ")" + limits_of(rows, precision);
 }
 

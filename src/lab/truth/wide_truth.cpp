@@ -252,8 +252,8 @@ private:
         limit_to_quadratic(hit);
     }
 
-    /// Who solves the product of two planes as a quadratic rounds the terms of a: along one of the
-    /// planes it nearly vanishes, which moves the other's t as well.
+    /// A solver that takes two crossing planes for one quadratic loses digits of a for rays along
+    /// either plane. This widens the error of the other plane's t.
     void limit_to_quadratic(TrueHit& hit) const
     {
         const Vec3 terms = narrow(surface_.second_order(v_) * v_);

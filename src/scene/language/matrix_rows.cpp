@@ -225,12 +225,13 @@ Fault fault_of_transform(const Mat4& transform)
         return fault;
     if (!is_affine(transform))
         return "the transform is not affine; make the last row of its matrix (0, 0, 0, 1)";
+    constexpr double rounding = 1e-12;
     const Mat3 linear(transform);
     if (is_singular(linear))
         return "the transform is singular, it flattens the object; use factors other than 0 and "
                "columns that are independent";
     if (!std::isnormal(glm::determinant(linear)) ||
-        !(largest_entry(glm::inverse(linear)) <= 1.0 / smallest_length))
+        !(largest_entry(glm::inverse(linear)) <= (1.0 + rounding) / smallest_length))
         return "the transform shrinks the object to less than 1e-15 of its size; use factors "
                "nearer to 1";
     return std::nullopt;
