@@ -1,6 +1,4 @@
 #include <algorithm>
-#include <charconv>
-#include <iostream>
 #include <memory>
 #include <optional>
 #include <set>
@@ -15,14 +13,12 @@
 #include "cli/options/validators.hpp"
 #include "cli/output/distinct_files.hpp"
 #include "cli/output/output.hpp"
-#include "cli/output/text_table.hpp"
-#include "cli/study/bench_file.hpp"
-#include "cli/study/bench_programs.hpp"
+#include "cli/study/bench_result.hpp"
 #include "core/atomic_file.hpp"
 #include "core/check_number.hpp"
 #include "core/checksum.hpp"
+#include "core/text.hpp"
 #include "lab/bench/paired_bench.hpp"
-#include "lab/bench/slowdown.hpp"
 #include "scene/language/numbers.hpp"
 #include "scene/language/quote.hpp"
 
@@ -40,60 +36,19 @@ struct BenchArguments {
     std::string output;
     std::string baseline;
     std::string against;
-    std::optional<std::string> max_slowdown;
+    std::optional<double> max_slowdown;
 };
 
-// The number of "10%" or "0.1"; none when it is something else.
-std::optional<double> parse_share(const std::string& text)
+/// The number of "10%" or "0.1"; none when it is something else.
+std::optional<double> parse_share(std::string_view text)
 {
-    double value = 0.0;
-    const char* const end = text.data() + text.size();
-    const auto [rest, error] = std::from_chars(text.data(), end, value);
-    const std::string_view unit(rest, static_cast<std::size_t>(end - rest));
-    if (error != std::errc{} || !(value >= 0.0) || value > 1e6 || (unit != "" && unit != "%"))
+    const bool percent = text.ends_with('%');
+    const std::optional<double> value =
+        parse_number<double>(text.substr(0, text.size() - (percent ? 1 : 0)));
+    if (!value || !(*value >= 0.0) || *value > 1e6)
         return std::nullopt;
-    return unit == "%" ? value / 100.0 : value;
+    return percent ? *value / 100.0 : *value;
 }
-
-std::string check_share(const std::string& text)
-{
-    return parse_share(text) ? "" : "'" + text + "' is not a share such as 10% or 0.1";
-}
-
-// What was measured, and what it is compared with.
-struct BenchResult {
-    BenchPairs figures;
-    bool paired = false;
-    double limit = 0.0;
-
-    // None for a line that the baseline lacks.
-    [[nodiscard]] std::optional<Slowdown> slowdown(const BenchLine& line) const
-    {
-        const BenchLine* before = figures.before.find(line.name);
-        if (before == nullptr)
-            return std::nullopt;
-        return paired ? paired_slowdown(line.ratios, before->ratios)
-                      : unpaired_slowdown(line.ratios, before->ratios);
-    }
-    [[nodiscard]] std::optional<Verdict> verdict(const BenchLine& line) const
-    {
-        const std::optional<Slowdown> found = slowdown(line);
-        return found ? std::optional(verdict_of(*found, limit)) : std::nullopt;
-    }
-    // A busy spell passes, a regression stays.
-    [[nodiscard]] bool is_doubtful(const BenchLine& line) const
-    {
-        const std::optional<Verdict> found = verdict(line);
-        return found && *found != Verdict::not_slower;
-    }
-    [[nodiscard]] bool has_doubts() const
-    {
-        for (const BenchLine& line : figures.now.lines)
-            if (is_doubtful(line))
-                return true;
-        return false;
-    }
-};
 
 // This program's figures, beside those of a file where there is one.
 void measure_alone(const std::vector<ReportScene>& scenes, const BenchArguments& arguments,
@@ -143,89 +98,6 @@ void measure_in_pairs(const BenchArguments& arguments, BenchResult& result)
     }
 }
 
-std::string signed_percent(double share)
-{
-    return (share < 0.0 ? "" : "+") + fixed(100.0 * share, 1) + " %";
-}
-
-std::string interval_text(const Slowdown& slowdown)
-{
-    if (!slowdown.interval)
-        return "too few repetitions";
-    return signed_percent(slowdown.interval->low) + " to " +
-           signed_percent(slowdown.interval->high);
-}
-
-const char* verdict_text(Verdict verdict)
-{
-    switch (verdict) {
-        case Verdict::not_slower:
-            return "no";
-        case Verdict::slower:
-            return "yes";
-        case Verdict::cannot_tell:
-            break;
-    }
-    return "can't tell";
-}
-
-void print_bench_lines(const BenchResult& result)
-{
-    TextTable table(1, {"run", "ms", "of scalar single", "spread", "baseline", "slowdown",
-                        "99 % interval", "slower"});
-    const BenchFigures& now = result.figures.now;
-    for (const BenchLine& reference : now.references)
-        table.add({reference.name + " (the reference)",
-                   fixed(1e3 * median_of(reference.seconds), 3), "1",
-                   percent(relative_spread(reference.seconds), 1.0), "-", "-", "-", "-"});
-    for (const BenchLine& line : now.lines) {
-        std::vector<std::string> row{line.name, fixed(1e3 * median_of(line.seconds), 3),
-                                     fixed(line.ratio(), 4),
-                                     percent(relative_spread(line.ratios), 1.0)};
-        if (const std::optional<Slowdown> slowdown = result.slowdown(line))
-            row.insert(row.end(), {fixed(result.figures.before.find(line.name)->ratio(), 4),
-                                   signed_percent(slowdown->estimate), interval_text(*slowdown),
-                                   verdict_text(verdict_of(*slowdown, result.limit))});
-        else
-            row.insert(row.end(), {"-", "-", "-", "-"});
-        table.add(row);
-    }
-    table.print(std::cout);
-}
-
-// Names the lines of one verdict, and says whether there are any.
-bool name_lines(const BenchResult& result, Verdict wanted, const std::string& what)
-{
-    bool any = false;
-    for (const BenchLine& line : result.figures.now.lines)
-        if (result.verdict(line) == wanted) {
-            any = true;
-            std::cerr << what << line.name << ": " << interval_text(*result.slowdown(line))
-                      << " against the baseline, with " << line.ratios.size() << " repetitions and "
-                      << result.figures.before.find(line.name)->ratios.size()
-                      << " of the baseline\n";
-        }
-    return any;
-}
-
-void check_compared(const BenchResult& result, const std::string& baseline)
-{
-    for (const BenchLine& line : result.figures.now.lines)
-        if (result.slowdown(line))
-            return;
-    throw std::runtime_error(baseline + ": has no line of what was measured; give the same scenes");
-}
-
-void end_with_verdict(const BenchResult& result)
-{
-    const bool slower = name_lines(result, Verdict::slower, "slower: ");
-    const bool unsure = name_lines(result, Verdict::cannot_tell, "can't tell: ");
-    if (unsure)
-        std::cerr << "more --repetitions, of the baseline too, or an idler machine would tell\n";
-    if (slower || unsure)
-        throw Failed{slower ? exit_failed : exit_unsure};
-}
-
 // What of a picture times hang on, beside its scene.
 std::string picture_text(const PictureArguments& picture)
 {
@@ -266,8 +138,7 @@ void check_any_compared(const std::vector<ReportScene>& scenes, const BenchFigur
         });
     };
     if (std::none_of(before.lines.begin(), before.lines.end(), is_measured))
-        throw std::runtime_error(baseline +
-                                 ": has no line of these scenes; give the same scenes");
+        throw std::runtime_error(baseline + ": has no line of these scenes; give the same scenes");
 }
 
 // Every run of a program reads the scenes anew.
@@ -280,37 +151,64 @@ void check_files(const BenchArguments& arguments)
                 "give files");
 }
 
-void run_bench_command(const BenchArguments& arguments)
+/// Before the work, so that a wrong name doesn't cost it.
+void check_output(const BenchArguments& arguments)
+{
+    if (arguments.output.empty())
+        return;
+    std::vector<std::string> inputs = arguments.scenes;
+    inputs.insert(inputs.end(), {arguments.baseline, arguments.against});
+    check_not_read(arguments.output, inputs);
+    check_writable(arguments.output);
+}
+
+/// Throws what is wrong with the options, before any work.
+void check_bench(const BenchArguments& arguments)
 {
     check_files(arguments);
     if (arguments.isa)
         (void)chosen_isa({arguments.isa, {}});
-    BenchResult result;
-    result.limit = *parse_share(arguments.max_slowdown.value_or("10%"));
     if (arguments.max_slowdown && arguments.baseline.empty() && arguments.against.empty())
         throw CLI::ValidationError(
             "--max-slowdown: nothing is compared; give --baseline or --against");
-    // Before the work, so that a wrong name doesn't cost it.
-    if (!arguments.output.empty()) {
-        std::vector<std::string> inputs = arguments.scenes;
-        inputs.insert(inputs.end(), {arguments.baseline, arguments.against});
-        check_not_read(arguments.output, inputs);
-        check_writable(arguments.output);
-    }
-    result.figures.now.picture = picture_text(arguments.picture);
-    if (!arguments.baseline.empty()) {
-        result.figures.before = read_bench_file(arguments.baseline);
-        check_same_picture(result.figures.now, result.figures.before, arguments.baseline);
-    }
+    check_output(arguments);
+}
+
+/// Reads the scenes, and notes their checksums in `figures`.
+std::vector<ReportScene> read_bench_scenes(const BenchArguments& arguments, BenchFigures& figures)
+{
     std::vector<ReportScene> scenes;
     std::set<std::string> names;
     for (const std::string& file : arguments.scenes) {
         SceneInput input = read_scene_input(file);
         const std::string name = free_scene_name(language::escape(input.stem), names);
-        result.figures.now.scenes[name] = text_hash_digits(scene_text(input.scene));
+        figures.scenes[name] = text_hash_digits(scene_text(input.scene));
         scenes.push_back({name, std::move(input.scene)});
         apply(arguments.picture, scenes.back().scene);
     }
+    return scenes;
+}
+
+void write_bench_file(const std::string& file, const BenchFigures& figures)
+{
+    if (file.empty())
+        return;
+    Output output(file);
+    output.write(bench_text(figures));
+    output.finish();
+}
+
+void run_bench_command(const BenchArguments& arguments)
+{
+    check_bench(arguments);
+    BenchResult result;
+    result.limit = arguments.max_slowdown.value_or(0.1);
+    result.figures.now.picture = picture_text(arguments.picture);
+    if (!arguments.baseline.empty()) {
+        result.figures.before = read_bench_file(arguments.baseline);
+        check_same_picture(result.figures.now, result.figures.before, arguments.baseline);
+    }
+    const std::vector<ReportScene> scenes = read_bench_scenes(arguments, result.figures.now);
     if (!arguments.baseline.empty()) {
         check_any_compared(scenes, result.figures.before, arguments.baseline);
         check_same_scenes(result.figures.now, result.figures.before, arguments.baseline);
@@ -320,16 +218,9 @@ void run_bench_command(const BenchArguments& arguments)
     else
         measure_in_pairs(arguments, result);
     print_bench_lines(result);
-    if (!arguments.output.empty()) {
-        Output output(arguments.output);
-        output.write(bench_text(result.figures.now));
-        output.finish();
-    }
-    const std::string baseline = arguments.baseline + arguments.against;
-    if (baseline.empty())
-        return;
-    check_compared(result, baseline);
-    end_with_verdict(result);
+    write_bench_file(arguments.output, result.figures.now);
+    if (const std::string baseline = arguments.baseline + arguments.against; !baseline.empty())
+        end_with_verdict(result, baseline);
 }
 
 void add_comparing_options(CLI::App& command, BenchArguments& arguments)
@@ -347,9 +238,14 @@ void add_comparing_options(CLI::App& command, BenchArguments& arguments)
         ->excludes(baseline)
         ->type_name("PROGRAM");
     command
-        .add_option("--max-slowdown", arguments.max_slowdown,
-                    "By how much a line may be slower than the baseline (default 10%)")
-        ->check(CLI::Validator(check_share, ""))
+        .add_option_function<std::string>(
+            "--max-slowdown",
+            [&limit = arguments.max_slowdown](const std::string& text) {
+                limit = parse_share(text);
+            },
+            "By how much a line may be slower than the baseline (default 10%)")
+        ->check(validator([](const std::string& text) { return parse_share(text).has_value(); },
+                          "a share such as 10% or 0.1"))
         ->type_name("SHARE");
 }
 

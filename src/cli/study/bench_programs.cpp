@@ -18,7 +18,11 @@ constexpr int figures_descriptor = 3;
 
 BenchFigures run_once(const std::string& program, const std::vector<std::string>& words)
 {
-    std::vector<std::string> command{program, "bench", "--repetitions", repetitions_of_a_run, "-o",
+    std::vector<std::string> command{program,
+                                     "bench",
+                                     "--repetitions",
+                                     repetitions_of_a_run,
+                                     "-o",
                                      "/dev/fd/" + std::to_string(figures_descriptor)};
     command.insert(command.end(), words.begin(), words.end());
     const FilterResult result = run_filter(command, "", figures_descriptor);

@@ -77,7 +77,8 @@ void add_example(StressRow& row, const std::vector<StressGroup>& groups,
         }
 }
 
-StressRow row_of(const StressSubject& subject, const char* precision, Errors errors, double seconds)
+StressRow row_of(const StressSubject& subject, const std::string& precision, Errors errors,
+                 double seconds)
 {
     StressRow row;
     static_cast<ErrorCounts&>(row) = errors;
@@ -130,53 +131,76 @@ StressRow row_of(const StressSubject& subject, const std::vector<StressGroup>& g
                   evaluate_runs<Real>(groups, runs), seconds);
 }
 
-/// Answers that a row was made of; later ones with the same bits share the row.
-struct Evaluated {
-    std::size_t row;
-    std::vector<StressRun> runs;
-};
+/// Adds a row for what each subject's `ask` gives; instruction sets with the `same` answers share
+/// one.
+template <class Ask, class Same, class MakeRow>
+void add_distinct_rows(const std::vector<StressSubject>& subjects, bool doubles, bool packets_only,
+                       const Ask& ask, const Same& same, const MakeRow& make_row,
+                       std::vector<StressRow>& rows)
+{
+    std::vector<std::pair<std::size_t, decltype(ask(subjects[0]))>> answered;
+    for (const StressSubject& subject : subjects) {
+        const bool is_packet = subject.kernel == "packet";
+        // Packets of doubles are the same in every mode.
+        const bool in_any_mode = doubles && is_packet;
+        if ((packets_only && !is_packet) || (in_any_mode && subject.mode != subjects.back().mode))
+            continue;
+        auto run = ask(subject);
+        const auto twin = std::find_if(answered.begin(), answered.end(), [&](const auto& other) {
+            const StressRow& row = rows[other.first];
+            return row.kernel == subject.kernel && (row.mode == subject.mode || in_any_mode) &&
+                   same(run, other.second);
+        });
+        if (twin != answered.end()) {
+            rows[twin->first].isa += " " + subject.isa;
+            continue;
+        }
+        rows.push_back(make_row(subject, run));
+        answered.emplace_back(rows.size() - 1, std::move(run));
+    }
+}
+
+/// The row of one subject's answers to a family's rays.
+template <class Real>
+StressRow row_of(const StressFamily& family, const StressOptions& options,
+                 const StressSubject& subject, const std::vector<StressGroup>& groups,
+                 const std::vector<StressRun>& runs)
+{
+    StressRow row = row_of<Real>(subject, groups, runs);
+    row.family = family.name;
+    if (options.second_hits)
+        add_second_hits<Real>(row, subject, groups, options.self_hits);
+    add_example<Real>(row, groups, runs);
+    if (!row.held)
+        return row;
+    if (options.bounds)
+        add_bounds<Real>(row, subject, groups);
+    row.faults = faults_of(row);
+    return row;
+}
 
 template <class Real>
 void add_rows(const StressFamily& family, const StressOptions& options,
               const std::vector<StressSubject>& subjects, std::vector<StressRow>& rows)
 {
     const std::vector<StressGroup> groups = make_groups<Real>(family, options.seed, options.rays);
-    std::vector<Evaluated> evaluated;
-    for (const StressSubject& subject : subjects) {
-        if (family.packets_only && subject.kernel != "packet")
-            continue;
-        // Packets of doubles are the same in every mode.
-        const bool packet_of_doubles = sizeof(Real) == sizeof(double) && subject.kernel == "packet";
-        if (packet_of_doubles && subject.mode != subjects.back().mode)
-            continue;
+    const auto ask = [&](const StressSubject& subject) {
         std::vector<StressRun> runs;
         run_alone(options.alone, [&] {
             for (const StressGroup& group : groups)
                 runs.push_back(run_subject<Real>(subject, group));
         });
-        const auto twin =
-            std::find_if(evaluated.begin(), evaluated.end(), [&](const Evaluated& other) {
-                const StressRow& row = rows[other.row];
-                return row.kernel == subject.kernel &&
-                       (row.mode == subject.mode || packet_of_doubles) &&
-                       std::equal(runs.begin(), runs.end(), other.runs.begin(), same_answers);
-            });
-        if (twin != evaluated.end()) {
-            rows[twin->row].isa += " " + subject.isa;
-            continue;
-        }
-        rows.push_back(row_of<Real>(subject, groups, runs));
-        if (options.second_hits)
-            add_second_hits<Real>(rows.back(), subject, groups, options.self_hits);
-        rows.back().family = family.name;
-        add_example<Real>(rows.back(), groups, runs);
-        if (rows.back().held) {
-            if (options.bounds)
-                add_bounds<Real>(rows.back(), subject, groups);
-            rows.back().faults = faults_of(rows.back());
-        }
-        evaluated.push_back({rows.size() - 1, std::move(runs)});
-    }
+        return runs;
+    };
+    const auto same = [](const std::vector<StressRun>& a, const std::vector<StressRun>& b) {
+        return std::equal(a.begin(), a.end(), b.begin(), same_answers);
+    };
+    add_distinct_rows(
+        subjects, sizeof(Real) == sizeof(double), family.packets_only, ask, same,
+        [&](const StressSubject& subject, const std::vector<StressRun>& runs) {
+            return row_of<Real>(family, options, subject, groups, runs);
+        },
+        rows);
 }
 
 /// Whether a is nowhere worse than b, and somewhere better, in wrong answers, error and time.
@@ -195,31 +219,22 @@ void mark_pareto(std::vector<StressRow>& rows)
         });
 }
 
-/// The rows of one measure in one precision; instruction sets with the same answers share one.
-void add_measured(const StressMeasure& measure, const char* precision,
+/// The rows of one measure in one precision.
+void add_measured(const StressMeasure& measure, const std::string& precision,
                   const StressMeasure::Ask& ask, const std::vector<StressSubject>& subjects,
                   std::vector<StressRow>& rows)
 {
-    const bool doubles = precision[0] == 'd';
-    std::vector<std::pair<std::size_t, std::vector<double>>> answered;
-    for (const StressSubject& subject : subjects) {
-        if (subject.kernel != "packet" || (doubles && subject.mode != subjects.back().mode))
-            continue;
-        MeasureRun run = ask(subject);
-        const auto twin = std::find_if(answered.begin(), answered.end(), [&](const auto& other) {
-            return (rows[other.first].mode == subject.mode || doubles) &&
-                   other.second == run.answers;
-        });
-        if (twin != answered.end()) {
-            rows[twin->first].isa += " " + subject.isa;
-            continue;
-        }
-        rows.push_back(row_of(subject, precision, std::move(run.errors), run.seconds));
-        rows.back().family = measure.name;
-        if (rows.back().held)
-            rows.back().faults = faults_of_measure(rows.back());
-        answered.emplace_back(rows.size() - 1, std::move(run.answers));
-    }
+    const auto same = [](const MeasureRun& a, const MeasureRun& b) {
+        return a.answers == b.answers;
+    };
+    const auto make_row = [&](const StressSubject& subject, const MeasureRun& run) {
+        StressRow row = row_of(subject, precision, run.errors, run.seconds);
+        row.family = measure.name;
+        if (row.held)
+            row.faults = faults_of_measure(row);
+        return row;
+    };
+    add_distinct_rows(subjects, precision == "double", true, ask, same, make_row, rows);
 }
 
 void check_families(const StressOptions& options)
