@@ -16,6 +16,7 @@
 
 #include "../bench/cluster/job_model.hpp"
 #include "catch.hpp"
+#include "job_inputs.hpp"
 #include "killed_program.hpp"
 #include "mpi/hand_out.hpp"
 #include "mpi/rank_setup.hpp"
@@ -179,20 +180,6 @@ std::string errors_of_ended(const Words& words, const std::filesystem::path& err
     const int status = kill_program(all, SIGTERM, when);
     CHECK(WIFSIGNALED(status));
     return read_text(errors);
-}
-
-/// The first families of stress tests.
-Words first_families(std::size_t count)
-{
-    const std::string list = run_packtrace({"stress", "--list"}).out;
-    Words families;
-    for (std::size_t at = list.find('\n'); families.size() < count && at != std::string::npos;
-         at = list.find('\n', at + 1)) {
-        const std::string name = list.substr(at + 1, list.find(' ', at + 1) - at - 1);
-        if (!name.empty() && name.front() != '-')
-            families.push_back(name);
-    }
-    return families;
 }
 
 /// Takes out, at all depths, what differs from run to run: times and what follows from them.
@@ -612,10 +599,7 @@ TEST_CASE("frames are shared by ranks, and a second job renders the missing ones
 TEST_CASE("hits have the bytes of one process whatever the ranks", "[mpi]")
 {
     const TempFolder folder;
-    std::string rays = "# rays\nox,oy,oz,dx,dy,dz\n";
-    for (int i = 0; i < 12000; ++i)
-        rays += std::to_string(0.01 * (i % 200) - 1.0) + ",0," + std::to_string(-(i % 7)) + ",0," +
-                std::to_string(0.001 * (i % 300) - 0.1) + ",1\n" + (i % 999 == 7 ? "\n#\n" : "");
+    std::string rays = many_rays(12000) + "\n";
     write_text(folder / "rays.csv", rays);
     for (const Words& query : {Words{}, Words{"--all"}, Words{"--any", "--precision", "single"}}) {
         Words words{"intersect", four_spheres_file, folder / "rays.csv", "-o", folder / "w.csv"};

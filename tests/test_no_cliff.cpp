@@ -202,7 +202,7 @@ TEST_CASE("shadows stay where they are however far a light is", "[no_cliff]")
     }
 }
 
-TEST_CASE("the same where a quadric has no bounds", "[no_cliff]")
+TEST_CASE("a far light's shadows stay where a quadric has no bounds", "[no_cliff]")
 {
     const std::string endless[] = {"saddle { translate = (0, 0, -30)  scale = (1, 1, 0.2) }",
                                    "cylinder { scale = 0.2  rotate = (1, 0, 0, 90)  "
@@ -214,7 +214,7 @@ TEST_CASE("the same where a quadric has no bounds", "[no_cliff]")
         }
 }
 
-TEST_CASE("the same where small bodies lie on a large ball", "[no_cliff]")
+TEST_CASE("a far light's shadows stay where small bodies lie on a large ball", "[no_cliff]")
 {
     const Scene scene = parse_scene(R"(image_size = 400 x 400  illumination = whitted
         camera { position = (0.00015, 0.00054, -0.00038)  look_at = (0, 0, 0)  fov = 52.7 }
@@ -228,7 +228,7 @@ TEST_CASE("the same where small bodies lie on a large ball", "[no_cliff]")
     check_like_scalar(scene, 4);
 }
 
-TEST_CASE("the same beside a second large ball", "[no_cliff]")
+TEST_CASE("a far light's shadows stay beside a second large ball", "[no_cliff]")
 {
     const Scene scene = parse_scene(R"(image_size = 300 x 200  illumination = whitted
         camera { position = (-3, 4, -6)  look_at = (-1, 0, -0.5)  fov = 40 }
@@ -278,7 +278,9 @@ TEST_CASE("camera, lights and objects elsewhere change no digit of a hit", "[no_
         }
 }
 
-TEST_CASE("the same in double, and for the scalar kernel", "[no_cliff]")
+TEST_CASE(
+    "camera, lights and objects elsewhere change no digit in double, and of the scalar kernel",
+    "[no_cliff]")
 {
     for (const std::string& isa : supported_isas()) {
         CAPTURE(isa);

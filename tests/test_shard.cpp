@@ -10,26 +10,13 @@
 
 #include "catch.hpp"
 #include "intersect_program.hpp"
+#include "job_inputs.hpp"
 #include "killed_program.hpp"
 
 namespace packtrace::test {
 namespace {
 
 using Words = std::vector<std::string>;
-
-/// Rays of several blocks, with a header, comments, blank lines and no end of the last line.
-std::string many_rays(int count)
-{
-    std::string text = "# rays\nox,oy,oz,dx,dy,dz\n";
-    for (int i = 0; i < count; ++i) {
-        text += std::to_string(0.01 * (i % 200) - 1.0) + ",0," + std::to_string(-(i % 7)) + ",0," +
-                std::to_string(0.001 * (i % 300) - 0.1) + ",1\n";
-        if (i % 1000 == 17)
-            text += "\n# a comment\n";
-    }
-    text.pop_back();
-    return text;
-}
 
 class Bench {
 public:
@@ -236,17 +223,8 @@ TEST_CASE("shards of an animation are all of its frames", "[shard]")
 TEST_CASE("joined shards of a stress test have the rows and the verdict of the whole", "[shard]")
 {
     const TempFolder folder;
-    const std::string list = run_packtrace({"stress", "--list"}).out;
-    // The first families there are.
-    Words families;
-    for (std::size_t at = list.find('\n'); families.size() < 4 && at != std::string::npos;
-         at = list.find('\n', at + 1)) {
-        const std::string name = list.substr(at + 1, list.find(' ', at + 1) - at - 1);
-        if (!name.empty() && name.front() != '-')
-            families.push_back(name);
-    }
     Words all{"stress", "--json", "--rays", "64", "--kernel", "packet", "--mode", "exact"};
-    for (const std::string& family : families)
+    for (const std::string& family : first_families(4))
         all.insert(all.end(), {"--family", family});
     auto whole = nlohmann::ordered_json::parse(run_packtrace(all).out);
     Words join{"join"};

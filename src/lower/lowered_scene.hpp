@@ -77,4 +77,11 @@ template <class Real>
     return sizeof(Real) == sizeof(float) ? options.accuracy : Accuracy::fast;
 }
 
+/// Lowers a scene for kernels of `Real` as options of rendering have it.
+template <class Real>
+[[nodiscard]] LoweredScene lower_for(const Scene& scene, const RenderOptions& options)
+{
+    return lower(scene, accuracy_in<Real>(options), options.self_hits);
+}
+
 }  // namespace packtrace

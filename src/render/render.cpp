@@ -91,9 +91,8 @@ template <class Real>
 std::shared_ptr<FrameRenderer<Real>> packet_rows(const Scene& scene, const RenderOptions& options)
 {
     const IsaInfo isa = choose_isa(options.isa, options.width);
-    return std::make_shared<FrameRenderer<Real>>(
-        scene, lower(scene, accuracy_in<Real>(options), options.self_hits), kernels_of(isa.name),
-        options);
+    return std::make_shared<FrameRenderer<Real>>(scene, lower_for<Real>(scene, options),
+                                                 kernels_of(isa.name), options);
 }
 
 }  // namespace
@@ -105,8 +104,7 @@ struct Renderer<Real>::State {
 
     State(const Scene& scene, const RenderOptions& options)
         : isa(choose_isa(options.isa, options.width)),
-          frames(scene, lower(scene, accuracy_in<Real>(options), options.self_hits),
-                 kernels_of(isa.name), options)
+          frames(scene, lower_for<Real>(scene, options), kernels_of(isa.name), options)
     {
     }
 };

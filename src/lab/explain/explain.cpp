@@ -41,7 +41,7 @@ RayNode explain_pixel(const Scene& scene, int x, int y, const RenderOptions& opt
     if (options.kernel == Kernel::packet) {
         check_depth<Real>(scene);
         const IsaInfo isa = choose_isa(options.isa, options.width);
-        const LoweredScene lowered = lower(scene, accuracy_in<Real>(options), options.self_hits);
+        const LoweredScene lowered = lower_for<Real>(scene, options);
         return packet_trees<Real>(scene, lowered, kernels_of(isa.name))(x, y);
     }
     if constexpr (!std::is_same_v<Real, double>)

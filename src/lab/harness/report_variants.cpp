@@ -198,8 +198,7 @@ Subject subject_in(const Scene& given, const Variant& variant)
     const Scene scene = scene_of(given, variant);
     if (variant.kernel == Kernel::scalar)
         return scalar_subject<Real>(scene, variant);
-    const LoweredScene lowered =
-        lower(scene, accuracy_in<Real>(options_of(variant)), variant.self_hits);
+    const LoweredScene lowered = lower_for<Real>(scene, options_of(variant));
     return packet_subject<Real>(scene, lowered, kernels_of(variant.isa), variant);
 }
 

@@ -71,7 +71,7 @@ template <class Real>
 ObservedKernels observe_kernels(const Scene& scene, const ProfileOptions& options)
 {
     const RenderOptions sampling = render_options(options);
-    const LoweredScene lowered = lower(scene, accuracy_in<Real>(sampling), sampling.self_hits);
+    const LoweredScene lowered = lower_for<Real>(scene, sampling);
     const auto& table = kernels_of(choose_isa(options.isa).name);
     ObservedFrame<Real> plain(scene, lowered, table, sampling);
     ObservedFrame<Real> observed(scene, observable(lowered), table, sampling);

@@ -55,9 +55,8 @@ std::vector<ProfileStage> stages_once(const std::string& text, const Scene& scen
     read.max_depth = scene.max_depth;
     read.min_weight = scene.min_weight;
     read.camera = scene.camera;
-    const LoweredScene lowered = clock.time("lowering", [&] {
-        return lower(read, accuracy_in<Real>(render_options(options)), options.self_hits);
-    });
+    const LoweredScene lowered =
+        clock.time("lowering", [&] { return lower_for<Real>(read, render_options(options)); });
     // A renderer packs for itself; this is what it takes alone.
     const Stopwatch packing(options.threads);
     {

@@ -57,7 +57,7 @@ std::vector<TileSpan> trace_tiles(const Scene& scene, const ProfileOptions& opti
     validate(scene);
     RenderOptions sampling = render_options(options);
     sampling.adaptive.reset();
-    const LoweredScene lowered = lower(scene, accuracy_in<Real>(sampling), sampling.self_hits);
+    const LoweredScene lowered = lower_for<Real>(scene, sampling);
     const TileRenderer<Real> tiles(scene, lowered, kernels_of(choose_isa(options.isa).name),
                                    sampling);
     const Region picture{0, 0, scene.width, scene.height};
@@ -94,8 +94,7 @@ template <class Real>
 std::vector<double> pixel_costs(const Scene& scene, const ProfileOptions& options)
 {
     validate(scene);
-    const LoweredScene lowered =
-        lower(scene, accuracy_in<Real>(render_options(options)), options.self_hits);
+    const LoweredScene lowered = lower_for<Real>(scene, render_options(options));
     const auto& table = precision<Real>(kernels_of(choose_isa(options.isa).name));
     const PackedScene<Real> packed(lowered,
                                    frame_traversal(lowered, Traversal::automatic, table.lanes));

@@ -193,7 +193,7 @@ template <class Real>
 std::vector<ProfileRun> profile_runs(const Scene& scene, const ProfileOptions& options)
 {
     const RenderOptions sampling = render_options(options);
-    const LoweredScene lowered = lower(scene, accuracy_in<Real>(sampling), sampling.self_hits);
+    const LoweredScene lowered = lower_for<Real>(scene, sampling);
     const auto& table = kernels_of(choose_isa(options.isa).name);
     std::vector<ProfileRun> runs;
     const auto add = [&](const std::string& name, const LoweredScene& changed) {

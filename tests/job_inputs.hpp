@@ -1,0 +1,40 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "run_program.hpp"
+
+// What jobs of several shards or ranks are given.
+namespace packtrace::test {
+
+/// A CSV of rays of several blocks, with a header, comments, blank lines and no end of the last
+/// line.
+[[nodiscard]] inline std::string many_rays(int count)
+{
+    std::string text = "# rays\nox,oy,oz,dx,dy,dz\n";
+    for (int i = 0; i < count; ++i) {
+        text += std::to_string(0.01 * (i % 200) - 1.0) + ",0," + std::to_string(-(i % 7)) + ",0," +
+                std::to_string(0.001 * (i % 300) - 0.1) + ",1\n";
+        if (i % 1000 == 17)
+            text += "\n# a comment\n";
+    }
+    text.pop_back();
+    return text;
+}
+
+/// The first families of rays that `stress` has.
+[[nodiscard]] inline std::vector<std::string> first_families(std::size_t count)
+{
+    const std::string list = run_packtrace({"stress", "--list"}).out;
+    std::vector<std::string> families;
+    for (std::size_t at = list.find('\n'); families.size() < count && at != std::string::npos;
+         at = list.find('\n', at + 1)) {
+        const std::string name = list.substr(at + 1, list.find(' ', at + 1) - at - 1);
+        if (!name.empty() && name.front() != '-')
+            families.push_back(name);
+    }
+    return families;
+}
+
+}  // namespace packtrace::test
