@@ -6,7 +6,7 @@
 #include <tbb/global_control.h>
 
 #include "embree_scene.hpp"
-#include "stopwatch.hpp"
+#include "pass_timer.hpp"
 
 #include <algorithm>
 #include <string>
@@ -44,7 +44,7 @@ Build build_packtrace(const Scene& scene, int threads)
     const tbb::global_control limit(tbb::global_control::max_allowed_parallelism,
                                     static_cast<std::size_t>(threads));
     const double before = allocated_bytes();
-    Stopwatch watch;
+    PassTimer watch;
     std::unique_ptr<RayScene<float>> made;
     watch.measure([&] { made = std::make_unique<RayScene<float>>(scene); });
     return {watch.seconds(), allocated_bytes() - before, 0.0};

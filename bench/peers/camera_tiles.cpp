@@ -1,7 +1,7 @@
 #include "camera_tiles.hpp"
 
+#include "pass_timer.hpp"
 #include "render/camera_view.hpp"
-#include "stopwatch.hpp"
 
 #include <algorithm>
 
@@ -28,7 +28,7 @@ double CameraTiles::trace(Hits& hits)
 {
     // A row of tiles at a time, so that looking at the clock costs nothing.
     std::vector<abi::TileHits<float>> row(static_cast<std::size_t>(width_ / tile_size));
-    Stopwatch watch;
+    PassTimer watch;
     std::size_t first = 0;
     for (job_.y = 0; job_.y < height_; job_.y += tile_size) {
         watch.measure([&] {

@@ -1,7 +1,7 @@
 #include "embree_modes.hpp"
 
 #include "embree_packets.hpp"
-#include "stopwatch.hpp"
+#include "pass_timer.hpp"
 
 #include <array>
 #include <string>
@@ -68,7 +68,7 @@ double trace_packets(const Scene& scene, RTCIntersectContextFlags flags, const R
 {
     Packets<lanes> packets(chunk_size);
     RTCIntersectContext context = context_of(flags);
-    Stopwatch watch;
+    PassTimer watch;
     for (std::size_t first = 0; first < rays.size(); first += chunk_size) {
         const std::size_t count = std::min(chunk_size, rays.size() - first);
         packets.fill(rays, first, count);
@@ -145,7 +145,7 @@ double trace_arrays(const Scene& scene, RTCIntersectContextFlags flags, const Ra
     const auto arrays = std::make_unique<Arrays>();
     RTCRayHitNp view = arrays->view();
     RTCIntersectContext context = context_of(flags);
-    Stopwatch watch;
+    PassTimer watch;
     for (std::size_t first = 0; first < rays.size(); first += chunk_size) {
         const std::size_t count = std::min(chunk_size, rays.size() - first);
         arrays->fill(rays, first, count);

@@ -3,7 +3,7 @@
 #include <packtrace/intersect.hpp>
 
 #include "camera_tiles.hpp"
-#include "stopwatch.hpp"
+#include "pass_timer.hpp"
 
 #include <memory>
 
@@ -12,7 +12,7 @@ namespace {
 
 double trace_stream(const RayScene<float>& scene, const RaySet& rays, Query query, Hits& hits)
 {
-    Stopwatch watch;
+    PassTimer watch;
     for (std::size_t first = 0; first < rays.size(); first += chunk_size) {
         const auto view = rays.view(first, std::min(chunk_size, rays.size() - first));
         const HitsView<float> to{hits.t.data() + first, hits.object.data() + first, {}, {}, {}};

@@ -24,7 +24,7 @@ NO_START = -(2**31)
 Detail = Literal["t", "normal", "point", "start"]
 
 
-@dataclass
+@dataclass(eq=False)
 class Starts:
     """Rays' origins on the surfaces of earlier hits, made by `Hits.leave`. Rays that start there meet
     that surface again only where they truly do."""
@@ -34,7 +34,7 @@ class Starts:
     surface: Array  #: (...), int32, numbers for RayScene
 
 
-@dataclass
+@dataclass(eq=False)
 class Hits:
     """Closest hits. Arrays of vectors have contiguous components."""
 
@@ -72,7 +72,7 @@ class Hits:
         return Starts(origin, self.point, np.where(self.hit, surface, np.int32(NO_START)))
 
 
-@dataclass
+@dataclass(eq=False)
 class AllHits:
     """Every hit of each ray, sorted by t. Those of ray i are [offsets[i]:offsets[i + 1]] of the other
     arrays; rays of several dimensions are counted in C order."""
@@ -138,15 +138,18 @@ class RayScene:
         """The same for the objects of these numbers alone, (n,), which get the transforms (n, 4, 4),
         float64, rows first: Object.transform. The quick way to move many."""
         numbers, matrices = np.asarray(objects), np.asarray(transforms)
+        if numbers.size == 0:
+            numbers = numbers.astype(np.int32)
         if numbers.ndim != 1 or numbers.dtype.kind not in "iu":
             raise ValueError(f"objects are {numbers.dtype} of shape {numbers.shape}; use whole numbers "
                              "of shape (n,)")
         if matrices.shape != (*numbers.shape, 4, 4) or matrices.dtype != np.float64:
             raise ValueError(f"transforms are {matrices.dtype} of shape {matrices.shape}; use float64 "
                              f"of shape {(*numbers.shape, 4, 4)}")
-        if not np.array_equal(matrices[:, 3], np.broadcast_to((0, 0, 0, 1), (len(matrices), 4))):
-            raise ValueError("a transform's last row is not (0, 0, 0, 1); the rows of "
-                             "transforms[i] are those of Object.transform")
+        wrong = np.any(matrices[:, 3] != (0, 0, 0, 1), axis=1)
+        if wrong.any():
+            raise ValueError(f"transforms[{wrong.argmax()}]: the last row is not (0, 0, 0, 1); the rows "
+                             "are those of Object.transform")
         return SceneUpdate(*self._native.transform(_as_int32(numbers, "objects"),
                                                    np.ascontiguousarray(matrices)))
 
@@ -213,13 +216,14 @@ class RayScene:
     def bounds(self, origins: Any, directions: Any, object: Any, t_min: Any = 0.0,
                t_max: Any = np.inf) -> Array:
         """Proven bounds of the t at which each ray first hits the object of number object[...], which
-        `closest` gave: float64, (..., 2), low and high. Low is above high, (inf, -inf), where object
+        `closest` gave, or that all ask about: float64, (..., 2), low and high. Low is above high, (inf, -inf), where object
         is -1 or the ray surely does not hit it. Takes some 10 µs a ray."""
         rays = _Rays(origins, directions, t_min, t_max)
         numbers = np.asarray(object)
-        if numbers.shape != rays.shape or numbers.dtype.kind not in "iu":
-            raise ValueError(f"object is {numbers.dtype} of shape {numbers.shape}; use whole numbers "
-                             f"of the rays' shape {rays.shape}")
+        if numbers.shape not in ((), rays.shape) or numbers.dtype.kind not in "iu":
+            raise ValueError(f"object is {numbers.dtype} of shape {numbers.shape}; use a whole number, or "
+                             f"some of the rays' shape {rays.shape}")
+        numbers = np.broadcast_to(numbers, rays.shape)
         result = np.empty((*rays.shape, 2), np.float64)
         self._native.bounds(*rays.columns, _as_int32(numbers.reshape(-1), "object"),
                             result.reshape(-1, 2))

@@ -28,7 +28,7 @@ ErrorReal<Real> squared_error(const Real* a, const Real* b)
 
 double psnr_of(double rmse)
 {
-    return rmse > 0.0 ? -20.0 * std::log10(rmse) : std::numeric_limits<double>::infinity();
+    return rmse > 0.0 ? 0.0 - 20.0 * std::log10(rmse) : std::numeric_limits<double>::infinity();
 }
 
 // Keeps the `count` largest errors, largest first, then in reading order.

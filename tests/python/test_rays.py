@@ -68,6 +68,15 @@ class TestAnswers(unittest.TestCase):
                 np.array([row[-2:] for row in expected if row[0] == "1"], np.float64),
                 bounds[hits.hit])
             self.assertTrue((bounds[~hits.hit] == (np.inf, -np.inf)).all())
+            np.testing.assert_array_equal(
+                rays.bounds(origins, directions, 1),
+                rays.bounds(origins, directions, np.ones(len(directions), np.int32)))
+
+    def test_hits_are_one_or_another(self):
+        rays = pt.RayScene(hand_scene())
+        hits = rays.closest(*random_rays(3))
+        self.assertEqual(hits, hits)
+        self.assertNotEqual(hits, rays.closest(*random_rays(3)))
 
     def test_hits_worked_out_by_hand(self):
         rays = pt.RayScene(hand_scene())
@@ -419,6 +428,8 @@ class TestMoving(unittest.TestCase):
                 self.scene.objects[number].transform = transform
             self.assert_like_new(rays)
         self.assertFalse(done.rebuilt)
+        self.assertFalse(rays.transform([], np.empty((0, 4, 4))).rebuilt)
+        self.assert_like_new(rays)
 
     def test_updates_get_their_turn_while_others_ask(self):
         rays = pt.RayScene(self.scene, threads=1)
@@ -452,7 +463,8 @@ class TestMoving(unittest.TestCase):
             rays.transform([3, 4], [np.diag((2.0, 2, 2, 1)), flat])
         for message, arguments in (("objects are float64", ([1.5], np.eye(4)[None])),
                                    (r"transforms are float64 of shape \(4, 4\)", ([1], np.eye(4))),
-                                   ("last row", ([1], np.ones((1, 4, 4)))),
+                                   (r"^transforms\[1\]: the last row",
+                                    ([1, 2], np.stack((np.eye(4), np.ones((4, 4)))))),
                                    (r"^objects\[0\] is 200; use 0 to 199", ([200], np.eye(4)[None]))):
             with self.subTest(message), self.assertRaisesRegex(ValueError, message):
                 rays.transform(*arguments)

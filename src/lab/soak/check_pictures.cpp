@@ -144,40 +144,40 @@ std::optional<SoakFinding> check_group(const Scene& scene, const SoakGroup& grou
 
 /// The scalar kernel twice: the picture that counts, and one in another precision that tells
 /// which pixels hang on the last digits.
-struct Judges {
+struct References {
     SoakWay truth;
     SoakWay other;
     double agree;   ///< where both differ by less, relative to the largest value, a pixel counts
     double differ;  ///< and must not be off by more
 };
 
-Judges judges_of(const std::string& precision, SelfHits self_hits)
+References references_of(const std::string& precision, SelfHits self_hits)
 {
     const bool single = precision == "single";
     return {scalar_way("double", self_hits), scalar_way(single ? "single" : "extended", self_hits),
             single ? 1e-4 : 1e-9, single ? 3e-2 : 1e-4};
 }
 
-/// Edges and paths through much glass are left out by the judges, but for a few that are a rounding
-/// away from being left out.
+/// Edges and paths through much glass are left out, as the references differ there, but for a few
+/// that are a rounding away from being left out.
 std::string off_reference(const Scene& scene, const Values& values, const Values& truth,
-                          const Values& other, const Judges& judges)
+                          const Values& other, const References& references)
 {
     const double unit = std::max(largest_value(truth), 1e-30);
     std::size_t counted = 0;
     std::size_t off = 0;
     std::size_t where = 0;
     for (std::size_t i = 0; i < values.size(); ++i) {
-        if (!(std::abs(truth[i] - other[i]) <= judges.agree * unit))
+        if (!(std::abs(truth[i] - other[i]) <= references.agree * unit))
             continue;
         ++counted;
-        if (std::abs(values[i] - truth[i]) <= judges.differ * unit)
+        if (std::abs(values[i] - truth[i]) <= references.differ * unit)
             continue;
         if (off++ == 0)
             where = i;
     }
-    // Where the judges differ, rounding chooses the colour. Of two it may choose the same for both,
-    // about as often as not: then the picture may have the other.
+    // Where the references differ, rounding chooses the colour. Of two it may choose the same for
+    // both, about as often as not: then the picture may have the other.
     const std::size_t left_out = values.size() - counted;
     const std::size_t allowed = 9 + counted / 50 + left_out;
     if (off <= allowed)
@@ -187,10 +187,11 @@ std::string off_reference(const Scene& scene, const Values& values, const Values
            std::to_string(values[where]) + ", which should be " + std::to_string(truth[where]);
 }
 
-std::string off_reference_again(const Scene& scene, const SoakWay& way, const Judges& judges)
+std::string off_reference_again(const Scene& scene, const SoakWay& way,
+                                const References& references)
 {
-    return off_reference(scene, picture(scene, way), picture(scene, judges.truth),
-                         picture(scene, judges.other), judges);
+    return off_reference(scene, picture(scene, way), picture(scene, references.truth),
+                         picture(scene, references.other), references);
 }
 
 std::optional<SoakFinding> check_reference(const Scene& scene, const SoakWay& way,
@@ -199,17 +200,18 @@ std::optional<SoakFinding> check_reference(const Scene& scene, const SoakWay& wa
     // The note's own rule, which the scalar kernel follows, shades in an object's own space.
     if (scene.illumination == Illumination::shader)
         return std::nullopt;
-    const Judges judges = judges_of(way.precision, self_hits);
-    const Values truth = picture(scene, judges.truth);
+    const References references = references_of(way.precision, self_hits);
+    const Values truth = picture(scene, references.truth);
     if (std::string what = not_a_number(scene, truth); !what.empty())
-        return finding_of_one(std::move(what), judges.truth);
-    std::string what = off_reference(scene, values, truth, picture(scene, judges.other), judges);
+        return finding_of_one(std::move(what), references.truth);
+    std::string what =
+        off_reference(scene, values, truth, picture(scene, references.other), references);
     if (what.empty())
         return std::nullopt;
-    const auto again = [way, judges](const Scene& other) {
-        return off_reference_again(other, way, judges);
+    const auto again = [way, references](const Scene& other) {
+        return off_reference_again(other, way, references);
     };
-    return SoakFinding{std::move(what), {way, judges.truth}, std::nullopt, again};
+    return SoakFinding{std::move(what), {way, references.truth}, std::nullopt, again};
 }
 
 std::optional<SoakFinding> check_mode(const Scene& scene, const std::string& precision,

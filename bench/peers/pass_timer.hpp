@@ -5,7 +5,7 @@
 namespace packtrace::peers {
 
 /// Adds up what it measures.
-class Stopwatch {
+class PassTimer {
 public:
     template <class Work>
     void measure(Work work)
