@@ -1,4 +1,9 @@
 // report.html in a real browser.
+#include <regex>
+#include <set>
+#include <string>
+#include <vector>
+
 #include <packtrace/isa.hpp>
 #include <packtrace/report.hpp>
 #include <packtrace/write_report.hpp>
@@ -132,6 +137,30 @@ TEST_CASE("the page shows its pictures without a script", "[report_page]")
         CHECK_THAT(element, ContainsSubstring("alt=\""));
     }
     CHECK(pictures == 2);
+}
+
+TEST_CASE("no id occurs twice on the page, and what plots refer to is there", "[report_page]")
+{
+    const TempFolder folder;
+    const std::string page = read_text(write_page(folder));
+    const auto all_of = [&](const std::string& pattern) {
+        std::vector<std::string> found;
+        const std::regex regex(pattern);
+        for (std::size_t at = page.find("<svg"); at != std::string::npos;
+             at = page.find("<svg", at + 1)) {
+            const std::string plot = page.substr(at, page.find("</svg>", at) - at);
+            for (std::sregex_iterator match(plot.begin(), plot.end(), regex), end; match != end;
+                 ++match)
+                found.push_back((*match)[1]);
+        }
+        return found;
+    };
+    const std::vector<std::string> ids = all_of(" id=['\"]([^'\"]*)");
+    const std::set<std::string> distinct(ids.begin(), ids.end());
+    CHECK(ids.size() > 20);
+    CHECK(distinct.size() == ids.size());
+    for (const std::string& target : all_of("href=['\"]#([^'\"]*)"))
+        CHECK(distinct.count(target) == 1);
 }
 
 TEST_CASE("the page opens in a browser without an error, and its slider and plots work",

@@ -208,12 +208,31 @@ void write_page_table(std::ostream& to, const StudyReport& study)
     to << "</tbody></table></div>\n";
 }
 
-void write_plot(std::ostream& to, const SceneReport& scene, const StudyReport& study)
+/// A plot with `suffix` behind the ids that gnuplot gives all plots alike.
+std::string with_own_ids(const std::string& svg, const std::string& suffix)
 {
-    const std::string svg = report_plot(scene, study);
+    std::string result;
+    std::size_t at = 0;
+    for (;;) {
+        const std::size_t name = std::min({svg.find(" id='", at), svg.find(" id=\"", at),
+                                           svg.find(":href='#", at), svg.find(":href=\"#", at)});
+        const std::size_t open = svg.find_first_of("'\"", name);
+        const std::size_t close = open == std::string::npos ? open : svg.find(svg[open], open + 1);
+        if (close == std::string::npos)
+            return result + svg.substr(at);
+        result.append(svg, at, close - at).append(suffix);
+        at = close;
+    }
+}
+
+void write_plot(std::ostream& to, const SceneReport& scene, const StudyReport& study, int number)
+{
+    const std::string suffix = "_of_" + std::to_string(number);
+    const std::string svg = with_own_ids(report_plot(scene, study), suffix);
     to << "<div class=\"plot\"><div class=\"series\">";
     for (const PlotGroup& group : plot_groups(study))
-        to << "<label><input type=\"checkbox\" checked data-groups=\"" << group.ids << "\"> "
+        to << "<label><input type=\"checkbox\" checked data-groups=\""
+           << replaced(group.ids, ' ', suffix + " ") << suffix << "\"> "
            << "<span class=\"swatch\" style=\"background:" << group.color << "\"></span>"
            << escaped(group.name) << "</label>";
     // What stands before the element is for files.
@@ -236,7 +255,7 @@ const char* title_of(Study study)
 }
 
 void write_study_section(std::ostream& to, const SceneReport& scene, const StudyReport& study,
-                         const ReportOptions& options)
+                         const ReportOptions& options, int number)
 {
     to << "<section class=\"study\"><h3>" << title_of(study.study)
        << "</h3>\n<p class=\"soft\">Truth: " << escaped(study.truth) << ".</p>\n"
@@ -244,7 +263,7 @@ void write_study_section(std::ostream& to, const SceneReport& scene, const Study
     for (const std::string& line : judgement(study, options))
         to << "<li>" << escaped(line) << "</li>";
     to << "</ul>\n";
-    write_plot(to, scene, study);
+    write_plot(to, scene, study, number);
     write_page_table(to, study);
     to << "</section>\n";
 }
@@ -314,13 +333,14 @@ std::string report_html(const std::vector<SceneReport>& scenes, const ReportOpti
     write_page_head(page, options, conditions);
     write_words(page, scenes, options);
     write_links(page, scenes);
+    int plots = 0;
     for (std::size_t i = 0; i < scenes.size(); ++i) {
         const SceneReport& scene = scenes[i];
         page << "<section class=\"scene\" id=\"" << anchor_of(i) << "\"><h2>" << escaped(scene.name)
              << ", " << scene.width << " x " << scene.height << "</h2>\n";
         write_slider(page, scene);
         for (const StudyReport& study : scene.studies)
-            write_study_section(page, scene, study, options);
+            write_study_section(page, scene, study, options, ++plots);
         page << "</section>\n";
     }
     page << "<script type=\"application/json\" id=\"pictures\">"
