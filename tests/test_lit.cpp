@@ -452,6 +452,74 @@ TEMPLATE_TEST_CASE("a lamp beyond where a long cone is cut lights nothing of its
     }
 }
 
+TEMPLATE_TEST_CASE("the half of a body that a lamp is in hides it from the other half's far end",
+                   "[lit]", float, double)
+{
+    // The way goes out of the one half and into the other, both next to the lamp.
+    const double heights[] = {1e3, 1e4, 1e6, sizeof(TestType) == sizeof(float) ? 1e7 : 1e10};
+    for (const double height : heights)
+        for (const std::string body :
+             {"cone { z_range = (-1, ", "hyperboloid2 { z_range = (-2, "}) {
+            const bool is_cone = body.starts_with("cone");
+            const Scene scene =
+                parse_scene(body + std::to_string(height) + ")  capped = yes }" +
+                                "light { type = point  intensity = 1  position = (0.25, 0.125, " +
+                                (is_cone ? "-0.5) }" : "-1.5) }"),
+                            "halves", {});
+            for (const RenderOptions& options : packet_ways()) {
+                CAPTURE(body, height, options.isa, options.traversal);
+                const RayScene<TestType> rays(scene, options);
+                const auto seen =
+                    look(rays, 300, {0, 0, 2 * height}, 0.1 * height, {0, 0, height}, height);
+                const Mask mask = lit(rays, seen.points());
+                int hits = 0;
+                int reached = 0;
+                for (std::size_t i = 0; i < seen.count(); ++i)
+                    if (seen.object[i] == 0 && seen.surface[i] == 2) {
+                        ++hits;
+                        reached += mask[i];
+                    }
+                CHECK(hits > 100);
+                CHECK(reached == 0);
+            }
+        }
+}
+
+TEMPLATE_TEST_CASE(
+    "a lamp next to a cone's apex lights all of the half that it is in, and no other", "[lit]",
+    float, double)
+{
+    // In single precision the points themselves are that far off the cone.
+    const std::vector<double> ways = sizeof(TestType) == sizeof(float)
+                                         ? std::vector<double>{0x1p-4}
+                                         : std::vector<double>{0x1p-16, 0x1p-20, 0x1p-24};
+    for (const double off : ways) {
+        Scene scene = parse_scene("cone { z_range = (-0.5, 128)  capped = yes }", "cone", {});
+        scene.lights = {
+            Light{.type = LightType::point, .intensity = Rgb(1), .vector = {0, 0, off}},
+            Light{.type = LightType::point, .intensity = Rgb(1), .vector = {off / 4, 0, -off}}};
+        for (const RenderOptions& options : packet_ways()) {
+            CAPTURE(off, options.isa, options.traversal);
+            const RayScene<TestType> rays(scene, options);
+            // From inside, where all of it is seen.
+            const auto seen = look(rays, 400, {0, 0, 60}, 1, {0, 0, 85}, 120);
+            int hits = 0;
+            int reached[2] = {};
+            for (std::size_t light = 0; light < 2; ++light) {
+                const Mask mask = lit(rays, seen.points(), light);
+                for (std::size_t i = 0; i < seen.count(); ++i)
+                    if (seen.object[i] == 0 && seen.surface[i] == 0 && seen.point[2][i] > 20) {
+                        hits += light == 0 ? 1 : 0;
+                        reached[light] += mask[i];
+                    }
+            }
+            CHECK(hits > 100);
+            CHECK(reached[0] == hits);
+            CHECK(reached[1] == 0);
+        }
+    }
+}
+
 TEST_CASE("what casts no shadow is in no light's way", "[lit]")
 {
     Scene scene = crowd(150);

@@ -140,6 +140,19 @@ inline std::uint32_t bends_away(const abi::QuadricRecord<double>& quadric, const
     return bits(bend > max(slack * dot(dir, dir), smallest));
 }
 
+/// Lanes whose ways from inside have crossed the gap between the two halves of a body before
+/// `place`, which is inside: there the equation has a largest value along them, and falls.
+inline std::uint32_t past_gap(const abi::QuadricRecord<double>& quadric, const Vec3v<double>& place,
+                              const Vec3v<double>& way)
+{
+    const vreal<double> zero(0.0);
+    const Vec3v<double> v = apply_inverse(quadric, way);
+    const Vec3v<double> p = apply_inverse(quadric, place - broadcast(quadric.center));
+    const Vec3v<double> scaled = broadcast(quadric.square) * v;
+    const vreal<double> slope = madd(vreal<double>(quadric.linear), v.z, dot(scaled, p));
+    return bits(dot(scaled, v) < zero) & bits(slope < zero);
+}
+
 inline OwnCrossing second_crossing(const abi::QuadricRecord<double>& quadric, unsigned piece,
                                    const Vec3v<double>& point, const Vec3v<double>& dir,
                                    const vreal<double>& t_min, vmask<double> outside)
