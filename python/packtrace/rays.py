@@ -216,8 +216,8 @@ class RayScene:
     def bounds(self, origins: Any, directions: Any, object: Any, t_min: Any = 0.0,
                t_max: Any = np.inf) -> Array:
         """Proven bounds of the t at which each ray first hits the object of number object[...], which
-        `closest` gave, or that all ask about: float64, (..., 2), low and high. Low is above high, (inf, -inf), where object
-        is -1 or the ray surely does not hit it. Takes some 10 µs a ray."""
+        `closest` gave, or that all ask about: float64, (..., 2), low and high. Low is above high,
+        (inf, -inf), where object is -1 or the ray surely does not hit it. Takes some 10 µs a ray."""
         rays = _Rays(origins, directions, t_min, t_max)
         numbers = np.asarray(object)
         if numbers.shape not in ((), rays.shape) or numbers.dtype.kind not in "iu":
