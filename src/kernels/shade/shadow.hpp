@@ -4,7 +4,7 @@
 
 #include "kernels/lists/occluded.hpp"
 #include "kernels/retrace/retrace_occluded.hpp"
-#include "kernels/shade/lighting.hpp"
+#include "kernels/shade/own_shadow.hpp"
 #include "kernels/shade/shade_context.hpp"
 
 // Shadow rays of a packet. Those of a point light are traced from it, where they share their
@@ -22,18 +22,6 @@ inline vreal<Real> segment_end(const abi::SceneView<Real>& scene, const LightPac
     const vreal<Real> epsilon(scene.rules.secondary_t_min);
     return scene.rules.units == abi::RayUnits::unit ? nmadd(epsilon, packet.inverse_length, one)
                                                     : one - epsilon;
-}
-
-/// The lanes from which the way to a light leaves a body on the outer side. The N·L of shading
-/// decides, and no other product: one may round to the other side where a light grazes a surface.
-template <class Real>
-inline std::uint32_t outside_towards(const SurfacePacket<Real>& surface,
-                                     const Vec3v<Real>& to_light)
-{
-    const vreal<Real> zero(Real(0));
-    const vreal<Real> normal_light = dot(surface.normal, to_light);
-    return ~((bits(normal_light < zero) & ~surface.turned) |
-             (bits(normal_light > zero) & surface.turned));
 }
 
 /// Where the way between a hit and a light ends at the hit: on the light's side of the surface,
@@ -75,109 +63,6 @@ inline OwnSurface<vint<Real>> common_own_of(const abi::SceneView<Real>& scene,
         return {surface.number, static_cast<std::int32_t>(surface.common)};
     const DistinctNumbers<Real> distinct(surface.number, active);
     return own_with_common<Real>(surface.number, distinct.value(), active);
-}
-
-/// Where the way from a point to a light ends.
-template <class Real>
-inline Real way_end(const abi::LightRecord<Real>& light)
-{
-    return light.kind == abi::LightKind::directional ? static_cast<Real>(__builtin_inf()) : Real(1);
-}
-
-/// How far a place is beyond the planes that clip a side; none is beyond those of another piece.
-template <class Shape>
-inline double height_beyond_clip(const Shape& shape, unsigned piece, const Vec3v<double>& place)
-{
-    if constexpr (requires { shape.clipped; })
-        if (shape.clipped && piece == 0)
-            return first_lane<double>(
-                max(height_over(shape, 1, place), height_over(shape, 2, place)));
-    return -__builtin_inf();
-}
-
-/// The share of a way within which rounding may have the body end before a light, or behind it: of
-/// ways along a surface, both terms of the t cancel.
-inline constexpr double ends_at_light = 0x1p-12;
-
-/// How far beyond a clipping plane rounding may put a light, of the size of coordinates, at most.
-template <class Real>
-inline constexpr Real clip_margin = sizeof(Real) == sizeof(float) ? Real(0x1p-30) : Real(0x1p-46);
-
-/// Lanes of a packet for which past_gap() holds of the body's side.
-template <class Real, class Shape>
-inline std::uint32_t past_gap_of(const Shape& shape, unsigned piece, const Vec3v<double>& place,
-                                 const Vec3v<Real>& way)
-{
-    if constexpr (requires { past_gap(shape, place, place); }) {
-        if (piece != 0)
-            return 0;
-        if constexpr (sizeof(Real) == sizeof(float))
-            return narrow_bits(past_gap(shape, place, widen_low(way)),
-                               past_gap(shape, place, widen_high(way)));
-        else
-            return past_gap(shape, place, way);
-    } else {
-        return 0;
-    }
-}
-
-/// Lanes of `near`, whose ways to a light meet their own body again there, or nearly, for which
-/// that is before it: outside where they come from inside, or inside. What lies on the body is on
-/// neither side. Where the way has two more crossings, through a gap, the light may be inside
-/// again. Beyond the planes that clip the body's side, its equation tells nothing, but there the
-/// way has left it: from a point of the body to where it meets that, it is between them.
-template <class Real>
-[[gnu::noinline]] std::uint32_t behind_own_body(const abi::ShapesView& shapes,
-                                                const vint<Real>& surface, const Vec3v<Real>& point,
-                                                const Vec3v<Real>& way,
-                                                const abi::LightRecord<Real>& light,
-                                                std::uint32_t outside, std::uint32_t near)
-{
-    const double position[3] = {double{light.vector[0]}, double{light.vector[1]},
-                                double{light.vector[2]}};
-    const Vec3v<double> place = broadcast(position);
-    const vreal<Real> size = size_of(point) + size_of(broadcast(light.vector));
-    std::uint32_t behind = 0;
-    for_each_distinct<Real>(surface, near, [&](lane_int<Real> number, vmask<Real> same) {
-        const std::uint32_t lanes_of = bits(same) & near;
-        with_shape(shapes, shapes.index[number], [&](const auto& shape, unsigned piece) {
-            const double height = first_lane<double>(height_over(shape, piece, place));
-            const double beyond = height_beyond_clip(shape, piece, place);
-            if (height > 0)
-                behind |= lanes_of & ~outside;
-            if (height < 0)
-                behind |= lanes_of & (outside | past_gap_of<Real>(shape, piece, place, way));
-            behind |= lanes_of & bits(size * vreal<Real>(clip_margin<Real>) <
-                                      vreal<Real>(static_cast<Real>(beyond)));
-        });
-    });
-    return behind;
-}
-
-/// Lanes of `wanted` that their own body keeps from a light, by SelfHits::exact.
-template <class Real>
-inline std::uint32_t own_shadow(const abi::SceneView<Real>& scene,
-                                const abi::LightRecord<Real>& light,
-                                const LightPacket<Real>& packet, const SurfacePacket<Real>& surface,
-                                std::uint32_t wanted)
-{
-    if (!(scene.rules.start_error > 0))
-        return 0;
-    const std::uint32_t outside = outside_towards(surface, packet.to_light);
-    const abi::ShapesView& shapes = casters_of(scene).shapes;
-    const SecondHit<Real> again =
-        second_hit<Real>(shapes, surface.number, surface.point, packet.to_light,
-                         vreal<Real>(Real(0)), outside, wanted);
-    const vreal<Real> end(way_end(light));
-    const std::uint32_t before = bits(again.t < end) & wanted;
-    if (light.kind == abi::LightKind::directional)
-        return before;
-    const std::uint32_t near =
-        bits(abs(again.t - end) < vreal<Real>(static_cast<Real>(ends_at_light))) & wanted;
-    if (near == 0)
-        return before;
-    return (before & ~near) | behind_own_body<Real>(shapes, again.surface, surface.point,
-                                                    packet.to_light, light, outside, near);
 }
 
 /// Where the way from a point to a light begins that sends no rays: behind the point itself, so
