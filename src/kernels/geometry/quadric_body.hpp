@@ -1,6 +1,6 @@
 #pragma once
 
-#include "kernels/geometry/quadric.hpp"
+#include "kernels/geometry/quadric_place.hpp"
 
 // Where rays that start on a piece of a body meet that body again, in double. That the start is on
 // the piece is known, whatever rounding made of the point: along the ray the side has a root at 0,
@@ -53,17 +53,65 @@ inline vreal<double> place_error(const abi::QuadricRecord<double>& quadric, cons
     return min(moved, vreal<double>(0x1p-10) * abs(root));
 }
 
+/// A gradient as many times as large is much steeper.
+inline constexpr double much_steeper = 4.0;
+
+/// After the first step of Newton's, which leaves at most this of the distance, as many more leave
+/// less than double tells.
+inline constexpr double nearer_by_step = 0x1p-4;
+inline constexpr int further_steps = 3;
+
+/// The point of the side next to `p`, which is near it; p itself where it is not near by the size
+/// of the body.
+inline Vec3v<double> next_on_side(const abi::QuadricRecord<double>& quadric, const Vec3v<double>& p)
+{
+    const auto step_from = [&](const Vec3v<double>& at) {
+        const Vec3v<double> gradient = side_gradient<double>(quadric, at);
+        const vreal<double> half = vreal<double>(-0.5) * quadric_value<double>(quadric, at);
+        const vreal<double> step = half / dot(gradient, gradient);
+        return madd<double>(step, apply_inverse(quadric, gradient), at);
+    };
+    Vec3v<double> next = step_from(p);
+    const auto nearer = abs(quadric_value<double>(quadric, next)) <=
+                        vreal<double>(nearer_by_step) * abs(quadric_value<double>(quadric, p));
+    for (int i = 0; i < further_steps; ++i)
+        next = step_from(next);
+    return select(nearer, next, p);
+}
+
+/// Where on the side rays start whose start, as rounded, is `p`: as a rule p itself, as if it were
+/// on the side. The rays' other end, `far_t` away, then has the same value of the equation, and is
+/// further off the side than p is as the equation is less steep there. Where it is much less, as
+/// next to a cone's apex, they start from the point of the side next to p.
+inline Vec3v<double> start_on_side(const abi::QuadricRecord<double>& quadric,
+                                   const Vec3v<double>& p, const Vec3v<double>& v,
+                                   const vreal<double>& far_t)
+{
+    // Their gradient is not that of one equation, and as steep everywhere.
+    if (crossing_planes(quadric))
+        return p;
+    const Vec3v<double> here = side_gradient<double>(quadric, p);
+    const Vec3v<double> there = side_gradient<double>(quadric, madd<double>(far_t, v, p));
+    const auto flatter =
+        vreal<double>(much_steeper * much_steeper) * dot(there, there) < dot(here, here);
+    return none(flatter) ? p : select(flatter, next_on_side(quadric, p), p);
+}
+
 /// From a point of a quadric's side.
 inline OwnCrossing crossing_from_side(const abi::QuadricRecord<double>& quadric,
                                       const Vec3v<double>& point, const Vec3v<double>& dir,
                                       const vreal<double>& t_min, vmask<double> outside)
 {
     const vreal<double> zero(0.0);
-    const auto [p, height] = quadric_origin<double>(quadric, point);
+    const auto [rounded, height] = quadric_origin<double>(quadric, point);
     const Vec3v<double> v = apply_inverse(quadric, dir);
     const Vec3v<double> scaled = broadcast(quadric.square) * v;
-    const SurfaceLine line{madd(vreal<double>(quadric.linear), v.z, dot(scaled, p)),
-                           bend_along<double>(quadric, scaled, v, dir)};
+    const auto slope_at = [&](const Vec3v<double>& p) {
+        return madd(vreal<double>(quadric.linear), v.z, dot(scaled, p));
+    };
+    SurfaceLine line{slope_at(rounded), bend_along<double>(quadric, scaled, v, dir)};
+    const Vec3v<double> p = start_on_side(quadric, rounded, v, other_root(line, outside));
+    line.slope = slope_at(p);
     if (!quadric.clipped)
         return only_crossing(line, t_min, outside);
     const ClipCrossings<double> clip = clip_crossings<double>(quadric, height, dir);

@@ -24,6 +24,10 @@ constexpr std::size_t sparse = 4;
 /// What a second hit's t may be off by, relative to it.
 constexpr double second_bound = 1e-6;
 
+/// How many times larger the gradient where a ray starts is than where its own surface is far off
+/// the level of its start.
+constexpr int much_steeper = 4;
+
 /// Next to 0 single precision has no number between it and this one.
 constexpr double least_single = 0x1p-149;
 
@@ -67,9 +71,9 @@ double clip_margin(const ZRange& range, double z)
     return margin;
 }
 
-/// Where a ray from P, which counts as of the surface, hits it again; t = 0 for nowhere. The side
+/// Where the ray from P, which counts as of the surface, hits it again; t = 0 for nowhere. The side
 /// that it leaves on says which way it crosses, as for kernels: rounding P may turn a grazing ray.
-TrueHit own_hit(const WideSurface& surface, const WideVec& P, const WideVec& d, bool outside)
+TrueHit hit_from(const WideSurface& surface, const WideVec& P, const WideVec& d, bool outside)
 {
     const WideVec v = surface.direction_to_own(d);
     const Wide a = dot(surface.second_order(v), v);
@@ -90,6 +94,45 @@ TrueHit own_hit(const WideSurface& surface, const WideVec& P, const WideVec& d, 
     hit.condition = condition_of_second(surface, P, d, a, b);
     hit.spread = hit.condition * static_cast<double>(hit.t);
     return hit;
+}
+
+WideVec world_gradient(const WideSurface& surface, const WideVec& P)
+{
+    return surface.covector_to_world(surface.gradient(surface.point_to_own(P)));
+}
+
+/// The point of the surface next to P by Newton's steps; P itself where the first leads no nearer.
+WideVec next_on(const WideSurface& surface, const WideVec& P)
+{
+    const auto value_at = [&](const WideVec& at) {
+        return surface.value(surface.point_to_own(at));
+    };
+    const auto step_from = [&](const WideVec& at) {
+        const WideVec gradient = world_gradient(surface, at);
+        return at + (-value_at(at) / (2 * dot(gradient, gradient))) * gradient;
+    };
+    WideVec at = step_from(P);
+    if (magnitude(value_at(at)) > magnitude(value_at(P)) / 16)
+        return P;
+    for (int i = 0; i < 5; ++i)
+        at = step_from(at);
+    return at;
+}
+
+/// Where a ray from the rounded point P of the surface hits it again. P counts as of the surface,
+/// and the other end is then on the same level of the equation as P. Where the surface's gradient
+/// is so much smaller there that this is far off the surface, the ray starts at the point of the
+/// surface next to P instead.
+TrueHit own_hit(const WideSurface& surface, const WideVec& P, const WideVec& d, bool outside)
+{
+    TrueHit hit = hit_from(surface, P, d, outside);
+    if (hit.t == 0)
+        return hit;
+    const WideVec near = world_gradient(surface, P);
+    const WideVec far = world_gradient(surface, P + hit.t * d);
+    if (much_steeper * much_steeper * dot(far, far) >= dot(near, near))
+        return hit;
+    return hit_from(surface, next_on(surface, P), d, outside);
 }
 
 /// A ray that leaves a hit: what its own surface and the rest of the scene have for it.
