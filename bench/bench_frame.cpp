@@ -1,11 +1,11 @@
 // Whole frames of note 001: packets of every instruction set and the scalar reference.
-#include <benchmark/benchmark.h>
-#include <packtrace/renderer.hpp>
-
 #include "names.hpp"
 #include "reference/render_reference.hpp"
 #include "register.hpp"
 #include "scenes.hpp"
+#include <packtrace/renderer.hpp>
+
+#include <benchmark/benchmark.h>
 
 namespace packtrace::bench {
 namespace {

@@ -1,7 +1,4 @@
 // Closest hits of camera rays, without shading, on one thread.
-#include <benchmark/benchmark.h>
-#include <packtrace/isa.hpp>
-
 #include "core/aligned_array.hpp"
 #include "dispatch/kernels.hpp"
 #include "lower/packed_scene.hpp"
@@ -9,6 +6,9 @@
 #include "register.hpp"
 #include "render/camera_view.hpp"
 #include "scenes.hpp"
+#include <packtrace/isa.hpp>
+
+#include <benchmark/benchmark.h>
 
 namespace packtrace::bench {
 namespace {

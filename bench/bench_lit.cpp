@@ -1,6 +1,16 @@
 // Points that lights reach: RayScene::lit() against occluded() with rays to the light, for points
 // that camera rays hit and for those that their mirrored rays hit, which share no way to the light.
+#include "names.hpp"
+#include "peers/ray_set.hpp"
+#include "register.hpp"
+#include "render/ray_columns.hpp"
+#include "scenes.hpp"
+#include <packtrace/camera.hpp>
+#include <packtrace/generate.hpp>
+#include <packtrace/intersect.hpp>
+
 #include <benchmark/benchmark.h>
+#include <glm/geometric.hpp>
 
 #include <array>
 #include <cmath>
@@ -9,18 +19,6 @@
 #include <memory>
 #include <string>
 #include <vector>
-
-#include <packtrace/camera.hpp>
-#include <packtrace/generate.hpp>
-#include <packtrace/intersect.hpp>
-
-#include <glm/geometric.hpp>
-
-#include "names.hpp"
-#include "peers/ray_set.hpp"
-#include "register.hpp"
-#include "render/ray_columns.hpp"
-#include "scenes.hpp"
 
 namespace packtrace::bench {
 namespace {

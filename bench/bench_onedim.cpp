@@ -1,15 +1,13 @@
-#include <benchmark/benchmark.h>
-
+#include "core/aligned_array.hpp"
+#include "dispatch/kernels.hpp"
+#include <packtrace/isa.hpp>
 #include <packtrace/onedim.hpp>
+
+#include <benchmark/benchmark.h>
 
 #include <random>
 #include <string>
 #include <vector>
-
-#include <packtrace/isa.hpp>
-
-#include "core/aligned_array.hpp"
-#include "dispatch/kernels.hpp"
 
 // Systems per second, one thread. `bitsliced` starts from surfaces in memory, as the other solvers
 // do; `planes` only runs the kernel over bit planes that are ready.

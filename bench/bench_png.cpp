@@ -1,14 +1,13 @@
 // What a picture file costs beside its rendering: note 001's scene at 1024 x 1024.
+#include "image/formats.hpp"
+#include "png_picture.hpp"
+#include <packtrace/image_io.hpp>
+#include <packtrace/renderer.hpp>
+
 #include <benchmark/benchmark.h>
 
 #include <filesystem>
 #include <string>
-
-#include <packtrace/image_io.hpp>
-#include <packtrace/renderer.hpp>
-
-#include "image/formats.hpp"
-#include "png_picture.hpp"
 
 namespace packtrace {
 namespace {

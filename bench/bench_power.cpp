@@ -1,12 +1,12 @@
 // The highlights' power against the C library's.
-#include <benchmark/benchmark.h>
-
-#include <cmath>
-
 #include "dispatch/kernels.hpp"
 #include "names.hpp"
 #include "power_error.hpp"
 #include "register.hpp"
+
+#include <benchmark/benchmark.h>
+
+#include <cmath>
 
 namespace packtrace::bench {
 namespace {

@@ -1,15 +1,14 @@
 // Moving spheres of a RayScene: refitting its hierarchy against building it anew, both from the
 // scene on, and closest hits by either hierarchy.
+#include "names.hpp"
+#include "register.hpp"
+#include <packtrace/generate.hpp>
+#include <packtrace/intersect.hpp>
+
 #include <benchmark/benchmark.h>
 
 #include <random>
 #include <vector>
-
-#include <packtrace/generate.hpp>
-#include <packtrace/intersect.hpp>
-
-#include "names.hpp"
-#include "register.hpp"
 
 namespace packtrace::bench {
 namespace {

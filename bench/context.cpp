@@ -1,10 +1,10 @@
 #include "context.hpp"
 
-#include <nlohmann/json.hpp>
-
 #include "core/text.hpp"
 #include "lab/harness/machine.hpp"
 #include "names.hpp"
+
+#include <nlohmann/json.hpp>
 
 namespace packtrace::bench {
 

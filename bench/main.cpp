@@ -1,7 +1,7 @@
-#include <benchmark/benchmark.h>
-
 #include "context.hpp"
 #include "register.hpp"
+
+#include <benchmark/benchmark.h>
 
 int main(int argc, char** argv)
 {

@@ -1,10 +1,10 @@
 #pragma once
 
+#include "render_scene.hpp"
+
 #include <initializer_list>
 #include <string>
 #include <type_traits>
-
-#include "render_scene.hpp"
 
 namespace packtrace::bench {
 

@@ -1,9 +1,9 @@
 #pragma once
 
-#include <benchmark/benchmark.h>
-
 #include <packtrace/read_scene.hpp>
 #include <packtrace/renderer.hpp>
+
+#include <benchmark/benchmark.h>
 
 namespace packtrace::bench {
 

@@ -1,13 +1,14 @@
 // packtrace_power_error: writes the error of the highlights' power against long double as JSON,
 // by instruction set, precision and decade of the exponent; errors count in units of the last
 // place over powers above 1e-4.
-#include <iostream>
-
-#include <nlohmann/json.hpp>
+#include "power_error.hpp"
 
 #include "context.hpp"
 #include "names.hpp"
-#include "power_error.hpp"
+
+#include <nlohmann/json.hpp>
+
+#include <iostream>
 
 namespace packtrace::bench {
 namespace {

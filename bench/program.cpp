@@ -1,11 +1,11 @@
 #include "program.hpp"
 
+#include <CLI/CLI.hpp>
+
 #include <exception>
 #include <iostream>
 #include <type_traits>
 #include <utility>
-
-#include <CLI/CLI.hpp>
 
 namespace packtrace::bench {
 namespace {

@@ -2,14 +2,14 @@
 // the light swings above both. Writes animation_00.png and the frames after it; the argument is
 // their number, 24 if none is given. ffmpeg -i animation_%02d.png animation.mp4 makes a film of
 // them.
+#include <packtrace/build.hpp>
+#include <packtrace/image_io.hpp>
+#include <packtrace/render.hpp>
+
 #include <cmath>
 #include <cstdio>
 #include <cstdlib>
 #include <variant>
-
-#include <packtrace/build.hpp>
-#include <packtrace/image_io.hpp>
-#include <packtrace/render.hpp>
 
 namespace {
 

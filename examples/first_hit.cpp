@@ -1,7 +1,8 @@
 // Ten lines to a first hit: where a ray meets a ball, and between which numbers that surely lies.
-#include <cstdio>
 #include <packtrace/build.hpp>
 #include <packtrace/intersect.hpp>
+
+#include <cstdio>
 
 int main()
 {

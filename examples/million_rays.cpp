@@ -1,12 +1,12 @@
 // A million rays at a thousand spheres, in double precision: what they hit, and proven bounds of
 // where. million_rays.py does the same with NumPy, and prints the same.
+#include <packtrace/generate.hpp>
+#include <packtrace/intersect.hpp>
+
 #include <cstdint>
 #include <cstdio>
 #include <limits>
 #include <vector>
-
-#include <packtrace/generate.hpp>
-#include <packtrace/intersect.hpp>
 
 namespace {
 

@@ -1,16 +1,16 @@
 #pragma once
 
+#include "lab/stress/placed_quadric.hpp"
+#include "lab/stress/stress_family.hpp"
+
+#include <glm/geometric.hpp>
+#include <glm/gtc/matrix_transform.hpp>
+
 #include <algorithm>
 #include <cmath>
 #include <functional>
 #include <string>
 #include <vector>
-
-#include <glm/geometric.hpp>
-#include <glm/gtc/matrix_transform.hpp>
-
-#include "lab/stress/placed_quadric.hpp"
-#include "lab/stress/stress_family.hpp"
 
 // Rays that are aimed at where hits are decided: past silhouettes, along planes, at creases and
 // rims, by 3e-8 to 1e-3 of the size of what they pass.

@@ -1,10 +1,10 @@
 #pragma once
 
-#include <cstdlib>
-#include <string>
-
 #include "core/run_filter.hpp"
 #include "run_program.hpp"
+
+#include <cstdlib>
+#include <string>
 
 // A real browser without a window, for pages the program writes.
 namespace packtrace::test {

@@ -1,13 +1,13 @@
 #pragma once
 
-#include <cstdint>
-#include <vector>
-
 #include "core/aligned_array.hpp"
 #include "dispatch/kernels.hpp"
 #include "exact_hits.hpp"
 #include "lower/packed_scene.hpp"
 #include "render/camera_view.hpp"
+
+#include <cstdint>
+#include <vector>
 
 // Runs the closest-hit kernel over a scene's camera rays.
 namespace packtrace::test {

@@ -2,9 +2,8 @@
 
 #include <cstdlib>
 #include <optional>
-#include <string>
-
 #include <stdlib.h>
+#include <string>
 
 namespace packtrace::test {
 

@@ -1,10 +1,10 @@
 #pragma once
 
-#include <algorithm>
-#include <cmath>
-
 #include <glm/geometric.hpp>
 #include <glm/vec3.hpp>
+
+#include <algorithm>
+#include <cmath>
 
 // Ray tests in long double, with what is needed to judge a result in less precision: how
 // sensitive t is to its inputs, and how far the ray is from just touching the surface.

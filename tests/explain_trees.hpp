@@ -1,10 +1,10 @@
 #pragma once
 
+#include <packtrace/explain.hpp>
+
 #include <functional>
 #include <string>
 #include <vector>
-
-#include <packtrace/explain.hpp>
 
 // Short calls for the tests of ray trees.
 namespace packtrace::test {

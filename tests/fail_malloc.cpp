@@ -7,12 +7,6 @@
 // linked with it choose for themselves, and count what they have not freed (fail_malloc.hpp).
 #include "fail_malloc.hpp"
 
-#include <dlfcn.h>
-#include <fcntl.h>
-#include <sys/stat.h>
-#include <sys/wait.h>
-#include <unistd.h>
-
 #include <array>
 #include <atomic>
 #include <cerrno>
@@ -20,6 +14,11 @@
 #include <cstdio>
 #include <cstdlib>
 #include <cstring>
+#include <dlfcn.h>
+#include <fcntl.h>
+#include <sys/stat.h>
+#include <sys/wait.h>
+#include <unistd.h>
 
 extern "C" {
 void* __libc_malloc(std::size_t size);

@@ -1,10 +1,10 @@
 #pragma once
 
-#include <string>
-#include <vector>
-
 #include "packet_scenes.hpp"
 #include "scene_text.hpp"
+
+#include <string>
+#include <vector>
 
 // Scenes that do without most of what there is, each in its own way.
 namespace packtrace::test {

@@ -1,13 +1,12 @@
 #pragma once
 
+#include "scenes.hpp"
+#include <packtrace/build.hpp>
+
 #include <cmath>
 #include <cstdlib>
 #include <utility>
 #include <vector>
-
-#include <packtrace/build.hpp>
-
-#include "scenes.hpp"
 
 namespace packtrace::test {
 

@@ -1,8 +1,8 @@
 #pragma once
 
-#include <limits>
-
 #include "closest_hits.hpp"
+
+#include <limits>
 
 // Holds closest hits of the kernels against long double ones.
 namespace packtrace::test {

@@ -1,14 +1,14 @@
 #pragma once
 
+#include "fork_child.hpp"
+#include "run_program.hpp"
+#include "temp_folder.hpp"
+
+#include <string>
 #include <sys/resource.h>
 #include <sys/wait.h>
 #include <unistd.h>
-
-#include <string>
 #include <vector>
-
-#include "run_program.hpp"
-#include "temp_folder.hpp"
 
 namespace packtrace::test {
 
@@ -49,11 +49,8 @@ struct ShellResult {
 [[nodiscard]] inline ShellResult run_in_shell(const std::string& words)
 {
     const std::string command = "exec " + shell_quoted(PACKTRACE_CLI) + " " + words;
-    const pid_t child = fork();
-    if (child == 0) {
-        execl("/bin/sh", "sh", "-c", command.c_str(), static_cast<char*>(nullptr));
-        _exit(127);
-    }
+    const pid_t child = fork_child(
+        [&] { execl("/bin/sh", "sh", "-c", command.c_str(), static_cast<char*>(nullptr)); });
     int status = 0;
     rusage usage{};
     ShellResult result;

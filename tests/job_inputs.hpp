@@ -1,9 +1,9 @@
 #pragma once
 
+#include "run_program.hpp"
+
 #include <string>
 #include <vector>
-
-#include "run_program.hpp"
 
 // What jobs of several shards or ranks are given.
 namespace packtrace::test {

@@ -1,18 +1,17 @@
 #pragma once
 
-#include <sys/wait.h>
-#include <unistd.h>
+#include "fork_child.hpp"
+#include "run_program.hpp"
 
 #include <chrono>
 #include <csignal>
+#include <fcntl.h>
 #include <functional>
 #include <string>
+#include <sys/wait.h>
 #include <thread>
+#include <unistd.h>
 #include <vector>
-
-#include <fcntl.h>
-
-#include "run_program.hpp"
 
 namespace packtrace::test {
 
@@ -32,13 +31,12 @@ namespace packtrace::test {
 [[nodiscard]] inline int kill_program(const std::vector<std::string>& words, int number,
                                       const std::function<bool()>& when)
 {
-    const pid_t child = fork();
-    if (child == 0) {
+    const pid_t child = fork_child([&] {
         const int nowhere = open("/dev/null", O_RDWR);
         for (const int handle : {0, 1, 2})
             dup2(nowhere, handle);
         become(words);
-    }
+    });
     int status = 0;
     while (waitpid(child, &status, WNOHANG) == 0) {
         if (when()) {

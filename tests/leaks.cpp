@@ -1,18 +1,17 @@
 // leaks WORK: does some work of the library's again and again, each time with another allocation
 // that fails; exits 1 where memory is lost or nothing ever fails.
+#include "fail_malloc.hpp"
+#include <packtrace/generate.hpp>
+#include <packtrace/intersect.hpp>
+#include <packtrace/read_scene.hpp>
+#include <packtrace/render.hpp>
+
 #include <cstdint>
 #include <cstdio>
 #include <cstring>
 #include <new>
 #include <string>
 #include <vector>
-
-#include <packtrace/generate.hpp>
-#include <packtrace/intersect.hpp>
-#include <packtrace/read_scene.hpp>
-#include <packtrace/render.hpp>
-
-#include "fail_malloc.hpp"
 
 namespace {
 

@@ -1,8 +1,8 @@
 #pragma once
 
-#include <string>
-
 #include "run_program.hpp"
+
+#include <string>
 
 namespace packtrace::test {
 

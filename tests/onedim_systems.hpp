@@ -1,14 +1,12 @@
 #pragma once
 
+#include "catch.hpp"
+#include <packtrace/isa.hpp>
 #include <packtrace/onedim.hpp>
 
 #include <random>
 #include <string>
 #include <vector>
-
-#include <packtrace/isa.hpp>
-
-#include "catch.hpp"
 
 namespace packtrace::test {
 

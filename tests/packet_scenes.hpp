@@ -1,9 +1,9 @@
 #pragma once
 
+#include "scenes.hpp"
+
 #include <algorithm>
 #include <functional>
-
-#include "scenes.hpp"
 
 // Scenes that reach every branch of the packet kernels, each small and of an odd size, so that
 // tiles are cut at the right and lower edge.

@@ -1,13 +1,12 @@
 #pragma once
 
-#include <algorithm>
-#include <cmath>
-#include <vector>
-
+#include "catch.hpp"
 #include <packtrace/isa.hpp>
 #include <packtrace/render.hpp>
 
-#include "catch.hpp"
+#include <algorithm>
+#include <cmath>
+#include <vector>
 
 namespace packtrace::test {
 

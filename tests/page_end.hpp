@@ -1,14 +1,13 @@
 #pragma once
 
+#include "catch.hpp"
+
 #include <algorithm>
 #include <cstddef>
 #include <span>
-#include <vector>
-
 #include <sys/mman.h>
 #include <unistd.h>
-
-#include "catch.hpp"
+#include <vector>
 
 namespace packtrace::test {
 

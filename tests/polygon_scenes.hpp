@@ -1,16 +1,16 @@
 #pragma once
 
+#include "reference/surfaces/hits.hpp"
+#include <packtrace/scene.hpp>
+
+#include <glm/geometric.hpp>
+#include <glm/gtc/matrix_transform.hpp>
+
 #include <cmath>
 #include <limits>
 #include <random>
 #include <utility>
 #include <vector>
-
-#include <glm/geometric.hpp>
-#include <glm/gtc/matrix_transform.hpp>
-#include <packtrace/scene.hpp>
-
-#include "reference/surfaces/hits.hpp"
 
 namespace packtrace::test {
 

@@ -1,12 +1,12 @@
 #pragma once
 
+#include "dispatch/kernels.hpp"
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
 #include <random>
 #include <vector>
-
-#include "dispatch/kernels.hpp"
 
 // The error of the kernels' highlight_power against long double.
 namespace packtrace::test {

@@ -1,10 +1,10 @@
 #pragma once
 
+#include "run_program.hpp"
+
 #include <filesystem>
 #include <string>
 #include <vector>
-
-#include "run_program.hpp"
 
 // Runs of the program that write files, for tests of what is left of a file where a run fails.
 namespace packtrace::test {

@@ -1,13 +1,13 @@
 // packtrace_quiet_ranks: ranks of a node work side by side, and time alone. Prints the number of
 // nodes; then for each stage of each rank "RANK work|timed BEGIN END", by the machine's clock.
+#include "mpi/quiet_node.hpp"
+#include "mpi/world.hpp"
+
 #include <chrono>
 #include <iostream>
 #include <sstream>
 #include <string>
 #include <thread>
-
-#include "mpi/quiet_node.hpp"
-#include "mpi/world.hpp"
 
 namespace packtrace::mpi {
 namespace {

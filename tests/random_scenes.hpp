@@ -1,13 +1,12 @@
 #pragma once
 
+#include "scenes.hpp"
+#include <packtrace/build.hpp>
+
 #include <cmath>
 #include <numbers>
 #include <string>
 #include <vector>
-
-#include <packtrace/build.hpp>
-
-#include "scenes.hpp"
 
 // Scenes of everything that the language can say, built in code.
 namespace packtrace::test {

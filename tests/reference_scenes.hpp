@@ -1,9 +1,10 @@
 #pragma once
 
-#include <glm/geometric.hpp>
-#include <packtrace/scene.hpp>
 #include "catch.hpp"
 #include "reference/reference.hpp"
+#include <packtrace/scene.hpp>
+
+#include <glm/geometric.hpp>
 
 #include <array>
 #include <cmath>

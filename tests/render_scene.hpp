@@ -1,9 +1,9 @@
 #pragma once
 
+#include <packtrace/renderer.hpp>
+
 #include <string>
 #include <vector>
-
-#include <packtrace/renderer.hpp>
 
 // Short calls of the packet kernels and the scalar reference.
 namespace packtrace::test {

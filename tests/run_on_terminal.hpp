@@ -1,12 +1,11 @@
 #pragma once
 
-#include <pty.h>
-#include <sys/wait.h>
-#include <unistd.h>
-
 #include <cerrno>
+#include <pty.h>
 #include <string>
+#include <sys/wait.h>
 #include <system_error>
+#include <unistd.h>
 #include <vector>
 
 namespace packtrace::test {

@@ -1,12 +1,11 @@
 #pragma once
 
-#include <sys/wait.h>
+#include "temp_folder.hpp"
 
 #include <cstdlib>
 #include <string>
+#include <sys/wait.h>
 #include <vector>
-
-#include "temp_folder.hpp"
 
 namespace packtrace::test {
 

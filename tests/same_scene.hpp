@@ -1,8 +1,7 @@
 #pragma once
 
-#include <packtrace/scene.hpp>
-
 #include "scene/object_names.hpp"
+#include <packtrace/scene.hpp>
 
 // Whether two scenes are the same, number for number.
 namespace packtrace::test {

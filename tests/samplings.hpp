@@ -1,8 +1,8 @@
 #pragma once
 
-#include <vector>
-
 #include <packtrace/render.hpp>
+
+#include <vector>
 
 namespace packtrace::test {
 

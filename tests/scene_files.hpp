@@ -1,13 +1,12 @@
 #pragma once
 
+#include "catch.hpp"
+#include "scenes.hpp"
+#include <packtrace/read_scene.hpp>
+
 #include <algorithm>
 #include <filesystem>
 #include <vector>
-
-#include <packtrace/read_scene.hpp>
-
-#include "catch.hpp"
-#include "scenes.hpp"
 
 // The scenes of the folder scenes/, small.
 namespace packtrace::test {

@@ -1,13 +1,12 @@
 #pragma once
 
+#include "catch.hpp"
+#include "refusal.hpp"
 #include <packtrace/read_scene.hpp>
 
 #include <fstream>
 #include <string>
 #include <vector>
-
-#include "catch.hpp"
-#include "refusal.hpp"
 
 // Helpers for the tests of the scene reader.
 namespace packtrace::test {

@@ -1,12 +1,13 @@
 #pragma once
 
+#include <packtrace/scene.hpp>
+
+#include <glm/geometric.hpp>
+
 #include <cmath>
 #include <random>
 #include <string>
 #include <vector>
-
-#include <glm/geometric.hpp>
-#include <packtrace/scene.hpp>
 
 // Scenes for tests and benchmarks of the packet kernels, built in code.
 namespace packtrace::test {

@@ -1,10 +1,10 @@
 #pragma once
 
+#include "simd_packet.hpp"
+
 #include <cmath>
 #include <limits>
 #include <random>
-
-#include "simd_packet.hpp"
 
 // Operands for the tests of simd.hpp: every combination of the numbers that break things, and
 // random ones.

@@ -1,12 +1,11 @@
 #pragma once
 
+#include "dispatch/kernels.hpp"
+#include <packtrace/isa.hpp>
+
 #include <cstdint>
 #include <string>
 #include <vector>
-
-#include <packtrace/isa.hpp>
-
-#include "dispatch/kernels.hpp"
 
 // Runs single operations of the kernels' simd.hpp on packets, for every instruction set the
 // machine has.

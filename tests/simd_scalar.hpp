@@ -1,9 +1,9 @@
 #pragma once
 
+#include "simd_operands.hpp"
+
 #include <bit>
 #include <cmath>
-
-#include "simd_operands.hpp"
 
 // What each operation of simd.hpp that works lane by lane must give, in plain scalar code.
 namespace packtrace::test {

@@ -5,12 +5,11 @@
 #include <fstream>
 #include <iterator>
 #include <stdexcept>
+#include <stdlib.h>
 #include <string>
 #include <string_view>
 #include <system_error>
 #include <vector>
-
-#include <stdlib.h>
 
 namespace packtrace::test {
 

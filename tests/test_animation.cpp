@@ -1,17 +1,16 @@
 // The camera of each frame, the names of frames, and the bytes of a video.
-#include <packtrace/animate.hpp>
-
-#include <cmath>
-#include <stdexcept>
-#include <vector>
-
-#include <glm/geometric.hpp>
-
 #include "catch.hpp"
 #include "image/y4m.hpp"
 #include "refusal.hpp"
 #include "render/frame_numbers.hpp"
 #include "scene_text.hpp"
+#include <packtrace/animate.hpp>
+
+#include <glm/geometric.hpp>
+
+#include <cmath>
+#include <stdexcept>
+#include <vector>
 
 namespace packtrace::test {
 namespace {

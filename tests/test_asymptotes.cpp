@@ -1,5 +1,12 @@
 // Rays along asymptotes and generators of quadrics, where a in a t² + 2 b t + c is 0 and b may be
 // small: t is -c / 2b, however far.
+#include "catch.hpp"
+#include "core/quad.hpp"
+#include "packet_ways.hpp"
+#include "scenes.hpp"
+#include <packtrace/intersect.hpp>
+#include <packtrace/read_scene.hpp>
+
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -7,14 +14,6 @@
 #include <limits>
 #include <string>
 #include <vector>
-
-#include <packtrace/intersect.hpp>
-#include <packtrace/read_scene.hpp>
-
-#include "catch.hpp"
-#include "core/quad.hpp"
-#include "packet_ways.hpp"
-#include "scenes.hpp"
 
 namespace packtrace::test {
 namespace {

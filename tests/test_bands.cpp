@@ -1,12 +1,4 @@
 // Pictures rendered and written some rows at a time.
-#include <packtrace/renderer.hpp>
-
-#include <string>
-#include <vector>
-
-#include <packtrace/image_io.hpp>
-#include <packtrace/read_scene.hpp>
-
 #include "catch.hpp"
 #include "core/cut_rays.hpp"
 #include "image/formats.hpp"
@@ -16,6 +8,12 @@
 #include "samplings.hpp"
 #include "scene_files.hpp"
 #include "temp_folder.hpp"
+#include <packtrace/image_io.hpp>
+#include <packtrace/read_scene.hpp>
+#include <packtrace/renderer.hpp>
+
+#include <string>
+#include <vector>
 
 namespace packtrace::test {
 namespace {

@@ -1,14 +1,13 @@
 // The program's `bench`: times against a baseline.
-#include <packtrace/isa.hpp>
-
-#include <algorithm>
-#include <string_view>
-
-#include <nlohmann/json.hpp>
-
 #include "catch.hpp"
 #include "killed_program.hpp"
 #include "run_program.hpp"
+#include <packtrace/isa.hpp>
+
+#include <nlohmann/json.hpp>
+
+#include <algorithm>
+#include <string_view>
 
 namespace packtrace::test {
 namespace {

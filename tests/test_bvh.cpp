@@ -1,4 +1,8 @@
 #include "bvh/bvh.hpp"
+#include "bvh/split.hpp"
+#include "catch.hpp"
+
+#include <tbb/task_arena.h>
 
 #include <algorithm>
 #include <cmath>
@@ -6,11 +10,6 @@
 #include <cstring>
 #include <limits>
 #include <random>
-
-#include <tbb/task_arena.h>
-
-#include "bvh/split.hpp"
-#include "catch.hpp"
 
 // The hierarchy's invariants, whatever it is built of.
 namespace packtrace {

@@ -1,13 +1,12 @@
+#include "catch.hpp"
+#include "render_scene.hpp"
 #include <packtrace/camera.hpp>
+#include <packtrace/read_scene.hpp>
+
+#include <glm/geometric.hpp>
 
 #include <stdexcept>
 #include <string>
-
-#include <glm/geometric.hpp>
-#include <packtrace/read_scene.hpp>
-
-#include "catch.hpp"
-#include "render_scene.hpp"
 
 namespace packtrace {
 

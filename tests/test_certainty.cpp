@@ -1,12 +1,10 @@
 // Which rays single precision is unsure of: by pixel, by cause, and what refuses to tell.
+#include "catch.hpp"
+#include "memory_limit.hpp"
+#include "run_program.hpp"
+#include "scenes.hpp"
+#include "temp_folder.hpp"
 #include <packtrace/certainty.hpp>
-
-#include <algorithm>
-#include <cmath>
-#include <numeric>
-#include <sstream>
-#include <stdexcept>
-
 #include <packtrace/image_io.hpp>
 #include <packtrace/isa.hpp>
 #include <packtrace/read_scene.hpp>
@@ -14,11 +12,11 @@
 
 #include <nlohmann/json.hpp>
 
-#include "catch.hpp"
-#include "memory_limit.hpp"
-#include "run_program.hpp"
-#include "scenes.hpp"
-#include "temp_folder.hpp"
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+#include <sstream>
+#include <stdexcept>
 
 namespace packtrace::test {
 namespace {

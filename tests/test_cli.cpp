@@ -1,8 +1,6 @@
-#include <sstream>
-#include <string>
-#include <utility>
-#include <vector>
-
+#include "catch.hpp"
+#include "run_on_terminal.hpp"
+#include "run_program.hpp"
 #include <packtrace/image_io.hpp>
 #include <packtrace/isa.hpp>
 #include <packtrace/read_scene.hpp>
@@ -10,9 +8,10 @@
 
 #include <nlohmann/json.hpp>
 
-#include "catch.hpp"
-#include "run_on_terminal.hpp"
-#include "run_program.hpp"
+#include <sstream>
+#include <string>
+#include <utility>
+#include <vector>
 
 namespace packtrace {
 namespace {

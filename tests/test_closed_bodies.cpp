@@ -1,20 +1,21 @@
 // Capped bodies are closed for packets too: rays from inside leave once more than they enter, lines
 // from outside leave as often as they enter, at rims as well.
+#include "catch.hpp"
+#include "lab/stress/stress.hpp"
+#include "reference_scenes.hpp"
+#include "render/option_words.hpp"
+#include "render/ray_columns.hpp"
+#include "render_scene.hpp"
+#include <packtrace/intersect.hpp>
+#include <packtrace/isa.hpp>
+
+#include <glm/gtc/matrix_transform.hpp>
+
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>
 #include <limits>
 #include <random>
-
-#include <glm/gtc/matrix_transform.hpp>
-#include <packtrace/intersect.hpp>
-#include <packtrace/isa.hpp>
-
-#include "catch.hpp"
-#include "lab/stress/stress.hpp"
-#include "reference_scenes.hpp"
-#include "render/ray_columns.hpp"
-#include "render_scene.hpp"
 
 namespace packtrace::test {
 namespace {
@@ -55,8 +56,8 @@ void check_closed(int rays, std::uint64_t seed)
                                      .bounds = false};
     lab::run_stress(options, [](const std::vector<lab::StressRow>& rows) {
         for (const lab::StressRow& row : rows) {
-            CAPTURE(row.family, row.precision, row.kernel, row.isa, row.example);
-            if (row.kernel == "packet" || row.precision == "double") {
+            CAPTURE(row.family, language::word_of(row.precision), row.kernel, row.isa, row.example);
+            if (row.kernel == "packet" || row.precision == Precision::double_) {
                 CHECK(row.not_closed == 0);
                 CHECK(row.lost == 0);
             }

@@ -1,10 +1,9 @@
 // What lies exactly where something begins: hits in the plane of projection, rays along and on
 // surfaces.
-#include <cmath>
-#include <string>
-#include <utility>
-#include <vector>
-
+#include "catch.hpp"
+#include "lab/soak/soak.hpp"
+#include "packet_ways.hpp"
+#include "scenes.hpp"
 #include <packtrace/compare.hpp>
 #include <packtrace/intersect.hpp>
 #include <packtrace/read_scene.hpp>
@@ -12,10 +11,10 @@
 
 #include <tbb/global_control.h>
 
-#include "catch.hpp"
-#include "lab/soak/soak.hpp"
-#include "packet_ways.hpp"
-#include "scenes.hpp"
+#include <cmath>
+#include <string>
+#include <utility>
+#include <vector>
 
 namespace packtrace::test {
 namespace {

@@ -1,12 +1,11 @@
 // A caller's rays that run together hit what each of them hits alone, bit for bit.
-#include <cstring>
-#include <limits>
-
-#include <packtrace/intersect.hpp>
-
 #include "catch.hpp"
 #include "few_objects.hpp"
 #include "render_scene.hpp"
+#include "same_bits.hpp"
+#include <packtrace/intersect.hpp>
+
+#include <limits>
 
 namespace packtrace::test {
 namespace {
@@ -60,8 +59,7 @@ TEST_CASE("rays that run together hit what each hits alone", "[common_hits]")
                 const SurfaceHit<float> alone = together.closest_hit(rays[i]);
                 CAPTURE(i);
                 REQUIRE(hits[i].object == alone.object);
-                REQUIRE(std::memcmp(&hits[i].t, &alone.t, sizeof alone.t) == 0);
-                REQUIRE(std::memcmp(hits[i].normal, alone.normal, sizeof alone.normal) == 0);
+                REQUIRE(same_bits(hits[i], alone));
                 found += alone.object >= 0;
             }
         }

@@ -1,4 +1,9 @@
+#include "catch.hpp"
+#include "run_program.hpp"
 #include <packtrace/compare.hpp>
+#include <packtrace/image_io.hpp>
+
+#include <nlohmann/json.hpp>
 
 #include <cmath>
 #include <fstream>
@@ -6,13 +11,6 @@
 #include <stdexcept>
 #include <string>
 #include <vector>
-
-#include <packtrace/image_io.hpp>
-
-#include <nlohmann/json.hpp>
-
-#include "catch.hpp"
-#include "run_program.hpp"
 
 namespace packtrace {
 namespace {
@@ -107,6 +105,7 @@ TEST_CASE("the worst pixels come in reading order where errors tie", "[compare]"
     CHECK((result.worst[2].x == 1 && result.worst[2].y == 0));
     CHECK(compare(a, b, {.worst = 0}).worst.empty());
     CHECK(compare(a, b, {.worst = 100}).worst.size() == 6);
+    CHECK_THROWS_WITH(compare(a, b, {.worst = -1}), ContainsSubstring("worst: -1"));
 }
 
 TEST_CASE("NaN is infinitely far from everything, infinity only from others", "[compare]")

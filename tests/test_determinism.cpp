@@ -1,22 +1,14 @@
 // The picture has the same bits whatever the width of packets and the number of threads.
-#include <cstring>
-
-#include <tbb/global_control.h>
-#include <packtrace/compare.hpp>
-
 #include "catch.hpp"
 #include "packet_scenes.hpp"
 #include "render_scene.hpp"
+#include "same_bits.hpp"
+#include <packtrace/compare.hpp>
+
+#include <tbb/global_control.h>
 
 namespace packtrace::test {
 namespace {
-
-template <class Real>
-bool same_picture_bits(const Image<Real>& a, const Image<Real>& b)
-{
-    return a.width == b.width && a.height == b.height &&
-           std::memcmp(a.rgb.data(), b.rgb.data(), a.rgb.size() * sizeof(Real)) == 0;
-}
 
 /// Lets TBB use that many threads, also where the machine has fewer.
 class Parallelism {
@@ -42,7 +34,7 @@ TEMPLATE_TEST_CASE("the picture is the same for every width with fused multiply-
             const Image<TestType> picture = render_packets<TestType>(named.scene, isa);
             if (first.rgb.empty())
                 first = picture;
-            CHECK(same_picture_bits(picture, first));
+            CHECK(same_bits(picture, first));
         }
     }
 }
@@ -65,7 +57,7 @@ TEST_CASE("the picture is the same for every width and number of threads in ever
                         const Image<float> picture = render<float>(named.scene, options);
                         if (first.rgb.empty())
                             first = picture;
-                        CHECK(same_picture_bits(picture, first));
+                        CHECK(same_bits(picture, first));
                     }
             }
 }
@@ -79,7 +71,7 @@ TEST_CASE("the picture of note 001 in full size is the same for every width", "[
         const Image<float> picture = render_packets<float>(scene, isa);
         if (first.rgb.empty())
             first = picture;
-        CHECK(same_picture_bits(picture, first));
+        CHECK(same_bits(picture, first));
     }
 }
 
@@ -92,7 +84,7 @@ TEMPLATE_TEST_CASE("the picture is the same for every number of threads", "[dete
             const Image<TestType> one = render_packets<TestType>(scene, isa, 1);
             for (const int threads : {0, 2, 7}) {
                 CAPTURE(isa, threads);
-                CHECK(same_picture_bits(render_packets<TestType>(scene, isa, threads), one));
+                CHECK(same_bits(render_packets<TestType>(scene, isa, threads), one));
             }
         }
 }
@@ -108,7 +100,7 @@ TEST_CASE("a renderer gives the same picture every time", "[determinism]")
         std::fill(again.rgb.begin(), again.rgb.end(), 7.0f);
         for (int run = 0; run < 5; ++run) {
             (void)renderer.render(again);
-            CHECK(same_picture_bits(again, first));
+            CHECK(same_bits(again, first));
         }
     }
 }

@@ -1,17 +1,16 @@
 // Rays of numbers with structure, for which nothing is to be rounded: through poles that clips
 // touch, from points of a surface, from far along a cylinder, and at coefficients of unlike sizes.
+#include "catch.hpp"
+#include "packet_ways.hpp"
+#include "scenes.hpp"
+#include <packtrace/intersect.hpp>
+#include <packtrace/read_scene.hpp>
+
 #include <array>
 #include <cmath>
 #include <limits>
 #include <string>
 #include <vector>
-
-#include <packtrace/intersect.hpp>
-#include <packtrace/read_scene.hpp>
-
-#include "catch.hpp"
-#include "packet_ways.hpp"
-#include "scenes.hpp"
 
 namespace packtrace::test {
 namespace {

@@ -1,15 +1,14 @@
 // Ray trees of single pixels: packets against the reference, and both against the pictures.
+#include "dispatch/kernels.hpp"
+#include "explain_trees.hpp"
+#include "render_scene.hpp"
+#include "scene_files.hpp"
 #include <packtrace/explain.hpp>
 
 #include <cmath>
 #include <limits>
 #include <set>
 #include <string>
-
-#include "dispatch/kernels.hpp"
-#include "explain_trees.hpp"
-#include "render_scene.hpp"
-#include "scene_files.hpp"
 
 namespace packtrace::test {
 namespace {

@@ -1,20 +1,19 @@
 // The program's `explain`.
+#include "catch.hpp"
+#include "explain_trees.hpp"
+#include "render_scene.hpp"
+#include "run_program.hpp"
+#include "scenes.hpp"
 #include <packtrace/isa.hpp>
 #include <packtrace/read_scene.hpp>
+
+#include <nlohmann/json.hpp>
 
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>
 #include <iterator>
 #include <sstream>
-
-#include <nlohmann/json.hpp>
-
-#include "catch.hpp"
-#include "explain_trees.hpp"
-#include "render_scene.hpp"
-#include "run_program.hpp"
-#include "scenes.hpp"
 
 namespace packtrace::test {
 namespace {

@@ -1,11 +1,10 @@
 // Shadows at points from which a light and what is near it are all but in one place.
-#include <algorithm>
-
+#include "catch.hpp"
+#include "packet_ways.hpp"
 #include <packtrace/read_scene.hpp>
 #include <packtrace/render.hpp>
 
-#include "catch.hpp"
-#include "packet_ways.hpp"
+#include <algorithm>
 
 namespace packtrace::test {
 namespace {

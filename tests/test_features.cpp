@@ -1,10 +1,4 @@
 // What a scene does not need is left out, and its picture stays the same, bit for bit.
-#include <cstring>
-
-#include <packtrace/build.hpp>
-#include <packtrace/compare.hpp>
-#include <packtrace/write_scene.hpp>
-
 #include "catch.hpp"
 #include "dispatch/kernels.hpp"
 #include "feature_scenes.hpp"
@@ -13,6 +7,10 @@
 #include "render/tile_loop.hpp"
 #include "render/tile_renderer.hpp"
 #include "render_scene.hpp"
+#include "same_bits.hpp"
+#include <packtrace/build.hpp>
+#include <packtrace/compare.hpp>
+#include <packtrace/write_scene.hpp>
 
 namespace packtrace::test {
 namespace {
@@ -21,12 +19,6 @@ template <class Real>
 Image<Real> render_general(const Scene& scene, const std::string& isa)
 {
     return render<Real>(scene, {.isa = isa, .force_general = true});
-}
-
-template <class Real>
-bool same_bits(const Image<Real>& a, const Image<Real>& b)
-{
-    return std::memcmp(a.rgb.data(), b.rgb.data(), a.rgb.size() * sizeof(Real)) == 0;
 }
 
 /// What one thread did for a whole picture, and the memory it did it in.
@@ -147,28 +139,28 @@ TEST_CASE("where kernels for sets of features are compiled in, they run", "[feat
 
 TEST_CASE("what is left out does not run", "[features]")
 {
-    const auto stages = [](const Scene& scene) { return work_of(scene).counts.stages; };
-    const auto fast_stages = [](const Scene& scene) {
-        return work_of(scene, false, Accuracy::fast).counts.stages;
+    const auto passed = [](const Scene& scene) { return work_of(scene).counts.passed; };
+    const auto passed_by_fast = [](const Scene& scene) {
+        return work_of(scene, false, Accuracy::fast).counts.passed;
     };
     // In exact mode hits are refined where anything but their object counts.
-    const std::uint32_t shown = abi::stage_hits | abi::stage_normals;
-    const std::uint32_t shaded = shown | abi::stage_blockers | abi::stage_shadow_rays;
-    CHECK(stages(matt_scene()) == (shaded | abi::stage_refined));
-    CHECK(fast_stages(matt_scene()) == shaded);
-    CHECK(stages(scene_named("ambient light alone")) == abi::stage_hits);
-    CHECK(stages(scene_named("ambient light on a quadric")) == abi::stage_hits);
+    const std::uint32_t shown = abi::passed_hits | abi::passed_normals;
+    const std::uint32_t shaded = shown | abi::passed_occluders | abi::passed_shadow_rays;
+    CHECK(passed(matt_scene()) == (shaded | abi::passed_refined));
+    CHECK(passed_by_fast(matt_scene()) == shaded);
+    CHECK(passed(scene_named("ambient light alone")) == abi::passed_hits);
+    CHECK(passed(scene_named("ambient light on a quadric")) == abi::passed_hits);
     for (const char* name : {"no shadows", "no object with a shadow"}) {
-        CHECK(stages(scene_named(name)) == (shown | abi::stage_refined));
-        CHECK(fast_stages(scene_named(name)) == shown);
+        CHECK(passed(scene_named(name)) == (shown | abi::passed_refined));
+        CHECK(passed_by_fast(scene_named(name)) == shown);
     }
-    CHECK((stages(scene_named("highlights")) & abi::stage_powers) != 0);
-    CHECK((stages(scene_named("mirrors")) & (abi::stage_powers | abi::stage_mirrored)) ==
-          abi::stage_mirrored);
-    CHECK((stages(scene_named("tinted mirrors")) & abi::stage_refracted) == 0);
-    CHECK((stages(scene_named("glass")) & abi::stage_refracted) != 0);
-    CHECK((stages(forest_scene()) & abi::stage_hierarchy) != 0);
-    CHECK((stages(matt_scene()) & abi::stage_hierarchy) == 0);
+    CHECK((passed(scene_named("highlights")) & abi::passed_powers) != 0);
+    CHECK((passed(scene_named("mirrors")) & (abi::passed_powers | abi::passed_mirrored)) ==
+          abi::passed_mirrored);
+    CHECK((passed(scene_named("tinted mirrors")) & abi::passed_refracted) == 0);
+    CHECK((passed(scene_named("glass")) & abi::passed_refracted) != 0);
+    CHECK((passed(forest_scene()) & abi::passed_hierarchy) != 0);
+    CHECK((passed(matt_scene()) & abi::passed_hierarchy) == 0);
 }
 
 TEST_CASE("rays of what is left out are not traced", "[features]")

@@ -1,18 +1,18 @@
 // Polygons whose transform flattens or stretches them: where double loses digits of their normals.
-#include <cmath>
-#include <limits>
-#include <string>
-#include <vector>
-
-#include <glm/geometric.hpp>
-#include <glm/gtc/matrix_transform.hpp>
-#include <packtrace/intersect.hpp>
-#include <packtrace/read_scene.hpp>
-
 #include "catch.hpp"
 #include "lab/truth/wide_truth.hpp"
 #include "packet_ways.hpp"
 #include "scenes.hpp"
+#include <packtrace/intersect.hpp>
+#include <packtrace/read_scene.hpp>
+
+#include <glm/geometric.hpp>
+#include <glm/gtc/matrix_transform.hpp>
+
+#include <cmath>
+#include <limits>
+#include <string>
+#include <vector>
 
 namespace packtrace::test {
 namespace {

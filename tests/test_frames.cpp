@@ -1,17 +1,15 @@
 // render --frame, --frames and --y4m.
-#include <packtrace/animate.hpp>
-
-#include <filesystem>
-#include <vector>
-
-#include <packtrace/image_io.hpp>
-#include <packtrace/read_scene.hpp>
-#include <packtrace/render.hpp>
-
 #include "catch.hpp"
 #include "core/text.hpp"
 #include "image/y4m.hpp"
 #include "run_program.hpp"
+#include <packtrace/animate.hpp>
+#include <packtrace/image_io.hpp>
+#include <packtrace/read_scene.hpp>
+#include <packtrace/render.hpp>
+
+#include <filesystem>
+#include <vector>
 
 namespace packtrace::test {
 namespace {
@@ -254,6 +252,7 @@ TEST_CASE("wrong uses of frames end with 2 and one line", "[frames]")
         {"%d.png", {"--frames", "1-4"}, s, "is not a range of frames"},
         {"%d.png", {"--frames", "0..1"}, "still.scene", "--frames: the scene has no animation"},
         {"-", {"--y4m"}, "still.scene", "--y4m: the scene has no animation"},
+        {"a.mp4", {"--y4m"}, s, "--y4m: writes YUV4MPEG2, not .mp4; write it to -"},
         {"a.png", {"--frame", "0"}, "still.scene", "--frame: the scene has no animation"},
         {"a.png", {"--frame", "5"}, s, "frame 5 is none of the animation's, 0..4"},
         {"%d.png", {"--frame", "1", "--frames", "0..1"}, s, "--frame: one frame only"},

@@ -1,9 +1,4 @@
 // Paths that are traced in registers bring what those in streams bring, bit for bit.
-#include <cstring>
-
-#include <packtrace/build.hpp>
-#include <packtrace/read_scene.hpp>
-
 #include "catch.hpp"
 #include "dispatch/kernels.hpp"
 #include "few_objects.hpp"
@@ -12,6 +7,9 @@
 #include "render/tile_loop.hpp"
 #include "render/tile_renderer.hpp"
 #include "render_scene.hpp"
+#include "same_bits.hpp"
+#include <packtrace/build.hpp>
+#include <packtrace/read_scene.hpp>
 
 namespace packtrace::test {
 namespace {
@@ -41,11 +39,6 @@ Frame render_tiles(const Scene& scene, const std::string& isa, bool streams, int
     for (int tile = 0; tile < grid.count(); ++tile)
         frame.counts += tiles.render(frame.image, grid[tile]);
     return frame;
-}
-
-bool same_bits(const Image<float>& a, const Image<float>& b)
-{
-    return std::memcmp(a.rgb.data(), b.rgb.data(), a.rgb.size() * sizeof(float)) == 0;
 }
 
 Scene note_scene()

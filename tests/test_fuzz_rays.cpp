@@ -1,18 +1,18 @@
 // Rays of any bit pattern: kernels answer, and what they answer is in range.
-#include <bit>
-#include <cmath>
-#include <cstdint>
-#include <vector>
-
-#include <glm/gtc/matrix_transform.hpp>
-#include <packtrace/intersect.hpp>
-#include <packtrace/isa.hpp>
-
 #include "catch.hpp"
 #include "lab/stress/placed_quadric.hpp"
 #include "lab/stress/stress_random.hpp"
 #include "reference_scenes.hpp"
 #include "render/ray_columns.hpp"
+#include <packtrace/intersect.hpp>
+#include <packtrace/isa.hpp>
+
+#include <glm/gtc/matrix_transform.hpp>
+
+#include <bit>
+#include <cmath>
+#include <cstdint>
+#include <vector>
 
 namespace packtrace::test {
 namespace {

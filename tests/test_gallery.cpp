@@ -1,14 +1,13 @@
 // The page of pictures keeps up with the scenes.
-#include <filesystem>
-#include <string>
-
-#include <packtrace/image_io.hpp>
-
 #include "catch.hpp"
 #include "render_scene.hpp"
 #include "run_program.hpp"
 #include "scene_files.hpp"
 #include "temp_folder.hpp"
+#include <packtrace/image_io.hpp>
+
+#include <filesystem>
+#include <string>
 
 namespace packtrace::test {
 

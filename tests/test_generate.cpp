@@ -1,19 +1,18 @@
+#include "catch.hpp"
+#include "refusal.hpp"
+#include "run_program.hpp"
+#include "scene_text.hpp"
 #include <packtrace/generate.hpp>
 #include <packtrace/read_scene.hpp>
 #include <packtrace/write_scene.hpp>
+
+#include <glm/geometric.hpp>
 
 #include <cmath>
 #include <filesystem>
 #include <set>
 #include <string>
 #include <vector>
-
-#include <glm/geometric.hpp>
-
-#include "catch.hpp"
-#include "refusal.hpp"
-#include "run_program.hpp"
-#include "scene_text.hpp"
 
 // Procedural scenes, and scenes as text.
 namespace packtrace {

@@ -1,17 +1,16 @@
 // Mirrors and glass in packets against the laws of light and the promises about memory.
-#include <packtrace/renderer.hpp>
-
-#include <cmath>
-#include <limits>
-
-#include <glm/gtc/matrix_transform.hpp>
-
 #include "catch.hpp"
 #include "dispatch/kernels.hpp"
 #include "lower/packed_scene.hpp"
 #include "peak_memory.hpp"
 #include "reference_scenes.hpp"
 #include "render_scene.hpp"
+#include <packtrace/renderer.hpp>
+
+#include <glm/gtc/matrix_transform.hpp>
+
+#include <cmath>
+#include <limits>
 
 namespace packtrace::test {
 namespace {

@@ -1,20 +1,19 @@
 // Proven bounds of hits: they hold what is truly hit.
-#include <algorithm>
-#include <cmath>
-#include <limits>
-#include <numeric>
-
+#include "catch.hpp"
+#include "core/quad.hpp"
+#include "intersect_program.hpp"
+#include "lab/stress/stress_family.hpp"
+#include "lab/stress/stress_subject.hpp"
 #include <packtrace/intersect.hpp>
 #include <packtrace/isa.hpp>
 #include <packtrace/read_scene.hpp>
 
 #include <boost/multiprecision/cpp_int.hpp>
 
-#include "catch.hpp"
-#include "core/quad.hpp"
-#include "intersect_program.hpp"
-#include "lab/stress/stress_family.hpp"
-#include "lab/stress/stress_subject.hpp"
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numeric>
 
 namespace packtrace::test {
 namespace {

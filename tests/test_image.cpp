@@ -1,7 +1,9 @@
+#include "catch.hpp"
+#include "core/atomic_file.hpp"
+#include "refusal.hpp"
+#include "temp_folder.hpp"
 #include <packtrace/compare.hpp>
 #include <packtrace/image_io.hpp>
-
-#include <sys/resource.h>
 
 #include <algorithm>
 #include <bit>
@@ -11,12 +13,8 @@
 #include <limits>
 #include <stdexcept>
 #include <string>
+#include <sys/resource.h>
 #include <vector>
-
-#include "catch.hpp"
-#include "core/atomic_file.hpp"
-#include "refusal.hpp"
-#include "temp_folder.hpp"
 
 namespace packtrace {
 namespace {

@@ -1,3 +1,11 @@
+#include "catch.hpp"
+#include "intersect_program.hpp"
+#include "render/ray_columns.hpp"
+#include "render_scene.hpp"
+#include <packtrace/intersect.hpp>
+#include <packtrace/isa.hpp>
+#include <packtrace/read_scene.hpp>
+
 #include <array>
 #include <charconv>
 #include <cstddef>
@@ -9,15 +17,6 @@
 #include <string_view>
 #include <utility>
 #include <vector>
-
-#include <packtrace/intersect.hpp>
-#include <packtrace/isa.hpp>
-#include <packtrace/read_scene.hpp>
-
-#include "catch.hpp"
-#include "intersect_program.hpp"
-#include "render/ray_columns.hpp"
-#include "render_scene.hpp"
 
 // `packtrace intersect`: rays in, hits out.
 namespace packtrace::test {

@@ -1,12 +1,12 @@
+#include "catch.hpp"
+#include "intersect_program.hpp"
+
 #include <algorithm>
 #include <cmath>
 #include <random>
 #include <string>
 #include <utility>
 #include <vector>
-
-#include "catch.hpp"
-#include "intersect_program.hpp"
 
 // What `packtrace intersect` says when something is wrong.
 namespace packtrace::test {

@@ -1,14 +1,12 @@
 // Which instruction set a request gets, and what a wrong request is told.
-#include <packtrace/isa.hpp>
-
-#include <csignal>
-#include <stdexcept>
-
-#include <packtrace/renderer.hpp>
-
 #include "catch.hpp"
 #include "dispatch/kernels.hpp"
 #include "environment.hpp"
+#include <packtrace/isa.hpp>
+#include <packtrace/renderer.hpp>
+
+#include <csignal>
+#include <stdexcept>
 
 namespace packtrace::test {
 namespace {

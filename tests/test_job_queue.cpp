@@ -1,11 +1,10 @@
 // Jobs on a thread of their own: frames are written so while the next ones render.
+#include "catch.hpp"
 #include "core/job_queue.hpp"
 
 #include <future>
 #include <stdexcept>
 #include <vector>
-
-#include "catch.hpp"
 
 namespace packtrace::test {
 

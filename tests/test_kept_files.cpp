@@ -1,12 +1,12 @@
 // What a command writes never takes the place of what it reads, or of its other output; options
 // that would do nothing are refused.
-#include <filesystem>
-#include <string>
-#include <vector>
-
 #include "catch.hpp"
 #include "run_program.hpp"
 #include "temp_folder.hpp"
+
+#include <filesystem>
+#include <string>
+#include <vector>
 
 namespace packtrace::test {
 namespace {
@@ -88,6 +88,10 @@ TEST_CASE("no two outputs of a command are one file", "[kept_files]")
         {"render", scene, "-o", desk.at("new.pfm"), "--certainty", desk.at("./new.pfm")}, reason);
     desk.check_refused(
         {"profile", scene, "--heatmap", desk.at("new.png"), "--trace", desk.at("new.png")}, reason);
+    // Names that no file can have are not one file.
+    desk.check_refused({"render", scene, "-o", desk.at(std::string(300, 'a') + ".pfm"),
+                        "--certainty", desk.at(std::string(300, 'b') + ".pfm")},
+                       "File name too long");
 }
 
 TEST_CASE("a file beside the output that is not of an earlier run is left alone", "[kept_files]")

@@ -1,13 +1,4 @@
 // What kernels observe of themselves: stages, rays, lanes, tests.
-#include <packtrace/profile.hpp>
-
-#include <packtrace/compare.hpp>
-#include <packtrace/isa.hpp>
-#include <packtrace/read_scene.hpp>
-
-#include <algorithm>
-#include <limits>
-
 #include "catch.hpp"
 #include "dispatch/kernels.hpp"
 #include "lab/profile/observed_frame.hpp"
@@ -17,25 +8,32 @@
 #include "render_scene.hpp"
 #include "run_program.hpp"
 #include "scenes.hpp"
+#include <packtrace/compare.hpp>
+#include <packtrace/isa.hpp>
+#include <packtrace/profile.hpp>
+#include <packtrace/read_scene.hpp>
+
+#include <algorithm>
+#include <limits>
 
 namespace packtrace::test {
 namespace {
 
 // What may be recorded of a frame.
 struct Records {
-    std::vector<abi::SpanLaps> spans;
-    std::vector<abi::PartLaps> parts;
+    std::vector<abi::StageTicks> stages;
+    std::vector<abi::StepTicks> steps;
     std::vector<abi::WorkCounts> counts;
 
     explicit Records(const Scene& scene)
-        : spans(static_cast<std::size_t>(scene.max_depth) + 1),
-          parts(spans.size()),
-          counts(spans.size())
+        : stages(static_cast<std::size_t>(scene.max_depth) + 1),
+          steps(stages.size()),
+          counts(stages.size())
     {
     }
     [[nodiscard]] abi::Observation into() const
     {
-        return {.generations = static_cast<int>(spans.size())};
+        return {.generations = static_cast<int>(stages.size())};
     }
 };
 
@@ -75,10 +73,10 @@ const abi::PacketCounts& packets_of(const abi::WorkCounts& counts, abi::PacketWo
     return counts.work[static_cast<int>(work)];
 }
 
-std::uint64_t all_pairs(const abi::WorkCounts& counts, abi::Role role)
+std::uint64_t all_pairs(const abi::WorkCounts& counts, abi::RayPurpose purpose)
 {
     std::uint64_t sum = 0;
-    for (const abi::TestCounts& tests : counts.tests[static_cast<int>(role)])
+    for (const abi::TestCounts& tests : counts.tests[static_cast<int>(purpose)])
         sum += tests.pairs;
     return sum;
 }
@@ -86,8 +84,8 @@ std::uint64_t all_pairs(const abi::WorkCounts& counts, abi::Role role)
 std::uint64_t all_nodes(const abi::WorkCounts& counts)
 {
     std::uint64_t sum = 0;
-    for (int role = 0; role < abi::role_count; ++role)
-        sum += counts.group_nodes[role] + counts.ray_nodes[role];
+    for (int purpose = 0; purpose < abi::purpose_count; ++purpose)
+        sum += counts.group_nodes[purpose] + counts.ray_nodes[purpose];
     return sum;
 }
 
@@ -138,10 +136,10 @@ void check_pictures(const Scene& scene, const std::string& isa)
     check(nullptr);
     Records records(scene);
     abi::Observation observation = records.into();
-    observation.spans = records.spans.data();
+    observation.stages = records.stages.data();
     check(&observation);
-    observation.spans = nullptr;
-    observation.parts = records.parts.data();
+    observation.stages = nullptr;
+    observation.steps = records.steps.data();
     check(&observation);
     observation.counts = records.counts.data();
     check(&observation);
@@ -168,11 +166,13 @@ void check_rays(const Scene& scene, const std::string& isa, const RenderOptions&
     CHECK(sum.refracted == frame.rays.refracted);
 }
 
-abi::PartLaps laps_of(abi::Span span, abi::Role role, abi::Part part, const abi::Lap& lap)
+abi::StepTicks ticks_of(abi::Stage stage, abi::RayPurpose purpose, abi::Step step,
+                        const abi::Ticks& step_ticks)
 {
-    abi::PartLaps laps;
-    laps.part[static_cast<int>(span)][static_cast<int>(role)][static_cast<int>(part)] = lap;
-    return laps;
+    abi::StepTicks ticks;
+    ticks.step[static_cast<int>(stage)][static_cast<int>(purpose)][static_cast<int>(step)] =
+        step_ticks;
+    return ticks;
 }
 
 double seconds_of(const std::vector<KernelStage>& stages, const std::string& rays,
@@ -222,14 +222,14 @@ TEST_CASE("reflected rays are tested at most once against each object of a list"
                 const std::uint64_t live = packets_of(at, abi::PacketWork::trace).live;
                 const std::uint64_t hits = packets_of(at, abi::PacketWork::shade).live;
                 REQUIRE(live > 0);
-                const std::uint64_t pairs = all_pairs(at, abi::Role::own);
+                const std::uint64_t pairs = all_pairs(at, abi::RayPurpose::own);
                 // Rays that are unsure are tested again, in double, against everything.
                 const std::uint64_t again = accuracy == Accuracy::exact ? live / 100 + 2 : 0;
                 CHECK(pairs <= 4 * (live + again));
                 // They are spared what they can't reach.
                 CHECK(pairs >= hits);
             }
-            CHECK(all_pairs(frame.counts[0], abi::Role::own) <= 4 * frame.rays.camera);
+            CHECK(all_pairs(frame.counts[0], abi::RayPurpose::own) <= 4 * frame.rays.camera);
         }
 }
 
@@ -247,7 +247,7 @@ TEST_CASE("rays are not tested against the one body that all of a packet start o
             const RenderOptions options{.accuracy = accuracy};
             const abi::WorkCounts mirrored = counted<float>(scene, isa, options).counts[1];
             CHECK(packets_of(mirrored, abi::PacketWork::trace).live == 32u * 32u);
-            CHECK(all_pairs(mirrored, abi::Role::own) == 32u * 32u);
+            CHECK(all_pairs(mirrored, abi::RayPurpose::own) == 32u * 32u);
         }
 }
 
@@ -261,9 +261,9 @@ TEST_CASE("tests are counted by kind, and shadow rays apart", "[kernel_profile]"
     scene.lights = {{LightType::directional, Rgb(1.0), {0, 0, -1}}};
     const Counted frame = counted<double>(scene, supported_isas().front());
     const abi::WorkCounts& at = frame.counts[0];
-    for (int role = 0; role < abi::role_count; ++role)
+    for (int purpose = 0; purpose < abi::purpose_count; ++purpose)
         for (int kind = 0; kind < abi::primitive_count; ++kind)
-            CHECK(at.tests[role][kind].pairs ==
+            CHECK(at.tests[purpose][kind].pairs ==
                   (kind == static_cast<int>(abi::Primitive::plane) ? 32u * 32u : 0u));
     CHECK(frame.rays.shadow == 32u * 32u);
     CHECK(packets_of(at, abi::PacketWork::highlight).packets == 0);
@@ -286,9 +286,11 @@ TEST_CASE("nodes are met only where there is a hierarchy, which saves tests", "[
             CHECK(packets_of(at, abi::PacketWork::trace).live ==
                   packets_of(without, abi::PacketWork::trace).live);
             // A hit was tested for; most other objects were not.
-            CHECK(all_pairs(at, abi::Role::own) >= packets_of(at, abi::PacketWork::shade).live);
+            CHECK(all_pairs(at, abi::RayPurpose::own) >=
+                  packets_of(at, abi::PacketWork::shade).live);
             if (depth > 0)
-                CHECK(4 * all_pairs(at, abi::Role::own) < all_pairs(without, abi::Role::own));
+                CHECK(4 * all_pairs(at, abi::RayPurpose::own) <
+                      all_pairs(without, abi::RayPurpose::own));
         }
     }
 }
@@ -305,8 +307,8 @@ TEST_CASE("cells without a ray are not tested against anything", "[kernel_profil
         REQUIRE(packets_of(frame.counts[1], abi::PacketWork::trace).live > 0);
         REQUIRE(packets_of(frame.counts[1], abi::PacketWork::trace).live < 64);
         for (const abi::WorkCounts& at : frame.counts)
-            for (const auto& role : at.tests)
-                for (const abi::TestCounts& tests : role) {
+            for (const auto& purpose : at.tests)
+                for (const abi::TestCounts& tests : purpose) {
                     CAPTURE(isa, tests.packets, tests.pairs);
                     // A cell has up to four packets, some perhaps without a ray.
                     CHECK(tests.packets <= 4 * tests.pairs);
@@ -355,20 +357,22 @@ TEST_CASE("packets that see one surface are coherent, those that see nothing are
     CHECK_FALSE(lanes_filled(empty.counts[0], empty.lanes).has_value());
 }
 
-TEST_CASE("a span is divided in the shares of its parts, and for no more rays than it had",
+TEST_CASE("a stage is divided in the shares of its steps, and for no more rays than it had",
           "[kernel_profile]")
 {
-    SpanTicks first;
-    first.span[static_cast<std::size_t>(abi::Span::shade)] = 10.0;
-    SpanTicks second;
-    second.span[static_cast<std::size_t>(abi::Span::trace)] = 8.0;
+    GenerationTimes first;
+    first.stage[static_cast<std::size_t>(abi::Stage::shade)] = 10.0;
+    GenerationTimes second;
+    second.stage[static_cast<std::size_t>(abi::Stage::trace)] = 8.0;
     second.refracted = 0.25;
     // 100 ticks but for two readings of 10, and 60 but for one.
-    abi::PartLaps shade = laps_of(abi::Span::shade, abi::Role::own, abi::Part::diffuse, {100, 2});
-    shade.part[static_cast<int>(abi::Span::shade)][static_cast<int>(abi::Role::shadow)]
-              [static_cast<int>(abi::Part::spheres)] = {30, 1};
+    abi::StepTicks shade =
+        ticks_of(abi::Stage::shade, abi::RayPurpose::own, abi::Step::diffuse, {100, 2});
+    shade.step[static_cast<int>(abi::Stage::shade)][static_cast<int>(abi::RayPurpose::shadow)]
+              [static_cast<int>(abi::Step::spheres)] = {30, 1};
     // Less than its readings: divided as it is.
-    const abi::PartLaps trace = laps_of(abi::Span::trace, abi::Role::own, abi::Part::boxes, {5, 1});
+    const abi::StepTicks trace =
+        ticks_of(abi::Stage::trace, abi::RayPurpose::own, abi::Step::boxes, {5, 1});
     StageSeconds seconds(2);
     seconds.add({first, second}, {shade, trace}, 10);
     const std::vector<KernelStage> stages = seconds.stages();

@@ -1,47 +1,69 @@
 // Programs that are ended at any moment leave whole files or none, and nothing after the next run.
+#include "catch.hpp"
+#include "core/atomic_file.hpp"
+#include "fork_child.hpp"
+#include "killed_program.hpp"
+#include "program_works.hpp"
+
 #include <array>
 #include <chrono>
 #include <csignal>
-#include <random>
-#include <thread>
-
 #include <fcntl.h>
+#include <random>
 #include <sys/wait.h>
+#include <thread>
 #include <unistd.h>
-
-#include "catch.hpp"
-#include "core/atomic_file.hpp"
-#include "program_works.hpp"
 
 namespace packtrace::test {
 namespace {
 
-/// Starts the program and ends it by a signal after so long; it may have ended before.
-void start_and_end(const Work& work, const TempFolder& folder, int number, int microseconds)
+/// Blocks all signals of this thread.
+class BlockedSignals {
+public:
+    BlockedSignals()
+    {
+        sigset_t all;
+        sigfillset(&all);
+        sigprocmask(SIG_SETMASK, &all, &before_);
+    }
+    ~BlockedSignals()
+    {
+        restore();
+    }
+    BlockedSignals(const BlockedSignals&) = delete;
+    BlockedSignals& operator=(const BlockedSignals&) = delete;
+
+    void restore() const
+    {
+        sigprocmask(SIG_SETMASK, &before_, nullptr);
+    }
+
+private:
+    sigset_t before_{};
+};
+
+/// Starts `packtrace` with its output thrown away.
+pid_t start_quietly(std::vector<std::string> words)
 {
-    const std::vector<std::string> words = words_of(work, folder);
-    std::vector<char*> arguments = {const_cast<char*>(PACKTRACE_CLI)};
-    for (const std::string& word : words)
-        arguments.push_back(const_cast<char*>(word.c_str()));
-    arguments.push_back(nullptr);
+    words.insert(words.begin(), PACKTRACE_CLI);
     // No signal reaches the copy of this program before it has become the other: the handlers of
     // the test framework would answer.
-    sigset_t all;
-    sigset_t before;
-    sigfillset(&all);
-    sigprocmask(SIG_SETMASK, &all, &before);
-    const pid_t process = fork();
-    if (process == 0) {
+    const BlockedSignals blocked;
+    return fork_child([&] {
         for (const int ending : {SIGTERM, SIGINT})
             std::signal(ending, SIG_DFL);
-        sigprocmask(SIG_SETMASK, &before, nullptr);
+        blocked.restore();
         const int nothing = open("/dev/null", O_RDWR);
         for (const int stream : {STDIN_FILENO, STDOUT_FILENO, STDERR_FILENO})
             dup2(nothing, stream);
-        execv(PACKTRACE_CLI, arguments.data());
-        _exit(127);
-    }
-    sigprocmask(SIG_SETMASK, &before, nullptr);
+        become(words);
+    });
+}
+
+/// Starts the program and ends it by a signal after so long; it may have ended before.
+void start_and_end(const Work& work, const TempFolder& folder, int number, int microseconds)
+{
+    const pid_t process = start_quietly(words_of(work, folder));
     std::this_thread::sleep_for(std::chrono::microseconds(microseconds));
     kill(process, number);
     int status = 0;
@@ -100,9 +122,7 @@ TEST_CASE("no temporary file appears behind a program's clearing up", "[kills]")
 {
     const TempFolder folder;
     for (int i = 0; i < 300; ++i) {
-        const pid_t process = fork();
-        if (process == 0)
-            write_and_end(folder, 100 + 7 * i);
+        const pid_t process = fork_child([&] { write_and_end(folder, 100 + 7 * i); });
         int status = 0;
         waitpid(process, &status, 0);
         REQUIRE(status == 0);

@@ -1,17 +1,16 @@
 // Directional light along planes and caps, and from points where rounding tells no side: on two
 // surfaces at once, or at the world's origin.
+#include "catch.hpp"
+#include "packet_ways.hpp"
+#include <packtrace/read_scene.hpp>
+#include <packtrace/render.hpp>
+
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
 #include <numbers>
 #include <sstream>
 #include <string>
-
-#include <packtrace/read_scene.hpp>
-#include <packtrace/render.hpp>
-
-#include "catch.hpp"
-#include "packet_ways.hpp"
 
 namespace packtrace::test {
 namespace {

@@ -1,15 +1,14 @@
-#include <cmath>
-#include <random>
-
+#include "catch.hpp"
+#include "lower/buffered_scene.hpp"
+#include "render_scene.hpp"
+#include "scenes.hpp"
 #include <packtrace/generate.hpp>
 #include <packtrace/isa.hpp>
 #include <packtrace/render.hpp>
 #include <packtrace/renderer.hpp>
 
-#include "catch.hpp"
-#include "lower/buffered_scene.hpp"
-#include "render_scene.hpp"
-#include "scenes.hpp"
+#include <cmath>
+#include <random>
 
 // A light's own view of the spheres of a hierarchy gives the shadows that lists give, bit for bit.
 namespace packtrace::test {

@@ -1,8 +1,8 @@
 // Input that asks for too much is refused at once, in one line.
-#include <algorithm>
-
 #include "catch.hpp"
 #include "run_program.hpp"
+
+#include <algorithm>
 
 namespace packtrace::test {
 namespace {

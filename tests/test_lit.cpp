@@ -1,5 +1,19 @@
 // Which points lights reach: RayScene::lit().
+#include "catch.hpp"
+#include "lower/packed_scene.hpp"
+#include "packet_ways.hpp"
+#include "scenes.hpp"
+#include <packtrace/generate.hpp>
 #include <packtrace/intersect.hpp>
+#include <packtrace/isa.hpp>
+#include <packtrace/read_scene.hpp>
+#include <packtrace/render.hpp>
+
+#include <glm/gtc/matrix_transform.hpp>
+#include <tbb/blocked_range.h>
+#include <tbb/global_control.h>
+#include <tbb/parallel_for.h>
+#include <tbb/task_arena.h>
 
 #include <array>
 #include <cmath>
@@ -8,22 +22,6 @@
 #include <stdexcept>
 #include <string>
 #include <vector>
-
-#include <packtrace/generate.hpp>
-#include <packtrace/isa.hpp>
-#include <packtrace/read_scene.hpp>
-#include <packtrace/render.hpp>
-
-#include <tbb/blocked_range.h>
-#include <tbb/global_control.h>
-#include <tbb/parallel_for.h>
-#include <tbb/task_arena.h>
-#include <glm/gtc/matrix_transform.hpp>
-
-#include "catch.hpp"
-#include "lower/packed_scene.hpp"
-#include "packet_ways.hpp"
-#include "scenes.hpp"
 
 namespace packtrace::test {
 namespace {
@@ -513,6 +511,71 @@ TEMPLATE_TEST_CASE(
             CHECK(reached[0] == hits);
             CHECK(reached[1] == 0);
         }
+    }
+}
+
+namespace {
+
+/// A lamp next to the rim of a body, and a point of the body's side.
+struct RimLamp {
+    std::string body;
+    std::array<double, 3> point, lamp;
+    bool lit;
+};
+
+template <class Real>
+void check_rim_lamp(const RimLamp& at, const RenderOptions& options)
+{
+    Scene scene = parse_scene(at.body, "rim", {});
+    Light lamp;
+    lamp.type = LightType::point;
+    lamp.vector = Vec3(at.lamp[0], at.lamp[1], at.lamp[2]);
+    scene.lights = {lamp};
+    std::array<Real, 3> point;
+    for (std::size_t axis = 0; axis < 3; ++axis)
+        point[axis] = static_cast<Real>(at.point[axis]);
+    const std::int32_t side = 0;
+    std::uint8_t mask = 7;
+    const RayScene<Real> rays(scene, options);
+    rays.lit({{&point[0], &point[1], &point[2]}, &side, 1}, 0, &mask);
+    CAPTURE(at.body, options.isa, sizeof(Real));
+    CHECK((mask != 0) == at.lit);
+}
+
+}  // namespace
+
+TEST_CASE("a lamp next to a body's rim lights what neither its side nor its cap is before", "[lit]")
+{
+    const std::string tube =
+        "matrix = (0.8, 0, 0.6, 0,  0, 1, 0, 0,  -0.6, 0, 0.8, 0)  z_range = (0, 1)";
+    // Inside the wall and just above its open end; outside it and just below the cap's plane.
+    const std::vector<RimLamp> single{
+        {"cylinder { " + tube + " }",
+         {-0.0492417067, 0.584281027, 1.28693008},
+         {1.03688991, -0.837592542, 0.472332597},
+         true},
+        {"hyperboloid2 { z_range = (1.30007215582308, 2.198177121509878) matrix = (0, "
+         "-2.6047993528663658, 0, 898.0058993301612,  0.5320656966053872, 0, 0, "
+         "221.24972653909617,  0, 0, -0.11569050152173481, 1089.7497097332418) }",
+         {894.364013671875, 221.97865295410156, 1089.495361328125},
+         {896.54449462890625, 220.25190734863281, 1089.495361328125},
+         true},
+        {"cylinder { capped = true " + tube + " }",
+         {1.28114402, 0.524156094, 0.288821638},
+         {-0.146186724, -0.360844046, 1.35964},
+         false}};
+    const RimLamp twofold{
+        "cylinder { z_range = (-279, -1.75) capped = true matrix = "
+        "(-0.5749881347154874, 0, 0, -1.3804497188025855,  0, "
+        "0.036329399794340134, 0, -9.51632093693057,  0, 0, "
+        "0.036329399794340134, -8.20297456503858) }",
+        {-1.0622895514570876, -9.4860600058932327, -18.338872784416239},
+        {-0.81310201679831984, -9.5222236981988964, -18.338877107659478},
+        false};
+    for (const RenderOptions& options : packet_ways()) {
+        for (const RimLamp& at : single)
+            check_rim_lamp<float>(at, options);
+        check_rim_lamp<double>(twofold, options);
     }
 }
 

@@ -1,20 +1,20 @@
+#include "catch.hpp"
+#include "lower/packed_scene.hpp"
+#include "lower/packed_tree.hpp"
+#include "lower/prune.hpp"
+#include "same_bits.hpp"
+#include "scenes.hpp"
 #include <packtrace/build.hpp>
 #include <packtrace/generate.hpp>
 #include <packtrace/intersect.hpp>
 #include <packtrace/read_scene.hpp>
 #include <packtrace/renderer.hpp>
 
+#include <glm/geometric.hpp>
+#include <tbb/task_arena.h>
+
 #include <algorithm>
 #include <cstring>
-
-#include <tbb/task_arena.h>
-#include <glm/geometric.hpp>
-
-#include "catch.hpp"
-#include "lower/packed_scene.hpp"
-#include "lower/packed_tree.hpp"
-#include "lower/prune.hpp"
-#include "scenes.hpp"
 
 // Large scenes are lowered in runs of objects, several at once.
 namespace packtrace {
@@ -221,7 +221,7 @@ TEMPLATE_TEST_CASE("many spheres look as few do, to the bit", "[lowering]", floa
             const RenderOptions options{.accuracy = accuracy, .self_hits = self_hits};
             const auto few = picture_of<TestType>(1000, options);
             const auto many = picture_of<TestType>(1100, options);
-            CHECK(same_bytes(few.rgb, many.rgb));
+            CHECK(test::same_bits(few, many));
             CHECK(*std::max_element(few.rgb.begin(), few.rgb.end()) > TestType(0.1));
         }
 }

@@ -1,17 +1,16 @@
 // The margins of what is left out early and the bounds of what single precision decides, against
 // rays that are looked for near them; their proofs are in docs/numerics_derivations.md.
-#include <cmath>
-#include <iomanip>
-#include <limits>
-#include <sstream>
-
-#include <packtrace/intersect.hpp>
-
 #include "catch.hpp"
 #include "closest_hits.hpp"
 #include "lab/stress/stress_subject.hpp"
 #include "render_scene.hpp"
 #include "true_hits.hpp"
+#include <packtrace/intersect.hpp>
+
+#include <cmath>
+#include <iomanip>
+#include <limits>
+#include <sstream>
 
 namespace packtrace::test {
 namespace {

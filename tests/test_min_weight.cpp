@@ -1,13 +1,4 @@
 // Scene::min_weight: which rays are not traced, and how far off a picture is without them.
-#include <packtrace/compare.hpp>
-#include <packtrace/read_scene.hpp>
-#include <packtrace/renderer.hpp>
-
-#include <cmath>
-#include <stdexcept>
-#include <string>
-#include <vector>
-
 #include "catch.hpp"
 #include "feature_scenes.hpp"
 #include "packet_scenes.hpp"
@@ -17,6 +8,14 @@
 #include "scene_files.hpp"
 #include "scene_text.hpp"
 #include "temp_folder.hpp"
+#include <packtrace/compare.hpp>
+#include <packtrace/read_scene.hpp>
+#include <packtrace/renderer.hpp>
+
+#include <cmath>
+#include <stdexcept>
+#include <string>
+#include <vector>
 
 namespace packtrace::test {
 namespace {

@@ -1,16 +1,14 @@
-#include <packtrace/isa.hpp>
-#include <packtrace/render.hpp>
-
-#include <algorithm>
-#include <cmath>
-
-#include <packtrace/compare.hpp>
-
-#include <glm/gtc/matrix_transform.hpp>
-
 #include "catch.hpp"
 #include "lab/stress/placed_quadric.hpp"
 #include "reference_scenes.hpp"
+#include <packtrace/compare.hpp>
+#include <packtrace/isa.hpp>
+#include <packtrace/render.hpp>
+
+#include <glm/gtc/matrix_transform.hpp>
+
+#include <algorithm>
+#include <cmath>
 
 // Every illumination model and every surface: packets of doubles against the scalar reference.
 namespace packtrace::test {

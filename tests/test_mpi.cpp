@@ -1,4 +1,15 @@
 // packtrace-mpi: the bytes of one process, whatever the number of ranks; ranks that die.
+#include "../bench/cluster/job_model.hpp"
+#include "catch.hpp"
+#include "fork_child.hpp"
+#include "job_inputs.hpp"
+#include "killed_program.hpp"
+#include "mpi/hand_out.hpp"
+#include "mpi/rank_setup.hpp"
+#include "mpi/wire.hpp"
+
+#include <nlohmann/json.hpp>
+
 #include <algorithm>
 #include <array>
 #include <cstdlib>
@@ -7,20 +18,9 @@
 #include <set>
 #include <sstream>
 #include <string>
+#include <sys/stat.h>
 #include <thread>
 #include <vector>
-
-#include <sys/stat.h>
-
-#include <nlohmann/json.hpp>
-
-#include "../bench/cluster/job_model.hpp"
-#include "catch.hpp"
-#include "job_inputs.hpp"
-#include "killed_program.hpp"
-#include "mpi/hand_out.hpp"
-#include "mpi/rank_setup.hpp"
-#include "mpi/wire.hpp"
 
 namespace packtrace::test {
 namespace {
@@ -132,15 +132,14 @@ int kill_rank(int ranks, const Words& words, const std::filesystem::path& errors
 {
     Words all = mpirun(ranks);
     all.insert(all.end(), words.begin(), words.end());
-    const pid_t job = fork();
-    if (job == 0) {
+    const pid_t job = fork_child([&] {
         const int nowhere = open("/dev/null", O_RDWR);
         const int err = open(errors.c_str(), O_WRONLY | O_CREAT | O_TRUNC, 0600);
         dup2(nowhere, 0);
         dup2(nowhere, 1);
         dup2(err, 2);
         become(all);
-    }
+    });
     int status = 0;
     bool killed = false;
     auto alive = std::chrono::steady_clock::now();

@@ -1,5 +1,11 @@
 // Rays from a long cone's wall that run nearly along it, to its narrow open end. Rounding puts
 // their start off the wall by more than the narrow end is wide in the cone's equation.
+#include "catch.hpp"
+#include "packet_ways.hpp"
+#include "scenes.hpp"
+#include <packtrace/intersect.hpp>
+#include <packtrace/read_scene.hpp>
+
 #include <array>
 #include <cmath>
 #include <cstdint>
@@ -7,13 +13,6 @@
 #include <optional>
 #include <string>
 #include <tuple>
-
-#include <packtrace/intersect.hpp>
-#include <packtrace/read_scene.hpp>
-
-#include "catch.hpp"
-#include "packet_ways.hpp"
-#include "scenes.hpp"
 
 namespace packtrace::test {
 namespace {
@@ -138,6 +137,12 @@ int check_narrow_ends(const RenderOptions& options, double wide_end)
     return hits;
 }
 
+/// From the point (300, 400, 500) of the cone to next to its apex, where the cone is cut.
+struct ApexRay {
+    std::array<double, 3> dir;
+    double t;
+};
+
 constexpr Vec3 light{0.1875, 0.0, 0.125};
 
 /// Whether the light below the narrow end reaches a point of the wall; nothing where rounding
@@ -186,6 +191,27 @@ TEST_CASE("rays along a long cone's wall hit it again in front of its narrow end
             CHECK(check_narrow_ends<float>(options, wide_end) > 100);
             CHECK(check_narrow_ends<double>(options, wide_end) > 100);
         }
+}
+
+TEST_CASE("a ray that passes a cone's apex by next to nothing is placed as exactly as others",
+          "[narrow_ends]")
+{
+    const ApexRay rays[] = {
+        {{-300.00004325586519, -400.00001762976177, -499.99984289859248}, 1.0000001141160513},
+        {{-300.00017118951558, -400.0000615378018, -500.00005054908991}, 0.9999996988256471}};
+    const Scene cone = parse_scene("cone { z_range = (0.0001, 1000) }", "cone", {});
+    for (const RenderOptions& options : packet_ways()) {
+        const RayScene<double> scene(cone, options);
+        for (const ApexRay& ray : rays) {
+            WallRay<double> from;
+            from.point = {300, 400, 500};
+            from.dir = ray.dir;
+            const SurfaceHit<double> hit = hit_again(scene, from);
+            CAPTURE(options.isa);
+            CHECK(hit.object == 0);
+            CHECK(std::abs(hit.t - ray.t) <= 1e-11);
+        }
+    }
 }
 
 TEST_CASE("a lamp below a long cone's narrow end reaches what is before it", "[narrow_ends]")

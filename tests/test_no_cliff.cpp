@@ -1,18 +1,17 @@
 // What rays of the caller's own hit hangs on the objects in their way alone: not on where the
 // camera and the lights are, nor on what else is in the scene.
-#include <cmath>
-#include <optional>
-#include <string>
-
-#include <packtrace/intersect.hpp>
-#include <packtrace/read_scene.hpp>
-#include <packtrace/render.hpp>
-
 #include "catch.hpp"
 #include "lab/stress/placed_quadric.hpp"
 #include "lab/stress/stress_subject.hpp"
 #include "packet_ways.hpp"
 #include "render_scene.hpp"
+#include <packtrace/intersect.hpp>
+#include <packtrace/read_scene.hpp>
+#include <packtrace/render.hpp>
+
+#include <cmath>
+#include <optional>
+#include <string>
 
 namespace packtrace::test {
 namespace {

@@ -1,10 +1,10 @@
 // Each allocation of a render fails once: the program ends with one line, or does without.
+#include "catch.hpp"
+#include "run_program.hpp"
+
 #include <algorithm>
 #include <filesystem>
 #include <sstream>
-
-#include "catch.hpp"
-#include "run_program.hpp"
 
 namespace packtrace::test {
 namespace {

@@ -1,12 +1,11 @@
-#include <packtrace/onedim.hpp>
-
-#include <fstream>
-#include <stdexcept>
-
 #include "catch.hpp"
 #include "onedim/intensity.hpp"
 #include "onedim/solvers.hpp"
 #include "onedim_systems.hpp"
+#include <packtrace/onedim.hpp>
+
+#include <fstream>
+#include <stdexcept>
 
 namespace packtrace::onedim {
 namespace {

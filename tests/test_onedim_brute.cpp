@@ -1,14 +1,13 @@
+#include "catch.hpp"
+#include "onedim/solvers.hpp"
+#include "onedim_brute_force.hpp"
+#include "onedim_systems.hpp"
 #include <packtrace/onedim.hpp>
 
 #include <algorithm>
 #include <array>
 #include <fstream>
 #include <random>
-
-#include "catch.hpp"
-#include "onedim/solvers.hpp"
-#include "onedim_brute_force.hpp"
-#include "onedim_systems.hpp"
 
 namespace packtrace::onedim {
 namespace {

@@ -1,14 +1,13 @@
-#include <packtrace/onedim.hpp>
-
-#include <algorithm>
-#include <fstream>
-#include <random>
-
 #include "catch.hpp"
 #include "memory_limit.hpp"
 #include "onedim_systems.hpp"
 #include "run_program.hpp"
 #include "temp_folder.hpp"
+#include <packtrace/onedim.hpp>
+
+#include <algorithm>
+#include <fstream>
+#include <random>
 
 namespace packtrace {
 namespace {

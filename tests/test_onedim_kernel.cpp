@@ -1,3 +1,10 @@
+#include "catch.hpp"
+#include "core/aligned_array.hpp"
+#include "dispatch/kernels.hpp"
+#include "onedim/solvers.hpp"
+#include "onedim/transfer.hpp"
+#include "onedim_systems.hpp"
+#include <packtrace/isa.hpp>
 #include <packtrace/onedim.hpp>
 
 #include <algorithm>
@@ -6,15 +13,6 @@
 #include <random>
 #include <set>
 #include <vector>
-
-#include <packtrace/isa.hpp>
-
-#include "catch.hpp"
-#include "core/aligned_array.hpp"
-#include "dispatch/kernels.hpp"
-#include "onedim/solvers.hpp"
-#include "onedim/transfer.hpp"
-#include "onedim_systems.hpp"
 
 namespace packtrace::onedim {
 namespace {

@@ -1,9 +1,8 @@
+#include "catch.hpp"
+#include "onedim_systems.hpp"
 #include <packtrace/onedim.hpp>
 
 #include <random>
-
-#include "catch.hpp"
-#include "onedim_systems.hpp"
 
 namespace packtrace::onedim {
 namespace {

@@ -1,11 +1,10 @@
+#include "catch.hpp"
+#include "onedim/solvers.hpp"
+#include "onedim_systems.hpp"
 #include <packtrace/onedim.hpp>
 
 #include <algorithm>
 #include <random>
-
-#include "catch.hpp"
-#include "onedim/solvers.hpp"
-#include "onedim_systems.hpp"
 
 namespace packtrace::onedim {
 namespace {

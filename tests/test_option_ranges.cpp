@@ -1,11 +1,5 @@
-#include <cmath>
-#include <functional>
-#include <stdexcept>
-#include <string>
-
 #include "catch.hpp"
 #include "refusal.hpp"
-
 #include <packtrace/certainty.hpp>
 #include <packtrace/compare.hpp>
 #include <packtrace/image.hpp>
@@ -13,6 +7,11 @@
 #include <packtrace/profile.hpp>
 #include <packtrace/render.hpp>
 #include <packtrace/report.hpp>
+
+#include <cmath>
+#include <functional>
+#include <stdexcept>
+#include <string>
 
 using namespace packtrace;
 using packtrace::test::refusal;

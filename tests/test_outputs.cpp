@@ -1,19 +1,19 @@
 // Where output goes: links, pipes, full disks, interrupted and killed programs.
+#include "catch.hpp"
+#include "core/atomic_file.hpp"
+#include "fork_child.hpp"
+#include "run_program.hpp"
+
 #include <chrono>
 #include <csignal>
 #include <cstdio>
+#include <fcntl.h>
 #include <filesystem>
 #include <fstream>
-#include <thread>
-
-#include <fcntl.h>
 #include <sys/stat.h>
 #include <sys/wait.h>
+#include <thread>
 #include <unistd.h>
-
-#include "catch.hpp"
-#include "core/atomic_file.hpp"
-#include "run_program.hpp"
 
 namespace packtrace::test {
 namespace {
@@ -32,16 +32,14 @@ public:
     {
         const std::string rays = (folder / "rays").string();
         REQUIRE(mkfifo(rays.c_str(), 0600) == 0);
-        process_ = fork();
-        if (process_ == 0) {
+        process_ = fork_child([&] {
             const int input = open(rays.c_str(), O_RDONLY);
             const int errors = open((folder / "err").c_str(), O_WRONLY | O_CREAT, 0600);
             dup2(input, STDIN_FILENO);
             dup2(errors, STDERR_FILENO);
             execl(PACKTRACE_CLI, PACKTRACE_CLI, "intersect", four_spheres_file.c_str(), "-", "-o",
                   output_.c_str(), static_cast<char*>(nullptr));
-            _exit(127);
-        }
+        });
         pipe_ = open(rays.c_str(), O_WRONLY);
     }
     ~WaitingProgram()
@@ -51,13 +49,27 @@ public:
     WaitingProgram(const WaitingProgram&) = delete;
     WaitingProgram& operator=(const WaitingProgram&) = delete;
 
-    /// Waits until the temporary file is there. Then sends `number`; returns what waitpid() says.
-    [[nodiscard]] int end_by(int number, const TempFolder& folder) const
+    /// Waits until the temporary file is there. Then sends `number`; the process has ended then,
+    /// but nobody has asked how.
+    void send(int number, const TempFolder& folder) const
     {
         for (int i = 0; i < 6000 && temporaries(folder) == 0; ++i)
             std::this_thread::sleep_for(std::chrono::milliseconds(10));
         REQUIRE(temporaries(folder) == 1);
         kill(process_, number);
+        siginfo_t how{};
+        REQUIRE(waitid(P_PID, static_cast<id_t>(process_), &how, WEXITED | WNOWAIT) == 0);
+    }
+
+    /// The same; returns what waitpid() says.
+    [[nodiscard]] int end_by(int number, const TempFolder& folder) const
+    {
+        send(number, folder);
+        return status();
+    }
+
+    [[nodiscard]] int status() const
+    {
         int status = 0;
         waitpid(process_, &status, 0);
         return status;
@@ -194,6 +206,19 @@ TEST_CASE("what a killed program left is removed by the next that writes the sam
     living.commit();
     second.commit();
     CHECK(WaitingProgram::temporaries(folder) == 0);
+}
+
+TEST_CASE("what a killed program left is removed though its parent has not asked after it",
+          "[outputs]")
+{
+    const TempFolder folder;
+    const WaitingProgram program(folder);
+    program.send(SIGKILL, folder);
+    AtomicFile next(folder / "hits.csv");
+    CHECK(WaitingProgram::temporaries(folder) == 1);
+    next.commit();
+    CHECK(WaitingProgram::temporaries(folder) == 0);
+    CHECK(WIFSIGNALED(program.status()));
 }
 
 TEST_CASE("what killed programs left of finished frames is removed by the next run", "[outputs]")

@@ -1,9 +1,8 @@
 // Pictures of the packet kernels against those of the scalar reference.
-#include <packtrace/compare.hpp>
-
 #include "catch.hpp"
 #include "packet_scenes.hpp"
 #include "render_scene.hpp"
+#include <packtrace/compare.hpp>
 
 namespace packtrace::test {
 namespace {

@@ -1,16 +1,15 @@
 // A caller's rays that run apart, of which many miss, get the t that each of them gets alone, bit
 // for bit: hits are refined in the company of others.
-#include <cmath>
-#include <cstring>
-#include <limits>
-
-#include <packtrace/generate.hpp>
-#include <packtrace/intersect.hpp>
-
 #include "catch.hpp"
 #include "few_objects.hpp"
 #include "render/ray_columns.hpp"
 #include "render_scene.hpp"
+#include "same_bits.hpp"
+#include <packtrace/generate.hpp>
+#include <packtrace/intersect.hpp>
+
+#include <cmath>
+#include <limits>
 
 namespace packtrace::test {
 namespace {
@@ -73,7 +72,7 @@ std::size_t check_alone(const RayScene<float>& queries, const RayColumns<float>&
         ask(i, 1, {&t, &object});
         CAPTURE(i);
         REQUIRE(object == hits.object[i]);
-        REQUIRE(std::memcmp(&t, &hits.t[i], sizeof t) == 0);
+        REQUIRE(same_bits(t, hits.t[i]));
         found += object >= 0;
     }
     return found;

@@ -1,3 +1,15 @@
+#include "catch.hpp"
+#include "page_end.hpp"
+#include "render/ray_columns.hpp"
+#include "render_scene.hpp"
+#include "same_bits.hpp"
+#include "scenes.hpp"
+#include <packtrace/intersect.hpp>
+#include <packtrace/isa.hpp>
+#include <packtrace/render.hpp>
+
+#include <glm/geometric.hpp>
+
 #include <algorithm>
 #include <cmath>
 #include <deque>
@@ -5,19 +17,6 @@
 #include <random>
 #include <span>
 #include <vector>
-
-#include <glm/geometric.hpp>
-
-#include <packtrace/intersect.hpp>
-#include <packtrace/isa.hpp>
-#include <packtrace/render.hpp>
-
-#include "catch.hpp"
-#include "different_bits.hpp"
-#include "page_end.hpp"
-#include "render/ray_columns.hpp"
-#include "render_scene.hpp"
-#include "scenes.hpp"
 
 // Rays that run together are tested against the few spheres of a hierarchy that they may meet,
 // picked for all of them: with the answers of rays that go through it, and of lists.

@@ -1,4 +1,6 @@
+#include "catch.hpp"
 #include "image/formats.hpp"
+#include "refusal.hpp"
 
 #include <libdeflate.h>
 
@@ -7,9 +9,6 @@
 #include <string>
 #include <string_view>
 #include <vector>
-
-#include "catch.hpp"
-#include "refusal.hpp"
 
 namespace packtrace {
 namespace {

@@ -1,5 +1,15 @@
 // Rays next to edges that polygons share, whose corners are near or far away: each ray hits the
 // polygon that 113 bits find it in, and no other, by every kernel.
+#include "catch.hpp"
+#include "core/quad.hpp"
+#include "lab/stress/stress_random.hpp"
+#include "lab/stress/stress_subject.hpp"
+#include "packet_ways.hpp"
+#include <packtrace/intersect.hpp>
+#include <packtrace/validate.hpp>
+
+#include <glm/geometric.hpp>
+
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -8,16 +18,6 @@
 #include <set>
 #include <span>
 #include <vector>
-
-#include <glm/geometric.hpp>
-#include <packtrace/intersect.hpp>
-#include <packtrace/validate.hpp>
-
-#include "catch.hpp"
-#include "core/quad.hpp"
-#include "lab/stress/stress_random.hpp"
-#include "lab/stress/stress_subject.hpp"
-#include "packet_ways.hpp"
 
 namespace packtrace::test {
 namespace {

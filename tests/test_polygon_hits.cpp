@@ -1,14 +1,4 @@
 // Where rays hit polygons, by the scalar reference, by packets and in proven bounds.
-#include <algorithm>
-#include <cmath>
-#include <limits>
-
-#include <glm/common.hpp>
-#include <glm/geometric.hpp>
-#include <glm/gtc/matrix_transform.hpp>
-#include <packtrace/intersect.hpp>
-#include <packtrace/validate.hpp>
-
 #include "catch.hpp"
 #include "lab/truth/textbook.hpp"
 #include "lab/truth/wide_truth.hpp"
@@ -17,6 +7,16 @@
 #include "reference/surfaces/inside.hpp"
 #include "reference/surfaces/own_roots.hpp"
 #include "reference_scenes.hpp"
+#include <packtrace/intersect.hpp>
+#include <packtrace/validate.hpp>
+
+#include <glm/common.hpp>
+#include <glm/geometric.hpp>
+#include <glm/gtc/matrix_transform.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
 
 namespace packtrace::test {
 namespace {

@@ -1,13 +1,9 @@
 // Bodies of polygons are closed: no ray slips between two that share an edge.
-#include <algorithm>
-#include <cmath>
-#include <cstdlib>
-#include <filesystem>
-#include <limits>
-
-#include <glm/common.hpp>
-#include <glm/geometric.hpp>
-#include <glm/gtc/matrix_transform.hpp>
+#include "catch.hpp"
+#include "lab/stress/stress_subject.hpp"
+#include "polygon_scenes.hpp"
+#include "reference_scenes.hpp"
+#include "render_scene.hpp"
 #include <packtrace/compare.hpp>
 #include <packtrace/intersect.hpp>
 #include <packtrace/isa.hpp>
@@ -15,11 +11,15 @@
 #include <packtrace/render.hpp>
 #include <packtrace/validate.hpp>
 
-#include "catch.hpp"
-#include "lab/stress/stress_subject.hpp"
-#include "polygon_scenes.hpp"
-#include "reference_scenes.hpp"
-#include "render_scene.hpp"
+#include <glm/common.hpp>
+#include <glm/geometric.hpp>
+#include <glm/gtc/matrix_transform.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdlib>
+#include <filesystem>
+#include <limits>
 
 namespace packtrace::test {
 namespace {

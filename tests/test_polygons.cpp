@@ -1,17 +1,17 @@
 // Polygons: reading and writing them, and what is made of them.
-#include <cmath>
-#include <string>
-
-#include <glm/geometric.hpp>
-#include <packtrace/read_scene.hpp>
-#include <packtrace/validate.hpp>
-#include <packtrace/write_scene.hpp>
-
 #include "catch.hpp"
 #include "lower/packed_lists.hpp"
 #include "lower/prune.hpp"
 #include "polygon_scenes.hpp"
 #include "scene_text.hpp"
+#include <packtrace/read_scene.hpp>
+#include <packtrace/validate.hpp>
+#include <packtrace/write_scene.hpp>
+
+#include <glm/geometric.hpp>
+
+#include <cmath>
+#include <string>
 
 namespace packtrace::test {
 namespace {

@@ -1,7 +1,7 @@
 // The highlights' power, x^n for x in [0, 1 + 1e-6] and n from 1 to 10000, against long double.
 #include "catch.hpp"
-#include "different_bits.hpp"
 #include "power_error.hpp"
+#include "same_bits.hpp"
 #include "simd_packet.hpp"
 
 namespace packtrace::test {

@@ -1,20 +1,18 @@
 // Where a frame's time goes.
-#include <packtrace/profile.hpp>
-
-#include <packtrace/isa.hpp>
-#include <packtrace/read_scene.hpp>
-
-#include <algorithm>
-#include <set>
-
-#include <nlohmann/json.hpp>
-
 #include "catch.hpp"
 #include "lab/harness/statistics.hpp"
 #include "lab/profile/profile_steps.hpp"
 #include "lab/profile/stage_times.hpp"
 #include "run_program.hpp"
 #include "scenes.hpp"
+#include <packtrace/isa.hpp>
+#include <packtrace/profile.hpp>
+#include <packtrace/read_scene.hpp>
+
+#include <nlohmann/json.hpp>
+
+#include <algorithm>
+#include <set>
 
 namespace packtrace::test {
 namespace {

@@ -1,11 +1,11 @@
 // The ball that a quadric is culled by holds its whole surface.
-#include <cmath>
-
-#include <glm/geometric.hpp>
-
 #include "catch.hpp"
 #include "geometry/quadric.hpp"
 #include "scene_text.hpp"
+
+#include <glm/geometric.hpp>
+
+#include <cmath>
 
 namespace packtrace::test {
 namespace {

@@ -1,15 +1,14 @@
 // Hits of quadrics, which single precision finds where it is sure and double where not.
-#include <cmath>
-#include <cstring>
-#include <span>
-#include <vector>
-
+#include "catch.hpp"
+#include "packet_ways.hpp"
+#include "same_bits.hpp"
+#include "scenes.hpp"
 #include <packtrace/intersect.hpp>
 #include <packtrace/read_scene.hpp>
 
-#include "catch.hpp"
-#include "packet_ways.hpp"
-#include "scenes.hpp"
+#include <cmath>
+#include <span>
+#include <vector>
 
 namespace packtrace::test {
 namespace {
@@ -47,12 +46,6 @@ std::vector<Ray<float>> rays_from(const Vec3& eye, SceneRandom& random, int coun
         rays.push_back(ray);
     }
     return rays;
-}
-
-bool same_hit(const SurfaceHit<float>& a, const SurfaceHit<float>& b)
-{
-    return a.object == b.object && std::memcmp(&a.t, &b.t, sizeof(a.t)) == 0 &&
-           std::memcmp(a.normal, b.normal, sizeof(a.normal)) == 0;
 }
 
 std::vector<SurfaceHit<float>> hits_of(const RayScene<float>& scene,
@@ -109,15 +102,15 @@ TEST_CASE("Hits of quadrics have the same bits from one place, from many and alo
             first = together;
         int differ = 0;
         for (std::size_t i = 0; i < together.size(); ++i)
-            differ += same_hit(together[i], first[i]) ? 0 : 1;
+            differ += same_bits(together[i], first[i]) ? 0 : 1;
         CHECK(differ == 0);
         for (std::size_t eye = 0; eye < from.size(); ++eye) {
             const auto shared = hits_of(traced, from[eye]);
             int other = 0;
             for (std::size_t i = 0; i < shared.size(); ++i) {
-                other += same_hit(shared[i], first[i * from.size() + eye]) ? 0 : 1;
+                other += same_bits(shared[i], first[i * from.size() + eye]) ? 0 : 1;
                 if (i % 50 == 0)
-                    other += same_hit(hits_of(traced, {&from[eye][i], 1})[0], shared[i]) ? 0 : 1;
+                    other += same_bits(hits_of(traced, {&from[eye][i], 1})[0], shared[i]) ? 0 : 1;
             }
             CHECK(other == 0);
         }

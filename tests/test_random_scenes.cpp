@@ -1,16 +1,3 @@
-#include <array>
-#include <cmath>
-#include <cstdlib>
-#include <map>
-#include <string>
-#include <vector>
-
-#include <packtrace/intersect.hpp>
-#include <packtrace/read_scene.hpp>
-#include <packtrace/render.hpp>
-#include <packtrace/validate.hpp>
-#include <packtrace/write_scene.hpp>
-
 #include "broken_scenes.hpp"
 #include "catch.hpp"
 #include "refusal.hpp"
@@ -18,6 +5,18 @@
 #include "same_scene.hpp"
 #include "scene/language/rows.hpp"
 #include "scene_text.hpp"
+#include <packtrace/intersect.hpp>
+#include <packtrace/read_scene.hpp>
+#include <packtrace/render.hpp>
+#include <packtrace/validate.hpp>
+#include <packtrace/write_scene.hpp>
+
+#include <array>
+#include <cmath>
+#include <cstdlib>
+#include <map>
+#include <string>
+#include <vector>
 
 // Random scenes built in code, valid ones and broken ones: the scalar kernel, packets and the
 // scene's text agree, or all of them refuse it with the same words.

@@ -1,16 +1,15 @@
+#include "catch.hpp"
+#include "refusal.hpp"
+#include "render/ray_columns.hpp"
+#include "same_bits.hpp"
+#include "scenes.hpp"
+#include <packtrace/build.hpp>
+#include <packtrace/generate.hpp>
 #include <packtrace/intersect.hpp>
 
 #include <random>
 #include <stop_token>
 #include <vector>
-
-#include <packtrace/build.hpp>
-#include <packtrace/generate.hpp>
-
-#include "catch.hpp"
-#include "refusal.hpp"
-#include "render/ray_columns.hpp"
-#include "scenes.hpp"
 
 // Rays in structs, in spans and alone are answered as rays in arrays; long queries report and stop.
 namespace packtrace::test {
@@ -58,12 +57,6 @@ Scene ball_scene()
 }
 
 template <class Real>
-bool same_hit(const SurfaceHit<Real>& a, const SurfaceHit<Real>& b)
-{
-    return a.t == b.t && a.object == b.object && std::equal(a.normal, a.normal + 3, b.normal);
-}
-
-template <class Real>
 std::vector<SurfaceHit<Real>> closest_of_spans(const RayScene<Real>& scene,
                                                const std::vector<Ray<Real>>& rays)
 {
@@ -106,9 +99,9 @@ void check_structs(const RenderOptions& options)
     std::size_t wrong = 0;
     std::size_t found = 0;
     for (std::size_t i = 0; i < rays.size(); ++i) {
-        wrong += same_hit(hits[i], expected[i]) ? 0u : 1u;
-        wrong += same_hit(photons[i].hit, expected[i]) ? 0u : 1u;
-        wrong += same_hit(scene.closest_hit(rays[i]), expected[i]) ? 0u : 1u;
+        wrong += same_bits(hits[i], expected[i]) ? 0u : 1u;
+        wrong += same_bits(photons[i].hit, expected[i]) ? 0u : 1u;
+        wrong += same_bits(scene.closest_hit(rays[i]), expected[i]) ? 0u : 1u;
         found += expected[i].object >= 0 ? 1u : 0u;
     }
     CHECK(wrong == 0);
@@ -146,10 +139,7 @@ TEST_CASE("all questions can be asked of rays in structs and of one ray", "[ray_
     std::size_t wrong = 0;
     scene.all_hits(rays, [&](std::size_t ray, auto hits) {
         wrong += ray == next++ ? 0u : 1u;
-        wrong +=
-            std::equal(hits.begin(), hits.end(), all[ray].begin(), all[ray].end(), same_hit<double>)
-                ? 0u
-                : 1u;
+        wrong += same_bits(hits, all[ray]) ? 0u : 1u;
     });
     CHECK(next == rays.size());
 
@@ -159,24 +149,16 @@ TEST_CASE("all questions can be asked of rays in structs and of one ray", "[ray_
     std::vector<HitBounds> bounds(rays.size()), expected(rays.size());
     scene.bound_closest_hits(view, object.data(), expected.data());
     scene.bound_closest_hits(rays, object, bounds);
-    const auto same_bounds = [](const HitBounds& a, const HitBounds& b) {
-        return a.low == b.low && a.high == b.high;
-    };
     for (std::size_t i = 0; i < rays.size(); ++i) {
         wrong += scene.occluded(rays[i]) == (mask[i] != 0) ? 0u : 1u;
         const auto hits = scene.all_hits(rays[i]);
-        wrong +=
-            std::equal(hits.begin(), hits.end(), all[i].begin(), all[i].end(), same_hit<double>)
-                ? 0u
-                : 1u;
-        wrong += same_bounds(bounds[i], expected[i]) ? 0u : 1u;
-        wrong += same_bounds(scene.bound_closest_hit(rays[i], object[i]), expected[i]) ? 0u : 1u;
+        wrong += same_bits(hits, all[i]) ? 0u : 1u;
+        wrong += same_bits(bounds[i], expected[i]) ? 0u : 1u;
+        wrong += same_bits(scene.bound_closest_hit(rays[i], object[i]), expected[i]) ? 0u : 1u;
         std::vector<HitBounds> of_all(hits.size());
         scene.bound_all_hits(view, i, hits, of_all);
         const auto alone = scene.bound_all_hits(rays[i], hits);
-        wrong += std::equal(alone.begin(), alone.end(), of_all.begin(), of_all.end(), same_bounds)
-                     ? 0u
-                     : 1u;
+        wrong += same_bits(alone, of_all) ? 0u : 1u;
     }
     CHECK(wrong == 0);
 }
@@ -230,6 +212,15 @@ TEST_CASE("arrays that are left out are refused by name, but for no rays", "[ray
           "mask is null; give an array of 3");
     CHECK(refused([&] { scene.all_hits(rays, RayScene<float>::TakeHits()); }) ==
           "`take` is empty; give a function for the hits of a ray");
+    const RayStructs<float> none(nullptr, 3);
+    CHECK(refused([&] { scene.all_hits(none, RayScene<float>::TakeHits()); }) ==
+          "`take` is empty; give a function for the hits of a ray");
+    CHECK(refused([&] { scene.all_hits(none, [](std::size_t, auto) {}); }) ==
+          "rays is null; give an array of 3");
+    CHECK(refused([&] { scene.occluded(none, mask); }) == "rays is null; give an array of 3");
+    const std::vector<Ray<float>> structs(3);
+    CHECK(refused([&] { scene.closest_hits(structs, HitStructs<float>(nullptr, 3)); }) ==
+          "hits is null; give an array of 3");
     CHECK(refused([&] { scene.bound_closest_hits(rays, nullptr, nullptr); }) ==
           "object is null; give an array of 3");
     CHECK(refused([&] { scene.lit(PointsView<float>{.count = 2}, 1, mask.data()); }) ==
@@ -265,7 +256,7 @@ TEST_CASE("a query reports how far it is, and stops where asked to", "[ray_layou
     QueryWatch watch;
     watch.progress = [&](double share) { shares.push_back(share); };
     scene.closest_hits(rays, hits, watch);
-    CHECK(std::equal(hits.begin(), hits.end(), expected.begin(), same_hit<float>));
+    CHECK(same_bits(hits, expected));
     CHECK(shares.size() > 5);
     CHECK(std::is_sorted(shares.begin(), shares.end()));
     CHECK(shares.back() == 1.0);

@@ -1,21 +1,3 @@
-#include <packtrace/intersect.hpp>
-
-#include <algorithm>
-#include <cmath>
-#include <deque>
-#include <functional>
-#include <limits>
-#include <random>
-#include <vector>
-
-#include <packtrace/explain.hpp>
-#include <packtrace/generate.hpp>
-#include <packtrace/isa.hpp>
-#include <packtrace/read_scene.hpp>
-#include <packtrace/render.hpp>
-
-#include <glm/gtc/matrix_transform.hpp>
-
 #include "catch.hpp"
 #include "packet_ways.hpp"
 #include "page_end.hpp"
@@ -24,6 +6,22 @@
 #include "render/ray_columns.hpp"
 #include "render/ray_pieces.hpp"
 #include "render_scene.hpp"
+#include <packtrace/explain.hpp>
+#include <packtrace/generate.hpp>
+#include <packtrace/intersect.hpp>
+#include <packtrace/isa.hpp>
+#include <packtrace/read_scene.hpp>
+#include <packtrace/render.hpp>
+
+#include <glm/gtc/matrix_transform.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <deque>
+#include <functional>
+#include <limits>
+#include <random>
+#include <vector>
 
 // Rays of the caller's own: packets against the scalar reference, in double precision.
 namespace packtrace::test {
@@ -476,6 +474,8 @@ TEST_CASE("vectors of hits have all of their arrays or none", "[ray_scene]")
     HitBounds bounds;
     CHECK_THROWS_WITH(scene.bound_all_hits(ray, 1, {&hit, 1}, {&bounds, 1}),
                       ContainsSubstring("ray 1 of 1"));
+    CHECK_THROWS_AS(scene.bound_all_hits({.count = 1}, 0, {&hit, 1}, {&bounds, 1}),
+                    std::invalid_argument);
 }
 
 namespace {

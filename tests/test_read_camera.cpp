@@ -1,14 +1,12 @@
+#include "catch.hpp"
+#include "scene_text.hpp"
 #include <packtrace/read_scene.hpp>
-
-#include <cmath>
-
 #include <packtrace/write_scene.hpp>
 
 #include <glm/geometric.hpp>
 #include <glm/matrix.hpp>
 
-#include "catch.hpp"
-#include "scene_text.hpp"
+#include <cmath>
 
 // The camera block and the animation.
 namespace packtrace {

@@ -1,13 +1,3 @@
-#include <packtrace/read_scene.hpp>
-
-#include <filesystem>
-#include <fstream>
-#include <string>
-
-#include <sys/mman.h>
-
-#include <tao/pegtl/contrib/analyze.hpp>
-
 #include "catch.hpp"
 #include "peak_memory.hpp"
 #include "refusal.hpp"
@@ -15,6 +5,14 @@
 #include "scene/language/quote.hpp"
 #include "scene_text.hpp"
 #include "temp_folder.hpp"
+#include <packtrace/read_scene.hpp>
+
+#include <tao/pegtl/contrib/analyze.hpp>
+
+#include <filesystem>
+#include <fstream>
+#include <string>
+#include <sys/mman.h>
 
 // Bad input: broken syntax, wrong values, files that are no scenes.
 namespace packtrace {

@@ -1,7 +1,6 @@
-#include <packtrace/read_scene.hpp>
-
 #include "catch.hpp"
 #include "scene_text.hpp"
+#include <packtrace/read_scene.hpp>
 
 // Materials of each illumination, named and inline, and checkers.
 namespace packtrace {

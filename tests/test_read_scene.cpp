@@ -1,11 +1,10 @@
+#include "catch.hpp"
+#include "scene/language/rows.hpp"
+#include "scene_text.hpp"
 #include <packtrace/read_scene.hpp>
 
 #include <fstream>
 #include <string>
-
-#include "catch.hpp"
-#include "scene/language/rows.hpp"
-#include "scene_text.hpp"
 
 // What a good scene file becomes: the scene's own keys, lights and the syntax.
 namespace packtrace {

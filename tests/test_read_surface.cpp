@@ -1,8 +1,7 @@
-#include <packtrace/read_scene.hpp>
-#include <packtrace/write_scene.hpp>
-
 #include "catch.hpp"
 #include "scene_text.hpp"
+#include <packtrace/read_scene.hpp>
+#include <packtrace/write_scene.hpp>
 
 // Spheres, planes and quadrics with their own keys, and objects' names.
 namespace packtrace {

@@ -1,12 +1,11 @@
+#include "catch.hpp"
+#include "scene_text.hpp"
 #include <packtrace/read_scene.hpp>
-
-#include <cmath>
 
 #include <glm/geometric.hpp>
 #include <glm/vec4.hpp>
 
-#include "catch.hpp"
-#include "scene_text.hpp"
+#include <cmath>
 
 // scale, rotate, translate and matrix of objects.
 namespace packtrace {

@@ -115,7 +115,7 @@ TEST_CASE("where Ks + Kr = 1 a bright surrounding is seen undimmed", "[reference
     }
 }
 
-TEST_CASE("with Kr and transparent shadows a blocker passes Kr on", "[reference_000]")
+TEST_CASE("with Kr and transparent shadows an occluder passes Kr on", "[reference_000]")
 {
     Scene scene = floor_scene();
     scene.shadows = ShadowKind::transparent;

@@ -1,9 +1,9 @@
 // Note 001 against numbers worked out by hand from its text.
-#include <packtrace/scene.hpp>
 #include "catch.hpp"
 #include "reference/models/note_001.hpp"
 #include "reference/render_reference.hpp"
 #include "reference_scenes.hpp"
+#include <packtrace/scene.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -114,7 +114,7 @@ TEST_CASE("at the depth limit the local colour counts whole", "[reference_001]")
     check_color(trace(scene, {0, 0, 0}, {0, 0, 1}), Rgb(0.375, 0.5, 0.375));
 }
 
-TEST_CASE("a blocker before the light shadows, one behind a point light does not",
+TEST_CASE("an occluder before the light shadows, one behind a point light does not",
           "[reference_001]")
 {
     Scene scene{.objects = {plane({0, -1, 0}, {0, 1, 0}, matte(Rgb(1))),

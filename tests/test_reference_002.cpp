@@ -62,7 +62,7 @@ TEST_CASE("where the ray tree ends R and T are left out", "[reference_002]")
     check_color(seen(scene), Rgb(0.6536, 0.4036, 0.1536));
 }
 
-TEST_CASE("a transparent blocker scales the light by its transparency", "[reference_002]")
+TEST_CASE("a transparent occluder scales the light by its transparency", "[reference_002]")
 {
     Scene scene = whitted_floor();
     scene.objects.push_back(sphere({0, 2, 0}, 0.25, shaded(clear(Rgb(0.5, 0.25, 1)))));
@@ -71,7 +71,7 @@ TEST_CASE("a transparent blocker scales the light by its transparency", "[refere
     // Crossed twice, counted once.
     scene.shadows = ShadowKind::transparent;
     check_color(seen(scene), Rgb(0.1 + 0.5 * 0.5536, 0.05 + 0.25 * 0.3536, 0.1536));
-    // Two blockers multiply.
+    // Two occluders multiply.
     scene.objects.push_back(sphere({0, 3, 0}, 0.25, shaded(clear(Rgb(0.1)))));
     check_color(seen(scene), Rgb(0.1 + 0.05 * 0.5536, 0.05 + 0.025 * 0.3536, 0.01536));
     // One beyond the light does not count, an opaque one stops it.

@@ -90,7 +90,7 @@ TEST_CASE("an object beyond the light casts no shadow", "[reference_004]")
 TEST_CASE("each object sees the shadow ray from the world, whatever stands before it in the list",
           "[reference_004]")
 {
-    // As the listing has it, the blocker would get the ray in the space of the object before,
+    // As the listing has it, the occluder would get the ray in the space of the object before,
     // which stands far away and is much larger.
     Scene scene = shader_floor();
     scene.objects.push_back(sphere({0, 0, 0}, 1, reflecting(0, 0, 0, 1)));

@@ -1,9 +1,9 @@
 // Surfaces of the scalar reference against intersections worked out by hand.
-#include <packtrace/build.hpp>
-#include <packtrace/read_scene.hpp>
 #include "catch.hpp"
 #include "reference/surfaces/hits.hpp"
 #include "reference_scenes.hpp"
+#include <packtrace/build.hpp>
+#include <packtrace/read_scene.hpp>
 
 #include <algorithm>
 #include <cmath>

@@ -1,15 +1,13 @@
 // Files that can't be written: full disks, limits of size, folders that may not be written to.
-#include <algorithm>
-#include <filesystem>
-#include <string>
-#include <thread>
-
-#include <sys/prctl.h>
-
-#include <linux/capability.h>
-
 #include "catch.hpp"
 #include "program_works.hpp"
+
+#include <algorithm>
+#include <filesystem>
+#include <linux/capability.h>
+#include <string>
+#include <sys/prctl.h>
+#include <thread>
 
 namespace packtrace::test {
 namespace {

@@ -1,4 +1,12 @@
 // Regions of a picture, and renders that are stopped.
+#include "catch.hpp"
+#include "refusal.hpp"
+#include "run_program.hpp"
+#include "samplings.hpp"
+#include "scenes.hpp"
+#include "temp_folder.hpp"
+#include <packtrace/image_io.hpp>
+#include <packtrace/read_scene.hpp>
 #include <packtrace/renderer.hpp>
 
 #include <chrono>
@@ -6,16 +14,6 @@
 #include <string>
 #include <thread>
 #include <vector>
-
-#include <packtrace/image_io.hpp>
-#include <packtrace/read_scene.hpp>
-
-#include "catch.hpp"
-#include "refusal.hpp"
-#include "run_program.hpp"
-#include "samplings.hpp"
-#include "scenes.hpp"
-#include "temp_folder.hpp"
 
 namespace packtrace::test {
 namespace {

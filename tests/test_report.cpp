@@ -1,16 +1,4 @@
 // Error against run time: what is run, what is measured, what is written.
-#include <packtrace/report.hpp>
-
-#include <packtrace/isa.hpp>
-#include <packtrace/write_report.hpp>
-
-#include <algorithm>
-#include <limits>
-#include <random>
-#include <set>
-
-#include <nlohmann/json.hpp>
-
 #include "catch.hpp"
 #include "lab/harness/statistics.hpp"
 #include "lab/report/plot_layout.hpp"
@@ -21,6 +9,16 @@
 #include "render_scene.hpp"
 #include "scenes.hpp"
 #include "temp_folder.hpp"
+#include <packtrace/isa.hpp>
+#include <packtrace/report.hpp>
+#include <packtrace/write_report.hpp>
+
+#include <nlohmann/json.hpp>
+
+#include <algorithm>
+#include <limits>
+#include <random>
+#include <set>
 
 namespace packtrace::test {
 namespace {
@@ -132,7 +130,7 @@ TEST_CASE("a report's errors are those of the pictures against the truth", "[rep
     const auto truth = convert<double>(render<long double>(scene.scene, scalar));
     CHECK((arithmetic.pictures.front().image.rgb == truth.rgb));
     for (const ReportRun& run : arithmetic.runs)
-        if (run.variant.kernel == Kernel::packet && run.variant.precision == "single") {
+        if (run.variant.kernel == Kernel::packet && run.variant.precision == Precision::single) {
             const RenderOptions options{.isa = run.variant.isa,
                                         .accuracy = run.variant.accuracy,
                                         .self_hits = run.variant.self_hits};

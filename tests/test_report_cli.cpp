@@ -1,10 +1,9 @@
 // The program's `report`.
+#include "catch.hpp"
+#include "run_program.hpp"
 #include <packtrace/write_report.hpp>
 
 #include <nlohmann/json.hpp>
-
-#include "catch.hpp"
-#include "run_program.hpp"
 
 namespace packtrace::test {
 namespace {

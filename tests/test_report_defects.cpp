@@ -1,14 +1,12 @@
 // A report says what is wrong with kernels that have a defect.
-#include <packtrace/report.hpp>
-
-#include <packtrace/isa.hpp>
-
 #include "catch.hpp"
 #include "dispatch/kernels.hpp"
 #include "lab/report/report_study.hpp"
 #include "lab/report/report_text.hpp"
 #include "render_scene.hpp"
 #include "scenes.hpp"
+#include <packtrace/isa.hpp>
+#include <packtrace/report.hpp>
 
 namespace packtrace::planted {
 [[nodiscard]] const abi::KernelTable& kernel_table();

@@ -1,18 +1,17 @@
 // report.html in a real browser.
-#include <regex>
-#include <set>
-#include <string>
-#include <vector>
-
+#include "browser.hpp"
+#include "catch.hpp"
+#include "scenes.hpp"
 #include <packtrace/isa.hpp>
 #include <packtrace/report.hpp>
 #include <packtrace/write_report.hpp>
 
 #include <nlohmann/json.hpp>
 
-#include "browser.hpp"
-#include "catch.hpp"
-#include "scenes.hpp"
+#include <regex>
+#include <set>
+#include <string>
+#include <vector>
 
 namespace packtrace::test {
 namespace {

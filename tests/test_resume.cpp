@@ -1,13 +1,13 @@
 // render --resume: interrupted pictures.
+#include "catch.hpp"
+#include "killed_program.hpp"
+
 #include <csignal>
 #include <filesystem>
 #include <fstream>
 #include <sstream>
 #include <string>
 #include <vector>
-
-#include "catch.hpp"
-#include "killed_program.hpp"
 
 namespace packtrace::test {
 namespace {

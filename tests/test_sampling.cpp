@@ -1,10 +1,4 @@
 // Several samples a pixel, everywhere or where there is contrast.
-#include <packtrace/compare.hpp>
-
-#include <algorithm>
-#include <cmath>
-#include <set>
-
 #include "catch.hpp"
 #include "image/contrast.hpp"
 #include "image/pixel_error.hpp"
@@ -13,6 +7,11 @@
 #include "render_scene.hpp"
 #include "run_program.hpp"
 #include "scene/sample_pattern.hpp"
+#include <packtrace/compare.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <set>
 
 namespace packtrace::test {
 namespace {

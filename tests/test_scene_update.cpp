@@ -1,16 +1,15 @@
+#include "catch.hpp"
+#include "refusal.hpp"
+#include "render_scene.hpp"
+#include "same_bits.hpp"
+#include "scenes.hpp"
+#include <packtrace/build.hpp>
 #include <packtrace/intersect.hpp>
+#include <packtrace/isa.hpp>
 
 #include <cmath>
 #include <random>
 #include <vector>
-
-#include <packtrace/build.hpp>
-#include <packtrace/isa.hpp>
-
-#include "catch.hpp"
-#include "refusal.hpp"
-#include "render_scene.hpp"
-#include "scenes.hpp"
 
 // RayScene::update(): moved objects are answered as by a RayScene made anew, bit for bit.
 namespace packtrace::test {
@@ -108,17 +107,8 @@ struct Answers {
     /// Compares bits.
     bool operator==(const Answers& other) const
     {
-        const auto same = [](const SurfaceHit<Real>& a, const SurfaceHit<Real>& b) {
-            return a.t == b.t && a.object == b.object &&
-                   std::equal(a.normal, a.normal + 3, b.normal);
-        };
-        const auto same_bounds = [](const HitBounds& a, const HitBounds& b) {
-            return a.low == b.low && a.high == b.high;
-        };
-        return mask == other.mask &&
-               std::equal(closest.begin(), closest.end(), other.closest.begin(), same) &&
-               std::equal(all.begin(), all.end(), other.all.begin(), other.all.end(), same) &&
-               std::equal(bounds.begin(), bounds.end(), other.bounds.begin(), same_bounds);
+        return same_bits(closest, other.closest) && mask == other.mask &&
+               same_bits(all, other.all) && same_bits(bounds, other.bounds);
     }
 };
 

@@ -1,13 +1,13 @@
 // Every scene in scenes/ with packets and with the scalar reference.
-#include <cstring>
-#include <filesystem>
-
-#include <tbb/global_control.h>
-#include <packtrace/compare.hpp>
-
 #include "catch.hpp"
 #include "render_scene.hpp"
+#include "same_bits.hpp"
 #include "scene_files.hpp"
+#include <packtrace/compare.hpp>
+
+#include <tbb/global_control.h>
+
+#include <filesystem>
 
 namespace packtrace::test {
 namespace {
@@ -79,8 +79,7 @@ TEMPLATE_TEST_CASE("packets give one picture of every scene for all widths, trav
                     const Image<TestType> picture = render<TestType>(scene, options);
                     if (first.rgb.empty())
                         first = picture;
-                    CHECK(std::memcmp(picture.rgb.data(), first.rgb.data(),
-                                      first.rgb.size() * sizeof(TestType)) == 0);
+                    CHECK(same_bits(picture, first));
                 }
     }
 }

@@ -1,14 +1,5 @@
 // SelfHits::exact: packets against the scalar reference, both by that rule, and rays that leave a
 // surface they are on.
-#include <algorithm>
-#include <array>
-#include <cmath>
-#include <random>
-
-#include <packtrace/compare.hpp>
-#include <packtrace/intersect.hpp>
-#include <packtrace/read_scene.hpp>
-
 #include "catch.hpp"
 #include "lab/harness/ray_trees.hpp"
 #include "lab/report/error_class.hpp"
@@ -17,6 +8,14 @@
 #include "reference/render_reference.hpp"
 #include "reference_scenes.hpp"
 #include "render_scene.hpp"
+#include <packtrace/compare.hpp>
+#include <packtrace/intersect.hpp>
+#include <packtrace/read_scene.hpp>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <random>
 
 namespace packtrace::test {
 namespace {
@@ -145,6 +144,26 @@ TEST_CASE("by the note's rule nothing shadows a light that is nearer than 0.001"
                 const auto single = convert<double>(render<float>(scene, options));
                 CHECK(compare(single, expected).max_abs <= 1e-3);
             }
+        }
+}
+
+TEST_CASE("by the note's rule a lamp however far casts the shadows that are there", "[self_hits]")
+{
+    const Scene scene = parse_scene(
+        "image_size = 256 x 256  sphere { center = (-0.7, 0.5, 4.1)  radius = 0.6 } "
+        "plane { point = (0, -1, 3)  normal = (0.15, 1, 0.08) } "
+        "light { type = point  intensity = 0.7  position = (2650, 3000, -3000) }",
+        "far lamp", {});
+    RenderOptions options{.accuracy = Accuracy::fast, .self_hits = SelfHits::note};
+    const Image<double> truth = render_reference<double>(scene, {.self_hits = SelfHits::note});
+    for (const std::string& isa : supported_isas())
+        for (const Traversal traversal : {Traversal::list, Traversal::tree}) {
+            CAPTURE(isa, static_cast<int>(traversal));
+            options.isa = isa;
+            options.traversal = traversal;
+            const auto picture = render<float>(scene, options);
+            // The shadow's own edge is a float's.
+            CHECK(compare(convert<double>(picture), truth).pixels_off <= 4);
         }
 }
 

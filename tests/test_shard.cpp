@@ -1,17 +1,18 @@
 // --shard of render --frames, intersect and stress, packtrace join, and intersect --resume.
+#include "catch.hpp"
+#include "core/checksum.hpp"
+#include "core/json_text.hpp"
+#include "intersect_program.hpp"
+#include "job_inputs.hpp"
+#include "killed_program.hpp"
+#include <packtrace/isa.hpp>
+
+#include <nlohmann/json.hpp>
+
 #include <csignal>
 #include <filesystem>
 #include <string>
 #include <vector>
-
-#include <nlohmann/json.hpp>
-
-#include <packtrace/isa.hpp>
-
-#include "catch.hpp"
-#include "intersect_program.hpp"
-#include "job_inputs.hpp"
-#include "killed_program.hpp"
 
 namespace packtrace::test {
 namespace {
@@ -75,6 +76,18 @@ TEST_CASE("joined shards of rays are the file of all rays", "[shard]")
         }
 }
 
+TEST_CASE("parts of scenes that differ in their cameras are joined", "[shard]")
+{
+    const Bench bench(50);
+    REQUIRE(bench.intersect("whole.csv", {}).exit_code == 0);
+    REQUIRE(bench.intersect("p0", {"--shard", "0/2"}).exit_code == 0);
+    write_text(bench.folder / "hand.scene",
+               std::string(hand_scene) + "\ncamera { position = (1, 2, 3)  fov = 20 }\n");
+    REQUIRE(bench.intersect("p1", {"--shard", "1/2"}).exit_code == 0);
+    CHECK(bench.join({"p0", "p1"}, "joined.csv").exit_code == 0);
+    CHECK(bench.same("joined.csv", "whole.csv"));
+}
+
 TEST_CASE("more shards than rays leave some empty", "[shard]")
 {
     const Bench bench(3);
@@ -120,6 +133,7 @@ TEST_CASE("parts that do not belong together are not joined", "[shard]")
     write_text(bench.folder / "rays.csv", others);
     REQUIRE(bench.intersect("other", {"--shard", "1/3"}).exit_code == 0);
     write_text(bench.folder / "rays.csv", rays);
+    write_text(bench.folder / "line", "# packtrace part 0/1 of " + std::string(1 << 20, 'x'));
     struct Wrong {
         Words parts;
         const char* message;
@@ -131,6 +145,7 @@ TEST_CASE("parts that do not belong together are not joined", "[shard]")
         {{"p0", "half", "p2"}, "is a part of other work"},
         {{"p0", "other", "p2"}, "is a part of other work"},
         {{"whole"}, "is not a part"},
+        {{"line"}, "is not a part"},
         {{"none"}, "can't read"},
     };
     for (const Wrong& wrong : wrongs) {
@@ -261,11 +276,24 @@ TEST_CASE("joined shards of a stress test have the rows and the verdict of the w
     edited.replace(edited.find("\"wrong\": 0"), 10, "\"wrong\": 5");
     write_text(folder / "edited", edited);
     refused({"join", folder / "0", folder / "edited", folder / "2"}, "is cut or was changed");
+    // Rows of another program, whose checksum is right.
+    auto foreign = nlohmann::ordered_json::parse(read_text(folder / "1"));
+    foreign["rows"][0]["precision"] = "half";
+    foreign.erase("checksum");
+    foreign["checksum"] = checksum(bytes_of(json_text(foreign)));
+    write_text(folder / "foreign", json_text(foreign));
+    refused({"join", folder / "0", folder / "foreign", folder / "2"},
+            "has a row that stress did not write: 'half' is no precision");
     // JSON that is nested without end.
     constexpr int deep = 200'000;
     write_text(folder / "deep", R"({"shard": "1/3", "rows": )" + std::string(deep, '[') +
                                     std::string(deep, ']') + "}");
     refused({"join", folder / "0", folder / "deep", folder / "2"}, "is no part");
+    // No more than that, its checksum right.
+    nlohmann::ordered_json bare{{"shard", "1/3"}, {"rows", nlohmann::ordered_json::array()}};
+    bare["checksum"] = checksum(bytes_of(json_text(bare)));
+    write_text(folder / "bare", json_text(bare));
+    refused({"join", folder / "bare"}, "is no part");
     join.pop_back();
     refused(join, "is missing");
 }

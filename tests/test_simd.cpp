@@ -1,13 +1,13 @@
 // Every operation of the kernels' simd.hpp, on every instruction set the machine has, against
 // plain scalar code.
+#include "catch.hpp"
+#include "simd_scalar.hpp"
+#include "simd_whole.hpp"
+
 #include <algorithm>
 #include <cstring>
 #include <set>
 #include <sstream>
-
-#include "catch.hpp"
-#include "simd_scalar.hpp"
-#include "simd_whole.hpp"
 
 namespace packtrace::test {
 namespace {

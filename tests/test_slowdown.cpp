@@ -1,11 +1,10 @@
 // Verdicts on samples that nobody measured.
+#include "catch.hpp"
 #include "lab/bench/slowdown.hpp"
 
 #include <algorithm>
 #include <cstddef>
 #include <random>
-
-#include "catch.hpp"
 
 namespace packtrace::test {
 namespace {

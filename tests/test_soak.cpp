@@ -1,22 +1,20 @@
 // Random scenes in every way there is, and what is done with a finding.
-#include "lab/soak/soak.hpp"
-
-#include <cmath>
-#include <filesystem>
-
-#include <packtrace/read_scene.hpp>
-
-#include <tbb/global_control.h>
-#include <glm/geometric.hpp>
-
 #include "catch.hpp"
 #include "killed_program.hpp"
+#include "lab/soak/soak.hpp"
 #include "lab/soak/soak_scene.hpp"
 #include "lab/soak/soak_way.hpp"
 #include "lab/stress/evaluate.hpp"
 #include "lab/stress/stress_family.hpp"
 #include "run_program.hpp"
 #include "temp_folder.hpp"
+#include <packtrace/read_scene.hpp>
+
+#include <glm/geometric.hpp>
+#include <tbb/global_control.h>
+
+#include <cmath>
+#include <filesystem>
 
 namespace packtrace::test {
 namespace {
@@ -33,7 +31,7 @@ std::string faults_in_all_ways(const Scene& scene, const std::vector<lab::Stress
         group.expected.push_back(lab::expect(ray, group.hits_of(ray), roundoff_of_floats));
     std::string faults;
     for (const lab::SoakGroup& ways :
-         lab::packet_groups("single", Accuracy::exact, SelfHits::exact))
+         lab::packet_groups(Precision::single, Accuracy::exact, SelfHits::exact))
         for (const lab::SoakWay& way : ways.ways) {
             const lab::StressRun run =
                 lab::run_subject<float>({"packet", "", way.options.isa, true, way.options}, group);
@@ -275,7 +273,7 @@ TEST_CASE("normals of spheres that are seen from afar are of unit length", "[soa
             group.rays.push_back(ray);
         }
         for (const lab::SoakGroup& ways :
-             lab::packet_groups("single", Accuracy::exact, SelfHits::exact))
+             lab::packet_groups(Precision::single, Accuracy::exact, SelfHits::exact))
             for (const lab::SoakWay& way : ways.ways) {
                 const lab::StressRun run = lab::run_subject<float>(
                     {"packet", "", way.options.isa, true, way.options}, group);

@@ -1,10 +1,5 @@
 // Mirrored rays that are sorted over many tiles bring what those of each tile alone bring, bit for
 // bit.
-#include <cstring>
-
-#include <packtrace/build.hpp>
-#include <packtrace/generate.hpp>
-
 #include "catch.hpp"
 #include "dispatch/kernels.hpp"
 #include "few_objects.hpp"
@@ -12,6 +7,11 @@
 #include "render/tile_loop.hpp"
 #include "render/tile_renderer.hpp"
 #include "render_scene.hpp"
+#include "same_bits.hpp"
+#include <packtrace/build.hpp>
+#include <packtrace/generate.hpp>
+
+#include <span>
 
 namespace packtrace::test {
 namespace {
@@ -38,14 +38,25 @@ Picture<Real> render_pieces(const TileRenderer<Real>& tiles, const Scene& scene,
 template <class Real>
 void check_same(const Picture<Real>& a, const Picture<Real>& b)
 {
-    CHECK(std::memcmp(a.image.rgb.data(), b.image.rgb.data(), a.image.rgb.size() * sizeof(Real)) ==
-          0);
+    CHECK(same_bits(a.image, b.image));
     CHECK(a.counts.camera == b.counts.camera);
     CHECK(a.counts.shadow == b.counts.shadow);
     CHECK(a.counts.reflected == b.counts.reflected);
     CHECK(a.counts.refracted == b.counts.refracted);
     CHECK(a.counts.cut == b.counts.cut);
     CHECK(a.counts.lacks == b.counts.lacks);
+}
+
+/// Whether `part` has the bits that `whole` has from pixel (x, y) on.
+bool is_cut_from(const Image<float>& whole, int x, int y, const Image<float>& part)
+{
+    const auto row_of = [&](const Image<float>& image, int left, int row) {
+        return std::span(image.pixel(left, row), 3 * static_cast<std::size_t>(part.width));
+    };
+    for (int row = 0; row < part.height; ++row)
+        if (!same_bits(row_of(part, 0, row), row_of(whole, x, y + row)))
+            return false;
+    return true;
 }
 
 /// Checks the blocks of a picture against its tiles; returns whether blocks are what frames are
@@ -67,8 +78,7 @@ bool check_blocks(const Scene& scene, RenderOptions options)
                                      kernels_of(options.isa), options);
     CHECK(general.block_edge({0, 0, scene.width, scene.height}, 1) == abi::tile_size);
     const Picture<Real> by_all = render_pieces(general, scene, abi::tile_size);
-    CHECK(std::memcmp(by_all.image.rgb.data(), alone.image.rgb.data(),
-                      alone.image.rgb.size() * sizeof(Real)) == 0);
+    CHECK(same_bits(by_all.image, alone.image));
     return true;
 }
 
@@ -160,15 +170,10 @@ TEST_CASE("frames are the same for any number of threads, region and rows", "[so
     const Image<float> whole = render<float>(scene, options);
     options.threads = 3;
     const Image<float> by_three = render<float>(scene, options);
-    CHECK(std::memcmp(whole.rgb.data(), by_three.rgb.data(), whole.rgb.size() * sizeof(float)) ==
-          0);
+    CHECK(same_bits(whole, by_three));
     options.region = Region{101, 33, 150, 90};
     const Image<float> part = render<float>(scene, options);
-    bool same = true;
-    for (int row = 0; row < part.height; ++row)
-        same &= std::memcmp(part.pixel(0, row), whole.pixel(101, 33 + row),
-                            3 * sizeof(float) * static_cast<std::size_t>(part.width)) == 0;
-    CHECK(same);
+    CHECK(is_cut_from(whole, 101, 33, part));
 }
 
 TEST_CASE("memory for some tiles together is enough for fewer, however deep the scene", "[sorted]")
@@ -200,14 +205,11 @@ TEST_CASE("deep small pictures are those of lists, by tiles alone and together",
     for (const int threads : {1, 2}) {
         options.threads = threads;
         const Image<float> by_tree = render<float>(scene, options);
-        CHECK(std::memcmp(by_list.rgb.data(), by_tree.rgb.data(),
-                          by_list.rgb.size() * sizeof(float)) == 0);
+        CHECK(same_bits(by_list, by_tree));
     }
     options.region = Region{0, 0, 5, 5};
     const Image<float> part = render<float>(scene, options);
-    for (int row = 0; row < part.height; ++row)
-        CHECK(std::memcmp(part.pixel(0, row), by_list.pixel(0, row),
-                          3 * sizeof(float) * static_cast<std::size_t>(part.width)) == 0);
+    CHECK(is_cut_from(by_list, 0, 0, part));
 }
 
 TEST_CASE("what is not mirrored down a hierarchy is not sorted", "[sorted]")

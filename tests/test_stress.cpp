@@ -1,22 +1,22 @@
 // The truth that stress holds kernels against, and what it finds.
+#include "catch.hpp"
+#include "killed_program.hpp"
+#include "lab/stress/evaluate.hpp"
+#include "lab/stress/placed_quadric.hpp"
 #include "lab/stress/stress.hpp"
+#include "lab/stress/stress_family.hpp"
+#include "lab/stress/stress_subject.hpp"
+#include "render/option_words.hpp"
+#include "run_program.hpp"
+#include "temp_folder.hpp"
+#include <packtrace/isa.hpp>
+
+#include <nlohmann/json.hpp>
 
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
 #include <limits>
-
-#include <nlohmann/json.hpp>
-#include <packtrace/isa.hpp>
-
-#include "catch.hpp"
-#include "killed_program.hpp"
-#include "lab/stress/evaluate.hpp"
-#include "lab/stress/placed_quadric.hpp"
-#include "lab/stress/stress_family.hpp"
-#include "lab/stress/stress_subject.hpp"
-#include "run_program.hpp"
-#include "temp_folder.hpp"
 
 namespace packtrace::test {
 namespace {
@@ -115,7 +115,7 @@ void check_faultless(lab::StressOptions options)
     options.kernels = {"packet"};
     options.modes = {"exact"};
     for (const StressRow& row : rows_of(options)) {
-        CAPTURE(row.family, row.precision, row.isa, row.example);
+        CAPTURE(row.family, language::word_of(row.precision), row.isa, row.example);
         CHECK(row.held);
         CHECK(row.faults == std::vector<std::string>{});
     }
@@ -417,7 +417,7 @@ TEST_CASE("a verdict names the families that are wrong", "[stress]")
 {
     StressRow good;
     good.family = "sphere";
-    good.precision = "single";
+    good.precision = Precision::single;
     good.mode = "exact";
     good.held = true;
     good.rays = 100;
@@ -453,7 +453,7 @@ TEST_CASE("a verdict names the families that are wrong", "[stress]")
           "hits lost, 200 rays), double itself at its limit in far (2 t, 1 normals of 90)");
     // Packets of doubles do not refine: an ulp of double is not held to, what inputs make is.
     StressRow doubles = good;
-    doubles.precision = "double";
+    doubles.precision = Precision::double_;
     doubles.hits = 100;
     doubles.t_beyond = doubles.t_beyond_half = 50;
     doubles.rho = 3.9;
@@ -504,7 +504,7 @@ TEST_CASE("packets are right about rays along a cylinder outside the band", "[st
 {
     const lab::StressOptions options{.families = {"cylinder-axis"},
                                      .kernels = {"packet"},
-                                     .precisions = {"single"},
+                                     .precisions = {Precision::single},
                                      .rays = 24000,
                                      .second_hits = false,
                                      .bounds = false};
@@ -522,7 +522,7 @@ TEST_CASE("second hits are those of rays from where they start", "[stress]")
                                      .rays = 8000,
                                      .bounds = false};
     for (const StressRow& row : rows_of(options)) {
-        CAPTURE(row.family, row.precision, row.mode, row.isa);
+        CAPTURE(row.family, language::word_of(row.precision), row.mode, row.isa);
         CHECK(row.second_rays > 1000);
         CHECK(row.self_hits == 0);
         CHECK(row.second_lost == 0);
@@ -551,7 +551,7 @@ TEST_CASE("packets are right outside the band of their own precision", "[stress]
         for (const lab::StressFamily& family : some)
             options.families.push_back(family.name);
     for (const StressRow& row : rows_of(options)) {
-        CAPTURE(row.family, row.precision, row.mode, row.isa, row.example);
+        CAPTURE(row.family, language::word_of(row.precision), row.mode, row.isa, row.example);
         CHECK(row.beyond_own_band == 0);
         CHECK(row.not_finite == 0);
         CHECK(row.rho <= 4.0);
@@ -566,7 +566,7 @@ TEST_CASE("powers, glass and mirrors keep their bounds", "[stress]")
                                                   "critical-angle", "mirror-room", "mirror-ball"},
                                      .rays = 400};
     for (const StressRow& row : rows_of(options)) {
-        CAPTURE(row.family, row.precision, row.mode, row.isa);
+        CAPTURE(row.family, language::word_of(row.precision), row.mode, row.isa);
         CHECK(row.rays > 0);
         CHECK(row.beyond_own_band == 0);
         CHECK(row.faults.empty());
@@ -575,7 +575,8 @@ TEST_CASE("powers, glass and mirrors keep their bounds", "[stress]")
 
 TEST_CASE("the textbook breaks on what packets hold", "[stress]")
 {
-    lab::StressOptions options{.families = {"tiny-far"}, .precisions = {"single"}, .rays = 1000};
+    lab::StressOptions options{
+        .families = {"tiny-far"}, .precisions = {Precision::single}, .rays = 1000};
     const auto far = rows_of(options);
     CHECK(row_of(far, "textbook", "").beyond_own_band > 100);
     CHECK(row_of(far, "packet", "fast").beyond_own_band == 0);
@@ -592,7 +593,7 @@ TEST_CASE("all instruction sets with fused multiply-add answer alike in every mo
         .kernels = {"packet"}, .rays = 300, .second_hits = false, .bounds = false};
     const std::vector<std::string> fused = {"sse_fma", "avx2", "avx512"};
     for (const StressRow& row : rows_of(options)) {
-        CAPTURE(row.family, row.precision, row.mode, row.isa);
+        CAPTURE(row.family, language::word_of(row.precision), row.mode, row.isa);
         // Any with it comes with all of them.
         const std::string names = " " + row.isa + " ";
         std::size_t in_row = 0;

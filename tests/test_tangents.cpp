@@ -1,5 +1,13 @@
 // Rays of whole numbers that touch a body in one point exactly: rounding decides whether they hit
 // it, but not where.
+#include "catch.hpp"
+#include "packet_ways.hpp"
+#include "scenes.hpp"
+#include <packtrace/intersect.hpp>
+#include <packtrace/read_scene.hpp>
+
+#include <glm/geometric.hpp>
+
 #include <array>
 #include <cmath>
 #include <cstdint>
@@ -7,14 +15,6 @@
 #include <random>
 #include <string>
 #include <vector>
-
-#include <glm/geometric.hpp>
-#include <packtrace/intersect.hpp>
-#include <packtrace/read_scene.hpp>
-
-#include "catch.hpp"
-#include "packet_ways.hpp"
-#include "scenes.hpp"
 
 namespace packtrace::test {
 namespace {

@@ -1,16 +1,15 @@
 // Work on several threads: callbacks that have tasks of their own, and what many short pieces of
 // work leave in memory.
-#include <algorithm>
-#include <string>
-
+#include "catch.hpp"
+#include "peak_memory.hpp"
 #include <packtrace/read_scene.hpp>
 #include <packtrace/renderer.hpp>
 
 #include <tbb/global_control.h>
 #include <tbb/parallel_for.h>
 
-#include "catch.hpp"
-#include "peak_memory.hpp"
+#include <algorithm>
+#include <string>
 
 namespace packtrace::test {
 namespace {

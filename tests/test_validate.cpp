@@ -1,17 +1,17 @@
-#include <cmath>
-#include <string>
-#include <vector>
-
-#include <glm/geometric.hpp>
+#include "catch.hpp"
+#include "random_scenes.hpp"
+#include "same_scene.hpp"
+#include "scene_text.hpp"
 #include <packtrace/build.hpp>
 #include <packtrace/render.hpp>
 #include <packtrace/validate.hpp>
 #include <packtrace/write_scene.hpp>
 
-#include "catch.hpp"
-#include "random_scenes.hpp"
-#include "same_scene.hpp"
-#include "scene_text.hpp"
+#include <glm/geometric.hpp>
+
+#include <cmath>
+#include <string>
+#include <vector>
 
 // What validate() says of scenes built in code, where its ranges end, and the helpers that build.
 namespace packtrace::test {

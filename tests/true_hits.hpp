@@ -1,12 +1,12 @@
 #pragma once
 
+#include "aimed_rays.hpp"
+#include "lab/truth/wide_truth.hpp"
+
 #include <cmath>
 #include <cstdint>
 #include <limits>
 #include <vector>
-
-#include "aimed_rays.hpp"
-#include "lab/truth/wide_truth.hpp"
 
 // What rays hit, in 113 bits, and whether doubles can tell.
 namespace packtrace::test {

@@ -1,20 +1,19 @@
 // packtrace_cluster: what results/cluster.py fits its model of many ranks by, and the model. Both
 // print JSON.
+#include "cli/render/render_bands.hpp"
+#include "core/seconds_since.hpp"
+#include "job_model.hpp"
+#include "program.hpp"
+#include <packtrace/read_scene.hpp>
+
+#include <nlohmann/json.hpp>
+#include <tbb/global_control.h>
+
 #include <chrono>
 #include <iostream>
 #include <memory>
 #include <string>
 #include <vector>
-
-#include <nlohmann/json.hpp>
-#include <packtrace/read_scene.hpp>
-
-#include <tbb/global_control.h>
-
-#include "cli/render/render_bands.hpp"
-#include "core/seconds_since.hpp"
-#include "job_model.hpp"
-#include "program.hpp"
 
 namespace packtrace::bench {
 namespace {
@@ -46,7 +45,7 @@ Json measure_bands(const BandArguments& arguments)
     const RowSamples samples(arguments.output, scene.width, 1.0);
     const cli::Bands bands =
         cli::cut_into_bands(scene.width, scene.height, samples.format(), cli::band_pixels);
-    const auto render = cli::band_renderer(scene, "single", {}, samples);
+    const auto render = cli::band_renderer(scene, Precision::single, {}, samples);
     const int count = std::min(arguments.bands, bands.count());
     const std::size_t band_bytes = samples.row_bytes() * static_cast<std::size_t>(bands.rows);
 

@@ -1,5 +1,7 @@
 #pragma once
 
+#include "mpi/hand_out.hpp"
+
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>
@@ -8,8 +10,6 @@
 #include <queue>
 #include <utility>
 #include <vector>
-
-#include "mpi/hand_out.hpp"
 
 // What a job of packtrace-mpi takes on many ranks, by simulation: the hand-out is the program's
 // own, what work and messages take is given.

@@ -1,12 +1,12 @@
 // packtrace_cluster_messages: what two ranks of MPI take to talk, as JSON, for results/cluster.py.
-#include <chrono>
-#include <iostream>
-#include <vector>
+#include "core/seconds_since.hpp"
+#include "mpi/job.hpp"
 
 #include <nlohmann/json.hpp>
 
-#include "core/seconds_since.hpp"
-#include "mpi/job.hpp"
+#include <chrono>
+#include <iostream>
+#include <vector>
 
 namespace packtrace::mpi {
 namespace {

@@ -1,5 +1,17 @@
 // What leaving things out saves: frames by each scene's own kernel and by the general one, in turns
 // on one thread.
+#include "core/atomic_file.hpp"
+#include "dispatch/kernels.hpp"
+#include "lab/harness/machine.hpp"
+#include "lab/harness/statistics.hpp"
+#include "lower/prune.hpp"
+#include "program.hpp"
+#include <packtrace/isa.hpp>
+#include <packtrace/read_scene.hpp>
+#include <packtrace/renderer.hpp>
+
+#include <nlohmann/json.hpp>
+
 #include <chrono>
 #include <cstdio>
 #include <cstring>
@@ -7,19 +19,6 @@
 #include <stdexcept>
 #include <string>
 #include <vector>
-
-#include <packtrace/isa.hpp>
-#include <packtrace/read_scene.hpp>
-#include <packtrace/renderer.hpp>
-
-#include <nlohmann/json.hpp>
-
-#include "core/atomic_file.hpp"
-#include "dispatch/kernels.hpp"
-#include "lab/harness/machine.hpp"
-#include "lab/harness/statistics.hpp"
-#include "lower/prune.hpp"
-#include "program.hpp"
 
 namespace {
 

@@ -1,10 +1,9 @@
 #pragma once
 
-#include <cstddef>
-
+#include "ray_set.hpp"
 #include <packtrace/scene.hpp>
 
-#include "ray_set.hpp"
+#include <cstddef>
 
 namespace packtrace::peers {
 

@@ -1,14 +1,13 @@
 #include "builds.hpp"
 
-#include <packtrace/intersect.hpp>
-
-#include <malloc.h>
-#include <tbb/global_control.h>
-
 #include "embree_scene.hpp"
 #include "pass_timer.hpp"
+#include <packtrace/intersect.hpp>
+
+#include <tbb/global_control.h>
 
 #include <algorithm>
+#include <malloc.h>
 #include <string>
 
 namespace packtrace::peers {

@@ -1,9 +1,10 @@
 #pragma once
 
-#include <vector>
+#include <packtrace/scene.hpp>
 
 #include <nlohmann/json.hpp>
-#include <packtrace/scene.hpp>
+
+#include <vector>
 
 namespace packtrace::peers {
 

@@ -1,14 +1,13 @@
 #pragma once
 
-#include <string>
-
-#include <packtrace/render.hpp>
-#include <packtrace/scene.hpp>
-
 #include "core/aligned_array.hpp"
 #include "dispatch/kernels.hpp"
 #include "lower/packed_scene.hpp"
 #include "ray_set.hpp"
+#include <packtrace/render.hpp>
+#include <packtrace/scene.hpp>
+
+#include <string>
 
 namespace packtrace::peers {
 

@@ -1,10 +1,10 @@
 #pragma once
 
-#include <memory>
-#include <vector>
-
 #include "embree_scene.hpp"
 #include "tracer.hpp"
+
+#include <memory>
+#include <vector>
 
 namespace packtrace::peers {
 

@@ -1,8 +1,8 @@
 #pragma once
 
-#include <embree3/rtcore.h>
-
 #include "ray_set.hpp"
+
+#include <embree3/rtcore.h>
 
 #include <algorithm>
 #include <vector>

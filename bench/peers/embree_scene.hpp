@@ -1,12 +1,11 @@
 #pragma once
 
+#include "user_sphere.hpp"
+#include <packtrace/scene.hpp>
+
 #include <cstddef>
 #include <memory>
 #include <vector>
-
-#include <packtrace/scene.hpp>
-
-#include "user_sphere.hpp"
 
 namespace packtrace::peers {
 

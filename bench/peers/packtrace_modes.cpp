@@ -1,9 +1,8 @@
 #include "packtrace_modes.hpp"
 
-#include <packtrace/intersect.hpp>
-
 #include "camera_tiles.hpp"
 #include "pass_timer.hpp"
+#include <packtrace/intersect.hpp>
 
 #include <memory>
 

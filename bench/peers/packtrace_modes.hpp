@@ -1,12 +1,11 @@
 #pragma once
 
-#include <string>
-#include <vector>
-
+#include "tracer.hpp"
 #include <packtrace/render.hpp>
 #include <packtrace/scene.hpp>
 
-#include "tracer.hpp"
+#include <string>
+#include <vector>
 
 namespace packtrace::peers {
 

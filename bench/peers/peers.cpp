@@ -1,9 +1,5 @@
 // packtrace_peers: the same rays through Embree, in all its modes, and through packtrace;
 // docs/peers.md says what is raced and what the columns mean.
-#include <algorithm>
-
-#include <nlohmann/json.hpp>
-
 #include "builds.hpp"
 #include "context.hpp"
 #include "core/atomic_file.hpp"
@@ -13,6 +9,10 @@
 #include "program.hpp"
 #include "raced_scenes.hpp"
 #include "report.hpp"
+
+#include <nlohmann/json.hpp>
+
+#include <algorithm>
 
 namespace packtrace::peers {
 namespace {

@@ -1,8 +1,8 @@
 #include "race.hpp"
 
-#include <algorithm>
-
 #include "lab/harness/statistics.hpp"
+
+#include <algorithm>
 
 namespace packtrace::peers {
 namespace {

@@ -1,9 +1,9 @@
 #pragma once
 
+#include "tracer.hpp"
+
 #include <string>
 #include <vector>
-
-#include "tracer.hpp"
 
 namespace packtrace::peers {
 

@@ -1,10 +1,10 @@
 #include "ray_set.hpp"
 
+#include <glm/geometric.hpp>
+
 #include <cmath>
 #include <limits>
 #include <numbers>
-
-#include <glm/geometric.hpp>
 
 namespace packtrace::peers {
 namespace {

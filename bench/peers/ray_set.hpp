@@ -1,11 +1,11 @@
 #pragma once
 
+#include <packtrace/intersect.hpp>
+#include <packtrace/scene.hpp>
+
 #include <cstddef>
 #include <cstdint>
 #include <vector>
-
-#include <packtrace/intersect.hpp>
-#include <packtrace/scene.hpp>
 
 namespace packtrace::peers {
 

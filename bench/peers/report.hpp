@@ -1,13 +1,13 @@
 #pragma once
 
-#include <optional>
-#include <string>
-#include <vector>
+#include "agreement.hpp"
+#include "race.hpp"
 
 #include <nlohmann/json.hpp>
 
-#include "agreement.hpp"
-#include "race.hpp"
+#include <optional>
+#include <string>
+#include <vector>
 
 namespace packtrace::peers {
 

@@ -1,9 +1,9 @@
 #pragma once
 
+#include "ray_set.hpp"
+
 #include <functional>
 #include <string>
-
-#include "ray_set.hpp"
 
 namespace packtrace::peers {
 

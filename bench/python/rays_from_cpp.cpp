@@ -1,5 +1,8 @@
 // Rays by the C++ library, on arrays that rays.py has: what the race calls through ctypes. Times
 // are taken here, so that calling costs nothing.
+#include <packtrace/intersect.hpp>
+#include <packtrace/read_scene.hpp>
+
 #include <algorithm>
 #include <chrono>
 #include <cstddef>
@@ -7,9 +10,6 @@
 #include <limits>
 #include <memory>
 #include <vector>
-
-#include <packtrace/intersect.hpp>
-#include <packtrace/read_scene.hpp>
 
 namespace {
 

@@ -1,5 +1,17 @@
 // packtrace_crossover: from how many spheres on a hierarchy is faster than a list, for frames and
 // for streams of camera, shadow and bounce rays, by instruction set; as JSON.
+#include "context.hpp"
+#include "lab/harness/statistics.hpp"
+#include "lab/harness/stopwatch.hpp"
+#include "names.hpp"
+#include "peers/ray_set.hpp"
+#include "program.hpp"
+#include <packtrace/generate.hpp>
+#include <packtrace/renderer.hpp>
+
+#include <nlohmann/json.hpp>
+#include <tbb/global_control.h>
+
 #include <algorithm>
 #include <array>
 #include <chrono>
@@ -8,19 +20,6 @@
 #include <iostream>
 #include <memory>
 #include <optional>
-
-#include <nlohmann/json.hpp>
-#include <packtrace/generate.hpp>
-#include <packtrace/renderer.hpp>
-
-#include <tbb/global_control.h>
-
-#include "context.hpp"
-#include "lab/harness/statistics.hpp"
-#include "lab/harness/stopwatch.hpp"
-#include "names.hpp"
-#include "peers/ray_set.hpp"
-#include "program.hpp"
 
 namespace packtrace {
 namespace {

@@ -1,6 +1,16 @@
 // packtrace_rays: how many millions of a caller's rays a second one scene, instruction set and
 // accuracy bring, of each kind; as JSON. results/exact_cost.py runs programs of several versions by
 // turns, so that this source keeps to what their libraries have in common.
+#include "core/seconds_since.hpp"
+#include "peers/camera_tiles.hpp"
+#include "peers/raced_scenes.hpp"
+#include "peers/ray_set.hpp"
+#include "program.hpp"
+#include <packtrace/generate.hpp>
+#include <packtrace/intersect.hpp>
+
+#include <nlohmann/json.hpp>
+
 #include <algorithm>
 #include <chrono>
 #include <functional>
@@ -8,16 +18,6 @@
 #include <string>
 #include <type_traits>
 #include <vector>
-
-#include <nlohmann/json.hpp>
-#include <packtrace/generate.hpp>
-#include <packtrace/intersect.hpp>
-
-#include "core/seconds_since.hpp"
-#include "peers/camera_tiles.hpp"
-#include "peers/raced_scenes.hpp"
-#include "peers/ray_set.hpp"
-#include "program.hpp"
 
 namespace packtrace::peers {
 namespace {

@@ -1,21 +1,19 @@
 // packtrace_scaling: one point of a scaling study, as JSON: building and frames of random
 // spheres. A process a point, so that its peak of memory is its own.
-#include <malloc.h>
-#include <sys/resource.h>
+#include "context.hpp"
+#include "core/seconds_since.hpp"
+#include "program.hpp"
+#include <packtrace/generate.hpp>
+#include <packtrace/renderer.hpp>
+
+#include <nlohmann/json.hpp>
+#include <tbb/global_control.h>
 
 #include <chrono>
 #include <cmath>
 #include <iostream>
-
-#include <nlohmann/json.hpp>
-#include <packtrace/generate.hpp>
-#include <packtrace/renderer.hpp>
-
-#include <tbb/global_control.h>
-
-#include "context.hpp"
-#include "core/seconds_since.hpp"
-#include "program.hpp"
+#include <malloc.h>
+#include <sys/resource.h>
 
 namespace packtrace {
 namespace {

@@ -1,14 +1,5 @@
 // packtrace_sorted: frames of large scenes with mirrors on one thread, by blocks of tiles whose
 // mirrored rays are sorted, against tile by tile, as JSON.
-#include <iostream>
-#include <string>
-#include <vector>
-
-#include <nlohmann/json.hpp>
-#include <packtrace/generate.hpp>
-#include <packtrace/isa.hpp>
-#include <packtrace/renderer.hpp>
-
 #include "context.hpp"
 #include "dispatch/kernels.hpp"
 #include "lab/harness/statistics.hpp"
@@ -16,6 +7,15 @@
 #include "program.hpp"
 #include "render/tile_loop.hpp"
 #include "render/tile_renderer.hpp"
+#include <packtrace/generate.hpp>
+#include <packtrace/isa.hpp>
+#include <packtrace/renderer.hpp>
+
+#include <nlohmann/json.hpp>
+
+#include <iostream>
+#include <string>
+#include <vector>
 
 namespace packtrace {
 namespace {

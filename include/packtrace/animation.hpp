@@ -1,9 +1,9 @@
 #pragma once
 
+#include <packtrace/vec.hpp>
+
 #include <optional>
 #include <vector>
-
-#include <packtrace/vec.hpp>
 
 namespace packtrace {
 

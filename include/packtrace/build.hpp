@@ -1,11 +1,11 @@
 #pragma once
 
+#include <packtrace/export.hpp>
+#include <packtrace/scene.hpp>
+
 #include <array>
 #include <string>
 #include <vector>
-
-#include <packtrace/export.hpp>
-#include <packtrace/scene.hpp>
 
 // Scenes built in code: surfaces, objects and materials that are complete from the start.
 //

@@ -1,9 +1,9 @@
 #pragma once
 
-#include <optional>
-
 #include <packtrace/export.hpp>
 #include <packtrace/vec.hpp>
+
+#include <optional>
 
 namespace packtrace {
 

@@ -1,14 +1,14 @@
 #pragma once
 
-#include <cstdint>
-#include <string>
-#include <vector>
-
 #include <packtrace/export.hpp>
 #include <packtrace/image.hpp>
 #include <packtrace/render.hpp>
 #include <packtrace/renderer.hpp>
 #include <packtrace/scene.hpp>
+
+#include <cstdint>
+#include <string>
+#include <vector>
 
 // Which rays of a picture packets of floats are unsure of (Accuracy::exact), and why.
 namespace packtrace {

@@ -1,10 +1,10 @@
 #pragma once
 
-#include <cstddef>
-#include <vector>
-
 #include <packtrace/export.hpp>
 #include <packtrace/image.hpp>
+
+#include <cstddef>
+#include <vector>
 
 namespace packtrace {
 
@@ -30,7 +30,8 @@ struct Comparison {
     std::vector<PixelError> worst;  ///< largest error first, then reading order; none when equal
 };
 
-/// Compares two pictures. Throws std::invalid_argument that names both sizes when unequal.
+/// Compares two pictures. Throws std::invalid_argument that names both sizes when unequal, and for
+/// negative options.
 template <class Real>
 [[nodiscard]] PACKTRACE_API Comparison compare(const Image<Real>& a, const Image<Real>& b,
                                                const CompareOptions& options = {});

@@ -1,13 +1,13 @@
 #pragma once
 
+#include <packtrace/export.hpp>
+#include <packtrace/render.hpp>
+#include <packtrace/scene.hpp>
+
 #include <limits>
 #include <optional>
 #include <string>
 #include <vector>
-
-#include <packtrace/export.hpp>
-#include <packtrace/render.hpp>
-#include <packtrace/scene.hpp>
 
 namespace packtrace {
 

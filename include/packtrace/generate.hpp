@@ -1,9 +1,9 @@
 #pragma once
 
-#include <cstdint>
-
 #include <packtrace/export.hpp>
 #include <packtrace/scene.hpp>
+
+#include <cstdint>
 
 // Procedural scenes. The same options give the same scene on every machine; pictures are
 // 1024 x 1024 pixels, lit after note 001, each object named as the reader would name it.

@@ -1,11 +1,11 @@
 #pragma once
 
+#include <packtrace/export.hpp>
+#include <packtrace/unset_allocator.hpp>
+
 #include <cstddef>
 #include <stdexcept>  // for those who catch what is thrown
 #include <vector>
-
-#include <packtrace/export.hpp>
-#include <packtrace/unset_allocator.hpp>
 
 namespace packtrace {
 namespace detail {

@@ -1,11 +1,11 @@
 #pragma once
 
+#include <packtrace/export.hpp>
+#include <packtrace/image.hpp>
+
 #include <filesystem>
 #include <stdexcept>
 #include <string>
-
-#include <packtrace/export.hpp>
-#include <packtrace/image.hpp>
 
 namespace packtrace {
 

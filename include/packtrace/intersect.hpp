@@ -1,17 +1,17 @@
 #pragma once
 
+#include <packtrace/export.hpp>
+#include <packtrace/rays.hpp>
+#include <packtrace/render.hpp>
+#include <packtrace/scene.hpp>
+#include <packtrace/stop.hpp>
+
 #include <cstddef>
 #include <cstdint>
 #include <functional>
 #include <memory>
 #include <span>
 #include <vector>
-
-#include <packtrace/export.hpp>
-#include <packtrace/rays.hpp>
-#include <packtrace/render.hpp>
-#include <packtrace/scene.hpp>
-#include <packtrace/stop.hpp>
 
 namespace packtrace {
 

@@ -1,10 +1,10 @@
 #pragma once
 
+#include <packtrace/export.hpp>
+
 #include <string>
 #include <string_view>
 #include <vector>
-
-#include <packtrace/export.hpp>
 
 namespace packtrace {
 

@@ -1,11 +1,11 @@
 #pragma once
 
+#include <packtrace/vec.hpp>
+
 #include <array>
 #include <optional>
 #include <string>
 #include <variant>
-
-#include <packtrace/vec.hpp>
 
 namespace packtrace {
 

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <packtrace/export.hpp>
+
 #include <cstddef>
 #include <cstdint>
 #include <optional>
@@ -7,8 +9,6 @@
 #include <string>
 #include <string_view>
 #include <vector>
-
-#include <packtrace/export.hpp>
 
 /// The one-dimensional ray tracer of note 003: an eye looks along a line at n surfaces, and sees
 /// the darkest intensity that solves the line's equations (docs/onedim.md).

@@ -1,15 +1,15 @@
 #pragma once
 
-#include <cstdint>
-#include <optional>
-#include <string>
-#include <vector>
-
 #include <packtrace/export.hpp>
 #include <packtrace/image.hpp>
 #include <packtrace/render.hpp>
 #include <packtrace/renderer.hpp>
 #include <packtrace/scene.hpp>
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
 
 // Where a frame's time goes. Everything is measured, in frames taken in turns. On one thread, times
 // are the processor's for this program; on several, those of the clock. None is negative.

@@ -1,13 +1,13 @@
 #pragma once
 
+#include <packtrace/export.hpp>
+
 #include <cstddef>
 #include <cstdint>
 #include <limits>
 #include <span>
 #include <stdexcept>  // for those who catch what is thrown
 #include <type_traits>
-
-#include <packtrace/export.hpp>
 
 // Rays of the caller's own and what they hit, in the layouts that RayScene takes.
 namespace packtrace {

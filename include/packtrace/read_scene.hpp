@@ -1,13 +1,13 @@
 #pragma once
 
+#include <packtrace/export.hpp>
+#include <packtrace/scene.hpp>
+#include <packtrace/validate.hpp>
+
 #include <filesystem>
 #include <functional>
 #include <string>
 #include <string_view>
-
-#include <packtrace/export.hpp>
-#include <packtrace/scene.hpp>
-#include <packtrace/validate.hpp>
 
 namespace packtrace {
 

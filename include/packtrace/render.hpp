@@ -1,20 +1,27 @@
 #pragma once
 
-#include <cstdint>
-#include <functional>
-#include <optional>
-#include <stop_token>
-#include <string>
-
 #include <packtrace/export.hpp>
 #include <packtrace/image.hpp>
 #include <packtrace/scene.hpp>
 #include <packtrace/stop.hpp>
 #include <packtrace/traversal.hpp>
 
+#include <cstdint>
+#include <functional>
+#include <optional>
+#include <stop_token>
+#include <string>
+
 namespace packtrace {
 
 enum class Kernel { packet, scalar };
+
+/// The numbers that rays are traced and colours are added in.
+enum class Precision {
+    single,   ///< float
+    double_,  ///< double
+    extended  ///< long double, which the scalar kernel alone has
+};
 
 /// How float packets decide and place their hits. Packets of doubles and the scalar kernel are the
 /// same in both modes.

@@ -1,14 +1,14 @@
 #pragma once
 
-#include <cstddef>
-#include <cstdint>
-#include <memory>
-
 #include <packtrace/export.hpp>
 #include <packtrace/image.hpp>
 #include <packtrace/isa.hpp>
 #include <packtrace/render.hpp>
 #include <packtrace/scene.hpp>
+
+#include <cstddef>
+#include <cstdint>
+#include <memory>
 
 namespace packtrace {
 

@@ -1,5 +1,11 @@
 #pragma once
 
+#include <packtrace/compare.hpp>
+#include <packtrace/export.hpp>
+#include <packtrace/image.hpp>
+#include <packtrace/render.hpp>
+#include <packtrace/scene.hpp>
+
 #include <array>
 #include <cstddef>
 #include <cstdint>
@@ -10,12 +16,6 @@
 #include <string>
 #include <utility>
 #include <vector>
-
-#include <packtrace/compare.hpp>
-#include <packtrace/export.hpp>
-#include <packtrace/image.hpp>
-#include <packtrace/render.hpp>
-#include <packtrace/scene.hpp>
 
 // Error against run time: a scene rendered in many ways, each timed and held against the truth.
 namespace packtrace {
@@ -29,9 +29,9 @@ struct Variant {
     std::string name;  ///< "packets single avx2, 2 threads"
     Study study = Study::arithmetic;
     Kernel kernel = Kernel::packet;
-    std::string precision = "single";     ///< or "double"
-    std::string isa;                      ///< packets only
-    Accuracy accuracy = Accuracy::exact;  ///< packets of floats only
+    Precision precision = Precision::single;  ///< or double_
+    std::string isa;                          ///< packets only
+    Accuracy accuracy = Accuracy::exact;      ///< packets of floats only
     SelfHits self_hits = default_self_hits;
     bool general = false;  ///< RenderOptions::force_general
     int lanes = 1;         ///< rays in a packet
@@ -45,7 +45,7 @@ struct Variant {
 /// Whether the accuracy mode makes a difference.
 [[nodiscard]] inline bool has_accuracy(const Variant& variant)
 {
-    return variant.kernel == Kernel::packet && variant.precision == "single";
+    return variant.kernel == Kernel::packet && variant.precision == Precision::single;
 }
 
 struct ReportScene {

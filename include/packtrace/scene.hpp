@@ -1,14 +1,14 @@
 #pragma once
 
-#include <optional>
-#include <string>
-#include <vector>
-
 #include <packtrace/animation.hpp>
 #include <packtrace/camera.hpp>
 #include <packtrace/light.hpp>
 #include <packtrace/material.hpp>
 #include <packtrace/surface.hpp>
+
+#include <optional>
+#include <string>
+#include <vector>
 
 namespace packtrace {
 

@@ -1,10 +1,10 @@
 #pragma once
 
+#include <packtrace/export.hpp>
+
 #include <functional>
 #include <stdexcept>
 #include <stop_token>
-
-#include <packtrace/export.hpp>
 
 namespace packtrace {
 

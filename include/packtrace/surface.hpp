@@ -1,13 +1,13 @@
 #pragma once
 
+#include <packtrace/export.hpp>
+#include <packtrace/vec.hpp>
+
 #include <array>
 #include <optional>
 #include <string>
 #include <variant>
 #include <vector>
-
-#include <packtrace/export.hpp>
-#include <packtrace/vec.hpp>
 
 namespace packtrace {
 

@@ -1,12 +1,12 @@
 #pragma once
 
+#include <packtrace/export.hpp>
+
 #include <cstddef>
 #include <limits>
 #include <memory>
 #include <new>
 #include <utility>
-
-#include <packtrace/export.hpp>
 
 namespace packtrace {
 

@@ -1,9 +1,9 @@
 #pragma once
 
-#include <stdexcept>
-
 #include <packtrace/export.hpp>
 #include <packtrace/scene.hpp>
+
+#include <stdexcept>
 
 namespace packtrace {
 

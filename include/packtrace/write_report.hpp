@@ -1,11 +1,11 @@
 #pragma once
 
+#include <packtrace/export.hpp>
+#include <packtrace/report.hpp>
+
 #include <filesystem>
 #include <string>
 #include <vector>
-
-#include <packtrace/export.hpp>
-#include <packtrace/report.hpp>
 
 namespace packtrace {
 

@@ -1,9 +1,9 @@
 #pragma once
 
-#include <string>
-
 #include <packtrace/export.hpp>
 #include <packtrace/scene.hpp>
+
+#include <string>
 
 namespace packtrace {
 

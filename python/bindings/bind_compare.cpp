@@ -1,7 +1,6 @@
-#include <packtrace/compare.hpp>
-
 #include "bindings.hpp"
 #include "pictures.hpp"
+#include <packtrace/compare.hpp>
 
 namespace packtrace::python {
 namespace {

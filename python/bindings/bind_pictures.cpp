@@ -1,8 +1,7 @@
-#include <packtrace/image_io.hpp>
-
 #include "bindings.hpp"
 #include "image/formats.hpp"
 #include "pictures.hpp"
+#include <packtrace/image_io.hpp>
 
 namespace packtrace::python {
 

@@ -1,12 +1,3 @@
-#include <pybind11/stl.h>
-#include <tbb/enumerable_thread_specific.h>
-
-#include <memory>
-#include <numeric>
-#include <optional>
-#include <string>
-#include <vector>
-
 #include "bindings.hpp"
 #include "hit_arrays.hpp"
 #include "options.hpp"
@@ -16,6 +7,15 @@
 #include "render/ray_pieces.hpp"
 #include "scene.hpp"
 #include "two_ray_scenes.hpp"
+
+#include <pybind11/stl.h>
+#include <tbb/enumerable_thread_specific.h>
+
+#include <memory>
+#include <numeric>
+#include <optional>
+#include <string>
+#include <vector>
 
 namespace packtrace::python {
 namespace {

@@ -1,16 +1,15 @@
-#include <packtrace/animate.hpp>
-#include <packtrace/isa.hpp>
-#include <packtrace/render.hpp>
-
-#include <algorithm>
-#include <cmath>
-
 #include "bindings.hpp"
 #include "options.hpp"
 #include "pictures.hpp"
 #include "progress.hpp"
 #include "scene.hpp"
 #include "values.hpp"
+#include <packtrace/animate.hpp>
+#include <packtrace/isa.hpp>
+#include <packtrace/render.hpp>
+
+#include <algorithm>
+#include <cmath>
 
 namespace packtrace::python {
 namespace {

@@ -1,7 +1,3 @@
-#include <packtrace/report.hpp>
-
-#include <utility>
-
 #include "bindings.hpp"
 #include "lab/report/report_text.hpp"
 #include "pictures.hpp"
@@ -9,6 +5,9 @@
 #include "scene.hpp"
 #include "values.hpp"
 #include "words.hpp"
+#include <packtrace/report.hpp>
+
+#include <utility>
 
 namespace packtrace::python {
 namespace {
@@ -28,7 +27,7 @@ py::dict row_of(const SceneReport& scene, const StudyReport& study, const Report
     return py::dict(
         "scene"_a = scene.name, "width"_a = scene.width, "height"_a = scene.height,
         "study"_a = name_of(study.study), "run"_a = variant.name,
-        "kernel"_a = word_of(variant.kernel), "precision"_a = variant.precision,
+        "kernel"_a = word_of(variant.kernel), "precision"_a = word_of(variant.precision),
         "isa"_a = or_none(variant.isa),
         "accuracy"_a =
             has_accuracy(variant) ? py::object(py::str(word_of(variant.accuracy))) : py::none(),

@@ -1,6 +1,6 @@
-#include <optional>
-#include <utility>
-
+#include "bindings.hpp"
+#include "scene.hpp"
+#include "values.hpp"
 #include <packtrace/animate.hpp>
 #include <packtrace/build.hpp>
 #include <packtrace/generate.hpp>
@@ -8,9 +8,8 @@
 #include <packtrace/validate.hpp>
 #include <packtrace/write_scene.hpp>
 
-#include "bindings.hpp"
-#include "scene.hpp"
-#include "values.hpp"
+#include <optional>
+#include <utility>
 
 namespace packtrace::python {
 namespace {
@@ -65,7 +64,7 @@ void bind_text(py::module_& module)
         return read([&](const TakeWarning& take) { return parse_scene(text, name, take); });
     });
     module.def("scene_text", [](py::handle scene) {
-        return without_gil([native = scene_of(scene)] { return scene_text(native); });
+        return to_python(without_gil([native = scene_of(scene)] { return scene_text(native); }));
     });
     module.def("validate", [](py::handle scene) {
         without_gil([native = scene_of(scene)] { validate(native); });

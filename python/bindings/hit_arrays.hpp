@@ -1,5 +1,7 @@
 #pragma once
 
+#include <packtrace/intersect.hpp>
+
 #include <pybind11/numpy.h>
 
 #include <algorithm>
@@ -8,8 +10,6 @@
 #include <optional>
 #include <utility>
 #include <vector>
-
-#include <packtrace/intersect.hpp>
 
 // Arrays of NumPy that hits go to.
 namespace packtrace::python {

@@ -1,18 +1,17 @@
 // The compiled part of the Python package packtrace: conversions, and calls of the library. What
 // users see, and what checks arrays, is in ../packtrace.
+#include "bindings.hpp"
+#include "scene/language/quote.hpp"
+#include "scene/scene_faults.hpp"
+#include <packtrace/image_io.hpp>
+#include <packtrace/read_scene.hpp>
+#include <packtrace/version.hpp>
+
 #include <pybind11/pybind11.h>
 
 #include <string>
 #include <string_view>
 #include <utility>
-
-#include <packtrace/image_io.hpp>
-#include <packtrace/read_scene.hpp>
-#include <packtrace/version.hpp>
-
-#include "bindings.hpp"
-#include "scene/language/quote.hpp"
-#include "scene/scene_faults.hpp"
 
 namespace {
 
@@ -41,7 +40,8 @@ std::string with_python_names(std::string text)
         {"'viewport_size'", "'viewport'"},
         {"'projection_plane_d'", "'distance'"},
         {"'vertices'", "'contours'"},
-        {"'matrix'", "'transform'"}};
+        {"'matrix'", "'transform'"},
+        {"give it the scene's, see make_material()", "use the material class of its illumination"}};
     for (const auto& [ours, theirs] : names)
         if (const std::size_t at = text.find(ours); at != std::string::npos)
             text.replace(at, ours.size(), theirs);

@@ -1,8 +1,8 @@
 #pragma once
 
-#include <pybind11/pybind11.h>
-
 #include <packtrace/render.hpp>
+
+#include <pybind11/pybind11.h>
 
 namespace packtrace::python {
 

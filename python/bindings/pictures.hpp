@@ -1,11 +1,11 @@
 #pragma once
 
+#include <packtrace/image.hpp>
+
 #include <pybind11/numpy.h>
 
 #include <memory>
 #include <utility>
-
-#include <packtrace/image.hpp>
 
 // Pictures as arrays (height, width, 3).
 namespace packtrace::python {

@@ -1,14 +1,13 @@
 #pragma once
 
+#include "core/arena.hpp"
+
 #include <pybind11/pybind11.h>
-
-#include <algorithm>
-#include <cstddef>
-
 #include <tbb/blocked_range.h>
 #include <tbb/parallel_for.h>
 
-#include "core/arena.hpp"
+#include <algorithm>
+#include <cstddef>
 
 namespace packtrace::python {
 

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <packtrace/intersect.hpp>
+
 #include <pybind11/numpy.h>
 
 #include <algorithm>
@@ -8,8 +10,6 @@
 #include <cstdint>
 #include <cstring>
 #include <vector>
-
-#include <packtrace/intersect.hpp>
 
 // Rays in arrays of any strides, block by block as columns.
 namespace packtrace::python {

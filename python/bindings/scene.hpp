@@ -1,11 +1,11 @@
 #pragma once
 
+#include <packtrace/scene.hpp>
+
 #include <pybind11/pybind11.h>
 
 #include <memory>
 #include <vector>
-
-#include <packtrace/scene.hpp>
 
 // packtrace.Scene, whose classes are Python's own, to and from the library's.
 namespace packtrace::python {

@@ -1,11 +1,10 @@
-#include <unordered_map>
-#include <utility>
-
-#include <packtrace/build.hpp>
-
 #include "scene.hpp"
 #include "scene/vectors.hpp"
 #include "words.hpp"
+#include <packtrace/build.hpp>
+
+#include <unordered_map>
+#include <utility>
 
 namespace packtrace::python {
 namespace {
@@ -276,6 +275,8 @@ private:
         Animation result;
         std::vector<py::object> keys;
         about("animation", [&] {
+            if (!is_a(value, "Animation"))
+                wrong_class(value, "an Animation");
             result.frames = field<int>(value, "frames");
             if (const py::object orbit = value.attr("orbit"); !orbit.is_none())
                 result.orbit = Orbit{field<Vec3>(orbit, "center"), field<Vec3>(orbit, "axis"),

@@ -1,8 +1,8 @@
-#include <memory>
-#include <utility>
-
 #include "scene.hpp"
 #include "words.hpp"
+
+#include <memory>
+#include <utility>
 
 namespace packtrace::python {
 namespace {
@@ -110,7 +110,7 @@ private:
     [[nodiscard]] py::object one(const Object& object) const
     {
         return make("Object", "surface"_a = surface(object.surface),
-                    "material"_a = material(object.material), "name"_a = object.name,
+                    "material"_a = material(object.material), "name"_a = to_python(object.name),
                     "transform"_a = object.transform == Mat4(1.0) ? py::object(identity_)
                                                                   : to_python(object.transform),
                     "casts_shadow"_a = object.casts_shadow);
@@ -152,7 +152,7 @@ private:
             std::visit([this](const auto& model) { return of_model(model); }, material.model);
         result.attr("color") = to_python(material.color);
         result.attr("checker") = optional(material.checker);
-        result.attr("name") = material.name;
+        result.attr("name") = to_python(material.name);
         return result;
     }
 

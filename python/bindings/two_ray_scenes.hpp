@@ -1,5 +1,11 @@
 #pragma once
 
+#include "render/check_options.hpp"
+#include "render/moved_objects.hpp"
+#include <packtrace/intersect.hpp>
+#include <packtrace/isa.hpp>
+#include <packtrace/validate.hpp>
+
 #include <algorithm>
 #include <cstdint>
 #include <memory>
@@ -9,13 +15,6 @@
 #include <tuple>
 #include <utility>
 #include <vector>
-
-#include <packtrace/intersect.hpp>
-#include <packtrace/isa.hpp>
-#include <packtrace/validate.hpp>
-
-#include "render/check_options.hpp"
-#include "render/moved_objects.hpp"
 
 namespace packtrace::python {
 

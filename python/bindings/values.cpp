@@ -75,13 +75,22 @@ std::optional<std::string> text_of(py::handle value)
 {
     if (PyUnicode_Check(value.ptr()) == 0)
         return std::nullopt;
-    Py_ssize_t size = 0;
-    const char* const text = PyUnicode_AsUTF8AndSize(value.ptr(), &size);
-    if (text == nullptr) {
+    const auto bytes = py::reinterpret_steal<py::bytes>(
+        PyUnicode_AsEncodedString(value.ptr(), "utf-8", "surrogateescape"));
+    if (!bytes) {
         PyErr_Clear();
         return std::nullopt;
     }
-    return std::string(text, static_cast<std::size_t>(size));
+    return static_cast<std::string>(bytes);
+}
+
+py::str to_python(const std::string& text)
+{
+    PyObject* const decoded =
+        PyUnicode_DecodeUTF8(text.data(), static_cast<Py_ssize_t>(text.size()), "surrogateescape");
+    if (decoded == nullptr)
+        throw py::error_already_set();
+    return py::reinterpret_steal<py::str>(decoded);
 }
 
 void read_numbers(py::handle value, const std::string& key, double* to, std::size_t count)

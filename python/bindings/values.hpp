@@ -1,5 +1,7 @@
 #pragma once
 
+#include <packtrace/vec.hpp>
+
 #include <pybind11/pybind11.h>
 
 #include <array>
@@ -7,8 +9,6 @@
 #include <optional>
 #include <string>
 #include <vector>
-
-#include <packtrace/vec.hpp>
 
 // Numbers, words and vectors from Python and back. What they are given for, `key`, is named by the
 // ValueError that a wrong one raises.
@@ -19,8 +19,12 @@ namespace py = pybind11;
 /// "radius is 'big'; use a number".
 [[noreturn]] void throw_wrong(const std::string& key, py::handle value, const std::string& use);
 
-/// A text as UTF-8; nothing for anything else, and for a text that has none (a surrogate alone).
+/// A text as UTF-8, and what to_python() makes of other bytes as those; nothing for anything else,
+/// and for a text that has no UTF-8 (any other surrogate alone).
 [[nodiscard]] std::optional<std::string> text_of(py::handle value);
+
+/// UTF-8 as a text. Scenes may be in another encoding: other bytes become surrogates, one each.
+[[nodiscard]] py::str to_python(const std::string& text);
 
 void from_python(py::handle value, const std::string& key, double& to);
 void from_python(py::handle value, const std::string& key, int& to);

@@ -1,14 +1,13 @@
 #pragma once
 
-#include <string>
-
-#include <packtrace/render.hpp>
-#include <packtrace/scene.hpp>
-
 #include "core/text.hpp"
 #include "render/option_words.hpp"
 #include "scene/language/words.hpp"
 #include "values.hpp"
+#include <packtrace/render.hpp>
+#include <packtrace/scene.hpp>
+
+#include <string>
 
 // The words that stand for values of enumerations: those of the scene language and of the program.
 namespace packtrace::python {

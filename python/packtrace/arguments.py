@@ -51,10 +51,10 @@ def precision(dtype: Any) -> np.dtype[Any]:
 
 
 def text(name: str, value: Any) -> bytes:
-    """A text as UTF-8."""
+    """A text as UTF-8; what a scene in another encoding had for bytes, as those."""
     if not isinstance(value, (str, bytes)):
         raise ValueError(f"{name} is {shown(value)}; use a text")
-    return value if isinstance(value, bytes) else value.encode()
+    return value if isinstance(value, bytes) else value.encode(errors="surrogateescape")
 
 
 def file_name(file: Path) -> bytes:

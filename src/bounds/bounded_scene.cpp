@@ -1,12 +1,12 @@
 #include "bounds/bounded_scene.hpp"
 
-#include <algorithm>
-#include <optional>
-#include <variant>
+#include "core/in_parallel.hpp"
 
 #include <tbb/concurrent_vector.h>
 
-#include "core/in_parallel.hpp"
+#include <algorithm>
+#include <optional>
+#include <variant>
 
 namespace packtrace::bounds {
 namespace {

@@ -1,14 +1,13 @@
 #pragma once
 
+#include "bounds/line_hits.hpp"
+#include "scene/moved_shape.hpp"
+#include <packtrace/intersect.hpp>
+
 #include <cstddef>
 #include <cstdint>
 #include <span>
 #include <vector>
-
-#include <packtrace/intersect.hpp>
-
-#include "bounds/line_hits.hpp"
-#include "scene/moved_shape.hpp"
 
 namespace packtrace::bounds {
 

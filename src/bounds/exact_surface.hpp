@@ -1,12 +1,11 @@
 #pragma once
 
+#include "bounds/ball.hpp"
+#include <packtrace/scene.hpp>
+
 #include <array>
 #include <optional>
 #include <vector>
-
-#include <packtrace/scene.hpp>
-
-#include "bounds/ball.hpp"
 
 namespace packtrace::bounds {
 

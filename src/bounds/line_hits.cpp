@@ -1,11 +1,11 @@
 #include "bounds/line_hits.hpp"
 
+#include "bounds/exact_surface.hpp"
+#include "bounds/quadratic_roots.hpp"
+
 #include <algorithm>
 #include <array>
 #include <cmath>
-
-#include "bounds/exact_surface.hpp"
-#include "bounds/quadratic_roots.hpp"
 
 namespace packtrace::bounds {
 namespace {

@@ -1,10 +1,9 @@
 #pragma once
 
-#include <vector>
-
+#include "core/quad.hpp"
 #include <packtrace/scene.hpp>
 
-#include "core/quad.hpp"
+#include <vector>
 
 // Where a line hits a surface, in intervals that are proven to hold every hit.
 namespace packtrace::bounds {

@@ -1,10 +1,10 @@
 #pragma once
 
+#include "bounds/ball.hpp"
+
 #include <functional>
 #include <optional>
 #include <vector>
-
-#include "bounds/ball.hpp"
 
 namespace packtrace::bounds {
 

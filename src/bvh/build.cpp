@@ -1,10 +1,10 @@
-#include <algorithm>
-#include <array>
+#include "bvh/split.hpp"
 
 #include <tbb/concurrent_vector.h>
 #include <tbb/task_group.h>
 
-#include "bvh/split.hpp"
+#include <algorithm>
+#include <array>
 
 namespace packtrace {
 namespace {

@@ -1,11 +1,11 @@
 #pragma once
 
+#include "bvh/box4.hpp"
+#include "kernel_abi/bvh_view.hpp"
+
 #include <cstdint>
 #include <span>
 #include <vector>
-
-#include "bvh/box4.hpp"
-#include "kernel_abi/bvh_view.hpp"
 
 namespace packtrace {
 

@@ -1,9 +1,9 @@
 #include "bvh/split.hpp"
 
-#include <algorithm>
-
 #include <tbb/blocked_range.h>
 #include <tbb/parallel_reduce.h>
+
+#include <algorithm>
 
 namespace packtrace {
 namespace {

@@ -1,13 +1,13 @@
 #pragma once
 
+#include "bvh/box4.hpp"
+#include "bvh/bvh.hpp"
+
 #include <cstddef>
 #include <cstring>
 #include <limits>
 #include <span>
 #include <utility>
-
-#include "bvh/box4.hpp"
-#include "bvh/bvh.hpp"
 
 // Ranges of items, and where they are split.
 namespace packtrace {

@@ -1,10 +1,10 @@
 #pragma once
 
-#include <functional>
-
 #include <packtrace/scene.hpp>
 
 #include <CLI/CLI.hpp>
+
+#include <functional>
 
 namespace packtrace::cli {
 

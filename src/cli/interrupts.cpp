@@ -1,5 +1,9 @@
 #include "cli/interrupts.hpp"
 
+#include "core/atomic_file.hpp"
+#include "core/run_filter.hpp"
+#include "scene/language/quote.hpp"
+
 #include <algorithm>
 #include <array>
 #include <atomic>
@@ -7,12 +11,7 @@
 #include <ctime>
 #include <string>
 #include <string_view>
-
 #include <unistd.h>
-
-#include "core/atomic_file.hpp"
-#include "core/run_filter.hpp"
-#include "scene/language/quote.hpp"
 
 namespace packtrace::cli {
 namespace {
@@ -48,7 +47,7 @@ void say(std::string_view line)
 }
 
 // Calls nothing but what signal handlers may call.
-void end_by(int signal)
+void say_and_end(int signal)
 {
     // A line that is ready goes first: files may take a while.
     const char* const given = given_line.load();
@@ -58,13 +57,31 @@ void end_by(int signal)
     const bool removed = remove_all_temporaries() > 0;
     if (given == nullptr)
         say(removed ? removal_line.data() : usual_line.data());
-    const timespec rest{.tv_sec = linger / 1000, .tv_nsec = linger % 1000 * 1'000'000L};
+    end_by_signal(signal, linger);
+}
+
+}  // namespace
+
+void handle_ending_signals(void (*handler)(int))
+{
+    for (const int number : ending_signals) {
+        struct sigaction before {};
+        if (sigaction(number, nullptr, &before) != 0 || before.sa_handler == SIG_IGN)
+            continue;
+        struct sigaction action {};
+        action.sa_handler = handler;
+        action.sa_flags = static_cast<int>(SA_RESETHAND | SA_NODEFER);
+        sigaction(number, &action, nullptr);
+    }
+}
+
+void end_by_signal(int signal, int milliseconds)
+{
+    const timespec rest{.tv_sec = milliseconds / 1000, .tv_nsec = milliseconds % 1000 * 1'000'000L};
     nanosleep(&rest, nullptr);
     std::signal(signal, SIG_DFL);
     std::raise(signal);
 }
-
-}  // namespace
 
 void set_interrupt_line(const std::string& given)
 {
@@ -84,16 +101,7 @@ void clean_up_when_interrupted(const Interruption& interruption)
     const std::string advice = interruption.advice.empty() ? "" : "; " + interruption.advice;
     fill(usual_line, "interrupted" + advice);
     fill(removal_line, "interrupted; the unfinished file is removed" + advice);
-    for (const int number : {SIGINT, SIGTERM, SIGHUP}) {
-        struct sigaction before {};
-        // What nohup or a shell's background has switched off stays so.
-        if (sigaction(number, nullptr, &before) != 0 || before.sa_handler == SIG_IGN)
-            continue;
-        struct sigaction action {};
-        action.sa_handler = end_by;
-        action.sa_flags = static_cast<int>(SA_RESETHAND | SA_NODEFER);
-        sigaction(number, &action, nullptr);
-    }
+    handle_ending_signals(say_and_end);
 }
 
 void report_size_limits_as_errors()

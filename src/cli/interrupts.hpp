@@ -1,8 +1,20 @@
 #pragma once
 
+#include <array>
+#include <csignal>
 #include <string>
 
 namespace packtrace::cli {
+
+/// Ctrl-C, `kill` and the end of a terminal.
+inline constexpr std::array ending_signals{SIGINT, SIGTERM, SIGHUP};
+
+/// Installs a handler of the ending signals. It is called once for each; the second of a kind ends
+/// the program at once. A signal that nohup or a shell's background has ignored stays ignored.
+void handle_ending_signals(void (*handler)(int));
+
+/// For such a handler: sleeps for some milliseconds, then ends the program by the signal.
+void end_by_signal(int signal, int milliseconds);
 
 /// What a program says and does that a signal ends.
 struct Interruption {

@@ -1,14 +1,13 @@
-#include <exception>
-#include <iostream>
-#include <new>
-
-#include <packtrace/version.hpp>
-
 #include "cli/command.hpp"
 #include "cli/interrupts.hpp"
 #include "cli/output/standard_output.hpp"
 #include "cli/usage_error.hpp"
 #include "scene/language/quote.hpp"
+#include <packtrace/version.hpp>
+
+#include <exception>
+#include <iostream>
+#include <new>
 
 namespace packtrace::cli {
 namespace {

@@ -1,11 +1,11 @@
 #include "cli/usage_error.hpp"
 
+#include "scene/language/quote.hpp"
+
 #include <algorithm>
 #include <filesystem>
 #include <string_view>
 #include <vector>
-
-#include "scene/language/quote.hpp"
 
 namespace packtrace::cli {
 namespace {

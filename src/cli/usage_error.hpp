@@ -1,8 +1,8 @@
 #pragma once
 
-#include <string>
-
 #include <CLI/CLI.hpp>
+
+#include <string>
 
 namespace packtrace::cli {
 

@@ -1,28 +1,23 @@
-#include <stdexcept>
-#include <string>
+#include "cli/without_study.hpp"
 
 #include "cli/command.hpp"
 #include "cli/study/study.hpp"
 
-// Stands in for the commands of src/lab in programs built without it (PACKTRACE_BUILD_STUDY).
+#include <stdexcept>
+#include <string>
+
+// Stands in for the commands of src/cli/study in builds without it (PACKTRACE_BUILD_STUDY).
 namespace packtrace::cli {
 namespace {
 
-void add_left_out(CLI::App& app, const std::string& name)
+void leave_out(CLI::App& app, const std::string& name)
 {
-    CLI::App* command = app.add_subcommand(name, "(not in this build; ./run build adds it)");
-    command->allow_extras();
-    command->callback([name] {
-        throw std::runtime_error("packtrace: this build leaves out '" + name +
-                                 "'; type ./run build, which builds all commands");
-    });
+    add_left_out(app, name, [name] { throw std::runtime_error(why_left_out("packtrace", name)); });
 }
 
 [[noreturn]] void fail_certainty()
 {
-    throw std::runtime_error(
-        "packtrace: this build leaves out 'render --certainty'; type ./run "
-        "build, which builds all commands");
+    throw std::runtime_error(why_left_out("packtrace", "render --certainty"));
 }
 
 }  // namespace
@@ -56,32 +51,32 @@ std::string join_stress(const std::vector<std::string>&)
 
 void add_bench(CLI::App& app)
 {
-    add_left_out(app, "bench");
+    leave_out(app, "bench");
 }
 
 void add_explain(CLI::App& app)
 {
-    add_left_out(app, "explain");
+    leave_out(app, "explain");
 }
 
 void add_profile(CLI::App& app)
 {
-    add_left_out(app, "profile");
+    leave_out(app, "profile");
 }
 
 void add_report(CLI::App& app)
 {
-    add_left_out(app, "report");
+    leave_out(app, "report");
 }
 
 void add_soak(CLI::App& app)
 {
-    add_left_out(app, "soak");
+    leave_out(app, "soak");
 }
 
 void add_stress(CLI::App& app)
 {
-    add_left_out(app, "stress");
+    leave_out(app, "stress");
 }
 
 }  // namespace packtrace::cli

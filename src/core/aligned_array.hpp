@@ -1,10 +1,10 @@
 #pragma once
 
+#include <packtrace/unset_allocator.hpp>
+
 #include <cstddef>
 #include <memory>
 #include <type_traits>
-
-#include <packtrace/unset_allocator.hpp>
 
 namespace packtrace {
 

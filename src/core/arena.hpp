@@ -1,13 +1,13 @@
 #pragma once
 
+#include <tbb/global_control.h>
+#include <tbb/task_arena.h>
+
 #include <algorithm>
 #include <iterator>
 #include <list>
 #include <map>
 #include <mutex>
-
-#include <tbb/global_control.h>
-#include <tbb/task_arena.h>
 
 namespace packtrace {
 

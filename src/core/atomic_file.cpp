@@ -1,5 +1,7 @@
 #include "core/atomic_file.hpp"
 
+#include "core/signal_gate.hpp"
+
 #include <array>
 #include <atomic>
 #include <cerrno>
@@ -7,19 +9,17 @@
 #include <climits>
 #include <csignal>
 #include <cstring>
+#include <dirent.h>
+#include <fcntl.h>
+#include <fstream>
 #include <map>
 #include <mutex>
 #include <string>
-#include <utility>
-#include <vector>
-
-#include <dirent.h>
-#include <fcntl.h>
 #include <sys/file.h>
 #include <sys/stat.h>
 #include <unistd.h>
-
-#include "core/signal_gate.hpp"
+#include <utility>
+#include <vector>
 
 namespace packtrace {
 namespace {
@@ -55,11 +55,24 @@ pid_t writer_of(std::string_view name, std::string_view prefix)
     return error == std::errc() && *end == '-' ? process : 0;
 }
 
-/// Whether nobody writes to the file any more: its process is gone, and its lock, which also
+/// Whether a process is gone, or has ended and nobody has asked how: then it writes nothing more.
+bool has_ended(pid_t process)
+{
+    if (kill(process, 0) != 0)
+        return errno == ESRCH;
+    std::ifstream status("/proc/" + std::to_string(process) + "/stat");
+    std::string text;
+    std::getline(status, text);
+    // The state stands behind the program's name, which may have brackets of its own.
+    const std::size_t name_end = text.rfind(')');
+    return name_end != std::string::npos && text.substr(name_end).starts_with(") Z");
+}
+
+/// Whether nobody writes to the file any more: its process has ended, and its lock, which also
 /// tells of processes of other machines, is free.
 bool is_left_over(const std::filesystem::path& file, pid_t writer)
 {
-    if (kill(writer, 0) == 0 || errno != ESRCH)
+    if (!has_ended(writer))
         return false;
     const int handle = open(file.c_str(), O_RDONLY | O_CLOEXEC);
     if (handle < 0)
@@ -170,11 +183,11 @@ AtomicFile::AtomicFile(std::filesystem::path target) : target_(followed(std::mov
     struct stat found {};
     const bool is_there = stat(target_.c_str(), &found) == 0;
     if (!is_there && errno != ENOENT)
-        throw FileError(target_, "can't write", errno);
+        throw FileError(target_, FileAction::write, errno);
     if (is_there && S_ISDIR(found.st_mode))
-        throw FileError(target_, "can't write", EISDIR);
+        throw FileError(target_, FileAction::write, EISDIR);
     if (is_there && access(target_.c_str(), W_OK) != 0)
-        throw FileError(target_, "can't write", errno);
+        throw FileError(target_, FileAction::write, errno);
     std::error_code ignored;
     // A link is followed, unless the file that it leads to has no name.
     if (is_there && (!S_ISREG(found.st_mode) || std::filesystem::is_symlink(target_, ignored))) {
@@ -198,7 +211,7 @@ void AtomicFile::open_directly()
 {
     file_.reset(std::fopen(target_.c_str(), "wb"));
     if (!file_)
-        throw FileError(target_, "can't write", errno);
+        throw FileError(target_, FileAction::write, errno);
 }
 
 bool AtomicFile::create_temporary(int attempt)
@@ -211,7 +224,7 @@ bool AtomicFile::create_temporary(int attempt)
     if (file_)
         slot_ = note_temporary(temporary_);
     else if (errno != EEXIST)
-        throw FileError(target_, "can't write", errno);
+        throw FileError(target_, FileAction::write, errno);
     return true;
 }
 
@@ -241,7 +254,7 @@ AtomicFile::~AtomicFile()
 void AtomicFile::write(std::span<const std::byte> bytes)
 {
     if (std::fwrite(bytes.data(), 1, bytes.size(), file_.get()) != bytes.size())
-        throw FileError(target_, "can't write", errno);
+        throw FileError(target_, FileAction::write, errno);
 }
 
 void AtomicFile::write(std::string_view text)
@@ -253,7 +266,7 @@ void AtomicFile::commit()
 {
     // A full disk may show only now, when the last buffer goes out.
     if (std::fclose(file_.release()) != 0)
-        throw FileError(target_, "can't write", errno);
+        throw FileError(target_, FileAction::write, errno);
     if (temporary_.empty())
         return;
     std::error_code error;
@@ -262,7 +275,7 @@ void AtomicFile::commit()
     if (error && creation.is_closed())
         wait_for_the_end();
     if (error)
-        throw FileError(target_, "can't write", error.value());
+        throw FileError(target_, FileAction::write, error.value());
     temporary_.clear();
     forget_temporary(std::exchange(slot_, -1));
 }
@@ -272,7 +285,7 @@ void make_folders(const std::filesystem::path& folder)
     std::error_code error;
     std::filesystem::create_directories(folder, error);
     if (error)
-        throw FileError(folder, "can't make this folder", error.value());
+        throw FileError(folder, FileAction::make_folder, error.value());
 }
 
 void check_folder(const std::filesystem::path& folder)

@@ -1,13 +1,12 @@
 #pragma once
 
+#include "core/read_file.hpp"
+
 #include <cstddef>
 #include <filesystem>
 #include <span>
 #include <string_view>
-
 #include <sys/stat.h>
-
-#include "core/read_file.hpp"
 
 namespace packtrace {
 

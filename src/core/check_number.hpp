@@ -1,10 +1,10 @@
 #pragma once
 
+#include "core/text.hpp"
+
 #include <cmath>
 #include <stdexcept>
 #include <string>
-
-#include "core/text.hpp"
 
 // Options of the library's callers: each fault is one line that says what there is instead.
 namespace packtrace {

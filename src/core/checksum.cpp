@@ -1,8 +1,8 @@
 #include "core/checksum.hpp"
 
-#include <cstdio>
-
 #include <libdeflate.h>
+
+#include <cstdio>
 
 namespace packtrace {
 

@@ -1,8 +1,8 @@
 #pragma once
 
-#include <algorithm>
-
 #include <packtrace/render.hpp>
+
+#include <algorithm>
 
 namespace packtrace {
 

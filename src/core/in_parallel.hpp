@@ -1,9 +1,9 @@
 #pragma once
 
-#include <cstddef>
-
 #include <tbb/blocked_range.h>
 #include <tbb/parallel_for.h>
+
+#include <cstddef>
 
 namespace packtrace {
 

@@ -1,5 +1,7 @@
 #pragma once
 
+#include "core/seconds_since.hpp"
+
 #include <chrono>
 #include <condition_variable>
 #include <cstddef>
@@ -10,8 +12,6 @@
 #include <system_error>
 #include <thread>
 #include <utility>
-
-#include "core/seconds_since.hpp"
 
 namespace packtrace {
 
@@ -42,7 +42,7 @@ public:
     void add(Job job)
     {
         if (!thread_.joinable())
-            return run(job);
+            return run_here(job);
         std::unique_lock lock(mutex_);
         changed_.wait(lock, [&] { return error_ || jobs_.size() < most_jobs; });
         if (error_)
@@ -76,6 +76,25 @@ private:
         seconds_ += seconds_since(start);
     }
 
+    void run_here(const Job& job)
+    {
+        if (!error_)
+            error_ = error_of(job);
+        if (error_)
+            std::rethrow_exception(error_);
+    }
+
+    /// What a job that runs throws.
+    std::exception_ptr error_of(const Job& job)
+    {
+        try {
+            run(job);
+        } catch (...) {
+            return std::current_exception();
+        }
+        return nullptr;
+    }
+
     void run_all()
     {
         std::unique_lock lock(mutex_);
@@ -85,12 +104,7 @@ private:
                 return;
             const Job& job = jobs_.front();
             lock.unlock();
-            std::exception_ptr error;
-            try {
-                run(job);
-            } catch (...) {
-                error = std::current_exception();
-            }
+            const std::exception_ptr error = error_of(job);
             lock.lock();
             error_ = error;
             jobs_.pop_front();

@@ -1,9 +1,9 @@
 #pragma once
 
+#include <nlohmann/json.hpp>
+
 #include <cmath>
 #include <string>
-
-#include <nlohmann/json.hpp>
 
 namespace packtrace {
 

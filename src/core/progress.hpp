@@ -1,14 +1,14 @@
 #pragma once
 
+#include <packtrace/stop.hpp>
+
+#include <tbb/task_arena.h>
+
 #include <atomic>
 #include <functional>
 #include <mutex>
 #include <stop_token>
 #include <utility>
-
-#include <tbb/task_arena.h>
-
-#include <packtrace/stop.hpp>
 
 namespace packtrace {
 

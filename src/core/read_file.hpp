@@ -11,22 +11,30 @@
 // Files read whole, and the error of files that can't be read or written.
 namespace packtrace {
 
+/// What could not be done with a file.
+enum class FileAction { read, write, make_folder };
+
 /// A file that can't be read or written; `what()` is one line, `file: what: why`.
 struct FileError : std::runtime_error {
     using std::runtime_error::runtime_error;
-    FileError(const std::filesystem::path& file, const std::string& what, int error_number)
-        : std::runtime_error(file.string() + ": " + what + ": " +
+    FileError(const std::filesystem::path& file, FileAction action, int error_number)
+        : std::runtime_error(file.string() + ": can't " + word_of(action) + ": " +
                              std::generic_category().message(error_number) +
-                             advice(what, error_number))
+                             (error_number == ENOENT ? advice(action) : ""))
     {
     }
 
 private:
-    static const char* advice(const std::string& what, int error_number)
+    static const char* word_of(FileAction action)
     {
-        if (error_number != ENOENT)
-            return "";
-        return what == "can't write" ? "; make its folder first" : "; check its name";
+        return action == FileAction::read    ? "read"
+               : action == FileAction::write ? "write"
+                                             : "make this folder";
+    }
+    /// For where there is no such file or folder.
+    static const char* advice(FileAction action)
+    {
+        return action == FileAction::write ? "; make its folder first" : "; check its name";
     }
 };
 
@@ -46,7 +54,7 @@ using OpenFile = std::unique_ptr<std::FILE, FileCloser>;
 {
     const OpenFile input(std::fopen(file.c_str(), "rb"));
     if (!input)
-        throw FileError(file, "can't read", errno);
+        throw FileError(file, FileAction::read, errno);
 
     // In growing steps, not by the file's size: a pipe has none.
     std::string bytes;
@@ -56,7 +64,7 @@ using OpenFile = std::unique_ptr<std::FILE, FileCloser>;
         used += std::fread(bytes.data() + used, 1, bytes.size() - used, input.get());
     } while (used == bytes.size());
     if (std::ferror(input.get()))
-        throw FileError(file, "can't read", errno);
+        throw FileError(file, FileAction::read, errno);
     bytes.resize(used);
     return bytes;
 }

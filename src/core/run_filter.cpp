@@ -1,15 +1,15 @@
 #include "core/run_filter.hpp"
 
+#include "core/read_file.hpp"
+#include "core/signal_gate.hpp"
+
 #include <atomic>
+#include <cerrno>
 #include <csignal>
 #include <cstdio>
-
 #include <fcntl.h>
 #include <spawn.h>
 #include <sys/wait.h>
-
-#include "core/read_file.hpp"
-#include "core/signal_gate.hpp"
 
 extern char** environ;
 
@@ -53,9 +53,13 @@ public:
         close_end(1);
         std::string text;
         char block[4096];
-        for (ssize_t got; (got = read(ends_[0], block, sizeof block)) > 0;)
-            text.append(block, static_cast<std::size_t>(got));
-        return text;
+        for (;;) {
+            const ssize_t got = read(ends_[0], block, sizeof block);
+            if (got > 0)
+                text.append(block, static_cast<std::size_t>(got));
+            else if (got == 0 || errno != EINTR)
+                return text;
+        }
     }
 
 private:
@@ -124,6 +128,17 @@ pid_t start(const std::vector<std::string>& command, const Descriptors& descript
     return child;
 }
 
+/// Waits for a program's end. -1 where a signal ended it, or where somebody else has waited for it.
+int exit_code_of(pid_t child)
+{
+    int status = 0;
+    pid_t ended = -1;
+    do
+        ended = waitpid(child, &status, 0);
+    while (ended < 0 && errno == EINTR);
+    return ended == child && WIFEXITED(status) ? WEXITSTATUS(status) : -1;
+}
+
 }  // namespace
 
 FilterResult run_filter(const std::vector<std::string>& command, const std::string& input,
@@ -146,10 +161,8 @@ FilterResult run_filter(const std::vector<std::string>& command, const std::stri
     if (!result.started)
         return result;
     result.output = out.read_all();
-    int status = 0;
-    waitpid(child, &status, 0);
+    result.exit_code = exit_code_of(child);
     running.store(0);
-    result.exit_code = WIFEXITED(status) ? WEXITSTATUS(status) : -1;
     return result;
 }
 

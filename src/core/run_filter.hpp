@@ -1,9 +1,8 @@
 #pragma once
 
 #include <string>
-#include <vector>
-
 #include <unistd.h>
+#include <vector>
 
 namespace packtrace {
 

@@ -1,7 +1,6 @@
 #include <packtrace/unset_allocator.hpp>
 
 #include <cstdlib>
-
 #include <sys/mman.h>
 
 namespace packtrace {

@@ -1,10 +1,9 @@
+#include "dispatch/kernels.hpp"
+#include "scene/language/quote.hpp"
 #include <packtrace/isa.hpp>
 
 #include <cstdlib>
 #include <stdexcept>
-
-#include "dispatch/kernels.hpp"
-#include "scene/language/quote.hpp"
 
 namespace packtrace {
 namespace {

@@ -1,10 +1,10 @@
 #pragma once
 
+#include "kernel_abi/kernel_table.hpp"
+
 #include <stdexcept>
 #include <string_view>
 #include <vector>
-
-#include "kernel_abi/kernel_table.hpp"
 
 namespace packtrace {
 

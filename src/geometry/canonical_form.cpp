@@ -1,13 +1,13 @@
 #include "geometry/canonical_form.hpp"
 
-#include <algorithm>
-#include <cmath>
+#include "core/quad.hpp"
+#include "scene/vectors.hpp"
 
 #include <glm/geometric.hpp>
 #include <glm/matrix.hpp>
 
-#include "core/quad.hpp"
-#include "scene/vectors.hpp"
+#include <algorithm>
+#include <cmath>
 
 namespace packtrace {
 namespace {

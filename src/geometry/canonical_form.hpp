@@ -1,10 +1,10 @@
 #pragma once
 
+#include <packtrace/vec.hpp>
+
 #include <array>
 #include <optional>
 #include <string>
-
-#include <packtrace/vec.hpp>
 
 namespace packtrace {
 

@@ -1,13 +1,13 @@
 #pragma once
 
-#include <tuple>
-#include <utility>
-#include <vector>
-
 #include "geometry/plane.hpp"
 #include "geometry/polygon.hpp"
 #include "geometry/quadric.hpp"
 #include "geometry/sphere.hpp"
+
+#include <tuple>
+#include <utility>
+#include <vector>
 
 // The kinds of surfaces, a list each: whatever holds for all of them loops over these lists at
 // compile time, and asks a surface by overloads that its kind's file has.

@@ -1,16 +1,16 @@
 #pragma once
 
+#include "kernel_abi/bvh_view.hpp"
+#include <packtrace/vec.hpp>
+
+#include <glm/common.hpp>
+
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
 #include <limits>
 #include <optional>
 #include <tuple>
-
-#include <glm/common.hpp>
-#include <packtrace/vec.hpp>
-
-#include "kernel_abi/bvh_view.hpp"
 
 // What every kind of surface answers with, and what they share in finding and packing it.
 namespace packtrace {

@@ -1,11 +1,11 @@
 #include "geometry/plane.hpp"
 
-#include <limits>
+#include "geometry/kinds.hpp"
 
 #include <glm/geometric.hpp>
 #include <glm/matrix.hpp>
 
-#include "geometry/kinds.hpp"
+#include <limits>
 
 namespace packtrace {
 

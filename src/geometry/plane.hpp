@@ -1,10 +1,9 @@
 #pragma once
 
-#include <packtrace/scene.hpp>
-
 #include "geometry/object_rules.hpp"
 #include "kernel_abi/lists.hpp"
 #include "kernel_abi/shapes.hpp"
+#include <packtrace/scene.hpp>
 
 namespace packtrace {
 

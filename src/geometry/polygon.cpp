@@ -1,13 +1,13 @@
 #include "geometry/polygon.hpp"
 
-#include <algorithm>
-#include <limits>
+#include "geometry/kinds.hpp"
+#include "scene/polygon_plane.hpp"
 
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
 
-#include "geometry/kinds.hpp"
-#include "scene/polygon_plane.hpp"
+#include <algorithm>
+#include <limits>
 
 namespace packtrace {
 namespace {

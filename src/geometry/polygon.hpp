@@ -1,14 +1,13 @@
 #pragma once
 
-#include <span>
-#include <vector>
-
-#include <packtrace/scene.hpp>
-
 #include "core/aligned_array.hpp"
 #include "geometry/object_rules.hpp"
 #include "kernel_abi/lists.hpp"
 #include "kernel_abi/shapes.hpp"
+#include <packtrace/scene.hpp>
+
+#include <span>
+#include <vector>
 
 namespace packtrace {
 

@@ -1,12 +1,5 @@
 #include "geometry/quadric.hpp"
 
-#include <algorithm>
-#include <cmath>
-
-#include <glm/geometric.hpp>
-#include <glm/gtc/matrix_access.hpp>
-#include <glm/matrix.hpp>
-
 #include "core/quad.hpp"
 #include "geometry/canonical_form.hpp"
 #include "geometry/kinds.hpp"
@@ -14,6 +7,13 @@
 #include "scene/exact_minor.hpp"
 #include "scene/language/numbers.hpp"
 #include "scene/vectors.hpp"
+
+#include <glm/geometric.hpp>
+#include <glm/gtc/matrix_access.hpp>
+#include <glm/matrix.hpp>
+
+#include <algorithm>
+#include <cmath>
 
 namespace packtrace {
 namespace {

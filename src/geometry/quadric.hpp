@@ -1,12 +1,11 @@
 #pragma once
 
-#include <limits>
-
-#include <packtrace/scene.hpp>
-
 #include "geometry/object_rules.hpp"
 #include "kernel_abi/lists.hpp"
 #include "kernel_abi/shapes.hpp"
+#include <packtrace/scene.hpp>
+
+#include <limits>
 
 namespace packtrace {
 

@@ -1,12 +1,12 @@
 #include "geometry/sphere.hpp"
 
-#include <algorithm>
-#include <cmath>
+#include "geometry/kinds.hpp"
 
 #include <glm/geometric.hpp>
 #include <glm/matrix.hpp>
 
-#include "geometry/kinds.hpp"
+#include <algorithm>
+#include <cmath>
 
 namespace packtrace {
 namespace {

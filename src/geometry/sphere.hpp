@@ -1,13 +1,13 @@
 #pragma once
 
-#include <type_traits>
-
-#include <glm/geometric.hpp>
-#include <packtrace/scene.hpp>
-
 #include "geometry/object_rules.hpp"
 #include "kernel_abi/lists.hpp"
 #include "kernel_abi/shapes.hpp"
+#include <packtrace/scene.hpp>
+
+#include <glm/geometric.hpp>
+
+#include <type_traits>
 
 // Spheres. One whose surface passes so near the world's origin for its size that its curvature
 // there is more exact than its centre, such as a ground, is stored as an anchored sphere.

@@ -1,15 +1,15 @@
 // How far two pictures are apart: as numbers, and as a picture.
-#include <packtrace/compare.hpp>
-
 #include "core/check_number.hpp"
 #include "image/color_ramp.hpp"
 #include "image/pixel_error.hpp"
+#include <packtrace/compare.hpp>
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
 #include <stdexcept>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace packtrace {
@@ -31,19 +31,43 @@ double psnr_of(double rmse)
     return rmse > 0.0 ? 0.0 - 20.0 * std::log10(rmse) : std::numeric_limits<double>::infinity();
 }
 
-// Keeps the `count` largest errors, largest first, then in reading order.
-void keep_worst(std::vector<PixelError>& errors, int count)
+bool is_worse(const PixelError& a, const PixelError& b)
 {
-    const auto kept = std::min(errors.size(), static_cast<std::size_t>(std::max(count, 0)));
-    const auto worse = [](const PixelError& a, const PixelError& b) {
-        if (a.error != b.error)
-            return a.error > b.error;
-        return a.y != b.y ? a.y < b.y : a.x < b.x;
-    };
-    std::partial_sort(errors.begin(), errors.begin() + static_cast<std::ptrdiff_t>(kept),
-                      errors.end(), worse);
-    errors.resize(kept);
+    if (a.error != b.error)
+        return a.error > b.error;
+    return a.y != b.y ? a.y < b.y : a.x < b.x;
 }
+
+// The `count` largest errors of those added, without keeping the others.
+class WorstPixels {
+public:
+    explicit WorstPixels(int count) : count_(static_cast<std::size_t>(count))
+    {
+    }
+
+    void add(const PixelError& pixel)
+    {
+        if (heap_.size() == count_) {
+            if (count_ == 0 || !is_worse(pixel, heap_.front()))
+                return;
+            std::pop_heap(heap_.begin(), heap_.end(), is_worse);
+            heap_.pop_back();
+        }
+        heap_.push_back(pixel);
+        std::push_heap(heap_.begin(), heap_.end(), is_worse);
+    }
+
+    /// Largest first, then in reading order.
+    [[nodiscard]] std::vector<PixelError> sorted() &&
+    {
+        std::sort_heap(heap_.begin(), heap_.end(), is_worse);
+        return std::move(heap_);
+    }
+
+private:
+    std::size_t count_;
+    std::vector<PixelError> heap_;  // the least of those kept is in front
+};
 
 constexpr double decades = 6.0;
 
@@ -85,6 +109,8 @@ Comparison compare(const Image<Real>& a, const Image<Real>& b, const CompareOpti
 {
     check_alike(a, b);
     check_not_negative("threshold", options.threshold);
+    check_not_negative("worst", options.worst);
+    WorstPixels worst(options.worst);
     Comparison result;
     result.pixels = a.rgb.size() / 3;
     // Sums by rows first, so that small errors are not lost beside a large total.
@@ -97,8 +123,9 @@ Comparison compare(const Image<Real>& a, const Image<Real>& b, const CompareOpti
             const auto error = static_cast<double>(pixel_error(pa, pb));
             row_sum += squared_error(pa, pb);
             result.pixels_off += error > options.threshold;
+            result.max_abs = std::max(result.max_abs, error);
             if (error > 0.0)
-                result.worst.push_back({x, y, error});
+                worst.add({x, y, error});
         }
         sum += row_sum;
     }
@@ -106,9 +133,7 @@ Comparison compare(const Image<Real>& a, const Image<Real>& b, const CompareOpti
         result.rmse =
             static_cast<double>(std::sqrt(sum / (3 * static_cast<ErrorReal<Real>>(result.pixels))));
     result.psnr = psnr_of(result.rmse);
-    for (const PixelError& pixel : result.worst)
-        result.max_abs = std::max(result.max_abs, pixel.error);
-    keep_worst(result.worst, options.worst);
+    result.worst = std::move(worst).sorted();
     return result;
 }
 

@@ -1,8 +1,8 @@
 #pragma once
 
-#include <packtrace/image_io.hpp>
 #include "core/read_file.hpp"
 #include "image/bytes.hpp"
+#include <packtrace/image_io.hpp>
 
 #include <cstddef>
 #include <cstdint>

@@ -1,11 +1,10 @@
 // Picture files by their names: written, checked and read in the format of the extension, and the
 // recipe of what made a picture, which formats without room for text keep in a file beside it.
-#include <packtrace/image_io.hpp>
-
 #include "core/atomic_file.hpp"
 #include "core/checksum.hpp"
 #include "core/read_file.hpp"
 #include "image/formats.hpp"
+#include <packtrace/image_io.hpp>
 
 #include <algorithm>
 #include <optional>

@@ -1,10 +1,10 @@
 #pragma once
 
+#include <packtrace/image.hpp>
+
 #include <algorithm>
 #include <limits>
 #include <type_traits>
-
-#include <packtrace/image.hpp>
 
 namespace packtrace {
 

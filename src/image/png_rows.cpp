@@ -1,14 +1,16 @@
 // libpng, row by row: reads every PNG, and writes those that are too large to be held whole.
 #include "image/formats.hpp"
 
+#include <png.h>
+
 #include <algorithm>
 #include <csetjmp>
+#include <cstring>
 #include <exception>
 #include <memory>
+#include <new>
 #include <string>
 #include <utility>
-
-#include <png.h>
 
 namespace packtrace {
 namespace {
@@ -21,7 +23,7 @@ constexpr std::size_t most_growth = 1040;
 struct PngState {
     png_structp png = nullptr;
     png_infop info = nullptr;
-    std::string fault;
+    char fault[200] = "";
     std::span<const std::uint8_t> unread;  ///< of the file that is read
     Bytes samples;
     Image<float> image;
@@ -34,7 +36,7 @@ PngState& state_of(png_structp png)
 
 [[noreturn]] void jump_out(png_structp png, png_const_charp fault)
 {
-    state_of(png).fault = fault;
+    std::strncpy(state_of(png).fault, fault, sizeof(PngState::fault) - 1);
     png_longjmp(png, 1);
 }
 
@@ -98,6 +100,15 @@ void read_picture(PngState& state)
     png_read_end(state.png, nullptr);
 }
 
+/// Makes what libpng keeps of a picture. Throws std::bad_alloc.
+void make_info(PngState& state)
+{
+    if (state.png != nullptr)
+        state.info = png_create_info_struct(state.png);
+    if (state.info == nullptr)
+        throw std::bad_alloc();
+}
+
 /// Runs `use`, whose fault becomes an ImageError.
 template <class Use>
 void guard(PngState& state, const std::string& what, const Use& use)
@@ -120,7 +131,7 @@ Image<float> decode_png(std::span<const std::uint8_t> file)
         png_destroy_read_struct(&used->png, &used->info, nullptr);
     };
     const std::unique_ptr<PngState, decltype(destroy)> owner(&state, destroy);
-    state.info = png_create_info_struct(state.png);
+    make_info(state);
     png_set_read_fn(state.png, nullptr, give_bytes);
     guard(state, "damaged PNG: ", [&] { read_picture(state); });
     return std::move(state.image);
@@ -166,7 +177,7 @@ PngRows::PngRows(int width, int height, Take take) : state_(std::make_unique<Sta
     state_->take = std::move(take);
     PngState& state = state_->png;
     state.png = png_create_write_struct(PNG_LIBPNG_VER_STRING, &state, jump_out, ignore_warning);
-    state.info = png_create_info_struct(state.png);
+    make_info(state);
     png_set_write_fn(state.png, state_.get(), State::take_bytes, nullptr);
     state_->run([&] {
         png_set_IHDR(state.png, state.info, static_cast<png_uint_32>(width),

@@ -21,16 +21,18 @@ namespace {
 constexpr int filter_up = 2;
 constexpr int deflate_level = 2;
 
-/// What stb calls to compress; the result is freed by stb.
+/// What stb calls to compress; the result is freed by stb. Null for want of memory.
 unsigned char* compress(unsigned char* data, int size, int* compressed_size, int /*quality*/)
 {
     const std::unique_ptr<libdeflate_compressor, void (*)(libdeflate_compressor*)> compressor(
         libdeflate_alloc_compressor(deflate_level), libdeflate_free_compressor);
+    if (!compressor)
+        return nullptr;
     const auto length = static_cast<std::size_t>(size);
     const std::size_t bound = libdeflate_zlib_compress_bound(compressor.get(), length);
     auto* const compressed = static_cast<unsigned char*>(std::malloc(bound));
-    if (!compressor || compressed == nullptr)
-        throw std::bad_alloc();
+    if (compressed == nullptr)
+        return nullptr;
     *compressed_size = static_cast<int>(
         libdeflate_zlib_compress(compressor.get(), data, length, compressed, bound));
     return compressed;

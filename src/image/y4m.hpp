@@ -1,12 +1,11 @@
 #pragma once
 
+#include "image/bytes.hpp"
+#include <packtrace/image.hpp>
+
 #include <optional>
 #include <string>
 #include <string_view>
-
-#include <packtrace/image.hpp>
-
-#include "image/bytes.hpp"
 
 // YUV4MPEG2, the uncompressed video that ffmpeg and mpv read from a pipe: a header, then each
 // frame as three planes of 8 bits without subsampling (C444).

@@ -1,8 +1,8 @@
 #pragma once
 
-#include <cstdint>
-
 #include "kernel_abi/shapes.hpp"
+
+#include <cstdint>
 
 // A bounding volume hierarchy of eight children a node, as the kernels walk it.
 namespace packtrace::abi {

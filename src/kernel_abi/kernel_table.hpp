@@ -1,16 +1,16 @@
 #pragma once
 
-#include <cstddef>
-#include <cstdint>
-
 #include "kernel_abi/features.hpp"
 #include "kernel_abi/observation.hpp"
 #include "kernel_abi/onedim_table.hpp"
+#include "kernel_abi/passed.hpp"
 #include "kernel_abi/probe.hpp"
 #include "kernel_abi/ray_streams.hpp"
 #include "kernel_abi/scene_view.hpp"
 #include "kernel_abi/self_test.hpp"
-#include "kernel_abi/stage.hpp"
+
+#include <cstddef>
+#include <cstdint>
 
 namespace packtrace::abi {
 
@@ -75,7 +75,7 @@ struct RayCounts {
     std::uint64_t unsure = 0;  ///< traced again in double
     std::uint64_t cut = 0;     ///< not traced, as their weight is below SceneView::min_weight
     double lacks = 0.0;        ///< the most that any one pixel may lack for those
-    std::uint32_t stages = 0;  ///< of Stage
+    std::uint32_t passed = 0;  ///< of Passed
 
     RayCounts& operator+=(const RayCounts& more)
     {
@@ -86,7 +86,7 @@ struct RayCounts {
         unsure += more.unsure;
         cut += more.cut;
         lacks = more.lacks > lacks ? more.lacks : lacks;
-        stages |= more.stages;
+        passed |= more.passed;
         return *this;
     }
 };

@@ -6,8 +6,8 @@
 // packtrace/profile.hpp describes.
 namespace packtrace::abi {
 
-/// Spans follow each other through a tile without a gap; each generation has its own.
-enum class Span : std::int32_t {
+/// Stages follow each other through a tile without a gap; each generation has its own.
+enum class Stage : std::int32_t {
     setup,     ///< what the tile's cone may meet
     trace,     ///< rays to their closest hits
     shadows,   ///< what may stand between the hits and lights; with a hierarchy the shadow rays
@@ -15,10 +15,10 @@ enum class Span : std::int32_t {
     children,  ///< refracted rays put behind mirrored ones
     film       ///< the background into the pixels, and these into the picture
 };
-inline constexpr int span_count = 6;
+inline constexpr int stage_count = 6;
 
-/// What the time of a span goes to.
-enum class Part : std::int32_t {
+/// What the time of a stage goes to.
+enum class Step : std::int32_t {
     cones,           ///< the objects that a cone may meet
     ray_generation,  ///< of camera and shadow rays; of others the loading
     boxes,           ///< traversal: nodes of the hierarchy, frustums and orders of rays
@@ -35,26 +35,26 @@ enum class Part : std::int32_t {
     children,    ///< directions and weights of child rays, and their way into streams
     film         ///< light into pixels
 };
-inline constexpr int part_count = 15;
+inline constexpr int step_count = 15;
 
 /// Whether work is done for shadow rays, or for those they start from.
-enum class Role : std::int32_t { own, shadow };
-inline constexpr int role_count = 2;
+enum class RayPurpose : std::int32_t { own, shadow };
+inline constexpr int purpose_count = 2;
 
-/// The clock at the borders of a generation's spans.
-struct SpanLaps {
-    std::uint64_t span[span_count] = {};  ///< ticks
-    double refracted = 0;  ///< ticks of Span::trace for refracted rays, by their share of a chunk
+/// The clock at the borders of a generation's stages.
+struct StageTicks {
+    std::uint64_t stage[stage_count] = {};  ///< ticks
+    double refracted = 0;  ///< ticks of Stage::trace for refracted rays, by their share of a chunk
 };
 
-struct Lap {
+struct Ticks {
     std::uint64_t ticks = 0;
     std::uint64_t reads = 0;  ///< of the clock, whose own time is in `ticks`
 };
 
-/// The clock wherever parts begin and end, read after all that was begun before has finished.
-struct PartLaps {
-    Lap part[span_count][role_count][part_count];
+/// The clock wherever steps begin and end, read after all that was begun before has finished.
+struct StepTicks {
+    Ticks step[stage_count][purpose_count][step_count];
 };
 
 /// Packets that did something for at least one ray.
@@ -98,26 +98,26 @@ struct PixelRays {
 /// What happened in a generation.
 struct WorkCounts {
     PacketCounts work[packet_work_count];
-    TestCounts tests[role_count][primitive_count];
-    std::uint64_t group_nodes[role_count] = {};  ///< nodes met by frustums of rays
-    std::uint64_t ray_nodes[role_count] = {};    ///< nodes met by single rays
-    std::uint64_t untraced = 0;                  ///< camera rays of tiles that can meet nothing
-    std::uint64_t refracted = 0;                 ///< of the rays traced
-    std::uint64_t unsure[role_count][cause_count] = {};  ///< rays traced again in double
+    TestCounts tests[purpose_count][primitive_count];
+    std::uint64_t group_nodes[purpose_count] = {};  ///< nodes met by frustums of rays
+    std::uint64_t ray_nodes[purpose_count] = {};    ///< nodes met by single rays
+    std::uint64_t untraced = 0;                     ///< camera rays of tiles that can meet nothing
+    std::uint64_t refracted = 0;                    ///< of the rays traced
+    std::uint64_t unsure[purpose_count][cause_count] = {};  ///< rays traced again in double
 };
 
 /// What to record, added to what is there: any of three arrays of `generations` elements, the last
-/// of which takes all later ones too. Parts are not clocked together with spans. Pixels are those
+/// of which takes all later ones too. Steps are not clocked together with stages. Pixels are those
 /// of the tile, by their numbers along its Z-order curve; camera rays of tiles that can meet
 /// nothing are not counted there.
 struct Observation {
     int generations = 0;
-    SpanLaps* spans = nullptr;
-    PartLaps* parts = nullptr;
+    StageTicks* stages = nullptr;
+    StepTicks* steps = nullptr;
     WorkCounts* counts = nullptr;
     PixelRays* pixels = nullptr;
     std::uint64_t end = 0;      ///< the clock as the last tile ended
-    std::uint64_t reading = 0;  ///< ticks that a reading of the clock takes between parts
+    std::uint64_t reading = 0;  ///< ticks that a reading of the clock takes between steps
 };
 
 }  // namespace packtrace::abi

@@ -47,8 +47,7 @@ struct ProbedHit {
     Real at_limit[3];  ///< what the depth limit gives in place of children
 };
 
-/// Whom to tell. A ray is told of before its lights, those before its hit, and that before the
-/// rays that go on from there.
+/// Receiver of events. Order: a ray, its lights, its hit, the rays that go on from there.
 template <class Real>
 struct Probe {
     int pixel = 0;  ///< number in the tile, along its Z-order curve

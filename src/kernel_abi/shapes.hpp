@@ -1,8 +1,8 @@
 #pragma once
 
-#include <cstdint>
-
 #include "kernel_abi/lists.hpp"
+
+#include <cstdint>
 
 // Surfaces in double, found by surface number, whatever the precision of the rays: what a hit's
 // point and normal come from, and what a ray that starts on a surface is held against.

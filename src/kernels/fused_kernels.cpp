@@ -1,6 +1,5 @@
-#include "kernels/table.hpp"
-
 #include "kernels/fused/fused_tile.hpp"
+#include "kernels/table.hpp"
 
 namespace packtrace::PACKTRACE_ISA {
 namespace {

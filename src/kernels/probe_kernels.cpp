@@ -1,9 +1,8 @@
 // Before any header of the kernels.
 #define PACKTRACE_OBSERVED
 
-#include "kernels/table.hpp"
-
 #include "kernels/stream/tile.hpp"
+#include "kernels/table.hpp"
 
 namespace packtrace::PACKTRACE_ISA {
 namespace {

@@ -1,7 +1,5 @@
 #include "kernels/table.hpp"
 
-#include <utility>
-
 #include "kernels/simd/self_test.hpp"
 #include "kernels/stream/closest_rays.hpp"
 #include "kernels/stream/closest_tile.hpp"
@@ -10,6 +8,8 @@
 #include "kernels/stream/occluded_rays.hpp"
 #include "kernels/stream/tile.hpp"
 #include "onedim/onedim_kernel.hpp"
+
+#include <utility>
 
 namespace packtrace::PACKTRACE_ISA {
 namespace {

@@ -1,8 +1,8 @@
 #include "lower/buffered_scene.hpp"
 
-#include <limits>
-
 #include <tbb/parallel_for.h>
+
+#include <limits>
 
 namespace packtrace {
 namespace {

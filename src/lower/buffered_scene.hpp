@@ -1,9 +1,9 @@
 #pragma once
 
-#include <vector>
-
 #include "lower/packed_light_buffers.hpp"
 #include "lower/packed_scene.hpp"
+
+#include <vector>
 
 namespace packtrace {
 

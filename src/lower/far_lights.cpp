@@ -1,12 +1,12 @@
 #include "lower/far_lights.hpp"
 
-#include <algorithm>
-#include <cmath>
-#include <limits>
-
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
 #include <glm/gtc/matrix_access.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
 
 namespace packtrace {
 namespace {

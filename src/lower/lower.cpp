@@ -1,19 +1,18 @@
+#include "lower/lower_shading.hpp"
+#include "lower/lowered_scene.hpp"
+#include "lower/prune.hpp"
+#include "lower/tree_objects.hpp"
+#include "scene/casting_objects.hpp"
+#include <packtrace/validate.hpp>
+
+#include <tbb/parallel_for.h>
+
 #include <algorithm>
 #include <array>
 #include <span>
 #include <utility>
 #include <variant>
 #include <vector>
-
-#include <packtrace/validate.hpp>
-
-#include <tbb/parallel_for.h>
-
-#include "lower/lower_shading.hpp"
-#include "lower/lowered_scene.hpp"
-#include "lower/prune.hpp"
-#include "lower/tree_objects.hpp"
-#include "scene/casting_objects.hpp"
 
 // Runs of objects are lowered in parallel, and joined in their order.
 namespace packtrace {

@@ -1,12 +1,12 @@
 #include "lower/lower_shading.hpp"
 
-#include <cstring>
-#include <variant>
+#include "core/cut_rays.hpp"
 
 #include <glm/geometric.hpp>
 #include <glm/matrix.hpp>
 
-#include "core/cut_rays.hpp"
+#include <cstring>
+#include <variant>
 
 namespace packtrace {
 namespace {

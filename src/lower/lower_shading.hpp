@@ -1,10 +1,10 @@
 #pragma once
 
+#include "lower/lowered_scene.hpp"
+
 #include <array>
 #include <cstdint>
 #include <vector>
-
-#include "lower/lowered_scene.hpp"
 
 // The illumination models of all notes as coefficients and rules of one equation.
 namespace packtrace {

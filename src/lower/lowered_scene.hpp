@@ -1,15 +1,14 @@
 #pragma once
 
-#include <cstdint>
-#include <limits>
-#include <vector>
-
-#include <packtrace/render.hpp>
-#include <packtrace/scene.hpp>
-
 #include "geometry/kinds.hpp"
 #include "kernel_abi/features.hpp"
 #include "kernel_abi/scene_view.hpp"
+#include <packtrace/render.hpp>
+#include <packtrace/scene.hpp>
+
+#include <cstdint>
+#include <limits>
+#include <vector>
 
 namespace packtrace {
 

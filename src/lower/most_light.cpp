@@ -1,8 +1,8 @@
 #include "lower/lowered_scene.hpp"
 
-#include <cmath>
-
 #include <glm/common.hpp>
+
+#include <cmath>
 
 namespace packtrace {
 namespace {

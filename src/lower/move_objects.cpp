@@ -1,15 +1,15 @@
 #include "lower/move_objects.hpp"
 
+#include "lower/tree_objects.hpp"
+
+#include <tbb/blocked_range.h>
+#include <tbb/parallel_for.h>
+
 #include <algorithm>
 #include <atomic>
 #include <type_traits>
 #include <utility>
 #include <variant>
-
-#include <tbb/blocked_range.h>
-#include <tbb/parallel_for.h>
-
-#include "lower/tree_objects.hpp"
 
 namespace packtrace {
 namespace {

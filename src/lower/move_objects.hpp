@@ -1,10 +1,10 @@
 #pragma once
 
-#include <span>
-
 #include "kernel_abi/shapes.hpp"
 #include "lower/lowered_scene.hpp"
 #include "scene/moved_shape.hpp"
+
+#include <span>
 
 namespace packtrace {
 

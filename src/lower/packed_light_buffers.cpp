@@ -1,16 +1,15 @@
 #include "lower/packed_light_buffers.hpp"
 
+#include <packtrace/vec.hpp>
+
+#include <glm/geometric.hpp>
+#include <tbb/parallel_for.h>
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
 #include <span>
 #include <vector>
-
-#include <glm/geometric.hpp>
-
-#include <tbb/parallel_for.h>
-
-#include <packtrace/vec.hpp>
 
 namespace packtrace {
 namespace {

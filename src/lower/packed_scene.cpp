@@ -1,13 +1,13 @@
 #include "lower/packed_scene.hpp"
 
-#include <algorithm>
-#include <cmath>
-#include <limits>
-
 #include "core/in_parallel.hpp"
 #include "geometry/object_rules.hpp"
 #include "lower/far_lights.hpp"
 #include "lower/tree_objects.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
 
 namespace packtrace {
 namespace {

@@ -1,10 +1,5 @@
 #pragma once
 
-#include <memory>
-#include <vector>
-
-#include <packtrace/traversal.hpp>
-
 #include "core/aligned_array.hpp"
 #include "kernel_abi/scene_view.hpp"
 #include "lower/lowered_scene.hpp"
@@ -12,6 +7,10 @@
 #include "lower/packed_lists.hpp"
 #include "lower/packed_shapes.hpp"
 #include "lower/packed_tree.hpp"
+#include <packtrace/traversal.hpp>
+
+#include <memory>
+#include <vector>
 
 namespace packtrace {
 

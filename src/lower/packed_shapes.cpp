@@ -1,13 +1,26 @@
 #include "lower/packed_shapes.hpp"
 
-#include <algorithm>
-
 #include "core/in_parallel.hpp"
+
+#include <algorithm>
+#include <stdexcept>
+#include <string>
 
 namespace packtrace {
 namespace {
 
+/// Leaves of a hierarchy have so many bits for an object's number; surfaces have one more.
+constexpr std::size_t most_objects = std::size_t{1} << abi::run_count_shift;
 constexpr std::uint32_t largest_record = (1u << 28) - 1;
+static_assert(most_objects - 1 <= largest_record);
+
+void check_count(std::size_t objects)
+{
+    if (objects > most_objects)
+        throw std::length_error("scene: has " + std::to_string(objects) +
+                                " objects of one kind; it can have " +
+                                std::to_string(most_objects) + " at most");
+}
 
 /// Packs the objects of one kind, and notes where they are.
 template <class Object, class Shape>
@@ -15,6 +28,7 @@ AlignedArray<Shape> pack_kind(const std::vector<Object>& objects,
                               const std::vector<std::uint8_t>& faces_viewer,
                               AlignedArray<abi::SurfaceIndex>& index, const Shape*& view)
 {
+    check_count(objects.size());
     auto shapes = AlignedArray<Shape>::unset(objects.size());
     for_each_in_parallel(objects, [&](const Object& object) {
         const auto number = static_cast<std::size_t>(&object - objects.data());

@@ -1,20 +1,19 @@
 #include "lower/packed_tree.hpp"
 
+#include "bvh/bvh.hpp"
+#include "core/in_parallel.hpp"
+#include "lower/tree_objects.hpp"
+
+#include <glm/common.hpp>
+#include <glm/geometric.hpp>
+#include <tbb/parallel_reduce.h>
+
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <limits>
 #include <span>
 #include <utility>
-
-#include <glm/common.hpp>
-#include <glm/geometric.hpp>
-
-#include <tbb/parallel_reduce.h>
-
-#include "bvh/bvh.hpp"
-#include "core/in_parallel.hpp"
-#include "lower/tree_objects.hpp"
 
 namespace packtrace {
 namespace {

@@ -1,12 +1,14 @@
 #include "lower/prune.hpp"
 
+#include "core/text.hpp"
+
+#include <tbb/parallel_for.h>
+#include <tbb/parallel_sort.h>
+
 #include <algorithm>
 #include <cstdint>
 #include <functional>
 #include <tuple>
-
-#include <tbb/parallel_for.h>
-#include <tbb/parallel_sort.h>
 
 namespace packtrace {
 namespace {
@@ -103,16 +105,11 @@ std::size_t remove_duplicates_of(std::vector<Surface>& surfaces, const std::vect
     return count;
 }
 
-std::string counted(std::size_t count, const std::string& noun)
-{
-    return std::to_string(count) + " " + noun + (count == 1 ? "" : "s");
-}
-
 void add(std::vector<LeftOut>& left_out, std::size_t count, const std::string& noun,
          const std::string& why)
 {
     if (count > 0)
-        left_out.push_back({counted(count, noun), why});
+        left_out.push_back({counted(static_cast<std::int64_t>(count), noun), why});
 }
 
 /// Where rays see the lights themselves, a dark one hides the background.

@@ -1,12 +1,11 @@
 #pragma once
 
+#include "lower/lowered_scene.hpp"
+#include <packtrace/traversal.hpp>
+
 #include <cstddef>
 #include <string>
 #include <vector>
-
-#include <packtrace/traversal.hpp>
-
-#include "lower/lowered_scene.hpp"
 
 // What a picture needs of its scene, and what it does without (docs/features.md).
 namespace packtrace {

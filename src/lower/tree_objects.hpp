@@ -1,8 +1,8 @@
 #pragma once
 
-#include <cstddef>
-
 #include "lower/lowered_scene.hpp"
+
+#include <cstddef>
 
 // Which objects of a scene its hierarchy holds. The others stay in lists.
 namespace packtrace {

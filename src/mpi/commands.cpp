@@ -1,5 +1,18 @@
 #include "mpi/commands.hpp"
 
+#include "cli/command.hpp"
+#include "cli/options/scene_input.hpp"
+#include "cli/usage_error.hpp"
+#include "core/json_text.hpp"
+#include "core/text.hpp"
+#include "scene/language/quote.hpp"
+#include "scene/language/source.hpp"
+#include <packtrace/isa.hpp>
+#include <packtrace/read_scene.hpp>
+#include <packtrace/version.hpp>
+
+#include <nlohmann/json.hpp>
+
 #include <algorithm>
 #include <cstdio>
 #include <iostream>
@@ -7,19 +20,6 @@
 #include <string>
 #include <utility>
 #include <vector>
-
-#include <packtrace/isa.hpp>
-#include <packtrace/read_scene.hpp>
-#include <packtrace/version.hpp>
-
-#include <nlohmann/json.hpp>
-
-#include "cli/command.hpp"
-#include "cli/usage_error.hpp"
-#include "core/json_text.hpp"
-#include "core/text.hpp"
-#include "scene/language/quote.hpp"
-#include "scene/language/source.hpp"
 
 namespace packtrace::mpi {
 namespace {
@@ -50,23 +50,37 @@ Scene generate(const std::string& words)
     return made;
 }
 
-nlohmann::ordered_json report_json(const std::string& output, const std::string& what,
-                                   const std::vector<RankReport>& reports,
-                                   const std::vector<std::string>& hosts, double seconds)
+nlohmann::ordered_json json_of(const JobReport& report, const std::vector<std::string>& hosts)
 {
-    nlohmann::ordered_json json{{"output", output}, {"seconds", seconds}, {"pieces", what}};
+    nlohmann::ordered_json json{
+        {"output", report.output}, {"seconds", report.seconds}, {"pieces", report.pieces}};
     json["ranks"] = nlohmann::ordered_json::array();
-    for (std::size_t rank = 0; rank < reports.size(); ++rank) {
-        const RankReport& report = reports[rank];
+    for (std::size_t rank = 0; rank < report.ranks.size(); ++rank) {
+        const RankReport& one = report.ranks[rank];
         json["ranks"].push_back({{"rank", rank},
                                  {"host", hosts[rank]},
-                                 {"pieces", report.pieces},
-                                 {"rays", report.rays},
-                                 {"busy_seconds", report.busy},
-                                 {"waiting_seconds", report.waiting},
-                                 {"bytes_sent", report.bytes_sent}});
+                                 {"pieces", one.pieces},
+                                 {"rays", one.rays},
+                                 {"busy_seconds", one.busy},
+                                 {"waiting_seconds", one.waiting},
+                                 {"bytes_sent", one.bytes_sent}});
     }
     return json;
+}
+
+void print_line(const JobReport& report)
+{
+    std::int64_t pieces = 0;
+    double waiting = 0.0;
+    for (const RankReport& one : report.ranks) {
+        pieces += one.pieces;
+        waiting = std::max(waiting, one.waiting);
+    }
+    char times[96];
+    std::snprintf(times, sizeof times, " in %.1f s; no rank waited longer than %.1f s\n",
+                  report.seconds, waiting);
+    std::cerr << language::escape(report.output) << ": " << pieces << ' ' << report.pieces << " on "
+              << report.ranks.size() << " ranks" << times;
 }
 
 }  // namespace
@@ -87,7 +101,7 @@ Scene shared_scene(const World& world, const std::string& name)
         world.together([&] { scene = generate(name); });
         return scene;
     }
-    const std::string shown = name == "-" ? "standard input" : name;
+    const std::string shown = cli::scene_name(name);
     std::string text;
     world.together([&] {
         if (world.is_first())
@@ -101,6 +115,14 @@ Scene shared_scene(const World& world, const std::string& name)
         });
     });
     return scene;
+}
+
+std::string shared_scene_stem(const std::string& name)
+{
+    if (!name.starts_with(generate_word))
+        return cli::scene_stem(name);
+    const std::string words = name.substr(generate_word.size());
+    return words.substr(0, words.find(' '));
 }
 
 void check_ranks(const World& world, const RenderOptions& options, Mixing mixing)
@@ -131,28 +153,15 @@ void check_same_isas(const World& world, std::vector<std::string> isas)
     });
 }
 
-void print_report(const World& world, const JobArguments& arguments, bool quiet,
-                  const std::string& output, const std::string& what,
-                  const std::vector<RankReport>& reports, double seconds)
+void print_report(const World& world, const JobReport& report)
 {
     const std::vector<std::string> hosts = world.gather(world.host());
     if (!world.is_first())
         return;
-    if (arguments.json)
-        std::cout << json_text(report_json(output, what, reports, hosts, seconds));
-    if (quiet || arguments.json)
-        return;
-    std::int64_t pieces = 0;
-    double waiting = 0.0;
-    for (const RankReport& report : reports) {
-        pieces += report.pieces;
-        waiting = std::max(waiting, report.waiting);
-    }
-    char times[96];
-    std::snprintf(times, sizeof times, " in %.1f s; no rank waited longer than %.1f s\n", seconds,
-                  waiting);
-    std::cerr << language::escape(output) << ": " << pieces << ' ' << what << " on "
-              << reports.size() << " ranks" << times;
+    if (report.json)
+        std::cout << json_text(json_of(report, hosts));
+    else if (!report.quiet)
+        print_line(report);
 }
 
 }  // namespace packtrace::mpi

@@ -1,16 +1,15 @@
 #pragma once
 
-#include <string>
-#include <vector>
-
+#include "mpi/job.hpp"
+#include "mpi/rank_setup.hpp"
+#include "mpi/world.hpp"
 #include <packtrace/render.hpp>
 #include <packtrace/scene.hpp>
 
 #include <CLI/CLI.hpp>
 
-#include "mpi/job.hpp"
-#include "mpi/rank_setup.hpp"
-#include "mpi/world.hpp"
+#include <string>
+#include <vector>
 
 // The commands, and the steps that they have in common: options, the scene, checks of all ranks,
 // and a report at the end.
@@ -39,6 +38,9 @@ void add_job_options(CLI::App& command, JobArguments& arguments);
 /// name such as "generate random --count 10000000" is made by each rank itself. Throws JobFailed.
 [[nodiscard]] Scene shared_scene(const World& world, const std::string& name);
 
+/// What the files that are made of such a scene are called: by its file, or by its generator.
+[[nodiscard]] std::string shared_scene_stem(const std::string& name);
+
 /// Throws JobFailed where ranks may not work on one result.
 void check_ranks(const World& world, const RenderOptions& options, Mixing mixing);
 
@@ -46,10 +48,17 @@ void check_ranks(const World& world, const RenderOptions& options, Mixing mixing
 /// studies would differ. No names are all that run on this machine.
 void check_same_isas(const World& world, std::vector<std::string> isas);
 
-/// One line on standard error, or with `--json` an object on standard output. `what` names the
-/// pieces. Called by all ranks together; rank 0 prints.
-void print_report(const World& world, const JobArguments& arguments, bool quiet,
-                  const std::string& output, const std::string& what,
-                  const std::vector<RankReport>& reports, double seconds);
+/// What a job did, and how to say so.
+struct JobReport {
+    std::string output;  ///< what it made
+    std::string pieces;  ///< what its pieces of work are called
+    std::vector<RankReport> ranks = {};
+    double seconds = 0.0;
+    bool quiet = false;  ///< without the line on standard error
+    bool json = false;   ///< in its place, an object on standard output
+};
+
+/// Called by all ranks together; rank 0 prints.
+void print_report(const World& world, const JobReport& report);
 
 }  // namespace packtrace::mpi

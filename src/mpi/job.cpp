@@ -1,5 +1,7 @@
 #include "mpi/job.hpp"
 
+#include "core/seconds_since.hpp"
+
 #include <algorithm>
 #include <array>
 #include <chrono>
@@ -8,8 +10,6 @@
 #include <stdexcept>
 #include <thread>
 #include <utility>
-
-#include "core/seconds_since.hpp"
 
 namespace packtrace::mpi {
 namespace {
@@ -99,19 +99,7 @@ std::vector<RankReport> Job::run(const Work& work)
 std::vector<RankReport> Job::run(const Work& work, const Take& take)
 {
     const auto start = Clock::now();
-    last_busy_ = start;
-    std::thread worker([&] { work_all(work); });
-    std::thread writer;
-    if (world_.is_first())
-        writer = std::thread([&] { write_all(take); });
-    while (!is_over())
-        if (step())
-            last_busy_ = Clock::now();
-        else
-            rest();
-    worker.join();
-    if (writer.joinable())
-        writer.join();
+    run_threads(work, take);
     // Rank 0 waits for the others' work.
     if (!world_.is_first()) {
         const char over = 0;
@@ -126,6 +114,31 @@ std::vector<RankReport> Job::run(const Work& work, const Take& take)
     MPI_Allgather(&report_, sizeof report_, MPI_BYTE, reports.data(), sizeof report_, MPI_BYTE,
                   MPI_COMM_WORLD);
     return reports;
+}
+
+/// Runs the threads of this rank, and calls MPI for them until nothing is left to do.
+void Job::run_threads(const Work& work, const Take& take)
+{
+    std::thread worker;
+    std::thread writer;
+    try {
+        last_busy_ = Clock::now();
+        worker = std::thread([&] { work_all(work); });
+        if (world_.is_first())
+            writer = std::thread([&] { write_all(take); });
+        while (!is_over())
+            if (step())
+                last_busy_ = Clock::now();
+            else
+                rest();
+    } catch (...) {
+        // Unwinding would wait without end: the threads wait for this one to call MPI, and all
+        // ranks free the counter together.
+        abort_job(world_, std::current_exception());
+    }
+    worker.join();
+    if (writer.joinable())
+        writer.join();
 }
 
 void Job::work_all(const Work& work)

@@ -1,5 +1,10 @@
 #pragma once
 
+#include "image/bytes.hpp"
+#include "mpi/hand_out.hpp"
+#include "mpi/world.hpp"
+#include <packtrace/render.hpp>
+
 #include <chrono>
 #include <condition_variable>
 #include <cstdint>
@@ -12,12 +17,6 @@
 #include <optional>
 #include <string>
 #include <vector>
-
-#include <packtrace/render.hpp>
-
-#include "image/bytes.hpp"
-#include "mpi/hand_out.hpp"
-#include "mpi/world.hpp"
 
 namespace packtrace::mpi {
 
@@ -121,6 +120,7 @@ private:
     struct Sending;
 
     std::vector<RankReport> run(const Work& work, const Take& take);
+    void run_threads(const Work& work, const Take& take);
     void work_all(const Work& work);
     void write_all(const Take& take);
     std::int64_t ask();

@@ -1,19 +1,4 @@
 // packtrace-mpi: the work of packtrace on many ranks.
-#include <algorithm>
-#include <csignal>
-#include <cstdio>
-#include <cstdlib>
-#include <ctime>
-#include <exception>
-#include <iostream>
-#include <new>
-#include <string>
-#include <vector>
-
-#include <unistd.h>
-
-#include <packtrace/version.hpp>
-
 #include "cli/command.hpp"
 #include "cli/interrupts.hpp"
 #include "cli/output/standard_output.hpp"
@@ -21,6 +6,15 @@
 #include "core/atomic_file.hpp"
 #include "mpi/commands.hpp"
 #include "scene/language/quote.hpp"
+#include <packtrace/version.hpp>
+
+#include <algorithm>
+#include <csignal>
+#include <exception>
+#include <iostream>
+#include <string>
+#include <unistd.h>
+#include <vector>
 
 namespace packtrace::mpi {
 namespace {
@@ -44,10 +38,7 @@ void end_quietly(int signal)
             write(STDERR_FILENO, death_line.data(), death_line.size());
     }
     remove_all_temporaries();
-    constexpr timespec rest{.tv_sec = 0, .tv_nsec = linger_milliseconds * 1'000'000L};
-    nanosleep(&rest, nullptr);
-    std::signal(signal, SIG_DFL);
-    std::raise(signal);
+    cli::end_by_signal(signal, linger_milliseconds);
 }
 
 /// A job that ends by a signal says so once.
@@ -68,8 +59,7 @@ void clean_up_when_ended(const World& world)
     if (world.rank() == 1 && hosts[0] == hosts[1])
         first_process = static_cast<pid_t>(std::stol(processes[0]));
     death_line = "\npacktrace-mpi: rank 0 died; " + advice + "\n";
-    for (const int number : {SIGINT, SIGTERM, SIGHUP})
-        std::signal(number, end_quietly);
+    cli::handle_ending_signals(end_quietly);
 }
 
 /// Help, version or a wrong use: rank 0 says so.
@@ -136,20 +126,10 @@ int run(const World& world, int argc, char** argv)
 /// no news any more.
 int end_together(int exit_code)
 {
-    for (const int number : {SIGINT, SIGTERM, SIGHUP})
+    for (const int number : cli::ending_signals)
         std::signal(number, SIG_IGN);
     MPI_Barrier(MPI_COMM_WORLD);
     return exit_code;
-}
-
-/// What went wrong on one rank alone ends all.
-[[noreturn]] void abort_job(const World& world, const std::string& why)
-{
-    std::cerr << "packtrace-mpi: rank " << world.rank() << ": " << language::escape(why)
-              << std::endl;
-    remove_all_temporaries();
-    MPI_Abort(MPI_COMM_WORLD, cli::exit_failed);
-    std::_Exit(cli::exit_failed);
 }
 
 }  // namespace
@@ -161,9 +141,7 @@ int main(int argc, char** argv)
     const packtrace::mpi::World world(argc, argv);
     try {
         return packtrace::mpi::end_together(packtrace::mpi::run(world, argc, argv));
-    } catch (const std::bad_alloc&) {
-        packtrace::mpi::abort_job(world, "not enough memory");
-    } catch (const std::exception& error) {
-        packtrace::mpi::abort_job(world, error.what());
+    } catch (...) {
+        packtrace::mpi::abort_job(world, std::current_exception());
     }
 }

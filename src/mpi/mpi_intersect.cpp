@@ -1,10 +1,3 @@
-#include <algorithm>
-#include <chrono>
-#include <memory>
-#include <string>
-#include <utility>
-#include <vector>
-
 #include "cli/interrupts.hpp"
 #include "cli/intersect/hit_output.hpp"
 #include "cli/intersect/intersect_arguments.hpp"
@@ -14,6 +7,14 @@
 #include "core/checksum.hpp"
 #include "core/seconds_since.hpp"
 #include "mpi/commands.hpp"
+#include "render/precision.hpp"
+
+#include <algorithm>
+#include <chrono>
+#include <memory>
+#include <string>
+#include <utility>
+#include <vector>
 
 namespace packtrace::mpi {
 namespace {
@@ -165,6 +166,33 @@ std::vector<RankReport> trace(const World& world, const IntersectJobArguments& a
     });
 }
 
+/// Throws for what a job of rays can't do, before any work.
+void check_job(const World& world, const IntersectJobArguments& arguments)
+{
+    if (arguments.json_on_rows())
+        throw CLI::ValidationError("--json: standard output has the rows; give -o FILE");
+    if (world.is_first() && !arguments.output.empty())
+        check_writable(arguments.output);
+    cli::check_not_read(arguments.output, {arguments.scene, arguments.rays});
+}
+
+/// The output on rank 0, after the rows that an earlier run finished.
+std::unique_ptr<cli::HitOutput> open_output(const IntersectJobArguments& arguments,
+                                            const Scene& scene, const RenderOptions& options,
+                                            const RayPieces& pieces)
+{
+    const std::string recipe = cli::hits_recipe(arguments, scene, options) + ", " +
+                               std::to_string(pieces.count()) + " pieces of rays";
+    auto output = std::make_unique<cli::HitOutput>(
+        arguments, recipe, cli::header_of(arguments.query(), arguments.ray_bounds()));
+    std::uint64_t number = 0;
+    output->skip_finished([&] { return pieces.mark(number++); });
+    if (!arguments.resume)
+        cli::set_interrupt_line(
+            "the job ended before all rays were answered; with --resume finished rows are kept");
+    return output;
+}
+
 void run_intersect(const World& world, const IntersectJobArguments& arguments)
 {
     const auto start = std::chrono::steady_clock::now();
@@ -172,11 +200,7 @@ void run_intersect(const World& world, const IntersectJobArguments& arguments)
     std::unique_ptr<RayPieces> pieces;
     world.together([&] {
         options = checked_options(arguments);
-        if (arguments.json_on_rows())
-            throw CLI::ValidationError("--json: standard output has the rows; give -o FILE");
-        if (world.is_first() && !arguments.output.empty())
-            check_writable(arguments.output);
-        cli::check_not_read(arguments.output, {arguments.scene, arguments.rays});
+        check_job(world, arguments);
         pieces = std::make_unique<RayPieces>(arguments.rays);
     });
     check_ranks(world, options, arguments.job.mixing());
@@ -190,31 +214,26 @@ void run_intersect(const World& world, const IntersectJobArguments& arguments)
     world.together([&] {
         if (!world.is_first())
             return;
-        output = std::make_unique<cli::HitOutput>(
-            arguments,
-            cli::hits_recipe(arguments, scene, options) + ", " + std::to_string(pieces->count()) +
-                " pieces of rays",
-            cli::header_of(arguments.query(), arguments.ray_bounds()));
-        std::uint64_t number = 0;
-        output->skip_finished([&] { return pieces->mark(number++); });
+        output = open_output(arguments, scene, options, *pieces);
         finished[0] = static_cast<int>(output->finished());
-        if (!arguments.resume)
-            cli::set_interrupt_line(
-                "the job ended before all rays were answered; "
-                "with --resume finished rows are kept");
     });
     world.broadcast(finished);
     const std::vector<RankReport> reports =
-        arguments.kernel.precision == "single"
-            ? trace<float>(world, arguments, scene, options, *pieces, output.get(), finished[0])
-            : trace<double>(world, arguments, scene, options, *pieces, output.get(), finished[0]);
+        with_packet_real(cli::chosen_precision(arguments.kernel.precision), [&]<class Real>() {
+            return trace<Real>(world, arguments, scene, options, *pieces, output.get(),
+                               finished[0]);
+        });
     world.together([&] {
         if (output)
             output->finish();
     });
     cli::set_interrupt_line("");
-    print_report(world, arguments.job, arguments.output.empty(), arguments.output, "pieces of rays",
-                 reports, seconds_since(start));
+    print_report(world, {.output = arguments.output,
+                         .pieces = "pieces of rays",
+                         .ranks = reports,
+                         .seconds = seconds_since(start),
+                         .quiet = arguments.output.empty(),
+                         .json = arguments.job.json});
 }
 
 }  // namespace
@@ -222,12 +241,9 @@ void run_intersect(const World& world, const IntersectJobArguments& arguments)
 void add_intersect(CLI::App& app, const World& world)
 {
     CLI::App* command = app.add_subcommand(
-        "intersect", "Say where rays of your own meet a scene's objects, on all ranks");
+        "intersect", "Find where rays of your own hit a scene's objects, on all ranks");
     const auto arguments = std::make_shared<IntersectJobArguments>();
     cli::add_intersect_options(*command, *arguments);
-    command->add_flag("--resume", arguments->resume,
-                      "Keep finished rows beside FILE until it is complete; after an "
-                      "interruption, the same command goes on with them");
     add_job_options(*command, arguments->job);
     command->callback([arguments, &world] { run_intersect(world, *arguments); });
 }

@@ -1,10 +1,3 @@
-#include <chrono>
-#include <iostream>
-#include <memory>
-#include <optional>
-#include <utility>
-#include <vector>
-
 #include "cli/interrupts.hpp"
 #include "cli/options/thread_limit.hpp"
 #include "cli/output/progress_bar.hpp"
@@ -17,6 +10,13 @@
 #include "core/seconds_since.hpp"
 #include "mpi/commands.hpp"
 #include "scene/language/quote.hpp"
+
+#include <chrono>
+#include <iostream>
+#include <memory>
+#include <optional>
+#include <utility>
+#include <vector>
 
 namespace packtrace::mpi {
 namespace {
@@ -68,13 +68,12 @@ public:
         cli::set_interrupt_line("");
     }
 
-    [[nodiscard]] const CutRays& cut() const
+    /// Says on standard error which bands an earlier run finished, and how many rays were cut.
+    void print_summary(const Scene& scene, const RenderOptions& options) const
     {
-        return cut_;
-    }
-    [[nodiscard]] int kept() const
-    {
-        return file_.bands().count() - static_cast<int>(missing_.size());
+        const int count = file_.bands().count();
+        cli::print_found_bands(arguments_.output, count - static_cast<int>(missing_.size()), count);
+        cli::print_cut_rays(arguments_.output, scene, options, cut_);
     }
 
 private:
@@ -115,23 +114,17 @@ private:
     int written_ = 0;
 };
 
-void render_picture(const World& world, const RenderJobArguments& arguments, const Scene& scene,
-                    const RenderOptions& options)
+/// Renders the missing bands on all ranks; the assembly on rank 0 takes them.
+std::vector<RankReport> render_bands(const World& world, const RenderJobArguments& arguments,
+                                     const Scene& scene, const RenderOptions& options,
+                                     const std::vector<int>& missing, Assembly* assembly)
 {
-    const auto start = std::chrono::steady_clock::now();
-    std::unique_ptr<Assembly> assembly;
-    world.together([&] {
-        if (world.is_first())
-            assembly = std::make_unique<Assembly>(arguments, scene, options);
-    });
-    std::vector<int> missing = assembly ? assembly->missing() : std::vector<int>();
-    world.broadcast(missing);
-
     std::optional<RowSamples> samples;
     cli::RenderBand render;
     world.together([&] {
         samples.emplace(arguments.output, scene.width, arguments.write.gamma);
-        render = cli::band_renderer(scene, arguments.kernel.precision, options, *samples);
+        render = cli::band_renderer(scene, cli::chosen_precision(arguments.kernel.precision),
+                                    options, *samples);
     });
     const Bands bands =
         cli::cut_into_bands(scene.width, scene.height, samples->format(), cli::band_pixels);
@@ -146,29 +139,75 @@ void render_picture(const World& world, const RenderJobArguments& arguments, con
         report.rays += counts.total();
         return piece;
     };
+    return job.run(make, [&](Piece piece) { assembly->take(std::move(piece)); });
+}
+
+void render_picture(const World& world, const RenderJobArguments& arguments, const Scene& scene,
+                    const RenderOptions& options)
+{
+    const auto start = std::chrono::steady_clock::now();
+    std::unique_ptr<Assembly> assembly;
+    world.together([&] {
+        if (world.is_first())
+            assembly = std::make_unique<Assembly>(arguments, scene, options);
+    });
+    std::vector<int> missing = assembly ? assembly->missing() : std::vector<int>();
+    world.broadcast(missing);
     const std::vector<RankReport> reports =
-        job.run(make, [&](Piece piece) { assembly->take(std::move(piece)); });
+        render_bands(world, arguments, scene, options, missing, assembly.get());
     world.together([&] {
         if (assembly)
             assembly->finish();
     });
-    if (assembly && !arguments.quiet) {
-        if (assembly->kept() > 0)
-            std::cerr << language::escape(arguments.output) << ": " << assembly->kept() << " of "
-                      << bands.count() << " bands were finished by an earlier run\n";
-        cli::print_cut_rays(arguments.output, scene, options, assembly->cut());
-    }
-    print_report(world, arguments.job, arguments.quiet, arguments.output, "bands", reports,
-                 seconds_since(start));
+    if (assembly && !arguments.quiet)
+        assembly->print_summary(scene, options);
+    print_report(world, {.output = arguments.output,
+                         .pieces = "bands",
+                         .ranks = reports,
+                         .seconds = seconds_since(start),
+                         .quiet = arguments.quiet,
+                         .json = arguments.job.json});
 }
 
-/// On rank 0, what all ranks have left out.
-CutRays sum_of_ranks(const CutRays& mine)
+/// On rank 0, how many frames and cut rays all ranks have.
+cli::FrameTally sum_of_ranks(const cli::FrameTally& mine)
 {
-    CutRays all;
-    MPI_Reduce(&mine.rays, &all.rays, 1, MPI_UINT64_T, MPI_SUM, 0, MPI_COMM_WORLD);
-    MPI_Reduce(&mine.bound, &all.bound, 1, MPI_DOUBLE, MPI_MAX, 0, MPI_COMM_WORLD);
+    cli::FrameTally all;
+    MPI_Reduce(&mine.rendered, &all.rendered, 1, MPI_INT, MPI_SUM, 0, MPI_COMM_WORLD);
+    MPI_Reduce(&mine.skipped, &all.skipped, 1, MPI_INT, MPI_SUM, 0, MPI_COMM_WORLD);
+    MPI_Reduce(&mine.replaced, &all.replaced, 1, MPI_INT, MPI_SUM, 0, MPI_COMM_WORLD);
+    MPI_Reduce(&mine.cut.rays, &all.cut.rays, 1, MPI_UINT64_T, MPI_SUM, 0, MPI_COMM_WORLD);
+    MPI_Reduce(&mine.cut.bound, &all.cut.bound, 1, MPI_DOUBLE, MPI_MAX, 0, MPI_COMM_WORLD);
     return all;
+}
+
+/// Renders the frames whose turn comes to this rank.
+cli::FrameTally render_turns(const RenderJobArguments& arguments, const Scene& scene,
+                             const RenderOptions& options, const FrameRange& range,
+                             cli::FrameOutput& output, cli::ProgressBar& bar, const Job::Next& next)
+{
+    const auto next_frame = [&]() -> std::optional<int> {
+        const std::int64_t number = next();
+        if (number >= range.count())
+            return std::nullopt;
+        return range.first + static_cast<int>(number);
+    };
+    // Frames are handed out in order: the share of this rank's is that of the animation.
+    const auto show = [&](int frame, double share) {
+        bar.update((frame - range.first + share) / range.count());
+    };
+    return cli::render_frames(arguments, scene, options, output, next_frame, show);
+}
+
+void print_frames(const RenderJobArguments& arguments, const Scene& scene,
+                  const RenderOptions& options, const cli::FrameTally& all)
+{
+    if (all.skipped + all.replaced > 0)
+        std::cerr << language::escape(arguments.output) << ": " << all.skipped
+                  << " frames were there already, " << all.replaced
+                  << " were rendered in place of other pictures\n";
+    if (all.rendered > 0)
+        cli::print_cut_rays(arguments.output, scene, options, all.cut);
 }
 
 void render_frames(const World& world, const RenderJobArguments& arguments, const Scene& scene,
@@ -189,33 +228,20 @@ void render_frames(const World& world, const RenderJobArguments& arguments, cons
     Job job(world, 0, 0);
     cli::FrameTally tally;
     const std::vector<RankReport> reports = job.run([&](const Job::Next& next, RankReport& report) {
-        const auto next_frame = [&]() -> std::optional<int> {
-            const std::int64_t number = next();
-            if (number >= range.count())
-                return std::nullopt;
-            return range.first + static_cast<int>(number);
-        };
-        // Frames are handed out in order: the share of this rank's is that of the animation.
-        const auto show = [&](int frame, double share) {
-            bar.update((frame - range.first + share) / range.count());
-        };
-        tally = cli::render_frames(arguments, scene, options, *output, next_frame, show);
+        tally = render_turns(arguments, scene, options, range, *output, bar, next);
         report.pieces = tally.rendered;
         report.busy = tally.rendering;
     });
     cli::set_interrupt_line("");
-    const int mine[3] = {tally.rendered, tally.skipped, tally.replaced};
-    int all[3] = {};
-    MPI_Reduce(mine, all, 3, MPI_INT, MPI_SUM, 0, MPI_COMM_WORLD);
-    if (world.is_first() && !arguments.quiet && all[1] + all[2] > 0)
-        std::cerr << language::escape(arguments.output) << ": " << all[1]
-                  << " frames were there already, " << all[2]
-                  << " were rendered in place of other pictures\n";
-    const CutRays cut = sum_of_ranks(tally.cut);
-    if (world.is_first() && !arguments.quiet && all[0] > 0)
-        cli::print_cut_rays(arguments.output, scene, options, cut);
-    print_report(world, arguments.job, arguments.quiet, arguments.output, "frames", reports,
-                 seconds_since(start));
+    const cli::FrameTally all = sum_of_ranks(tally);
+    if (world.is_first() && !arguments.quiet)
+        print_frames(arguments, scene, options, all);
+    print_report(world, {.output = arguments.output,
+                         .pieces = "frames",
+                         .ranks = reports,
+                         .seconds = seconds_since(start),
+                         .quiet = arguments.quiet,
+                         .json = arguments.job.json});
 }
 
 /// Throws CLI::ValidationError for what a job of many ranks does not do.

@@ -1,10 +1,9 @@
 #pragma once
 
-#include <functional>
-
-#include <pthread.h>
-
 #include "mpi/world.hpp"
+
+#include <functional>
+#include <pthread.h>
 
 namespace packtrace::mpi {
 

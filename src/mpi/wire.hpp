@@ -1,13 +1,13 @@
 #pragma once
 
+#include "image/bytes.hpp"
+
 #include <cstring>
 #include <stdexcept>
 #include <string>
 #include <string_view>
 #include <type_traits>
 #include <vector>
-
-#include "image/bytes.hpp"
 
 // Values as the bytes of a message, between ranks of one version. A type says what it consists of
 // by each_field(wire, value), which calls wire(field, …) for writing and reading alike.

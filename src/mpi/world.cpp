@@ -1,14 +1,17 @@
 #include "mpi/world.hpp"
 
-#include <array>
-#include <chrono>
-#include <iostream>
-#include <new>
-#include <thread>
+#include "cli/command.hpp"
+#include "core/atomic_file.hpp"
+#include "scene/language/quote.hpp"
 
 #include <CLI/CLI.hpp>
 
-#include "scene/language/quote.hpp"
+#include <array>
+#include <chrono>
+#include <cstdlib>
+#include <iostream>
+#include <new>
+#include <thread>
 
 namespace packtrace::mpi {
 namespace {
@@ -26,9 +29,9 @@ Failure attempt(const std::function<void()>& step)
     } catch (const JobFailed& failed) {
         throw;
     } catch (const CLI::Error& error) {
-        return {std::string("packtrace-mpi: ") + error.what(), 2};
+        return {std::string("packtrace-mpi: ") + error.what(), cli::exit_usage};
     } catch (...) {
-        return {what_of(std::current_exception()), 1};
+        return {what_of(std::current_exception()), cli::exit_failed};
     }
     return {};
 }
@@ -51,17 +54,34 @@ RanksOfNode ranks_of_node()
     return ranks;
 }
 
-}  // namespace
-
-std::string what_of(const std::exception_ptr& error)
+/// Why work failed. `program` stands before the sentences of this function.
+std::string why_failed(const std::exception_ptr& error, const std::string& program)
 {
     try {
         std::rethrow_exception(error);
     } catch (const std::bad_alloc&) {
-        return "packtrace-mpi: not enough memory";
+        return program + "not enough memory";
     } catch (const std::exception& known) {
         return known.what();
+    } catch (...) {
+        return program + "an error of an unknown kind";
     }
+}
+
+}  // namespace
+
+std::string what_of(const std::exception_ptr& error)
+{
+    return why_failed(error, "packtrace-mpi: ");
+}
+
+void abort_job(const World& world, const std::exception_ptr& error)
+{
+    std::cerr << "packtrace-mpi: rank " << world.rank() << ": "
+              << language::escape(why_failed(error, "")) << std::endl;
+    remove_all_temporaries();
+    MPI_Abort(MPI_COMM_WORLD, cli::exit_failed);
+    std::_Exit(cli::exit_failed);
 }
 
 World::World(int& argc, char**& argv)

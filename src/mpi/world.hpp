@@ -1,5 +1,7 @@
 #pragma once
 
+#include <mpi.h>
+
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>
@@ -9,8 +11,6 @@
 #include <string>
 #include <vector>
 
-#include <mpi.h>
-
 namespace packtrace::mpi {
 
 /// Thrown on all ranks alike when one of them has said what is wrong.
@@ -18,7 +18,7 @@ struct JobFailed {
     int exit_code = 1;
 };
 
-/// Why work failed, in a line.
+/// Why work failed, in a line, whatever was thrown.
 [[nodiscard]] std::string what_of(const std::exception_ptr& error);
 
 /// Calls `use` with the beginning and size of each message that so many bytes are sent in: a count
@@ -94,5 +94,10 @@ private:
     int size_ = 1;
     Link link_ = Link::network;
 };
+
+/// Ends the job on all ranks, and says which rank failed and why. For an error outside of
+/// World::together(): the other ranks would wait without end. Called by the thread that calls MPI;
+/// other threads may still work.
+[[noreturn]] void abort_job(const World& world, const std::exception_ptr& error);
 
 }  // namespace packtrace::mpi

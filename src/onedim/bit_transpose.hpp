@@ -1,9 +1,9 @@
 #pragma once
 
+#include "kernels/simd/lanes.hpp"
+
 #include <cstddef>
 #include <cstdint>
-
-#include "kernels/simd/lanes.hpp"
 
 // A register of bits. The compilers' own vector type knows & | ^ ~ << >> on every instruction
 // set; GCC 12 warns wrongly of xsimd's 64-bit shifts for AVX-512.

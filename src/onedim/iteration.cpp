@@ -1,6 +1,5 @@
-#include "onedim/solvers.hpp"
-
 #include "onedim/intensity.hpp"
+#include "onedim/solvers.hpp"
 
 namespace packtrace::onedim {
 namespace {

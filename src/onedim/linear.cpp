@@ -1,5 +1,4 @@
 #include "onedim/solvers.hpp"
-
 #include "onedim/transfer.hpp"
 
 #include <array>

@@ -1,10 +1,10 @@
 #pragma once
 
-#include <cstddef>
-#include <cstdint>
-
 #include "kernel_abi/onedim_table.hpp"
 #include "onedim/bit_transpose.hpp"
+
+#include <cstddef>
+#include <cstdint>
 
 // The one-dimensional note on bit planes. From the far end to the eye, every surface turns the
 // transfer function of what lies beyond it (L as a function of R) into the one before it; no

@@ -1,7 +1,7 @@
-#include <packtrace/isa.hpp>
-#include <packtrace/onedim.hpp>
 #include "dispatch/kernels.hpp"
 #include "onedim/solvers.hpp"
+#include <packtrace/isa.hpp>
+#include <packtrace/onedim.hpp>
 
 #include <span>
 #include <stdexcept>

@@ -1,7 +1,7 @@
 #pragma once
 
-#include <packtrace/onedim.hpp>
 #include "kernel_abi/onedim_table.hpp"
+#include <packtrace/onedim.hpp>
 
 #include <cstddef>
 #include <cstdint>

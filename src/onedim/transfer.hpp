@@ -1,7 +1,7 @@
 #pragma once
 
-#include <packtrace/onedim.hpp>
 #include "onedim/intensity.hpp"
+#include <packtrace/onedim.hpp>
 
 #include <array>
 #include <cstddef>

@@ -1,9 +1,9 @@
 #pragma once
 
-#include <packtrace/render.hpp>
-#include <packtrace/vec.hpp>
 #include "core/cut_rays.hpp"
 #include "reference/world.hpp"
+#include <packtrace/render.hpp>
+#include <packtrace/vec.hpp>
 
 #include <algorithm>
 #include <cmath>

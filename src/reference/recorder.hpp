@@ -1,7 +1,7 @@
 #pragma once
 
-#include <packtrace/explain.hpp>
 #include "reference/surfaces/hits.hpp"
+#include <packtrace/explain.hpp>
 
 #include <vector>
 

@@ -1,7 +1,5 @@
 #pragma once
 
-#include <packtrace/image.hpp>
-#include <packtrace/scene.hpp>
 #include "reference/models/general.hpp"
 #include "reference/models/note_000.hpp"
 #include "reference/models/note_001.hpp"
@@ -9,6 +7,8 @@
 #include "reference/models/note_004.hpp"
 #include "reference/ray_weight.hpp"
 #include "reference/world.hpp"
+#include <packtrace/image.hpp>
+#include <packtrace/scene.hpp>
 
 #include <variant>
 #include <vector>

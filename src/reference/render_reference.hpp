@@ -1,11 +1,10 @@
 #pragma once
 
+#include "reference/ray_weight.hpp"
+#include "reference/reference.hpp"
 #include <packtrace/image.hpp>
 #include <packtrace/render.hpp>
 #include <packtrace/scene.hpp>
-
-#include "reference/ray_weight.hpp"
-#include "reference/reference.hpp"
 
 namespace packtrace {
 

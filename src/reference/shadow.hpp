@@ -1,12 +1,12 @@
 #pragma once
 
-#include <algorithm>
-#include <cmath>
-#include <optional>
-
 #include "reference/glass.hpp"
 #include "reference/start.hpp"
 #include "reference/world.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
 
 // What lies between a hit and a light, and the share of the light that passes it.
 namespace packtrace::reference {
@@ -78,7 +78,7 @@ template <class Real>
 }
 
 /// The share of a light that reaches the point of a hit: one where nothing is in the way, nothing
-/// behind an opaque blocker; with transparent shadows the product of what each blocking object
+/// behind an opaque occluder; with transparent shadows the product of what each blocking object
 /// passes on, once however often the way crosses it.
 template <class Real>
 [[nodiscard]] Color<Real> light_share(const World<Real>& world, const Glass<Real>& glass,
@@ -89,7 +89,7 @@ template <class Real>
         return share;
     const Start<Real> start = start_at(world, at.back().along(way.L), at.P);
     const auto place = place_of_light(world, way.light);
-    visit_bodies(world.blockers, [&](const auto& body) {
+    visit_bodies(world.occluders, [&](const auto& body) {
         if (!is_in_way(body, start, way.L, way.distance, place))
             return true;
         const bool opaque = world.shadows == ShadowKind::opaque;

@@ -1,9 +1,9 @@
 #pragma once
 
-#include <packtrace/render.hpp>
 #include "reference/surfaces/hits.hpp"
 #include "reference/surfaces/own_roots.hpp"
 #include "reference/world.hpp"
+#include <packtrace/render.hpp>
 
 namespace packtrace::reference {
 

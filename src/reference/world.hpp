@@ -1,12 +1,12 @@
 #pragma once
 
-#include <packtrace/image.hpp>
-#include <packtrace/render.hpp>
-#include <packtrace/scene.hpp>
 #include "core/cut_rays.hpp"
 #include "reference/surfaces/bodies.hpp"
 #include "reference/surfaces/hits.hpp"
 #include "reference/vec3.hpp"
+#include <packtrace/image.hpp>
+#include <packtrace/render.hpp>
+#include <packtrace/scene.hpp>
 
 #include <cmath>
 #include <limits>
@@ -134,7 +134,7 @@ struct LightSource {
 template <class Real>
 struct World {
     Bodies<Real> bodies;
-    Bodies<Real> blockers;            ///< those that cast shadows
+    Bodies<Real> occluders;           ///< those that cast shadows
     std::vector<Paint<Real>> paints;  ///< by object number
     std::vector<LightSource<Real>> lights;
     Color<Real> ambient;  ///< sum of the ambient lights
@@ -151,7 +151,7 @@ struct World {
 template <class Real>
 World<Real>::World(const Scene& scene, SelfHits rule)
     : bodies(scene, rule),
-      blockers(scene, rule, [](const Object& object) { return object.casts_shadow; }),
+      occluders(scene, rule, [](const Object& object) { return object.casts_shadow; }),
       background(scene.background),
       shadows(scene.shadows),
       max_depth(scene.max_depth),

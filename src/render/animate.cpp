@@ -1,4 +1,11 @@
+#include "scene/scene_faults.hpp"
+#include "scene/vectors.hpp"
 #include <packtrace/animate.hpp>
+#include <packtrace/validate.hpp>
+
+#include <glm/ext/matrix_transform.hpp>
+#include <glm/geometric.hpp>
+#include <glm/trigonometric.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -6,15 +13,6 @@
 #include <span>
 #include <stdexcept>
 #include <string>
-
-#include <packtrace/validate.hpp>
-
-#include <glm/ext/matrix_transform.hpp>
-#include <glm/geometric.hpp>
-#include <glm/trigonometric.hpp>
-
-#include "scene/scene_faults.hpp"
-#include "scene/vectors.hpp"
 
 namespace packtrace {
 namespace {

@@ -1,11 +1,10 @@
 #pragma once
 
-#include <cmath>
-
-#include <packtrace/scene.hpp>
-
 #include "kernel_abi/scene_view.hpp"
 #include "lower/lowered_scene.hpp"
+#include <packtrace/scene.hpp>
+
+#include <cmath>
 
 namespace packtrace {
 

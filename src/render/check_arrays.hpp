@@ -1,10 +1,10 @@
 #pragma once
 
+#include <packtrace/rays.hpp>
+
 #include <cstddef>
 #include <stdexcept>
 #include <string>
-
-#include <packtrace/rays.hpp>
 
 // Throw std::invalid_argument where a caller left out an array that is read or written. Of no rays
 // there need be none.

@@ -1,11 +1,10 @@
 #pragma once
 
-#include <stdexcept>
-#include <string>
-
+#include "core/check_number.hpp"
 #include <packtrace/render.hpp>
 
-#include "core/check_number.hpp"
+#include <stdexcept>
+#include <string>
 
 namespace packtrace {
 
@@ -45,7 +44,7 @@ inline void check_kernel(const RenderOptions& options)
 }
 
 /// Returns the options. Throws std::invalid_argument with one line for those that are impossible.
-inline const RenderOptions& checked_options(const RenderOptions& options)
+inline RenderOptions checked_options(const RenderOptions& options)
 {
     check_kernel(options);
     check_number("threads", options.threads, 0, most_threads);

@@ -1,11 +1,11 @@
 #include "render/frame_numbers.hpp"
 
+#include "core/text.hpp"
+
 #include <algorithm>
 #include <optional>
 #include <stdexcept>
 #include <string>
-
-#include "core/text.hpp"
 
 namespace packtrace {
 namespace {

@@ -1,14 +1,14 @@
 #include "render/frame_renderer.hpp"
 
-#include <algorithm>
-#include <utility>
-
-#include <tbb/task_arena.h>
-
 #include "core/arena.hpp"
 #include "core/cut_rays.hpp"
 #include "image/contrast.hpp"
 #include "render/check_options.hpp"
+
+#include <tbb/task_arena.h>
+
+#include <algorithm>
+#include <utility>
 
 namespace packtrace {
 namespace {

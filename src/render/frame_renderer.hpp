@@ -1,9 +1,8 @@
 #pragma once
 
-#include <packtrace/renderer.hpp>
-
 #include "render/tile_loop.hpp"
 #include "render/tile_renderer.hpp"
+#include <packtrace/renderer.hpp>
 
 namespace packtrace {
 

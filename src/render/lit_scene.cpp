@@ -1,8 +1,8 @@
 #include "render/lit_scene.hpp"
 
-#include <cmath>
-
 #include <tbb/task_arena.h>
+
+#include <cmath>
 
 namespace packtrace {
 namespace {

@@ -1,18 +1,17 @@
 #pragma once
 
-#include <memory>
-#include <mutex>
-#include <vector>
-
-#include <tbb/enumerable_thread_specific.h>
-
-#include <packtrace/traversal.hpp>
-
 #include "core/aligned_array.hpp"
 #include "core/made_when_paid.hpp"
 #include "dispatch/kernels.hpp"
 #include "lower/lowered_scene.hpp"
 #include "lower/packed_scene.hpp"
+#include <packtrace/traversal.hpp>
+
+#include <tbb/enumerable_thread_specific.h>
+
+#include <memory>
+#include <mutex>
+#include <vector>
 
 namespace packtrace {
 
@@ -39,7 +38,8 @@ private:
     const PackedScene<Real>& shapes_;
     Traversal traversal_;
     const abi::PrecisionTable<Real>& kernels_;
-    std::unique_ptr<LoweredScene> lowered_casters_;  ///< where some objects cast no shadow, others
+    std::unique_ptr<LoweredScene> lowered_casters_;  ///< where some objects cast no shadow: the
+    /// others
     std::vector<MadeWhenPaid<PackedLightBuffer>> buffers_;  ///< by light
 
     std::once_flag prepared_;

@@ -1,17 +1,16 @@
 #pragma once
 
+#include "bounds/bounded_scene.hpp"
+#include <packtrace/scene.hpp>
+
+#include <tbb/parallel_for.h>
+
 #include <cstddef>
 #include <cstdint>
 #include <span>
 #include <stdexcept>
 #include <string>
 #include <vector>
-
-#include <packtrace/scene.hpp>
-
-#include <tbb/parallel_for.h>
-
-#include "bounds/bounded_scene.hpp"
 
 // Which objects an update of a RayScene is about.
 namespace packtrace {

@@ -1,10 +1,9 @@
 #pragma once
 
-#include <array>
-
+#include "scene/language/words.hpp"
 #include <packtrace/render.hpp>
 
-#include "scene/language/words.hpp"
+#include <array>
 
 // The words of the program and of Python for what render options choose between.
 namespace packtrace {
@@ -12,6 +11,13 @@ namespace packtrace {
 constexpr std::array<language::Spelling<Kernel>, 2> spellings(Kernel)
 {
     return {{{Kernel::packet, "packet"}, {Kernel::scalar, "scalar"}}};
+}
+
+constexpr std::array<language::Spelling<Precision>, 3> spellings(Precision)
+{
+    return {{{Precision::single, "single"},
+             {Precision::double_, "double"},
+             {Precision::extended, "extended"}}};
 }
 
 constexpr std::array<language::Spelling<Accuracy>, 2> spellings(Accuracy)

@@ -1,10 +1,9 @@
 #pragma once
 
-#include <memory>
-
+#include "scene/moved_shape.hpp"
 #include <packtrace/intersect.hpp>
 
-#include "scene/moved_shape.hpp"
+#include <memory>
 
 namespace packtrace {
 

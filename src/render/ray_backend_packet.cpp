@@ -1,3 +1,16 @@
+#include "bvh/bvh.hpp"
+#include "core/aligned_array.hpp"
+#include "dispatch/kernels.hpp"
+#include "lower/move_objects.hpp"
+#include "lower/packed_scene.hpp"
+#include "render/lit_scene.hpp"
+#include "render/ray_backend.hpp"
+#include "render/ray_pieces.hpp"
+#include "scene/casting_objects.hpp"
+#include <packtrace/isa.hpp>
+
+#include <tbb/enumerable_thread_specific.h>
+
 #include <algorithm>
 #include <limits>
 #include <memory>
@@ -8,20 +21,6 @@
 #include <tuple>
 #include <utility>
 #include <vector>
-
-#include <packtrace/isa.hpp>
-
-#include <tbb/enumerable_thread_specific.h>
-
-#include "bvh/bvh.hpp"
-#include "core/aligned_array.hpp"
-#include "dispatch/kernels.hpp"
-#include "lower/move_objects.hpp"
-#include "lower/packed_scene.hpp"
-#include "render/lit_scene.hpp"
-#include "render/ray_backend.hpp"
-#include "render/ray_pieces.hpp"
-#include "scene/casting_objects.hpp"
 
 namespace packtrace {
 namespace {

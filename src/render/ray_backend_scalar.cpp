@@ -1,13 +1,13 @@
-#include <cmath>
-#include <limits>
-#include <optional>
-#include <vector>
-
 #include "reference/shadow.hpp"
 #include "reference/surfaces/bodies.hpp"
 #include "reference/surfaces/hits.hpp"
 #include "render/ray_backend.hpp"
 #include "scene/casting_objects.hpp"
+
+#include <cmath>
+#include <limits>
+#include <optional>
+#include <vector>
 
 namespace packtrace {
 namespace {

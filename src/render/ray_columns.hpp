@@ -1,13 +1,13 @@
 #pragma once
 
+#include <packtrace/rays.hpp>
+#include <packtrace/scene.hpp>
+
 #include <array>
 #include <cstddef>
 #include <cstdint>
 #include <limits>
 #include <vector>
-
-#include <packtrace/rays.hpp>
-#include <packtrace/scene.hpp>
 
 // Rays of the caller's own in arrays that grow, and arrays for what they hit.
 namespace packtrace {

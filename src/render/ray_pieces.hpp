@@ -1,11 +1,12 @@
 #pragma once
 
+#include "render/check_arrays.hpp"
+#include <packtrace/rays.hpp>
+#include <packtrace/stop.hpp>
+
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>
-
-#include <packtrace/rays.hpp>
-#include <packtrace/stop.hpp>
 
 // A caller's rays in pieces: parts of arrays, and structs that are copied into arrays for kernels,
 // their hits back, a chunk at a time.
@@ -140,6 +141,7 @@ private:
 template <class Real, class Work>
 void for_chunks(const RayStructs<Real>& rays, const QueryWatch& watch, const Work& work)
 {
+    check_array(rays.first, "rays", rays.count);
     RayChunk<Real> chunk;
     for_watched_pieces(rays.count, watch, [&](std::size_t begin, std::size_t length) {
         for (std::size_t first = begin; first < begin + length; first += chunk_rays)

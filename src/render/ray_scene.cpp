@@ -1,13 +1,3 @@
-#include <packtrace/intersect.hpp>
-
-#include <algorithm>
-#include <numeric>
-#include <stdexcept>
-#include <string>
-#include <vector>
-
-#include <packtrace/validate.hpp>
-
 #include "bounds/bounded_scene.hpp"
 #include "render/check_arrays.hpp"
 #include "render/check_options.hpp"
@@ -15,6 +5,14 @@
 #include "render/ray_backend.hpp"
 #include "render/ray_pieces.hpp"
 #include "scene/scene_faults.hpp"
+#include <packtrace/intersect.hpp>
+#include <packtrace/validate.hpp>
+
+#include <algorithm>
+#include <numeric>
+#include <stdexcept>
+#include <string>
+#include <vector>
 
 namespace packtrace {
 
@@ -25,6 +23,17 @@ void detail::check_length(const char* name, std::size_t length, std::size_t want
                                     " elements, where there are " + std::to_string(wanted) +
                                     " rays; give it one for each ray");
 }
+
+namespace {
+
+template <class Real>
+void check_take(const typename RayScene<Real>::TakeHits& take)
+{
+    if (!take)
+        throw std::invalid_argument("`take` is empty; give a function for the hits of a ray");
+}
+
+}  // namespace
 
 template <class Real>
 struct RayScene<Real>::State {
@@ -159,8 +168,7 @@ void RayScene<Real>::all_hits(const RaysView<Real>& rays, const TakeHits& take,
                               const QueryWatch& watch) const
 {
     check_rays(rays);
-    if (!take)
-        throw std::invalid_argument("`take` is empty; give a function for the hits of a ray");
+    check_take<Real>(take);
     for_watched_pieces(rays.count, watch, [&](std::size_t first, std::size_t count) {
         if (first == 0)
             return state_->backend->all_hits(part_of(rays, first, count), take);
@@ -218,6 +226,7 @@ void RayScene<Real>::bound_all_hits(const RaysView<Real>& rays, std::size_t ray,
                                     std::span<const SurfaceHit<Real>> hits,
                                     std::span<HitBounds> bounds) const
 {
+    check_rays(rays);
     detail::check_length("bounds", bounds.size(), hits.size());
     if (ray >= rays.count)
         throw std::invalid_argument("ray " + std::to_string(ray) + " of " +
@@ -247,6 +256,7 @@ void RayScene<Real>::closest_hits(const RayStructs<Real>& rays, const HitStructs
                                   const QueryWatch& watch) const
 {
     detail::check_length("hits", hits.count, rays.count);
+    check_array(hits.first, "hits", hits.count);
     HitChunk<Real> found;
     for_chunks(rays, watch, [&](const RaysView<Real>& chunk, std::size_t first) {
         closest_hits(chunk, found.view());
@@ -268,6 +278,7 @@ template <class Real>
 void RayScene<Real>::all_hits(const RayStructs<Real>& rays, const TakeHits& take,
                               const QueryWatch& watch) const
 {
+    check_take<Real>(take);
     for_chunks(rays, watch, [&](const RaysView<Real>& chunk, std::size_t first) {
         all_hits(chunk, [&](std::size_t ray, std::span<const SurfaceHit<Real>> hits) {
             take(first + ray, hits);

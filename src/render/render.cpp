@@ -1,20 +1,18 @@
-#include <packtrace/render.hpp>
-
-#include <memory>
-#include <optional>
-#include <stdexcept>
-#include <type_traits>
-#include <vector>
-
-#include <packtrace/renderer.hpp>
-#include <packtrace/validate.hpp>
-
 #include "dispatch/kernels.hpp"
 #include "lower/lowered_scene.hpp"
 #include "reference/render_reference.hpp"
 #include "render/check_options.hpp"
 #include "render/frame_renderer.hpp"
 #include "render/row_renderer.hpp"
+#include <packtrace/render.hpp>
+#include <packtrace/renderer.hpp>
+#include <packtrace/validate.hpp>
+
+#include <memory>
+#include <optional>
+#include <stdexcept>
+#include <type_traits>
+#include <vector>
 
 // Pictures as callers ask for them: one, one scene's again and again, some rows at a time.
 namespace packtrace {

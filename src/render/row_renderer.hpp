@@ -1,8 +1,8 @@
 #pragma once
 
-#include <functional>
-
 #include <packtrace/renderer.hpp>
+
+#include <functional>
 
 namespace packtrace {
 

@@ -1,12 +1,11 @@
 #pragma once
 
+#include "kernel_abi/kernel_table.hpp"
+#include <packtrace/vec.hpp>
+
 #include <functional>
 #include <utility>
 #include <vector>
-
-#include <packtrace/vec.hpp>
-
-#include "kernel_abi/kernel_table.hpp"
 
 namespace packtrace {
 

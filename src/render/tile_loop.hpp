@@ -1,8 +1,7 @@
 #pragma once
 
-#include <algorithm>
-#include <atomic>
-
+#include "core/progress.hpp"
+#include "kernel_abi/kernel_table.hpp"
 #include <packtrace/renderer.hpp>
 
 #include <tbb/enumerable_thread_specific.h>
@@ -10,8 +9,8 @@
 #include <tbb/partitioner.h>
 #include <tbb/task_arena.h>
 
-#include "core/progress.hpp"
-#include "kernel_abi/kernel_table.hpp"
+#include <algorithm>
+#include <atomic>
 
 namespace packtrace {
 

@@ -1,16 +1,16 @@
 #include "render/tile_renderer.hpp"
 
-#include <algorithm>
-#include <memory>
-#include <stdexcept>
-#include <utility>
-
 #include "dispatch/kernels.hpp"
 #include "lower/prune.hpp"
 #include "render/camera_view.hpp"
 #include "render/sample_batch.hpp"
 #include "render/tile_loop.hpp"
 #include "scene/sample_pattern.hpp"
+
+#include <algorithm>
+#include <memory>
+#include <stdexcept>
+#include <utility>
 
 namespace packtrace {
 namespace {

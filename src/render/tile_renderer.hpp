@@ -1,9 +1,5 @@
 #pragma once
 
-#include <packtrace/render.hpp>
-
-#include <tbb/enumerable_thread_specific.h>
-
 #include "core/aligned_array.hpp"
 #include "core/made_when_paid.hpp"
 #include "image/contrast.hpp"
@@ -11,6 +7,9 @@
 #include "lower/buffered_scene.hpp"
 #include "lower/lowered_scene.hpp"
 #include "lower/packed_scene.hpp"
+#include <packtrace/render.hpp>
+
+#include <tbb/enumerable_thread_specific.h>
 
 namespace packtrace {
 
@@ -33,8 +32,7 @@ struct Canvas {
 };
 
 /// A scene and the kernels for it, a piece of a picture after the other. A piece begins where a
-/// tile does, and is at most block_edge() long and wide. Thread-safe; a thread's first piece
-/// allocates.
+/// tile does, and is at most block_edge() long and wide. Thread-safe.
 template <class Real>
 class TileRenderer {
 public:

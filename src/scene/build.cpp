@@ -1,13 +1,12 @@
-#include <packtrace/build.hpp>
-
-#include <stdexcept>
-#include <utility>
-
-#include <glm/ext/matrix_transform.hpp>
-
 #include "scene/language/keys.hpp"
 #include "scene/language/words.hpp"
 #include "scene/vectors.hpp"
+#include <packtrace/build.hpp>
+
+#include <glm/ext/matrix_transform.hpp>
+
+#include <stdexcept>
+#include <utility>
 
 namespace packtrace {
 

@@ -1,10 +1,10 @@
 #include <packtrace/camera.hpp>
 
-#include <cmath>
-#include <stdexcept>
-
 #include <glm/geometric.hpp>
 #include <glm/trigonometric.hpp>
+
+#include <cmath>
+#include <stdexcept>
 
 namespace packtrace {
 namespace {

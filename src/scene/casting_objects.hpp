@@ -1,9 +1,9 @@
 #pragma once
 
+#include <packtrace/scene.hpp>
+
 #include <algorithm>
 #include <vector>
-
-#include <packtrace/scene.hpp>
 
 namespace packtrace {
 

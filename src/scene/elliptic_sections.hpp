@@ -1,14 +1,14 @@
 #pragma once
 
-#include <algorithm>
-#include <cmath>
-#include <optional>
+#include <packtrace/surface.hpp>
 
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
 #include <glm/mat2x2.hpp>
 
-#include <packtrace/surface.hpp>
+#include <algorithm>
+#include <cmath>
+#include <optional>
 
 namespace packtrace {
 

@@ -1,8 +1,7 @@
 #pragma once
 
-#include <packtrace/vec.hpp>
-
 #include "core/quad.hpp"
+#include <packtrace/vec.hpp>
 
 namespace packtrace {
 

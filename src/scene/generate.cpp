@@ -1,14 +1,13 @@
+#include "scene/language/numbers.hpp"
 #include <packtrace/generate.hpp>
+
+#include <glm/geometric.hpp>
 
 #include <cmath>
 #include <stdexcept>
 #include <string>
 #include <utility>
 #include <vector>
-
-#include <glm/geometric.hpp>
-
-#include "scene/language/numbers.hpp"
 
 namespace packtrace {
 namespace {

@@ -1,9 +1,9 @@
+#include "scene/object_names.hpp"
+#include "scene/scene_faults.hpp"
+
 #include <algorithm>
 #include <cmath>
 #include <variant>
-
-#include "scene/object_names.hpp"
-#include "scene/scene_faults.hpp"
 
 // Colours that may grow beyond single precision where factors are above 1: each reflection and
 // refraction multiplies by them, and so does each object that a transparent shadow passes.

@@ -1,8 +1,8 @@
 #pragma once
 
-#include <cstdint>
-
 #include <packtrace/scene.hpp>
+
+#include <cstdint>
 
 namespace packtrace {
 

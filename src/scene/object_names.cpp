@@ -1,14 +1,14 @@
 #include "scene/object_names.hpp"
 
+#include "scene/language/quote.hpp"
+#include "scene/language/words.hpp"
+
 #include <algorithm>
 #include <charconv>
 #include <functional>
 #include <string_view>
 #include <unordered_map>
 #include <vector>
-
-#include "scene/language/quote.hpp"
-#include "scene/language/words.hpp"
 
 namespace packtrace::language {
 namespace {

@@ -1,11 +1,11 @@
 #pragma once
 
+#include <packtrace/scene.hpp>
+
 #include <array>
 #include <cstddef>
 #include <optional>
 #include <string>
-
-#include <packtrace/scene.hpp>
 
 // What objects are called: by the name they have, or by their kind and number.
 namespace packtrace::language {

@@ -1,11 +1,11 @@
 #pragma once
 
+#include <packtrace/camera.hpp>
+
 #include <algorithm>
 #include <cmath>
 #include <numeric>
 #include <vector>
-
-#include <packtrace/camera.hpp>
 
 namespace packtrace {
 

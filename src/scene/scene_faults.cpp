@@ -1,22 +1,21 @@
 #include "scene/scene_faults.hpp"
 
+#include "scene/language/keys.hpp"
+#include "scene/language/quote.hpp"
+#include "scene/object_names.hpp"
+#include "scene/vectors.hpp"
+#include <packtrace/validate.hpp>
+
+#include <glm/geometric.hpp>
+#include <glm/matrix.hpp>
+#include <tbb/blocked_range.h>
+#include <tbb/parallel_for.h>
+
 #include <algorithm>
 #include <atomic>
 #include <cmath>
 #include <stdexcept>
 #include <utility>
-
-#include <glm/geometric.hpp>
-#include <glm/matrix.hpp>
-#include <packtrace/validate.hpp>
-
-#include <tbb/blocked_range.h>
-#include <tbb/parallel_for.h>
-
-#include "scene/language/keys.hpp"
-#include "scene/language/quote.hpp"
-#include "scene/object_names.hpp"
-#include "scene/vectors.hpp"
 
 namespace packtrace::language {
 namespace {

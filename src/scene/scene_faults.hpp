@@ -1,5 +1,10 @@
 #pragma once
 
+#include "scene/language/rows.hpp"
+#include "scene/moved_shape.hpp"
+#include <packtrace/scene.hpp>
+#include <packtrace/validate.hpp>
+
 #include <cstddef>
 #include <cstdint>
 #include <optional>
@@ -8,12 +13,6 @@
 #include <string_view>
 #include <utility>
 #include <vector>
-
-#include <packtrace/scene.hpp>
-#include <packtrace/validate.hpp>
-
-#include "scene/language/rows.hpp"
-#include "scene/moved_shape.hpp"
 
 // What is wrong with scenes: values by the rows of their keys, and whatever takes more than one
 // value to see. The reader asks for its objects as it reads them, validate() for all.

@@ -1,16 +1,16 @@
-#include <algorithm>
-#include <cmath>
-#include <limits>
-
-#include <glm/common.hpp>
-#include <glm/geometric.hpp>
-#include <packtrace/surface.hpp>
-
 #include "core/quad.hpp"
 #include "core/text.hpp"
 #include "scene/exact_minor.hpp"
 #include "scene/polygon_plane.hpp"
 #include "scene/vectors.hpp"
+#include <packtrace/surface.hpp>
+
+#include <glm/common.hpp>
+#include <glm/geometric.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
 
 // The axes of a plane, and the plane of a polygon.
 namespace packtrace {

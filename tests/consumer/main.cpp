@@ -1,10 +1,10 @@
-#include <iostream>
-#include <string>
-
 #include <packtrace/intersect.hpp>
 #include <packtrace/read_scene.hpp>
 #include <packtrace/render.hpp>
 #include <packtrace/version.hpp>
+
+#include <iostream>
+#include <string>
 
 // A program as a user of the library writes one: a picture, a ray of its own, and an error. Ends
 // with 0 where all three are right.

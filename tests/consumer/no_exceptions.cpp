@@ -1,8 +1,8 @@
-#include <vector>
-
 #include <packtrace/build.hpp>
 #include <packtrace/intersect.hpp>
 #include <packtrace/renderer.hpp>
+
+#include <vector>
 
 // A part of a program that is compiled without exceptions, as games are: all of the headers that
 // holds code of its own. Ends with 0 where the picture and the ray are right.

@@ -1,8 +1,8 @@
 // Any bytes as a baseline of bench: figures, whose text reads back, or an error.
-#include <stdexcept>
-
 #include "cli/study/bench_file.hpp"
 #include "input_file.hpp"
+
+#include <stdexcept>
 
 PACKTRACE_FUZZER(baselines)
 {

@@ -1,7 +1,6 @@
 // Any line as a one-dimensional system: its text reads back as the same, and all solvers agree.
-#include <packtrace/onedim.hpp>
-
 #include "fuzzer.hpp"
+#include <packtrace/onedim.hpp>
 
 PACKTRACE_FUZZER(onedim)
 {

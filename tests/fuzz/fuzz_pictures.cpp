@@ -1,9 +1,8 @@
 // Any bytes as PNG, PFM and Radiance HDR: a picture of as many values as its sizes say, or an
 // error.
-#include <packtrace/image_io.hpp>
-
 #include "fuzzer.hpp"
 #include "image/formats.hpp"
+#include <packtrace/image_io.hpp>
 
 namespace {
 

@@ -1,10 +1,10 @@
 // Any text as a CSV of rays: as many rays in every column, or one line that says why not.
-#include <string>
-
 #include "cli/intersect/ray_csv.hpp"
 #include "cli/intersect/ray_file.hpp"
 #include "core/read_file.hpp"
 #include "input_file.hpp"
+
+#include <string>
 
 namespace {
 

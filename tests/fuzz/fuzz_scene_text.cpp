@@ -1,11 +1,10 @@
 // Any text: a scene or one line that says why not. What is read is written as text that reads back
 // as the same.
-#include <string>
-
+#include "fuzzer.hpp"
 #include <packtrace/read_scene.hpp>
 #include <packtrace/write_scene.hpp>
 
-#include "fuzzer.hpp"
+#include <string>
 
 PACKTRACE_FUZZER(scene_text)
 {

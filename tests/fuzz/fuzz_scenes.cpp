@@ -1,16 +1,15 @@
 // Random scenes with some of their numbers changed to any: every way to trace them keeps what
 // packtrace soak asks of it.
+#include "fuzzer.hpp"
+#include "lab/soak/soak.hpp"
+#include "lab/soak/soak_scene.hpp"
+#include <packtrace/read_scene.hpp>
+
 #include <cmath>
 #include <cstring>
 #include <stdexcept>
 #include <string>
 #include <vector>
-
-#include <packtrace/read_scene.hpp>
-
-#include "fuzzer.hpp"
-#include "lab/soak/soak.hpp"
-#include "lab/soak/soak_scene.hpp"
 
 namespace {
 

@@ -1,11 +1,10 @@
 #pragma once
 
-#include <string>
+#include "fuzzer.hpp"
 
+#include <string>
 #include <sys/mman.h>
 #include <unistd.h>
-
-#include "fuzzer.hpp"
 
 namespace packtrace::fuzz {
 

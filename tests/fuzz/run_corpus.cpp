@@ -1,4 +1,6 @@
 // run_corpus NAME FOLDER: runs a fuzzer over the files of its corpus, in order of their names.
+#include "fuzzer.hpp"
+
 #include <algorithm>
 #include <cstdio>
 #include <cstring>
@@ -6,8 +8,6 @@
 #include <fstream>
 #include <iterator>
 #include <string>
-
-#include "fuzzer.hpp"
 
 namespace {
 

@@ -355,6 +355,7 @@ class TestArrays(unittest.TestCase):
                                  ("isa.*mmx", {"isa": "mmx"}),
                                  ("threads is -1", {"threads": -1}),
                                  ("lanes is 'many'", {"lanes": "many"}),
+                                 ("lanes is 3; use 0, for the most, or", {"lanes": 3}),
                                  ("^dtype is 'x'; use np.float32 or np.float64", {"dtype": "x"}),
                                  ("dtype is int64", {"dtype": int})):
             with self.subTest(message), self.assertRaisesRegex(ValueError, message):

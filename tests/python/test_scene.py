@@ -44,6 +44,15 @@ class TestText(unittest.TestCase):
             self.assertEqual(len(got), 4)
             self.assertTrue(all(objects is scene.objects for objects in got))
 
+    def test_names_in_scenes_need_not_be_utf8(self):
+        text = b'sphere { name = "caf\xe9"  center = (0, 0, 5)  radius = 1 }'
+        scene = pt.Scene.from_text(text)
+        self.assertEqual(scene.objects[0].name, "caf\udce9")
+        self.assertIn(b'"caf\xe9"', scene.to_text().encode(errors="surrogateescape"))
+        self.assertEqual(pt.Scene.from_text(scene.to_text()), scene)
+        self.assertEqual(pickle.loads(pickle.dumps(scene)), scene)
+        self.assertEqual(copy.deepcopy(scene), scene)
+
     def test_file_names_may_be_bytes(self):
         file = SCENES / "four_spheres.scene"
         self.assertEqual(pt.read_scene(str(file).encode()), pt.read_scene(file))
@@ -224,6 +233,9 @@ class TestErrors(unittest.TestCase):
         self.refuses(r"^objects\[0\]: name is '\\ud800'; use a text",
                      objects=[pt.Object(ball, name="\ud800")])
         self.refuses(r"^illumination is '\\ud800'; use one of", illumination="\ud800")
+        self.refuses("^animation: is of the class int; use an Animation", animation=5)
+        self.refuses("use the material class of its illumination",
+                     objects=[pt.Object(ball, material=pt.WhittedMaterial())])
 
     def test_messages_are_cut_between_characters(self):
         for letter in "é漢😀":

@@ -1,8 +1,8 @@
 #pragma once
 
-#include <string>
-
 #include <packtrace/scene.hpp>
+
+#include <string>
 
 namespace packtrace::peers {
 

@@ -1,19 +1,19 @@
 // packtrace_frames: writes a scene for another tracer, or times packtrace's frames of it.
-#include <chrono>
-#include <filesystem>
-#include <iostream>
-#include <optional>
-
-#include <nlohmann/json.hpp>
-#include <packtrace/image_io.hpp>
-#include <packtrace/read_scene.hpp>
-#include <packtrace/renderer.hpp>
-
 #include "context.hpp"
 #include "core/atomic_file.hpp"
 #include "core/seconds_since.hpp"
 #include "export.hpp"
 #include "program.hpp"
+#include <packtrace/image_io.hpp>
+#include <packtrace/read_scene.hpp>
+#include <packtrace/renderer.hpp>
+
+#include <nlohmann/json.hpp>
+
+#include <chrono>
+#include <filesystem>
+#include <iostream>
+#include <optional>
 
 namespace packtrace::peers {
 namespace {

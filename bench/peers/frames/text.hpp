@@ -1,9 +1,9 @@
 #pragma once
 
+#include <packtrace/vec.hpp>
+
 #include <charconv>
 #include <string>
-
-#include <packtrace/vec.hpp>
 
 namespace packtrace::peers {
 

@@ -1,4 +1,11 @@
+#include "cli/command.hpp"
+#include "cli/options/validators.hpp"
+#include "cli/output/distinct_files.hpp"
+#include "core/json_text.hpp"
 #include <packtrace/compare.hpp>
+#include <packtrace/image_io.hpp>
+
+#include <nlohmann/json.hpp>
 
 #include <climits>
 #include <cmath>
@@ -7,15 +14,6 @@
 #include <memory>
 #include <stdexcept>
 #include <string>
-
-#include <packtrace/image_io.hpp>
-
-#include <nlohmann/json.hpp>
-
-#include "cli/command.hpp"
-#include "cli/options/validators.hpp"
-#include "cli/output/distinct_files.hpp"
-#include "core/json_text.hpp"
 
 namespace packtrace::cli {
 namespace {

@@ -1,21 +1,3 @@
-#include <cstdint>
-#include <filesystem>
-#include <iostream>
-#include <memory>
-#include <string>
-#include <utility>
-#include <vector>
-
-#include <packtrace/compare.hpp>
-#include <packtrace/image.hpp>
-#include <packtrace/image_io.hpp>
-#include <packtrace/isa.hpp>
-#include <packtrace/render.hpp>
-#include <packtrace/renderer.hpp>
-#include <packtrace/scene.hpp>
-
-#include <tbb/info.h>
-
 #include "cli/command.hpp"
 #include "cli/options/common_options.hpp"
 #include "cli/options/scene_input.hpp"
@@ -27,6 +9,23 @@
 #include "lab/harness/statistics.hpp"
 #include "lab/harness/stopwatch.hpp"
 #include "scene/language/quote.hpp"
+#include <packtrace/compare.hpp>
+#include <packtrace/image.hpp>
+#include <packtrace/image_io.hpp>
+#include <packtrace/isa.hpp>
+#include <packtrace/render.hpp>
+#include <packtrace/renderer.hpp>
+#include <packtrace/scene.hpp>
+
+#include <tbb/info.h>
+
+#include <cstdint>
+#include <filesystem>
+#include <iostream>
+#include <memory>
+#include <string>
+#include <utility>
+#include <vector>
 
 namespace packtrace::cli {
 namespace {

@@ -1,15 +1,14 @@
-#include <limits>
-#include <memory>
-#include <stdexcept>
-#include <string>
-
-#include <packtrace/generate.hpp>
-#include <packtrace/write_scene.hpp>
-
 #include "cli/command.hpp"
 #include "cli/options/common_options.hpp"
 #include "cli/options/validators.hpp"
 #include "cli/output/output.hpp"
+#include <packtrace/generate.hpp>
+#include <packtrace/write_scene.hpp>
+
+#include <limits>
+#include <memory>
+#include <stdexcept>
+#include <string>
 
 namespace packtrace::cli {
 namespace {

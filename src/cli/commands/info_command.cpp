@@ -1,16 +1,3 @@
-#include <iostream>
-#include <map>
-#include <memory>
-#include <optional>
-#include <string>
-#include <utility>
-#include <vector>
-
-#include <packtrace/isa.hpp>
-#include <packtrace/version.hpp>
-
-#include <nlohmann/json.hpp>
-
 #include "cli/command.hpp"
 #include "cli/commands/scene_features.hpp"
 #include "cli/options/common_options.hpp"
@@ -23,6 +10,18 @@
 #include "scene/language/quote.hpp"
 #include "scene/language/rows.hpp"
 #include "scene/language/words.hpp"
+#include <packtrace/isa.hpp>
+#include <packtrace/version.hpp>
+
+#include <nlohmann/json.hpp>
+
+#include <iostream>
+#include <map>
+#include <memory>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
 
 namespace packtrace::cli {
 namespace {
@@ -165,7 +164,7 @@ nlohmann::ordered_json features_json(const SceneFeatures& features)
     return json;
 }
 
-nlohmann::ordered_json counted(const Census& census)
+nlohmann::ordered_json census_json(const Census& census)
 {
     nlohmann::ordered_json json = nlohmann::ordered_json::object();
     for (const auto& [kind, count] : census)
@@ -179,8 +178,8 @@ nlohmann::ordered_json scene_json(const std::string& file, const Scene& scene,
     return {{"file", file},
             {"width", scene.width},
             {"height", scene.height},
-            {"objects", counted(count_objects(scene))},
-            {"lights", counted(count_lights(scene))},
+            {"objects", census_json(count_objects(scene))},
+            {"lights", census_json(count_lights(scene))},
             {"model", word_of(scene.illumination)},
             {"depth", scene.max_depth},
             {"min_weight", scene.min_weight},

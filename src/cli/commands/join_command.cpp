@@ -1,12 +1,3 @@
-#include <algorithm>
-#include <cerrno>
-#include <cstdint>
-#include <cstdio>
-#include <memory>
-#include <stdexcept>
-#include <string>
-#include <vector>
-
 #include "cli/command.hpp"
 #include "cli/options/shard.hpp"
 #include "cli/options/validators.hpp"
@@ -16,6 +7,15 @@
 #include "core/checksum.hpp"
 #include "core/read_file.hpp"
 #include "scene/language/quote.hpp"
+
+#include <algorithm>
+#include <cerrno>
+#include <cstdint>
+#include <cstdio>
+#include <memory>
+#include <stdexcept>
+#include <string>
+#include <vector>
 
 namespace packtrace::cli {
 namespace {
@@ -43,16 +43,40 @@ OpenFile open_file(const std::string& name)
 {
     OpenFile file(std::fopen(name.c_str(), "rb"));
     if (!file)
-        throw FileError(language::escape(name), "can't read", errno);
+        throw FileError(language::escape(name), FileAction::read, errno);
     return file;
 }
 
-std::string read_line(std::FILE* file)
+/// No line that is read here is longer, in a part that was written here.
+constexpr std::size_t longest_line = std::size_t{1} << 16;
+
+/// A line without its end; empty for one that is too long.
+std::string read_line(const std::string& name, std::FILE* file)
 {
     std::string line;
-    for (int c; (c = std::fgetc(file)) != EOF && c != '\n';)
+    for (int c; (c = std::fgetc(file)) != EOF && c != '\n';) {
+        if (line.size() == longest_line)
+            return {};
         line += static_cast<char>(c);
+    }
+    if (std::ferror(file))
+        throw FileError(name, FileAction::read, errno);
     return line;
+}
+
+void go_to(const std::string& name, std::FILE* file, off_t place, int from)
+{
+    if (fseeko(file, place, from) != 0)
+        throw FileError(name, FileAction::read, errno);
+}
+
+std::uint64_t size_of(const std::string& name, std::FILE* file)
+{
+    go_to(name, file, 0, SEEK_END);
+    const off_t size = ftello(file);
+    if (size < 0)
+        throw FileError(name, FileAction::read, errno);
+    return static_cast<std::uint64_t>(size);
 }
 
 /// Calls `take(bytes)` with the next `count` bytes, or with as many as there are, piece by piece.
@@ -65,23 +89,22 @@ void read_bytes(const std::string& name, std::FILE* file, std::uint64_t count, c
         take(std::string_view(block.data(), got));
     }
     if (std::ferror(file))
-        throw FileError(name, "can't read", errno);
+        throw FileError(name, FileAction::read, errno);
 }
 
 /// How many bytes stand before the last line, which says so. Throws where they are not those that
 /// were written.
 std::uint64_t bytes_of_whole(const std::string& name, std::FILE* file)
 {
-    std::fseek(file, 0, SEEK_END);
-    const auto size = static_cast<std::uint64_t>(std::max(0L, std::ftell(file)));
+    const std::uint64_t size = size_of(name, file);
     const std::uint64_t searched = std::min<std::uint64_t>(size, PartEnd::longest);
-    std::fseek(file, static_cast<long>(size - searched), SEEK_SET);
+    go_to(name, file, static_cast<off_t>(size - searched), SEEK_SET);
     std::string end;
     read_bytes(name, file, searched, [&](std::string_view bytes) { end += bytes; });
     const std::size_t begin = std::min(end.rfind(PartEnd::begin), end.size());
     const std::uint64_t before = size - (end.size() - begin);
     PartEnd whole{before, 0};
-    std::rewind(file);
+    go_to(name, file, 0, SEEK_SET);
     read_bytes(name, file, before, [&](std::string_view bytes) {
         whole.checksum = checksum(bytes_of(bytes), whole.checksum);
     });
@@ -94,7 +117,7 @@ HitPart check_part(const std::string& name)
 {
     HitPart part{name, {}, 0};
     const OpenFile file = open_file(name);
-    const std::optional<PartHead> head = PartHead::parse(read_line(file.get()));
+    const std::optional<PartHead> head = PartHead::parse(read_line(part.name(), file.get()));
     if (!head)
         throw FileError(part.name() +
                         ": is not a part that packtrace intersect --shard or stress --shard wrote");
@@ -137,8 +160,8 @@ void join_hits(const std::vector<HitPart>& parts, Output& output)
     std::string header;
     for (const HitPart& part : parts) {
         const OpenFile file = open_file(part.file);
-        const std::size_t head = read_line(file.get()).size() + 1;
-        const std::string own = read_line(file.get()) + "\n";
+        const std::size_t head = read_line(part.name(), file.get()).size() + 1;
+        const std::string own = read_line(part.name(), file.get()) + "\n";
         if (header.empty())
             output.write(header = own);
         read_bytes(part.name(), file.get(), part.end - head - own.size(),

@@ -1,19 +1,37 @@
+#include "cli/command.hpp"
+#include "cli/options/common_options.hpp"
+#include "cli/options/validators.hpp"
+#include "cli/output/output.hpp"
+#include "core/read_file.hpp"
+#include "scene/language/quote.hpp"
+#include "scene/language/words.hpp"
 #include <packtrace/onedim.hpp>
 
+#include <array>
 #include <cerrno>
 #include <fstream>
 #include <iostream>
-#include <map>
 #include <memory>
+#include <optional>
 #include <stdexcept>
 #include <string>
 #include <vector>
 
-#include "cli/command.hpp"
-#include "cli/options/common_options.hpp"
-#include "cli/options/validators.hpp"
-#include "core/read_file.hpp"
-#include "scene/language/quote.hpp"
+// Not in a nameless namespace, where lookup by the argument's type would not find them.
+namespace packtrace::onedim {
+
+constexpr std::array<language::Spelling<Solver>, 3> spellings(Solver)
+{
+    return {
+        {{Solver::scalar, "scalar"}, {Solver::linear, "linear"}, {Solver::bitsliced, "bitsliced"}}};
+}
+
+constexpr std::array<language::Spelling<Notation>, 3> spellings(Notation)
+{
+    return {{{Notation::words, "words"}, {Notation::compact, "compact"}, {Notation::note, "note"}}};
+}
+
+}  // namespace packtrace::onedim
 
 namespace packtrace::cli {
 namespace {
@@ -21,23 +39,18 @@ namespace {
 using onedim::Notation;
 using onedim::Solver;
 
-const std::map<std::string, Solver> solvers{
-    {"scalar", Solver::scalar}, {"linear", Solver::linear}, {"bitsliced", Solver::bitsliced}};
-const std::map<std::string, Notation> notations{
-    {"words", Notation::words}, {"note", Notation::note}, {"compact", Notation::compact}};
-
 struct OnedimArguments {
     std::string file;
-    std::string solver = "bitsliced";
+    std::optional<std::string> solver;
     IsaArguments isa;
-    std::string output = "words";
+    std::optional<std::string> output;
     bool keep_going = false;
 };
 
 // Throws CLI::ValidationError for options that contradict each other.
 onedim::SolveOptions solve_options(const OnedimArguments& arguments)
 {
-    const Solver solver = solvers.at(arguments.solver);
+    const Solver solver = value_or(arguments.solver, Solver::bitsliced);
     if (solver == Solver::bitsliced)
         return {solver, chosen_isa(arguments.isa).name};
     if (arguments.isa.isa || arguments.isa.width)
@@ -52,7 +65,7 @@ public:
     explicit LineAnswerer(const OnedimArguments& arguments)
         : source_(arguments.file == "-" ? "<stdin>" : arguments.file),
           options_(solve_options(arguments)),
-          output_(notations.at(arguments.output)),
+          notation_(value_or(arguments.output, Notation::words)),
           keep_going_(arguments.keep_going)
     {
     }
@@ -79,13 +92,13 @@ public:
         auto malformed = malformed_.begin();
         for (std::size_t k = 0; k < answers.size(); ++k) {
             const bool known = malformed == malformed_.end() || *malformed != k;
-            text += known ? to_text(answers[k], output_) : "?";
+            text += known ? to_text(answers[k], notation_) : "?";
             text += '\n';
             if (!known)
                 ++malformed;
         }
-        if (!std::cout.write(text.data(), static_cast<std::streamsize>(text.size())).flush())
-            throw std::runtime_error("can't write the answers to standard output");
+        output_.write(text);
+        output_.flush();
         systems_.clear();
         malformed_.clear();
     }
@@ -115,7 +128,8 @@ private:
 
     std::string source_;
     onedim::SolveOptions options_;
-    Notation output_;
+    Notation notation_;
+    Output output_{"-"};
     bool keep_going_;
     onedim::Systems systems_;
     std::vector<std::size_t> malformed_;  ///< numbers of the block's systems that stand for a line
@@ -131,7 +145,7 @@ void answer_all(std::istream& in, const OnedimArguments& arguments)
     const int read_error = in.bad() ? errno : 0;
     answerer.flush();
     if (read_error != 0)
-        throw FileError(arguments.file, "can't read", read_error);
+        throw FileError(arguments.file, FileAction::read, read_error);
     if (!all_well)
         throw Failed{};
 }
@@ -145,7 +159,7 @@ void run_onedim(const OnedimArguments& arguments)
     }
     std::ifstream in(arguments.file);
     if (!in)
-        throw FileError(arguments.file, "can't read", errno);
+        throw FileError(arguments.file, FileAction::read, errno);
     answer_all(in, arguments);
 }
 
@@ -156,14 +170,14 @@ void add_onedim(CLI::App& app)
     CLI::App* command = app.add_subcommand(
         "onedim", "Solve systems of the one-dimensional ray tracer, one on each line");
     const auto arguments = std::make_shared<OnedimArguments>();
-    command->add_option("FILE", arguments->file, "Systems, or - for standard input")->required();
-    command->add_option("--solver", arguments->solver, "How to solve them (default bitsliced)")
-        ->check(one_of({"scalar", "linear", "bitsliced"}))
-        ->type_name("scalar|linear|bitsliced");
+    command->add_option("FILE", arguments->file, "Systems, or - for standard input")
+        ->required()
+        ->check(file_name());
+    add_word_option(*command, "--solver", arguments->solver,
+                    "How to solve them (default bitsliced)", words_of<Solver>());
     add_isa_and_width(*command, arguments->isa);
-    command->add_option("--output", arguments->output, "How to write answers (default words)")
-        ->check(one_of({"words", "compact", "note"}))
-        ->type_name("words|compact|note");
+    add_word_option(*command, "--output", arguments->output, "How to write answers (default words)",
+                    words_of<Notation>());
     command->add_flag("--keep-going", arguments->keep_going,
                       "Answer ? for a malformed line and go on; exit 1 at the end");
     command->callback([arguments] { run_onedim(*arguments); });

@@ -1,15 +1,14 @@
 #pragma once
 
-#include <algorithm>
-#include <string>
-#include <vector>
-
-#include <packtrace/isa.hpp>
-#include <packtrace/scene.hpp>
-
 #include "dispatch/kernels.hpp"
 #include "lower/buffered_scene.hpp"
 #include "lower/prune.hpp"
+#include <packtrace/isa.hpp>
+#include <packtrace/scene.hpp>
+
+#include <algorithm>
+#include <string>
+#include <vector>
 
 namespace packtrace::cli {
 

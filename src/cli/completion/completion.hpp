@@ -1,9 +1,9 @@
 #pragma once
 
+#include "core/text.hpp"
+
 #include <string>
 #include <vector>
-
-#include "core/text.hpp"
 
 // What the scripts of all shells are made of.
 namespace packtrace::cli {

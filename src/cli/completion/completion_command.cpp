@@ -1,4 +1,6 @@
+#include "cli/command.hpp"
 #include "cli/completion/completion.hpp"
+#include "cli/options/validators.hpp"
 
 #include <algorithm>
 #include <array>
@@ -6,9 +8,6 @@
 #include <memory>
 #include <string>
 #include <string_view>
-
-#include "cli/command.hpp"
-#include "cli/options/validators.hpp"
 
 namespace packtrace::cli {
 namespace {

@@ -1,6 +1,6 @@
-#include <sstream>
-
 #include "cli/completion/completion.hpp"
+
+#include <sstream>
 
 namespace packtrace::cli {
 namespace {

@@ -1,12 +1,12 @@
 #include "cli/intersect/hit_output.hpp"
 
-#include <algorithm>
-
 #include "cli/interrupts.hpp"
 #include "cli/options/shard.hpp"
 #include "cli/render/frame_recipe.hpp"
 #include "core/checksum.hpp"
 #include "image/bytes.hpp"
+
+#include <algorithm>
 
 namespace packtrace::cli {
 namespace {

@@ -1,14 +1,14 @@
 #pragma once
 
+#include "cli/intersect/intersect_arguments.hpp"
+#include "cli/output/journal.hpp"
+#include "cli/output/output.hpp"
+
 #include <functional>
 #include <memory>
 #include <optional>
 #include <string>
 #include <string_view>
-
-#include "cli/intersect/intersect_arguments.hpp"
-#include "cli/output/journal.hpp"
-#include "cli/output/output.hpp"
 
 namespace packtrace::cli {
 

@@ -1,9 +1,9 @@
 #include "cli/intersect/hit_rows.hpp"
 
+#include "core/text.hpp"
+
 #include <charconv>
 #include <cstddef>
-
-#include "core/text.hpp"
 
 namespace packtrace::cli {
 namespace {

@@ -1,13 +1,13 @@
 #pragma once
 
+#include <packtrace/intersect.hpp>
+#include <packtrace/scene.hpp>
+
 #include <cstdint>
 #include <span>
 #include <string>
 #include <string_view>
 #include <vector>
-
-#include <packtrace/intersect.hpp>
-#include <packtrace/scene.hpp>
 
 namespace packtrace::cli {
 

@@ -28,6 +28,7 @@ void add_intersect_options(CLI::App& command, IntersectArguments& arguments)
         .add_option("RAYS", arguments.rays,
                     "CSV of ox,oy,oz,dx,dy,dz[,t_min,t_max]; - is standard input")
         ->required()
+        ->check(file_name())
         ->type_name("");
     command
         .add_option("-o,--output", arguments.output,
@@ -45,6 +46,9 @@ void add_intersect_options(CLI::App& command, IntersectArguments& arguments)
             "Add columns t_low,t_high: proven bounds of each t, which take longer than the hits")
         ->excludes(any);
     add_options(command, arguments.kernel);
+    command.add_flag("--resume", arguments.resume,
+                     "Keep finished rows beside FILE until it is complete; after an "
+                     "interruption, the same command goes on with them");
 }
 
 RenderOptions checked_options(const IntersectArguments& arguments)
@@ -65,7 +69,7 @@ std::string hits_recipe(const IntersectArguments& arguments, const Scene& scene,
     // No hit depends on the picture.
     Scene without_picture = scene;
     set_usual_picture(without_picture);
-    std::string recipe = FrameRecipe(kernel, without_picture, options).of(scene.camera);
+    std::string recipe = FrameRecipe(kernel, without_picture, options).of(Camera{});
     recipe += arguments.all ? ", --all" : arguments.any ? ", --any" : "";
     return recipe + (arguments.bounds ? ", --bounds" : "");
 }

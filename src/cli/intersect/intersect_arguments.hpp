@@ -1,12 +1,11 @@
 #pragma once
 
-#include <optional>
-#include <string>
-
-#include <packtrace/scene.hpp>
-
 #include "cli/intersect/hit_rows.hpp"
 #include "cli/options/common_options.hpp"
+#include <packtrace/scene.hpp>
+
+#include <optional>
+#include <string>
 
 namespace packtrace::cli {
 
@@ -31,7 +30,7 @@ struct IntersectArguments {
     }
 };
 
-/// All options but `--shard` and `--resume`.
+/// All options but `--shard`, which jobs of many ranks do not take.
 void add_intersect_options(CLI::App& command, IntersectArguments& arguments);
 
 /// Throws CLI::ValidationError for options that contradict each other.

@@ -1,7 +1,3 @@
-#include <iostream>
-#include <memory>
-#include <string>
-
 #include "cli/command.hpp"
 #include "cli/intersect/hit_output.hpp"
 #include "cli/intersect/intersect_arguments.hpp"
@@ -10,6 +6,11 @@
 #include "cli/options/shard.hpp"
 #include "cli/options/thread_limit.hpp"
 #include "cli/output/distinct_files.hpp"
+#include "render/precision.hpp"
+
+#include <iostream>
+#include <memory>
+#include <string>
 
 namespace packtrace::cli {
 namespace {
@@ -52,10 +53,8 @@ void run_intersect(const IntersectArguments& arguments)
     RayBlocks rays(arguments.rays, range);
     HitOutput output(arguments, recipe, header);
     output.skip_finished([&] { return rays.next().text; });
-    if (arguments.kernel.precision == "single")
-        run<float>(arguments, scene, options, rays, output);
-    else
-        run<double>(arguments, scene, options, rays, output);
+    with_packet_real(chosen_precision(arguments.kernel.precision),
+                     [&]<class Real>() { run<Real>(arguments, scene, options, rays, output); });
 }
 
 }  // namespace
@@ -69,9 +68,6 @@ void add_intersect(CLI::App& app)
     add_shard_option(*command, arguments->shard,
                      "Answer part I, from 0, of N parts of the rays; packtrace join makes one "
                      "file of the parts");
-    command->add_flag("--resume", arguments->resume,
-                      "Keep finished rows beside FILE until it is complete; after an "
-                      "interruption, the same command goes on with them");
     command->callback([arguments] { run_intersect(*arguments); });
 }
 

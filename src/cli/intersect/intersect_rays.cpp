@@ -1,12 +1,12 @@
 #include "cli/intersect/intersect_rays.hpp"
 
+#include <tbb/global_control.h>
+#include <tbb/parallel_pipeline.h>
+
 #include <cstddef>
 #include <exception>
 #include <string>
 #include <vector>
-
-#include <tbb/global_control.h>
-#include <tbb/parallel_pipeline.h>
 
 namespace packtrace::cli {
 

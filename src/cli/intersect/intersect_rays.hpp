@@ -1,18 +1,17 @@
 #pragma once
 
+#include "cli/intersect/hit_rows.hpp"
+#include "cli/intersect/ray_csv.hpp"
+#include "cli/intersect/ray_file.hpp"
+#include <packtrace/intersect.hpp>
+
+#include <tbb/enumerable_thread_specific.h>
+
 #include <cstdint>
 #include <functional>
 #include <string>
 #include <string_view>
 #include <vector>
-
-#include <packtrace/intersect.hpp>
-
-#include <tbb/enumerable_thread_specific.h>
-
-#include "cli/intersect/hit_rows.hpp"
-#include "cli/intersect/ray_csv.hpp"
-#include "cli/intersect/ray_file.hpp"
 
 namespace packtrace::cli {
 

@@ -1,5 +1,9 @@
 #include "cli/intersect/ray_csv.hpp"
 
+#include "core/read_file.hpp"
+#include "core/text.hpp"
+#include "scene/language/quote.hpp"
+
 #include <algorithm>
 #include <charconv>
 #include <cmath>
@@ -7,9 +11,6 @@
 #include <string>
 #include <string_view>
 #include <system_error>
-
-#include "core/read_file.hpp"
-#include "scene/language/quote.hpp"
 
 namespace packtrace::cli {
 namespace {
@@ -162,11 +163,11 @@ private:
         std::string_view rest = line.text;
         for (std::size_t column = 0; column < std::min(count, format_.columns); ++column)
             static_cast<void>(cut_field(rest));
-        const std::string columns = std::to_string(count) + (count == 1 ? " column" : " columns");
         const std::string wanted = std::to_string(format_.columns);
         fail_at(format_, line, rest.data(),
-                columns + " where line " + std::to_string(format_.first_line) + " has " + wanted +
-                    "; write " + wanted + " on every line");
+                counted(static_cast<std::int64_t>(count), "column") + " where line " +
+                    std::to_string(format_.first_line) + " has " + wanted + "; write " + wanted +
+                    " on every line");
     }
 
     [[nodiscard]] Real number(const CsvLine& line, std::size_t column, std::string_view field) const
@@ -219,7 +220,7 @@ void learn(RayFormat& format, const CsvLine& first)
     if (columns != 6 && columns != most_ray_columns)
         fail_at(
             format, first, first.text.data(),
-            std::to_string(columns) + (columns == 1 ? " column" : " columns") +
+            counted(commas + 1, "column") +
                 " can't be a ray; write 6, ox,oy,oz,dx,dy,dz, or 8 with t_min,t_max after them");
     format.columns = columns;
     format.first_line = first.number;

@@ -1,12 +1,12 @@
 #pragma once
 
+#include "render/ray_columns.hpp"
+
 #include <array>
 #include <cstddef>
 #include <optional>
 #include <string>
 #include <string_view>
-
-#include "render/ray_columns.hpp"
 
 // Rays as lines of a CSV file: its lines, the format that the first of them tells, and its numbers.
 namespace packtrace::cli {

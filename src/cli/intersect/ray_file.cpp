@@ -1,5 +1,9 @@
 #include "cli/intersect/ray_file.hpp"
 
+#include "core/checksum.hpp"
+#include "core/read_file.hpp"
+#include "scene/language/quote.hpp"
+
 #include <algorithm>
 #include <cerrno>
 #include <cstdint>
@@ -7,13 +11,8 @@
 #include <filesystem>
 #include <fstream>
 #include <string_view>
-#include <utility>
-
 #include <sys/types.h>
-
-#include "core/checksum.hpp"
-#include "core/read_file.hpp"
-#include "scene/language/quote.hpp"
+#include <utility>
 
 namespace packtrace::cli {
 namespace {
@@ -29,7 +28,7 @@ std::uint64_t next_line(const std::string& file, std::uint64_t place)
         return place == 0 ? 0 : size;
     const OpenFile input(std::fopen(file.c_str(), "rb"));
     if (!input || fseeko(input.get(), static_cast<off_t>(place - 1), SEEK_SET) != 0)
-        throw FileError(language::escape(file), "can't read", errno);
+        throw FileError(language::escape(file), FileAction::read, errno);
     for (int c; place <= size; ++place)
         if (c = std::fgetc(input.get()); c == '\n' || c == EOF)
             return c == EOF ? size : place;
@@ -44,7 +43,7 @@ TextBlocks::TextBlocks(const std::string& file, std::uint64_t begin, std::uint64
       left_(end - begin)
 {
     if (!file_ || (begin > 0 && fseeko(file_.get(), static_cast<off_t>(begin), SEEK_SET) != 0))
-        throw FileError(name_, "can't read", errno);
+        throw FileError(name_, FileAction::read, errno);
 }
 
 std::string TextBlocks::next()
@@ -57,7 +56,7 @@ std::string TextBlocks::next()
     left_ -= got;
     block.resize(kept + got);
     if (std::ferror(file_.get()))
-        throw FileError(name_, "can't read", errno);
+        throw FileError(name_, FileAction::read, errno);
     if (block.size() < largest)
         return block;
 
@@ -117,7 +116,7 @@ std::uint32_t ray_file_checksum(const std::string& file)
         input.seekg(static_cast<std::streamoff>(place));
         input.read(bytes.data(), static_cast<std::streamsize>(std::min(piece, size - place)));
         if (!input)
-            throw FileError(language::escape(file), "can't read", errno);
+            throw FileError(language::escape(file), FileAction::read, errno);
         const auto length = static_cast<std::size_t>(input.gcount());
         sum = checksum(bytes_of(std::string_view(bytes.data(), length)), sum);
     }
@@ -131,11 +130,14 @@ std::uint64_t ray_file_size(const std::string& file)
     std::error_code error;
     const bool regular = std::filesystem::is_regular_file(file, error);
     if (!regular && error)
-        throw FileError(language::escape(file), "can't read", error.value());
+        throw FileError(language::escape(file), FileAction::read, error.value());
     if (!regular)
         throw FileError(language::escape(file) +
                         ": only a regular file can be cut into parts; write the rays into one");
-    return std::filesystem::file_size(file);
+    const std::uintmax_t size = std::filesystem::file_size(file, error);
+    if (error)
+        throw FileError(language::escape(file), FileAction::read, error.value());
+    return size;
 }
 
 RayRange cut_rays(const std::string& file, std::uint64_t index, std::uint64_t count)

@@ -1,12 +1,12 @@
 #pragma once
 
+#include "cli/intersect/ray_csv.hpp"
+#include "core/read_file.hpp"
+
 #include <cstddef>
 #include <cstdint>
 #include <limits>
 #include <string>
-
-#include "cli/intersect/ray_csv.hpp"
-#include "core/read_file.hpp"
 
 // A file of rays, read block by block, and cut into ranges that machines or ranks share.
 namespace packtrace::cli {

@@ -1,11 +1,12 @@
 #include "cli/options/common_options.hpp"
 
+#include "cli/options/validators.hpp"
+#include "render/check_options.hpp"
+#include "render/precision.hpp"
+
 #include <array>
 #include <stdexcept>
 #include <utility>
-
-#include "cli/options/validators.hpp"
-#include "render/check_options.hpp"
 
 namespace packtrace::cli {
 namespace {
@@ -136,15 +137,14 @@ void add_kernel_option(CLI::App& command, std::string& kernel)
 
 void add_precision_option(CLI::App& command, std::string& precision, const std::string& meaning)
 {
-    add_word_option(command, "--precision", precision, meaning, {"single", "double"});
+    add_word_option(command, "--precision", precision, meaning, words_of(packet_precisions));
 }
 
 void add_kernel_options(CLI::App& command, KernelArguments& arguments)
 {
     add_kernel_option(command, arguments.kernel);
     add_word_option(command, "--precision", arguments.precision,
-                    "single (default), double, or extended (scalar only)",
-                    {"single", "double", "extended"});
+                    "single (default), double, or extended (scalar only)", words_of<Precision>());
     add_traversal_option(command, arguments.traversal);
     add_accuracy_and_self_hits(command, arguments.accuracy);
     command.add_flag("--force-general", arguments.force_general,
@@ -167,6 +167,11 @@ std::string packet_option(const KernelArguments& arguments)
 }
 
 }  // namespace
+
+Precision chosen_precision(const std::string& word)
+{
+    return *language::find_word<Precision>(word);
+}
 
 IsaInfo chosen_isa(const IsaArguments& arguments)
 {
@@ -199,14 +204,14 @@ void apply(const SamplingArguments& arguments, RenderOptions& options)
             "--spp or give it more");
 }
 
-void apply(const AccuracyArguments& arguments, const std::string& kernel,
-           const std::string& precision, RenderOptions& options)
+void apply(const AccuracyArguments& arguments, const std::string& kernel, Precision precision,
+           RenderOptions& options)
 {
-    if (arguments.accuracy && (kernel == "scalar" || precision != "single"))
+    if (arguments.accuracy && (kernel == "scalar" || precision != Precision::single))
         throw CLI::ValidationError(
             "--accuracy: only packets of floats have a choice; leave it out or use" +
             std::string(kernel == "scalar" ? " --kernel packet" : "") +
-            (precision != "single" ? " --precision single" : ""));
+            (precision != Precision::single ? " --precision single" : ""));
     options.accuracy = value_or(arguments.accuracy, options.accuracy);
     options.self_hits = value_or(arguments.self_hits, options.self_hits);
 }
@@ -214,7 +219,8 @@ void apply(const AccuracyArguments& arguments, const std::string& kernel,
 RenderOptions render_options(const KernelArguments& arguments)
 {
     RenderOptions options{.threads = arguments.threads};
-    apply(arguments.accuracy, arguments.kernel, arguments.precision, options);
+    const Precision precision = chosen_precision(arguments.precision);
+    apply(arguments.accuracy, arguments.kernel, precision, options);
     if (arguments.kernel == "scalar") {
         options.kernel = Kernel::scalar;
         if (const std::string option = packet_option(arguments); !option.empty())
@@ -223,7 +229,7 @@ RenderOptions render_options(const KernelArguments& arguments)
                                        "--kernel packet");
         return options;
     }
-    if (arguments.precision == "extended")
+    if (precision == Precision::extended)
         throw CLI::ValidationError(
             "--precision: packets are single or double; extended needs --kernel scalar");
     options.isa = chosen_isa(arguments.isa).name;

@@ -1,18 +1,19 @@
 #pragma once
 
-#include <optional>
-#include <string>
-#include <vector>
-
+#include "cli/options/validators.hpp"
+#include "core/text.hpp"
+#include "render/option_words.hpp"
 #include <packtrace/isa.hpp>
 #include <packtrace/render.hpp>
 #include <packtrace/scene.hpp>
 
 #include <CLI/CLI.hpp>
 
-#include "cli/options/validators.hpp"
-#include "core/text.hpp"
-#include "render/option_words.hpp"
+#include <array>
+#include <cstddef>
+#include <optional>
+#include <string>
+#include <vector>
 
 namespace packtrace::cli {
 
@@ -33,6 +34,16 @@ template <class Enum>
     std::vector<std::string> words;
     for (const language::Spelling<Enum>& spelling : spellings(Enum{}))
         words.emplace_back(spelling.word);
+    return words;
+}
+
+/// The words of some values.
+template <class Enum, std::size_t count>
+[[nodiscard]] std::vector<std::string> words_of(const std::array<Enum, count>& values)
+{
+    std::vector<std::string> words;
+    for (const Enum value : values)
+        words.emplace_back(language::word_of(value));
     return words;
 }
 
@@ -99,6 +110,9 @@ void add_picture_options(CLI::App& command, PictureArguments& arguments);
 void add_kernel_options(CLI::App& command, KernelArguments& arguments);
 void add_threads_option(CLI::App& command, int& threads);
 
+/// What the word of `--precision` stands for.
+[[nodiscard]] Precision chosen_precision(const std::string& word);
+
 /// The instruction set asked for. Throws CLI::ValidationError when there is no such one here.
 [[nodiscard]] IsaInfo chosen_isa(const IsaArguments& arguments);
 
@@ -110,9 +124,9 @@ void apply(const PictureArguments& arguments, Scene& scene);
 void apply(const SamplingArguments& arguments, RenderOptions& options);
 
 /// Puts the accuracy asked for into the options. Throws CLI::ValidationError where there is no
-/// choice: the kernel is not packets, or the precision not "single".
-void apply(const AccuracyArguments& arguments, const std::string& kernel,
-           const std::string& precision, RenderOptions& options);
+/// choice: the kernel is not packets, or the precision not single.
+void apply(const AccuracyArguments& arguments, const std::string& kernel, Precision precision,
+           RenderOptions& options);
 
 /// Throws CLI::ValidationError for options that contradict each other.
 [[nodiscard]] RenderOptions render_options(const KernelArguments& arguments);

@@ -1,20 +1,19 @@
 #pragma once
 
+#include "cli/options/validators.hpp"
+#include "core/read_file.hpp"
+#include "scene/language/source.hpp"
+#include <packtrace/read_scene.hpp>
+#include <packtrace/scene.hpp>
+
+#include <CLI/CLI.hpp>
+
 #include <cerrno>
 #include <cstdio>
 #include <filesystem>
 #include <iostream>
 #include <set>
 #include <string>
-
-#include <packtrace/read_scene.hpp>
-#include <packtrace/scene.hpp>
-
-#include <CLI/CLI.hpp>
-
-#include "cli/options/validators.hpp"
-#include "core/read_file.hpp"
-#include "scene/language/source.hpp"
 
 namespace packtrace::cli {
 
@@ -25,6 +24,24 @@ struct SceneInput {
     std::string text;
     Scene scene;
 };
+
+/// What messages and tables call a scene.
+[[nodiscard]] inline std::string scene_name(const std::string& file)
+{
+    return file == "-" ? "standard input" : file;
+}
+
+/// What the files that are made of a scene are called.
+[[nodiscard]] inline std::string scene_stem(const std::string& file)
+{
+    return file == "-" ? "stdin" : std::filesystem::path(file).stem().string();
+}
+
+/// Throws SceneError for a second scene from standard input.
+[[noreturn]] inline void fail_read_already()
+{
+    throw SceneError(scene_name("-") + ": has been read already; give - for one scene only");
+}
 
 /// A scene's name among results that have those `taken`, to which it is added.
 [[nodiscard]] inline std::string free_scene_name(const std::string& stem,
@@ -51,14 +68,14 @@ inline CLI::Option* add_scene_option(CLI::App& command, std::string& file)
 {
     const bool piped = file == "-";
     SceneInput input;
-    input.name = piped ? "standard input" : file;
-    input.stem = piped ? "stdin" : std::filesystem::path(file).stem().string();
+    input.name = scene_name(file);
+    input.stem = scene_stem(file);
     if (piped && std::cin.eof())
-        throw SceneError(input.name + ": has been read already; give - for one scene only");
+        fail_read_already();
     input.text = piped ? language::load_text(std::cin, input.name) : language::load_text(file);
     // Of which the stream, that is of the C library's, tells nothing.
     if (piped && std::ferror(stdin) != 0)
-        throw FileError(input.name, "can't read", errno);
+        throw FileError(input.name, FileAction::read, errno);
     input.scene = parse_scene(input.text, input.name, [](const std::string& line) {
         std::cerr << "warning: " << line << '\n';
     });

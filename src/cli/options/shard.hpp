@@ -1,15 +1,15 @@
 #pragma once
 
+#include "cli/options/validators.hpp"
+
+#include <CLI/CLI.hpp>
+
 #include <array>
 #include <cstddef>
 #include <cstdint>
 #include <optional>
 #include <string>
 #include <string_view>
-
-#include <CLI/CLI.hpp>
-
-#include "cli/options/validators.hpp"
 
 namespace packtrace::cli {
 

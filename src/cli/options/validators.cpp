@@ -1,5 +1,7 @@
 #include "cli/options/validators.hpp"
 
+#include "core/text.hpp"
+
 #include <algorithm>
 #include <charconv>
 #include <cmath>
@@ -7,8 +9,6 @@
 #include <optional>
 #include <sstream>
 #include <utility>
-
-#include "core/text.hpp"
 
 namespace packtrace::cli {
 namespace {

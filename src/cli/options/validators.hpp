@@ -1,12 +1,12 @@
 #pragma once
 
+#include <CLI/CLI.hpp>
+
 #include <functional>
 #include <span>
 #include <string>
 #include <string_view>
 #include <vector>
-
-#include <CLI/CLI.hpp>
 
 namespace packtrace::cli {
 

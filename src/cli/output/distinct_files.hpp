@@ -1,11 +1,11 @@
 #pragma once
 
+#include "core/read_file.hpp"
+#include "scene/language/quote.hpp"
+
 #include <filesystem>
 #include <string>
 #include <vector>
-
-#include "core/read_file.hpp"
-#include "scene/language/quote.hpp"
 
 // Outputs that would take the place of something else that the user named.
 namespace packtrace::cli {
@@ -17,8 +17,11 @@ namespace packtrace::cli {
     std::error_code error;
     if (std::filesystem::equivalent(a, b, error) && !error)
         return true;
-    return std::filesystem::weakly_canonical(a, error) ==
-           std::filesystem::weakly_canonical(b, error);
+    const std::filesystem::path whole_a = std::filesystem::weakly_canonical(a, error);
+    if (error)
+        return false;
+    const std::filesystem::path whole_b = std::filesystem::weakly_canonical(b, error);
+    return !error && whole_a == whole_b;
 }
 
 /// Throws FileError where a file to be written is one that the command reads; `inputs` and `output`

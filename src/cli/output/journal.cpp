@@ -1,16 +1,15 @@
 #include "cli/output/journal.hpp"
 
+#include "core/checksum.hpp"
+#include "core/read_file.hpp"
+
 #include <cerrno>
 #include <charconv>
-#include <string_view>
-
 #include <fcntl.h>
+#include <string_view>
 #include <sys/file.h>
 #include <sys/stat.h>
 #include <unistd.h>
-
-#include "core/checksum.hpp"
-#include "core/read_file.hpp"
 
 namespace packtrace::cli {
 namespace {
@@ -70,12 +69,23 @@ bool has_no_head(std::string_view text)
     return text.find('\n') == std::string_view::npos;
 }
 
+/// What a symbolic link points to in the end; any other name itself.
+std::filesystem::path end_of_link(const std::filesystem::path& name)
+{
+    std::error_code error;
+    if (!std::filesystem::is_symlink(name, error))
+        return name;
+    std::filesystem::path end = std::filesystem::weakly_canonical(name, error);
+    if (error)
+        throw FileError(name, FileAction::write, error.value());
+    return end;
+}
+
 }  // namespace
 
 Journal::Journal(const std::filesystem::path& output, const std::string& head,
                  std::string (*differs)(const std::string& before, const std::string& now))
-    : output_(std::filesystem::is_symlink(output) ? std::filesystem::weakly_canonical(output)
-                                                  : output),
+    : output_(end_of_link(output)),
       journal_name_(beside(output, ".journal")),
       part_name_(beside(output, ".part"))
 {
@@ -106,7 +116,7 @@ void Journal::open(const std::string& head,
     const int handle = ::open(part_name_.c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0666);
     part_.reset(handle < 0 ? nullptr : fdopen(handle, "r+b"));
     if (!part_)
-        throw FileError(part_name_, "can't write", errno);
+        throw FileError(part_name_, FileAction::write, errno);
 }
 
 /// Opens the journal, an empty one where there is none, for this run alone. False where the run
@@ -115,7 +125,7 @@ bool Journal::lock()
 {
     journal_.reset(std::fopen(journal_name_.c_str(), "abe"));
     if (!journal_)
-        throw FileError(journal_name_, "can't write", errno);
+        throw FileError(journal_name_, FileAction::write, errno);
     if (flock(fileno(journal_.get()), LOCK_EX | LOCK_NB) != 0)
         throw FileError(journal_name_.string() +
                         ": another run is at work on this output; wait for it or end it");
@@ -132,12 +142,13 @@ std::string Journal::begin(const std::string& head)
     std::string text = std::string(first_line) + head + "\n";
     try {
         // It comes after the head: no run of this program leaves one without a journal.
-        if (std::filesystem::exists(part_name_))
+        std::error_code ignored;
+        if (std::filesystem::exists(part_name_, ignored))
             throw FileError(part_name_.string() +
                             ": is in the way of --resume, and no journal tells what it is; move "
                             "it away or remove it");
         if (ftruncate(fileno(journal_.get()), 0) != 0)
-            throw FileError(journal_name_, "can't write", errno);
+            throw FileError(journal_name_, FileAction::write, errno);
         append(text);
     } catch (const FileError&) {
         std::error_code ignored;
@@ -176,7 +187,7 @@ void Journal::append(std::string_view text)
 {
     if (std::fwrite(text.data(), 1, text.size(), journal_.get()) != text.size() ||
         std::fflush(journal_.get()) != 0)
-        throw FileError(journal_name_, "can't write", errno);
+        throw FileError(journal_name_, FileAction::write, errno);
 }
 
 void Journal::read(std::uint64_t offset, std::span<std::uint8_t> bytes) const
@@ -185,7 +196,7 @@ void Journal::read(std::uint64_t offset, std::span<std::uint8_t> bytes) const
         const ssize_t got =
             pread(fileno(part_.get()), bytes.data(), bytes.size(), static_cast<off_t>(offset));
         if (got < 0 && errno != EINTR)
-            throw FileError(part_name_, "can't read", errno);
+            throw FileError(part_name_, FileAction::read, errno);
         if (got == 0)
             return;
         if (got > 0) {
@@ -201,7 +212,7 @@ void Journal::write(std::uint64_t offset, std::span<const std::uint8_t> bytes)
         const ssize_t put =
             pwrite(fileno(part_.get()), bytes.data(), bytes.size(), static_cast<off_t>(offset));
         if (put < 0 && errno != EINTR)
-            throw FileError(part_name_, "can't write", errno);
+            throw FileError(part_name_, FileAction::write, errno);
         if (put > 0) {
             offset += static_cast<std::uint64_t>(put);
             bytes = bytes.subspan(static_cast<std::size_t>(put));
@@ -212,7 +223,7 @@ void Journal::write(std::uint64_t offset, std::span<const std::uint8_t> bytes)
 void Journal::truncate(std::uint64_t length)
 {
     if (ftruncate(fileno(part_.get()), static_cast<off_t>(length)) != 0)
-        throw FileError(part_name_, "can't write", errno);
+        throw FileError(part_name_, FileAction::write, errno);
 }
 
 void Journal::remove()
@@ -228,7 +239,7 @@ void Journal::rename_part()
     std::error_code error;
     std::filesystem::rename(part_name_, output_, error);
     if (error)
-        throw FileError(output_, "can't write", error.value());
+        throw FileError(output_, FileAction::write, error.value());
     remove();
 }
 

@@ -1,13 +1,13 @@
 #pragma once
 
+#include "core/read_file.hpp"
+
 #include <cstdint>
 #include <filesystem>
 #include <span>
 #include <string>
 #include <string_view>
 #include <vector>
-
-#include "core/read_file.hpp"
 
 namespace packtrace::cli {
 

@@ -1,5 +1,7 @@
 #pragma once
 
+#include "core/atomic_file.hpp"
+
 #include <cerrno>
 #include <cstddef>
 #include <cstdio>
@@ -7,8 +9,6 @@
 #include <span>
 #include <string>
 #include <string_view>
-
-#include "core/atomic_file.hpp"
 
 namespace packtrace::cli {
 
@@ -28,7 +28,7 @@ public:
         if (file_)
             file_->write(bytes);
         else if (std::fwrite(bytes.data(), 1, bytes.size(), stdout) != bytes.size())
-            throw FileError("standard output", "can't write", errno);
+            throw FileError("standard output", FileAction::write, errno);
     }
     void write(std::string_view text)
     {
@@ -39,7 +39,7 @@ public:
     void flush()
     {
         if (!file_ && std::fflush(stdout) != 0)
-            throw FileError("standard output", "can't write", errno);
+            throw FileError("standard output", FileAction::write, errno);
     }
 
     /// Without it, a file does not appear.

@@ -4,7 +4,6 @@
 #include <cmath>
 #include <iostream>
 #include <string>
-
 #include <unistd.h>
 
 namespace packtrace::cli {

@@ -1,13 +1,12 @@
 #include "cli/output/standard_output.hpp"
 
+#include "core/read_file.hpp"
+
 #include <cerrno>
 #include <cstdio>
-#include <iostream>
-
 #include <fcntl.h>
+#include <iostream>
 #include <unistd.h>
-
-#include "core/read_file.hpp"
 
 namespace packtrace::cli {
 
@@ -28,7 +27,7 @@ void check_standard_output()
     std::cout.flush();
     const bool flushed = std::fflush(stdout) == 0;
     if (!std::cout || !flushed || std::ferror(stdout) != 0)
-        throw FileError("standard output", "can't write", errno != 0 ? errno : EIO);
+        throw FileError("standard output", FileAction::write, errno != 0 ? errno : EIO);
 }
 
 }  // namespace packtrace::cli

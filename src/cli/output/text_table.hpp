@@ -1,10 +1,10 @@
 #pragma once
 
+#include "core/text.hpp"
+
 #include <iosfwd>
 #include <string>
 #include <vector>
-
-#include "core/text.hpp"
 
 namespace packtrace::cli {
 

@@ -1,10 +1,10 @@
 #include "cli/render/band_file.hpp"
 
-#include <bit>
-#include <utility>
-
 #include "cli/render/frame_recipe.hpp"
 #include "core/checksum.hpp"
+
+#include <bit>
+#include <utility>
 
 namespace packtrace::cli {
 namespace {

@@ -1,14 +1,13 @@
 #pragma once
 
-#include <memory>
-#include <optional>
-#include <string>
-
-#include <packtrace/scene.hpp>
-
 #include "cli/output/journal.hpp"
 #include "cli/render/render_arguments.hpp"
 #include "cli/render/render_bands.hpp"
+#include <packtrace/scene.hpp>
+
+#include <memory>
+#include <optional>
+#include <string>
 
 namespace packtrace::cli {
 

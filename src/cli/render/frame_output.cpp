@@ -1,14 +1,14 @@
 #include "cli/render/frame_output.hpp"
 
-#include <filesystem>
-#include <span>
-#include <system_error>
-
 #include "cli/output/output.hpp"
 #include "cli/render/frame_recipe.hpp"
 #include "core/atomic_file.hpp"
 #include "image/y4m.hpp"
 #include "render/frame_numbers.hpp"
+
+#include <filesystem>
+#include <span>
+#include <system_error>
 
 namespace packtrace::cli {
 namespace {

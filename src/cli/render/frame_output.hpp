@@ -1,12 +1,11 @@
 #pragma once
 
-#include <memory>
-#include <string>
-
-#include <packtrace/camera.hpp>
-
 #include "cli/render/render_arguments.hpp"
 #include "cli/render/render_picture.hpp"
+#include <packtrace/camera.hpp>
+
+#include <memory>
+#include <string>
 
 namespace packtrace::cli {
 

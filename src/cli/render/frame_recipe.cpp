@@ -1,16 +1,15 @@
 #include "cli/render/frame_recipe.hpp"
 
-#include <algorithm>
-#include <array>
-#include <vector>
-
-#include <packtrace/version.hpp>
-#include <packtrace/write_scene.hpp>
-
 #include "core/checksum.hpp"
 #include "core/text.hpp"
 #include "render/option_words.hpp"
 #include "scene/language/numbers.hpp"
+#include <packtrace/version.hpp>
+#include <packtrace/write_scene.hpp>
+
+#include <algorithm>
+#include <array>
+#include <vector>
 
 namespace packtrace::cli {
 namespace {

@@ -1,12 +1,11 @@
 #pragma once
 
-#include <string>
-
+#include "cli/render/render_arguments.hpp"
 #include <packtrace/camera.hpp>
 #include <packtrace/render.hpp>
 #include <packtrace/scene.hpp>
 
-#include "cli/render/render_arguments.hpp"
+#include <string>
 
 namespace packtrace::cli {
 

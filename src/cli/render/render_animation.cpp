@@ -1,11 +1,5 @@
 #include "cli/render/render_animation.hpp"
 
-#include <chrono>
-#include <iostream>
-#include <stdexcept>
-
-#include <packtrace/animate.hpp>
-
 #include "cli/options/shard.hpp"
 #include "cli/options/validators.hpp"
 #include "cli/output/progress_bar.hpp"
@@ -18,6 +12,15 @@
 #include "image/y4m.hpp"
 #include "render/frame_numbers.hpp"
 #include "scene/language/quote.hpp"
+#include <packtrace/animate.hpp>
+
+#include <algorithm>
+#include <array>
+#include <chrono>
+#include <filesystem>
+#include <iostream>
+#include <stdexcept>
+#include <string_view>
 
 namespace packtrace::cli {
 namespace {
@@ -33,6 +36,23 @@ auto checked(const std::string& option, const Call& call)
     }
 }
 
+/// What the name of a video that --y4m doesn't write may end in.
+constexpr std::array<std::string_view, 6> other_videos{".mp4",  ".mkv", ".mov",
+                                                       ".webm", ".avi", ".gif"};
+
+void check_video_name(const std::string& output)
+{
+    const std::filesystem::path file(output);
+    if (find_image_format(file))
+        throw CLI::ValidationError("--y4m: '" + output +
+                                   "' is the name of a picture; give a video's, such as film.y4m");
+    const std::string extension = file.extension().string();
+    if (std::count(other_videos.begin(), other_videos.end(), extension) > 0)
+        throw CLI::ValidationError("--y4m: writes YUV4MPEG2, not " + extension +
+                                   "; write it to -, and let an encoder make '" + output +
+                                   "' of it: --y4m -o - | ffmpeg -i - " + output);
+}
+
 /// "1.2 s, 40.0 ms each"
 std::string seconds_text(double seconds, int frames)
 {
@@ -40,8 +60,8 @@ std::string seconds_text(double seconds, int frames)
 }
 
 /// Renders a frame and adds to the tally what it took.
-AnyImage render_frame(const Scene& scene, const std::string& precision,
-                      const RenderOptions& options, FrameTally& tally)
+AnyImage render_frame(const Scene& scene, Precision precision, const RenderOptions& options,
+                      FrameTally& tally)
 {
     const auto start = std::chrono::steady_clock::now();
     CutRays cut;
@@ -95,6 +115,7 @@ FrameTally render_frames(const RenderArguments& arguments, const Scene& scene,
                          const ShowFrame& show)
 {
     const auto start = std::chrono::steady_clock::now();
+    const Precision precision = chosen_precision(arguments.kernel.precision);
     FrameTally tally;
     Scene posed = scene;
     JobQueue writer;
@@ -109,7 +130,7 @@ FrameTally render_frames(const RenderArguments& arguments, const Scene& scene,
         tally.replaced += found == FrameOutput::Found::other ? 1 : 0;
         options.progress = [&](double share) { show(*frame, share); };
         writer.add([&output, number = *frame, camera = posed.camera,
-                    image = render_frame(posed, arguments.kernel.precision, options, tally)] {
+                    image = render_frame(posed, precision, options, tally)] {
             output.write(number, camera, image);
         });
     }
@@ -163,9 +184,8 @@ void check_animation_options(const RenderArguments& arguments)
         throw CLI::ValidationError("--overwrite: only --frames into picture files skips any");
     if (animation.shard && (!animation.frames || animation.y4m))
         throw CLI::ValidationError("--shard: cuts --frames into picture files only");
-    if (animation.y4m && find_image_format(arguments.output))
-        throw CLI::ValidationError("--y4m: '" + arguments.output +
-                                   "' is the name of a picture; give a video's, such as film.y4m");
+    if (animation.y4m)
+        check_video_name(arguments.output);
     if (animation.frames)
         (void)checked("--frames", [&] { return parse_frame_range(*animation.frames); });
     if (animation.frames && !animation.y4m)

@@ -1,16 +1,15 @@
 #pragma once
 
-#include <functional>
-#include <optional>
-#include <string>
-
+#include "cli/render/frame_output.hpp"
+#include "cli/render/render_arguments.hpp"
+#include "render/frame_numbers.hpp"
 #include <packtrace/scene.hpp>
 
 #include <CLI/CLI.hpp>
 
-#include "cli/render/frame_output.hpp"
-#include "cli/render/render_arguments.hpp"
-#include "render/frame_numbers.hpp"
+#include <functional>
+#include <optional>
+#include <string>
 
 namespace packtrace::cli {
 

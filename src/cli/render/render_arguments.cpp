@@ -1,9 +1,5 @@
 #include "cli/render/render_arguments.hpp"
 
-#include <array>
-#include <stdexcept>
-#include <string_view>
-
 #include "cli/options/scene_input.hpp"
 #include "cli/options/validators.hpp"
 #include "cli/output/distinct_files.hpp"
@@ -11,6 +7,10 @@
 #include "cli/study/study.hpp"
 #include "image/formats.hpp"
 #include "render/check_options.hpp"
+
+#include <array>
+#include <stdexcept>
+#include <string_view>
 
 namespace packtrace::cli {
 namespace {

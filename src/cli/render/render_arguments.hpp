@@ -1,12 +1,11 @@
 #pragma once
 
-#include <optional>
-#include <string>
-
+#include "cli/options/common_options.hpp"
 #include <packtrace/image_io.hpp>
 #include <packtrace/render.hpp>
 
-#include "cli/options/common_options.hpp"
+#include <optional>
+#include <string>
 
 namespace packtrace::cli {
 

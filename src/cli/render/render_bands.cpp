@@ -1,9 +1,5 @@
 #include "cli/render/render_bands.hpp"
 
-#include <algorithm>
-#include <chrono>
-#include <utility>
-
 #include "cli/interrupts.hpp"
 #include "cli/output/progress_bar.hpp"
 #include "cli/render/band_file.hpp"
@@ -11,7 +7,12 @@
 #include "core/job_queue.hpp"
 #include "core/seconds_since.hpp"
 #include "kernel_abi/kernel_table.hpp"
+#include "render/precision.hpp"
 #include "render/row_renderer.hpp"
+
+#include <algorithm>
+#include <chrono>
+#include <utility>
 
 namespace packtrace::cli {
 namespace {
@@ -48,14 +49,11 @@ Bands cut_into_bands(int width, int height, ImageFormat format, std::int64_t pix
     return {width, height, static_cast<int>(tiles) * abi::tile_size, RowFile::begins_below(format)};
 }
 
-RenderBand band_renderer(const Scene& scene, const std::string& precision,
-                         const RenderOptions& options, const RowSamples& samples)
+RenderBand band_renderer(const Scene& scene, Precision precision, const RenderOptions& options,
+                         const RowSamples& samples)
 {
-    if (precision == "double")
-        return band_renderer<double>(scene, options, samples);
-    if (precision == "extended")
-        return band_renderer<long double>(scene, options, samples);
-    return band_renderer<float>(scene, options, samples);
+    return with_real(precision,
+                     [&]<class Real>() { return band_renderer<Real>(scene, options, samples); });
 }
 
 BandTally render_bands(const RenderArguments& arguments, const Scene& scene,
@@ -69,7 +67,7 @@ BandTally render_bands(const RenderArguments& arguments, const Scene& scene,
     RenderOptions options = given;
     options.progress = [&](double share) { bar.update((number + share) / tally.bands); };
     const RenderBand render =
-        band_renderer(scene, arguments.kernel.precision, options, file.samples());
+        band_renderer(scene, chosen_precision(arguments.kernel.precision), options, file.samples());
 
     note_progress(arguments, 0, tally.bands);
     JobQueue writer;

@@ -1,16 +1,17 @@
 #pragma once
 
-#include <cstdint>
-#include <functional>
-#include <span>
-#include <string>
-
+#include "cli/render/render_arguments.hpp"
+#include "image/row_file.hpp"
+#include "scene/language/quote.hpp"
 #include <packtrace/render.hpp>
 #include <packtrace/renderer.hpp>
 #include <packtrace/scene.hpp>
 
-#include "cli/render/render_arguments.hpp"
-#include "image/row_file.hpp"
+#include <cstdint>
+#include <functional>
+#include <iostream>
+#include <span>
+#include <string>
 
 namespace packtrace::cli {
 
@@ -53,7 +54,7 @@ using RenderBand =
     std::function<FrameCounts(const Bands::Band& band, std::span<std::uint8_t> samples)>;
 
 /// Throws as render() does. `options.progress`, if any, is called with the share of a band.
-[[nodiscard]] RenderBand band_renderer(const Scene& scene, const std::string& precision,
+[[nodiscard]] RenderBand band_renderer(const Scene& scene, Precision precision,
                                        const RenderOptions& options, const RowSamples& samples);
 
 /// What a picture in bands took.
@@ -64,6 +65,14 @@ struct BandTally {
     int bands = 0;
     int found = 0;  ///< of them finished by an earlier run
 };
+
+/// Says on standard error how many bands of `output` an earlier run has finished, if any.
+inline void print_found_bands(const std::string& output, int found, int bands)
+{
+    if (found > 0)
+        std::cerr << language::escape(output) << ": " << found << " of " << bands
+                  << " bands were finished by an earlier run\n";
+}
 
 /// Renders a picture band by band into its file. Memory does not grow with its height. With
 /// `--resume`, finished bands are kept beside it until it is complete, and those of an earlier run

@@ -1,12 +1,3 @@
-#include <chrono>
-#include <cstdio>
-#include <iostream>
-#include <memory>
-#include <string>
-
-#include <packtrace/image_io.hpp>
-#include <packtrace/render.hpp>
-
 #include "cli/command.hpp"
 #include "cli/options/scene_input.hpp"
 #include "cli/options/thread_limit.hpp"
@@ -18,6 +9,14 @@
 #include "cli/study/study.hpp"
 #include "core/seconds_since.hpp"
 #include "scene/language/quote.hpp"
+#include <packtrace/image_io.hpp>
+#include <packtrace/render.hpp>
+
+#include <chrono>
+#include <cstdio>
+#include <iostream>
+#include <memory>
+#include <string>
 
 namespace packtrace::cli {
 namespace {
@@ -38,13 +37,6 @@ void print_summary(const RenderArguments& arguments, const RenderOptions& option
     std::cerr << language::escape(arguments.output) << text;
 }
 
-void print_found(const RenderArguments& arguments, const BandTally& tally)
-{
-    if (tally.found > 0)
-        std::cerr << language::escape(arguments.output) << ": " << tally.found << " of "
-                  << tally.bands << " bands were finished by an earlier run\n";
-}
-
 /// A picture that is held as a whole until it is written.
 void render_whole(const RenderArguments& arguments, const Scene& scene, RenderOptions options)
 {
@@ -54,7 +46,8 @@ void render_whole(const RenderArguments& arguments, const Scene& scene, RenderOp
     {
         ProgressBar bar(arguments.quiet ? Verbosity::quiet : Verbosity::normal);
         options.progress = [&bar](double share) { bar.update(share); };
-        picture = render_picture(scene, arguments.kernel.precision, options, &cut);
+        picture =
+            render_picture(scene, chosen_precision(arguments.kernel.precision), options, &cut);
     }
     const auto rendered = std::chrono::steady_clock::now();
     write_picture(arguments.output, picture, arguments.write);
@@ -74,7 +67,7 @@ void render_one(const RenderArguments& arguments, const Scene& scene, const Rend
     } else {
         const BandTally tally = render_bands(arguments, scene, options);
         if (!arguments.quiet) {
-            print_found(arguments, tally);
+            print_found_bands(arguments.output, tally.found, tally.bands);
             print_summary(arguments, options, scene, tally.rendering, tally.writing);
             print_cut_rays(arguments.output, scene, options, tally.cut);
         }

@@ -1,11 +1,12 @@
 #include "cli/render/render_picture.hpp"
 
-#include <cmath>
-#include <iostream>
-
 #include "core/text.hpp"
+#include "render/precision.hpp"
 #include "scene/language/numbers.hpp"
 #include "scene/language/quote.hpp"
+
+#include <cmath>
+#include <iostream>
 
 namespace packtrace::cli {
 namespace {
@@ -21,14 +22,11 @@ std::string rounded_up(double number)
 
 }  // namespace
 
-AnyImage render_picture(const Scene& scene, const std::string& precision,
-                        const RenderOptions& options, CutRays* cut)
+AnyImage render_picture(const Scene& scene, Precision precision, const RenderOptions& options,
+                        CutRays* cut)
 {
-    if (precision == "double")
-        return render<double>(scene, options, cut);
-    if (precision == "extended")
-        return render<long double>(scene, options, cut);
-    return render<float>(scene, options, cut);
+    return with_real(precision,
+                     [&]<class Real>() -> AnyImage { return render<Real>(scene, options, cut); });
 }
 
 void write_picture(const std::filesystem::path& file, const AnyImage& picture,

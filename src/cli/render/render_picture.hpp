@@ -1,20 +1,20 @@
 #pragma once
 
-#include <filesystem>
-#include <string>
-#include <variant>
-
 #include <packtrace/image_io.hpp>
 #include <packtrace/render.hpp>
 #include <packtrace/scene.hpp>
+
+#include <filesystem>
+#include <string>
+#include <variant>
 
 namespace packtrace::cli {
 
 /// A picture in the precision it was rendered in.
 using AnyImage = std::variant<Image<float>, Image<double>, Image<long double>>;
 
-/// A picture in the precision that `--precision` names; `cut` as for render().
-[[nodiscard]] AnyImage render_picture(const Scene& scene, const std::string& precision,
+/// render() in a precision that is chosen at run time.
+[[nodiscard]] AnyImage render_picture(const Scene& scene, Precision precision,
                                       const RenderOptions& options, CutRays* cut = nullptr);
 
 /// write_image() in whatever precision.

@@ -1,11 +1,3 @@
-#include <algorithm>
-#include <memory>
-#include <optional>
-#include <set>
-#include <utility>
-
-#include <packtrace/write_scene.hpp>
-
 #include "cli/command.hpp"
 #include "cli/options/common_options.hpp"
 #include "cli/options/scene_input.hpp"
@@ -21,6 +13,13 @@
 #include "lab/bench/paired_bench.hpp"
 #include "scene/language/numbers.hpp"
 #include "scene/language/quote.hpp"
+#include <packtrace/write_scene.hpp>
+
+#include <algorithm>
+#include <memory>
+#include <optional>
+#include <set>
+#include <utility>
 
 namespace packtrace::cli {
 namespace {

@@ -1,13 +1,13 @@
 #include "cli/study/bench_file.hpp"
 
-#include <algorithm>
-#include <stdexcept>
-
-#include <nlohmann/json.hpp>
-
 #include "core/json_text.hpp"
 #include "core/read_file.hpp"
 #include "lab/harness/machine.hpp"
+
+#include <nlohmann/json.hpp>
+
+#include <algorithm>
+#include <stdexcept>
 
 namespace packtrace::cli {
 namespace {

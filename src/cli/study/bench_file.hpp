@@ -1,11 +1,11 @@
 #pragma once
 
+#include "lab/bench/paired_bench.hpp"
+
 #include <filesystem>
 #include <map>
 #include <string>
 #include <vector>
-
-#include "lab/bench/paired_bench.hpp"
 
 namespace packtrace::cli {
 

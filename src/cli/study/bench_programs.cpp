@@ -1,11 +1,11 @@
 #include "cli/study/bench_programs.hpp"
 
+#include "core/run_filter.hpp"
+
 #include <filesystem>
 #include <stdexcept>
 #include <string>
 #include <utility>
-
-#include "core/run_filter.hpp"
 
 namespace packtrace::cli {
 namespace {

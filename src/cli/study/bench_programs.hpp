@@ -1,9 +1,9 @@
 #pragma once
 
+#include "cli/study/bench_file.hpp"
+
 #include <string>
 #include <vector>
-
-#include "cli/study/bench_file.hpp"
 
 namespace packtrace::cli {
 

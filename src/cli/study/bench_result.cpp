@@ -1,12 +1,12 @@
 #include "cli/study/bench_result.hpp"
 
+#include "cli/command.hpp"
+#include "cli/output/text_table.hpp"
+
 #include <algorithm>
 #include <iostream>
 #include <stdexcept>
 #include <vector>
-
-#include "cli/command.hpp"
-#include "cli/output/text_table.hpp"
 
 namespace packtrace::cli {
 namespace {

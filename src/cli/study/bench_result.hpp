@@ -1,11 +1,11 @@
 #pragma once
 
-#include <optional>
-#include <string>
-
 #include "cli/study/bench_file.hpp"
 #include "cli/study/bench_programs.hpp"
 #include "lab/bench/slowdown.hpp"
+
+#include <optional>
+#include <string>
 
 namespace packtrace::cli {
 

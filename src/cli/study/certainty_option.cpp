@@ -1,18 +1,16 @@
-#include "cli/study/study.hpp"
-
-#include <algorithm>
-#include <cmath>
-#include <cstdio>
-
-#include <packtrace/certainty.hpp>
-
-#include <CLI/CLI.hpp>
-
 #include "cli/output/distinct_files.hpp"
+#include "cli/study/study.hpp"
 #include "core/text.hpp"
 #include "image/formats.hpp"
 #include "lab/harness/machine.hpp"
 #include "scene/language/quote.hpp"
+#include <packtrace/certainty.hpp>
+
+#include <CLI/CLI.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
 
 namespace packtrace::cli {
 namespace {
@@ -56,7 +54,7 @@ void check_certainty(const RenderArguments& arguments, const RenderOptions& opti
     };
     if (options.kernel == Kernel::scalar)
         fail("the scalar kernel traces no ray again in double; leave out --kernel scalar");
-    if (arguments.kernel.precision != "single")
+    if (chosen_precision(arguments.kernel.precision) != Precision::single)
         fail("--precision " + arguments.kernel.precision +
              " decides nothing in single precision; leave it out");
     if (options.accuracy != Accuracy::exact)

@@ -1,3 +1,10 @@
+#include "cli/command.hpp"
+#include "cli/options/common_options.hpp"
+#include "cli/options/scene_input.hpp"
+#include "cli/options/validators.hpp"
+#include "cli/study/explain_print.hpp"
+#include "core/json_text.hpp"
+#include "render/precision.hpp"
 #include <packtrace/explain.hpp>
 
 #include <array>
@@ -5,13 +12,6 @@
 #include <memory>
 #include <string>
 #include <utility>
-
-#include "cli/command.hpp"
-#include "cli/options/common_options.hpp"
-#include "cli/options/scene_input.hpp"
-#include "cli/options/validators.hpp"
-#include "cli/study/explain_print.hpp"
-#include "core/json_text.hpp"
 
 namespace packtrace::cli {
 namespace {
@@ -55,7 +55,7 @@ void check_inside(const ExplainArguments& arguments, const Scene& scene)
 RenderOptions packet_options(const ExplainArguments& arguments)
 {
     RenderOptions options{.isa = chosen_isa(arguments.isa).name};
-    apply(arguments.accuracy, "packet", arguments.precision, options);
+    apply(arguments.accuracy, "packet", chosen_precision(arguments.precision), options);
     return options;
 }
 
@@ -65,12 +65,13 @@ Explanation explain(const ExplainArguments& arguments, const std::string& name, 
     Explanation result;
     result.file = name;
     std::tie(result.x, result.y) = parse_pixel(arguments.pixel);
-    result.precision = arguments.precision;
+    result.precision = chosen_precision(arguments.precision);
     result.isa = options.isa;
-    const bool single = arguments.precision == "single";
-    result.tolerance = single ? single_tree_tolerance : double_tree_tolerance;
-    result.packets = single ? explain_pixel<float>(scene, result.x, result.y, options)
-                            : explain_pixel<double>(scene, result.x, result.y, options);
+    result.tolerance =
+        result.precision == Precision::single ? single_tree_tolerance : double_tree_tolerance;
+    result.packets = with_packet_real(result.precision, [&]<class Real>() {
+        return explain_pixel<Real>(scene, result.x, result.y, options);
+    });
     options.kernel = Kernel::scalar;
     result.reference = explain_pixel<double>(scene, result.x, result.y, options);
     result.rows = side_by_side(result.reference, result.packets, result.tolerance);

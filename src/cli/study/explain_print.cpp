@@ -1,10 +1,11 @@
 #include "cli/study/explain_print.hpp"
 
-#include <algorithm>
-#include <ostream>
-
 #include "cli/output/text_table.hpp"
 #include "lab/harness/names.hpp"
+#include "render/option_words.hpp"
+
+#include <algorithm>
+#include <ostream>
 
 namespace packtrace::cli {
 namespace {
@@ -35,7 +36,7 @@ std::string heading(const TreeRow& row)
 TextTable lines_of(const Scene& scene, const Explanation& explanation)
 {
     // Enough to see a difference of the tolerance, and a little more.
-    const int digits = explanation.precision == "double" ? 12 : 7;
+    const int digits = explanation.precision == Precision::double_ ? 12 : 7;
     const TreeRow* const different = first_difference(explanation);
     TextTable lines(4, {"", "reference", "packets", ""});
     std::string ray;
@@ -114,7 +115,7 @@ void print_explanation(std::ostream& to, const Scene& scene, const Explanation& 
     to << explanation.file << ": pixel " << explanation.x << "," << explanation.y << " of "
        << scene.width << " x " << scene.height
        << "\nreference: scalar, double; packets: " << explanation.isa << ", "
-       << explanation.precision << "\n\n";
+       << language::word_of(explanation.precision) << "\n\n";
     lines_of(scene, explanation).print(to);
     const TreeRow* const row = first_difference(explanation);
     to << '\n';
@@ -133,7 +134,7 @@ Json explanation_json(const Scene& scene, const Explanation& explanation)
             {"width", scene.width},
             {"height", scene.height},
             {"isa", explanation.isa},
-            {"precision", explanation.precision},
+            {"precision", language::word_of(explanation.precision)},
             {"tolerance", explanation.tolerance},
             {"first_difference",
              row == nullptr ? Json(nullptr) : Json{{"ray", row->ray}, {"field", row->field}}},

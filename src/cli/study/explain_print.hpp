@@ -1,13 +1,14 @@
 #pragma once
 
-#include <iosfwd>
-#include <string>
-#include <vector>
-
 #include <packtrace/explain.hpp>
+#include <packtrace/render.hpp>
 #include <packtrace/scene.hpp>
 
 #include <nlohmann/json.hpp>
+
+#include <iosfwd>
+#include <string>
+#include <vector>
 
 namespace packtrace::cli {
 
@@ -16,7 +17,7 @@ struct Explanation {
     std::string file;
     int x = 0;
     int y = 0;
-    std::string precision;  ///< of the packets: "single" or "double"
+    Precision precision = Precision::single;  ///< of the packets: single or double_
     std::string isa;
     double tolerance = 0.0;
     RayNode reference;

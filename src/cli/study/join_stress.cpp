@@ -1,16 +1,16 @@
-#include "cli/study/study.hpp"
-
-#include <algorithm>
-#include <optional>
-
-#include <nlohmann/json.hpp>
-
 #include "cli/options/shard.hpp"
+#include "cli/study/study.hpp"
 #include "core/checksum.hpp"
 #include "core/json_text.hpp"
 #include "core/read_file.hpp"
 #include "lab/stress/stress.hpp"
+#include "render/option_words.hpp"
 #include "scene/language/quote.hpp"
+
+#include <nlohmann/json.hpp>
+
+#include <algorithm>
+#include <optional>
 
 namespace packtrace::cli {
 namespace {
@@ -44,14 +44,22 @@ Json parse_part(const std::string& text)
     return is_too_deep ? Json() : json;
 }
 
+/// Whether all keys are there that joining reads.
+bool is_whole(const Json& json)
+{
+    const auto has = [&](const char* key, bool (Json::*is_kind)() const noexcept) {
+        return json.contains(key) && (json.at(key).*is_kind)();
+    };
+    return json.is_object() && has("shard", &Json::is_string) && has("rows", &Json::is_array) &&
+           has("recipe", &Json::is_object) && has("seed", &Json::is_number) &&
+           has("rays_per_family", &Json::is_number);
+}
+
 Part read_part(const std::string& name)
 {
     Part part{name, {}, parse_part(read_file(name))};
-    const bool whole = part.json.is_object() && part.json.contains("shard") &&
-                       part.json["shard"].is_string() && part.json.contains("rows") &&
-                       part.json["rows"].is_array();
     const std::optional<Shard> shard =
-        whole ? parse_shard(part.json["shard"].get<std::string>()) : std::nullopt;
+        is_whole(part.json) ? parse_shard(part.json.at("shard").get<std::string>()) : std::nullopt;
     if (!shard)
         fail(name, "is no part that packtrace stress --json --shard wrote");
     part.shard = *shard;
@@ -83,7 +91,7 @@ std::vector<Part> read_parts(const std::vector<std::string>& names)
     for (std::size_t i = 0; i < parts.size(); ++i) {
         const Part& part = parts[i];
         for (const char* const key : {"seed", "rays_per_family", "recipe"})
-            if (part.json[key] != parts.front().json[key] ||
+            if (part.json.at(key) != parts.front().json.at(key) ||
                 part.shard.count != parts.front().shard.count)
                 fail(part.name,
                      "is a part of other work than the others; join parts of the same options");
@@ -99,12 +107,21 @@ std::vector<Part> read_parts(const std::vector<std::string>& names)
     return parts;
 }
 
-/// As much of a row as the verdict asks for.
-lab::StressRow row_of(const Json& json)
+[[noreturn]] void fail_at_row(const std::string& name, const std::string& why)
+{
+    fail(name, "has a row that stress did not write: " + why);
+}
+
+/// As much of a row as the verdict asks for. Messages begin with `name`.
+lab::StressRow row_of(const std::string& name, const Json& json)
 {
     lab::StressRow row;
     json.at("family").get_to(row.family);
-    json.at("precision").get_to(row.precision);
+    const auto word = json.at("precision").get<std::string>();
+    const std::optional<Precision> precision = language::find_word<Precision>(word);
+    if (!precision)
+        fail_at_row(name, language::quote(word) + " is no precision");
+    row.precision = *precision;
     json.at("mode").get_to(row.mode);
     json.at("held").get_to(row.held);
     json.at("rays").get_to(row.rays);
@@ -135,7 +152,7 @@ std::string join_stress(const std::vector<std::string>& names)
     const std::vector<Part> parts = read_parts(names);
     std::vector<Json> rows;
     for (const Part& part : parts)
-        rows.insert(rows.end(), part.json["rows"].begin(), part.json["rows"].end());
+        rows.insert(rows.end(), part.json.at("rows").begin(), part.json.at("rows").end());
     std::vector<lab::StressRow> judged;
     try {
         // A family is wholly in one part, its rows in order.
@@ -144,18 +161,17 @@ std::string join_stress(const std::vector<std::string>& names)
                    place_of(b.at("family").get<std::string>());
         });
         for (const Json& row : rows)
-            judged.push_back(row_of(row));
+            judged.push_back(row_of(parts.front().name, row));
     } catch (const Json::exception& error) {
-        fail(parts.front().name,
-             std::string("has a row that stress did not write: ") + error.what());
+        fail_at_row(parts.front().name, error.what());
     }
-    for (const std::string& family : families_of(parts.front().json["recipe"]))
+    for (const std::string& family : families_of(parts.front().json.at("recipe")))
         if (std::none_of(judged.begin(), judged.end(),
                          [&](const lab::StressRow& row) { return row.family == family; }))
             throw FileError("family " + family + " is in none of the parts; make them again");
     Json joined;
-    joined["seed"] = parts.front().json["seed"];
-    joined["rays_per_family"] = parts.front().json["rays_per_family"];
+    joined["seed"] = parts.front().json.at("seed");
+    joined["rays_per_family"] = parts.front().json.at("rays_per_family");
     joined["verdict"] = lab::stress_verdict(judged);
     joined["rows"] = rows;
     return json_text(joined);

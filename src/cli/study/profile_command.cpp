@@ -1,10 +1,3 @@
-#include <packtrace/profile.hpp>
-
-#include <iostream>
-#include <memory>
-
-#include <packtrace/image_io.hpp>
-
 #include "cli/command.hpp"
 #include "cli/options/common_options.hpp"
 #include "cli/options/scene_input.hpp"
@@ -16,6 +9,12 @@
 #include "core/atomic_file.hpp"
 #include "core/check_number.hpp"
 #include "core/json_text.hpp"
+#include "render/precision.hpp"
+#include <packtrace/image_io.hpp>
+#include <packtrace/profile.hpp>
+
+#include <iostream>
+#include <memory>
 
 namespace packtrace::cli {
 namespace {
@@ -38,7 +37,7 @@ ProfileOptions profile_options(const ProfileArguments& arguments)
 {
     RenderOptions sampling;
     apply(arguments.sampling, sampling);
-    apply(arguments.accuracy, "packet", arguments.precision, sampling);
+    apply(arguments.accuracy, "packet", chosen_precision(arguments.precision), sampling);
     return {.isa = chosen_isa(arguments.isa).name,
             .threads = arguments.threads,
             .samples = sampling.samples,
@@ -89,10 +88,8 @@ void run_profile(const ProfileArguments& arguments)
     check_not_read(arguments.trace, {arguments.scene});
     SceneInput input = read_scene_input(arguments.scene);
     apply(arguments.picture, input.scene);
-    if (arguments.precision == "double")
-        profile_as<double>(arguments, input);
-    else
-        profile_as<float>(arguments, input);
+    with_packet_real(chosen_precision(arguments.precision),
+                     [&]<class Real>() { profile_as<Real>(arguments, input); });
 }
 
 }  // namespace

@@ -1,12 +1,11 @@
+#include "cli/output/text_table.hpp"
 #include "cli/study/profile_print.hpp"
+#include "lab/harness/statistics.hpp"
 
 #include <algorithm>
 #include <ostream>
 #include <string>
 #include <vector>
-
-#include "cli/output/text_table.hpp"
-#include "lab/harness/statistics.hpp"
 
 namespace packtrace::cli {
 namespace {

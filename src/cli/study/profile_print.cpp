@@ -1,9 +1,9 @@
 #include "cli/study/profile_print.hpp"
 
-#include <ostream>
-
 #include "cli/output/text_table.hpp"
 #include "lab/harness/statistics.hpp"
+
+#include <ostream>
 
 namespace packtrace::cli {
 namespace {

@@ -1,12 +1,12 @@
 #pragma once
 
-#include <iosfwd>
-#include <string>
-#include <vector>
-
 #include <packtrace/profile.hpp>
 
 #include <nlohmann/json.hpp>
+
+#include <iosfwd>
+#include <string>
+#include <vector>
 
 namespace packtrace::cli {
 

@@ -1,18 +1,5 @@
 #include "cli/study/report_command.hpp"
 
-#include <algorithm>
-#include <cstdlib>
-#include <iostream>
-#include <memory>
-#include <mutex>
-#include <set>
-#include <utility>
-
-#include <packtrace/isa.hpp>
-#include <packtrace/write_report.hpp>
-
-#include <tbb/info.h>
-
 #include "cli/command.hpp"
 #include "cli/options/scene_input.hpp"
 #include "cli/options/thread_limit.hpp"
@@ -25,6 +12,18 @@
 #include "lab/report/report_text.hpp"
 #include "render/check_options.hpp"
 #include "scene/language/quote.hpp"
+#include <packtrace/isa.hpp>
+#include <packtrace/write_report.hpp>
+
+#include <tbb/info.h>
+
+#include <algorithm>
+#include <cstdlib>
+#include <iostream>
+#include <memory>
+#include <mutex>
+#include <set>
+#include <utility>
 
 namespace packtrace::cli {
 namespace {

@@ -1,13 +1,12 @@
 #pragma once
 
+#include "cli/options/common_options.hpp"
+#include <packtrace/report.hpp>
+
 #include <filesystem>
 #include <optional>
 #include <string>
 #include <vector>
-
-#include <packtrace/report.hpp>
-
-#include "cli/options/common_options.hpp"
 
 // The parts of `report` that packtrace-mpi uses, too: all but the order of the work.
 namespace packtrace::cli {
@@ -35,7 +34,7 @@ void add_report_options(CLI::App& command, ReportArguments& arguments);
 
 [[nodiscard]] ReportOptions report_options(const ReportArguments& arguments);
 
-/// What a report can't be written without: gnuplot, and its folder, which is made. Throws.
+/// What a report can't be written without: gnuplot, and a folder that can be made. Throws.
 void check_report_target(const ReportArguments& arguments);
 
 /// As many threads as the runs of a report ask for.

@@ -1,15 +1,3 @@
-#include <algorithm>
-#include <filesystem>
-#include <iostream>
-#include <limits>
-#include <memory>
-#include <string>
-#include <vector>
-
-#include <packtrace/write_scene.hpp>
-
-#include <tbb/info.h>
-
 #include "cli/command.hpp"
 #include "cli/interrupts.hpp"
 #include "cli/options/common_options.hpp"
@@ -18,9 +6,21 @@
 #include "cli/options/validators.hpp"
 #include "core/arena.hpp"
 #include "core/atomic_file.hpp"
+#include "core/text.hpp"
 #include "lab/soak/soak.hpp"
 #include "lab/stress/evaluate.hpp"
 #include "scene/language/quote.hpp"
+#include <packtrace/write_scene.hpp>
+
+#include <tbb/info.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <iostream>
+#include <limits>
+#include <memory>
+#include <string>
+#include <vector>
 
 namespace packtrace::cli {
 namespace {
@@ -107,9 +107,9 @@ int check_files(const SoakArguments& arguments)
 
 std::string text_of(const lab::SoakCounts& counts)
 {
-    return std::to_string(counts.scenes) + (counts.scenes == 1 ? " scene, " : " scenes, ") +
+    return counted(static_cast<std::int64_t>(counts.scenes), "scene") + ", " +
            std::to_string(counts.refused) + " of them refused by the scene language, " +
-           std::to_string(counts.findings) + (counts.findings == 1 ? " finding" : " findings");
+           counted(counts.findings, "finding");
 }
 
 int check_random(const SoakArguments& arguments)

@@ -1,10 +1,5 @@
 #include "cli/study/stress_command.hpp"
 
-#include <algorithm>
-#include <limits>
-#include <memory>
-#include <vector>
-
 #include "cli/command.hpp"
 #include "cli/interrupts.hpp"
 #include "cli/options/common_options.hpp"
@@ -14,6 +9,12 @@
 #include "core/atomic_file.hpp"
 #include "lab/stress/stress.hpp"
 #include "lab/stress/stress_subject.hpp"
+#include "render/precision.hpp"
+
+#include <algorithm>
+#include <limits>
+#include <memory>
+#include <vector>
 
 namespace packtrace::cli {
 namespace {
@@ -59,8 +60,8 @@ void add_stress_options(CLI::App& command, StressArguments& arguments)
                     "Only this accuracy mode of packets: fast or exact (repeatable)")
         ->check(one_of(mode_names()))
         ->type_name("NAME");
-    add_word_option(command, "--precision", options.precisions, "Only this precision (repeatable)",
-                    {"single", "double"});
+    add_word_option(command, "--precision", arguments.precisions,
+                    "Only this precision (repeatable)", words_of(packet_precisions));
     add_isa_option(command, arguments.isa, "Only this instruction set (default all)");
     add_traversal_option(command, arguments.traversal);
     add_word_option(command, "--self-hits", arguments.self_hits,
@@ -84,11 +85,12 @@ lab::StressOptions stress_options(const StressArguments& arguments)
         throw CLI::ValidationError(
             "--isa, --mode, --traversal: only packets have them; add --kernel packet or leave "
             "them out");
-    const auto& precisions = arguments.options.precisions;
-    if (!arguments.options.modes.empty() && !lab::wanted(precisions, "single"))
+    lab::StressOptions options = arguments.options;
+    for (const std::string& word : arguments.precisions)
+        options.precisions.push_back(chosen_precision(word));
+    if (!options.modes.empty() && !lab::wanted(options.precisions, Precision::single))
         throw CLI::ValidationError(
             "--mode: only packets of floats have a choice; leave it out or add --precision single");
-    lab::StressOptions options = arguments.options;
     if (arguments.isa)
         options.isa = chosen_isa({arguments.isa, {}}).name;
     options.traversal = value_or(arguments.traversal, Traversal::automatic);

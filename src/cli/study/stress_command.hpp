@@ -1,12 +1,12 @@
 #pragma once
 
-#include <optional>
-#include <string>
-#include <vector>
+#include "lab/stress/stress.hpp"
 
 #include <CLI/CLI.hpp>
 
-#include "lab/stress/stress.hpp"
+#include <optional>
+#include <string>
+#include <vector>
 
 // What `stress` takes and prints, on one machine or many ranks.
 namespace packtrace::cli {
@@ -14,6 +14,7 @@ namespace packtrace::cli {
 /// Its options, as they were given.
 struct StressArguments {
     lab::StressOptions options;
+    std::vector<std::string> precisions;
     std::optional<std::string> isa;
     std::optional<std::string> traversal;
     std::optional<std::string> self_hits;

@@ -1,17 +1,18 @@
-#include <filesystem>
-#include <iostream>
-#include <string>
-
-#include <packtrace/version.hpp>
-
-#include <nlohmann/json.hpp>
-
 #include "cli/output/text_table.hpp"
 #include "cli/study/stress_command.hpp"
 #include "core/atomic_file.hpp"
 #include "core/checksum.hpp"
 #include "core/json_text.hpp"
 #include "lab/stress/stress.hpp"
+#include "lab/stress/stress_subject.hpp"
+#include "render/option_words.hpp"
+#include <packtrace/version.hpp>
+
+#include <nlohmann/json.hpp>
+
+#include <filesystem>
+#include <iostream>
+#include <string>
 
 namespace packtrace::cli {
 namespace {
@@ -32,7 +33,7 @@ void add_row(TextTable& table, const StressRow& row)
 {
     const auto count = [](std::uint64_t number) { return std::to_string(number); };
     table.add({row.family,
-               row.precision,
+               std::string(language::word_of(row.precision)),
                row.kernel,
                row.mode,
                row.isa,
@@ -67,9 +68,10 @@ nlohmann::ordered_json spread_json(const lab::ErrorSpread& spread)
 
 nlohmann::ordered_json row_json(const StressRow& row)
 {
-    nlohmann::ordered_json json{{"family", row.family}, {"precision", row.precision},
-                                {"kernel", row.kernel}, {"mode", row.mode},
-                                {"isa", row.isa},       {"held", row.held}};
+    nlohmann::ordered_json json{
+        {"family", row.family}, {"precision", language::word_of(row.precision)},
+        {"kernel", row.kernel}, {"mode", row.mode},
+        {"isa", row.isa},       {"held", row.held}};
     for (const auto& [key, count] : lab::error_counts) {
         if (count == &StressRow::lost)
             json["wrong"] = row.wrong;
@@ -110,8 +112,8 @@ void print_faults(const std::vector<StressRow>& rows)
     for (const StressRow& row : rows) {
         if (row.faults.empty())
             continue;
-        std::cout << row.family << ", " << row.precision << ' ' << row.mode << " (" << row.isa
-                  << "): " << joined(row.faults) << '\n';
+        std::cout << row.family << ", " << language::word_of(row.precision) << ' ' << row.mode
+                  << " (" << row.isa << "): " << joined(row.faults) << '\n';
         if (!row.example.empty())
             std::cout << "    " << row.example << '\n';
     }
@@ -125,7 +127,7 @@ nlohmann::ordered_json recipe_json(const StressArguments& arguments)
             {"families", options.families},
             {"kernels", options.kernels},
             {"modes", options.modes},
-            {"precisions", options.precisions},
+            {"precisions", arguments.precisions},
             {"isa", arguments.isa.value_or("all")},
             {"traversal", arguments.traversal.value_or("auto")},
             {"self_hits", arguments.self_hits.value_or("exact")}};
@@ -157,7 +159,8 @@ void write_cases(const std::filesystem::path& folder, const std::vector<StressRo
         if (row.example.empty())
             continue;
         make_folders(folder);
-        std::string name = row.family + "-" + row.precision + "-" + row.kernel;
+        std::string name =
+            row.family + "-" + std::string(language::word_of(row.precision)) + "-" + row.kernel;
         for (const std::string& part : {row.mode, row.isa.substr(0, row.isa.find(' '))})
             name += part.empty() ? "" : "-" + part;
         write_file(folder / (name + ".scene"), "# " + row.example + "\n" + row.example_scene);

@@ -1,15 +1,14 @@
 #pragma once
 
+#include "cli/render/render_arguments.hpp"
+#include <packtrace/render.hpp>
+#include <packtrace/scene.hpp>
+
 #include <cstdint>
 #include <optional>
 #include <string>
 #include <utility>
 #include <vector>
-
-#include <packtrace/render.hpp>
-#include <packtrace/scene.hpp>
-
-#include "cli/render/render_arguments.hpp"
 
 // What other commands take of this folder. Builds without studies have cli/without_study.cpp in its
 // place: the first four need kernels that observe themselves.

@@ -190,7 +190,23 @@ private:
         const std::uint32_t dips = not_below(near) & not_below(far) & not_below(q.discriminant) &
                                    below(slope_near) &
                                    _mm256_cmp_ps_mask(slope_far, zero, _CMP_GT_OQ);
-        return (below(near) & not_below(far)) | (not_below(near) & below(far)) | dips;
+        std::uint32_t leaves = not_below(near) & below(far);
+        if (leaves != 0)
+            leaves &= ends_inside(q, t_end, slope_far);
+        return (below(near) & not_below(far)) | leaves | dips;
+    }
+
+    /// The same operations as ends_inside() of quadratic.hpp.
+    std::uint32_t ends_inside(const Eights& q, __m256 t_end, __m256 slope) const
+    {
+        const auto size_of = [](__m256 x) { return _mm256_andnot_ps(_mm256_set1_ps(-0.0f), x); };
+        const __m256 slope2 = _mm256_mul_ps(slope, slope);
+        const __m256 way = _mm256_mul_ps(dir2_, t_end);
+        const __m256 lost = _mm256_fmadd_ps(_mm256_add_ps(way, way), size_of(slope), slope2);
+        const __m256 lost_by_sum = _mm256_fmadd_ps(way, way, _mm256_mul_ps(dir2_, size_of(q.c)));
+        const std::uint32_t better =
+            _mm256_cmp_ps_mask(_mm256_mul_ps(_mm256_set1_ps(16.0f), lost), lost_by_sum, _CMP_LT_OQ);
+        return _mm256_cmp_ps_mask(slope2, q.discriminant, _CMP_LT_OQ) | (~better & 0xffu);
     }
 
     __m256 org_[3];

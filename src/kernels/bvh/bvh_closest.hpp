@@ -48,7 +48,7 @@ public:
 private:
     void spheres(const SphereLeaf<Real>& leaf, std::uint32_t cells) const
     {
-        const PartScope part(abi::Part::spheres);
+        const StepScope step(abi::Step::spheres);
         bool closer = false;
         if constexpr (F.exact) {
             BlockBounds bounds(bundle_, leaf.block);
@@ -114,7 +114,7 @@ private:
     [[gnu::noinline]] void run(std::uint32_t child, std::uint32_t cells) const
     {
         const abi::Primitive kind = primitive_of_run(tree_, abi::first_of_run(child));
-        const PartScope part(part_of(kind));
+        const StepScope step(step_of(kind));
         for (int i = 0; i < abi::run_count(child); ++i)
             for (std::uint32_t left = cells; left != 0; left &= left - 1)
                 keep_object(kind, abi::first_of_run(child) + i, __builtin_ctz(left));
@@ -194,7 +194,7 @@ template <abi::Features F, class Real>
 [[gnu::noinline]] void closest_in_tree(const abi::GeometryView<Real>& scene,
                                        RayBundle<Real>& bundle)
 {
-    const PartScope part(abi::Part::boxes);
+    const StepScope step(abi::Step::boxes);
     const abi::BvhView<Real>& tree = scene.tree;
     if constexpr (F.exact)
         bound_origins(bundle, scene, DoubtHits{bundle});

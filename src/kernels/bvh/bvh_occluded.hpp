@@ -58,7 +58,7 @@ public:
 private:
     void spheres(const SphereLeaf<Real>& leaf, std::uint32_t cells) const
     {
-        const PartScope part(abi::Part::spheres);
+        const StepScope step(abi::Step::spheres);
         if constexpr (F.exact) {
             BlockBounds bounds(bundle_, leaf.block);
             visit_spheres(bounds_, leaf.block, cells, [&](int slot, int cell) {
@@ -125,7 +125,7 @@ private:
     [[gnu::noinline]] void run(std::uint32_t child, std::uint32_t cells) const
     {
         const abi::Primitive kind = primitive_of_run(tree_, abi::first_of_run(child));
-        const PartScope part(part_of(kind));
+        const StepScope step(step_of(kind));
         for (int i = 0; i < abi::run_count(child); ++i) {
             const int number = abi::first_of_run(child) + i;
             const std::int32_t surface = tree_.run_surfaces[number];
@@ -238,7 +238,7 @@ template <abi::Features F, class Real>
                                                RayBundle<Real>& bundle, bool closed,
                                                const Occluder& occluder)
 {
-    const PartScope part(abi::Part::boxes);
+    const StepScope step(abi::Step::boxes);
     CellBounds bounds;
     const float share = F.exact && buffer != nullptr ? buffered_spread : blocked_spread;
     bound_cells(bounds, bundle, tree, share * tree.spread, F.exact && bundle.one_origin);

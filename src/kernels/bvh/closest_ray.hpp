@@ -13,7 +13,7 @@ template <abi::Features F, class Real>
 inline void closest_of_spheres(RayBundle<Real>& bundle, int ray, const BlockRay<Real>& alone,
                                const SphereLeaf<Real>& leaf, const abi::ShapesView& shapes)
 {
-    const PartScope part(abi::Part::spheres);
+    const StepScope step(abi::Step::spheres);
     count_block_tests(leaf.block);
     if constexpr (F.exact) {
         const std::uint32_t near = alone.near(leaf.block, bundle, ray);
@@ -55,7 +55,7 @@ template <abi::Features F, class Real>
                                       int ray, int begin, int count)
 {
     const abi::Primitive kind = primitive_of_run(tree, begin);
-    const PartScope part(part_of(kind));
+    const StepScope step(step_of(kind));
     tell_live(1);
     count_tests(kind, count);
     const RayPacket<Real> rays = broadcast_ray(bundle, ray);

@@ -1,9 +1,9 @@
 #pragma once
 
 #if defined(__x86_64__)
-#include <immintrin.h>
-
 #include "kernels/simd/native/permutations.hpp"
+
+#include <immintrin.h>
 #else
 #include "kernels/simd/lanes.hpp"
 #endif

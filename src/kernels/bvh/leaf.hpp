@@ -25,7 +25,8 @@ template <class Real>
 {
     for (int slot = 0; slot < abi::node_width; ++slot) {
         const bool used = surfaces[slot] >= 0;
-        const abi::SphereShape nowhere{{1e15, 1e15, 1e15}, -1.0};
+        constexpr double far = abi::largest_coordinate;
+        const abi::SphereShape nowhere{{far, far, far}, -1.0};
         const abi::SphereShape& sphere =
             used ? tree.shapes->spheres[tree.shapes->index[surfaces[slot]].record] : nowhere;
         for (int axis = 0; axis < 3; ++axis)

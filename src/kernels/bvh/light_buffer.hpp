@@ -88,7 +88,7 @@ inline Occlusion spheres_occlude(const LoneRay& ray, const RayBundle<float>& bun
 inline bool is_dark(const abi::LightBuffer& buffer, const abi::LightCell& cell,
                     const abi::ShapesView& shapes, RayBundle<float>& bundle, int number)
 {
-    const PartScope part(abi::Part::spheres);
+    const StepScope step(abi::Step::spheres);
     tell_live(all_lanes<float>);
     const LoneRay ray(bundle, number);
     for (int i = cell.first; i < cell.first + cell.count; ++i) {

@@ -71,7 +71,7 @@ template <abi::Features F, class Real>
                                        const Occluder& occluder)
 {
     const abi::Primitive kind = primitive_of_run(tree, abi::first_of_run(child));
-    const PartScope part(part_of(kind));
+    const StepScope step(step_of(kind));
     tell_live(1);
     const RayPacket<Real> rays = broadcast_ray(bundle, ray);
     const OwnSurface<vint<Real>> own{vint<Real>(bundle.own[ray])};
@@ -111,7 +111,7 @@ inline bool goes_behind_leaf(const abi::BvhView<Real>& tree, RayBundle<Real>& bu
 {
     if (F.quadrics && abi::is_run(child))
         return goes_behind_run<F>(tree, bundle, ray, closed, child, occluder);
-    const PartScope part(abi::Part::spheres);
+    const StepScope step(abi::Step::spheres);
     abi::SphereBlock<Real> room;
     const SphereLeaf<Real> leaf = sphere_leaf(tree, child, room);
     count_block_tests(leaf.block);

@@ -1,10 +1,10 @@
 #pragma once
 
-#include <new>
-
 #include "kernels/fused/generation.hpp"
 #include "kernels/fused/make_plan.hpp"
 #include "kernels/stream/tile.hpp"
+
+#include <new>
 
 // A tile whose packets of paths are traced one after the other, each from the eye to its last
 // mirror in registers: no streams, no compaction. For scenes whose objects stand in lists, and

@@ -143,7 +143,7 @@ inline std::uint32_t lit_lanes(const FusedTile<F>& tile, const PlanLight& light,
 {
     const std::uint32_t wanted = packet.wanted;
     tile.counts.shadow += static_cast<unsigned>(__builtin_popcount(wanted));
-    tile.counts.stages |= abi::stage_blockers | abi::stage_shadow_rays;
+    tile.counts.passed |= abi::passed_occluders | abi::passed_shadow_rays;
     QuickShadow shadow{0, wanted};
     if (light.clear.complete && hits.are_plain && (wanted & ~lit_side) == 0)
         shadow = light.record.kind == abi::LightKind::point
@@ -251,7 +251,7 @@ inline void mirror_rays(const FusedTile<F>& tile, PathState<F>& path, PathStart&
     if (path.active == 0)
         return;
     tile.counts.reflected += static_cast<unsigned>(__builtin_popcount(path.active));
-    tile.counts.stages |= abi::stage_mirrored;
+    tile.counts.passed |= abi::passed_mirrored;
     const Vec3v<float> lift =
         origin_offset<float>(tile.scene.rules.start_error, at.point, at.outward);
     path.dir = madd<float>(hits.normal_dir * vreal<float>(-2.0f), hits.normal, path.dir);
@@ -350,7 +350,7 @@ inline void trace_generation(const FusedTile<F>& tile, const CommonLists& candid
     path.active = 0;
     if (hit.lanes == 0)
         return;
-    tile.counts.stages |= abi::stage_hits | abi::stage_normals | abi::stage_refined;
+    tile.counts.passed |= abi::passed_hits | abi::passed_normals | abi::passed_refined;
 
     const PlanMaterial* material = tile.plan.surfaces[hit.common].material;
     PlanMaterial mixed;

@@ -1,10 +1,10 @@
 #pragma once
 
-#include <limits>
-
 #include "kernels/lists/common_hit.hpp"
 #include "kernels/lists/object_sets.hpp"
 #include "kernels/stream/workspace.hpp"
+
+#include <limits>
 
 // What the tiles of a frame share that is traced in registers (fused_tile.hpp): the objects with
 // their error bounds, for camera rays, for rays from around the bounded objects, and for shadow

@@ -1,8 +1,8 @@
 #pragma once
 
-#include <limits>
-
 #include "kernels/geometry/quadratic.hpp"
+
+#include <limits>
 
 // A hit on the one surface that it is known to be on: its place in double, the rough root that one
 // step of Newton's betters, and where a ray that starts on the surface meets it again.
@@ -200,17 +200,22 @@ inline vreal<double> other_root(const SurfaceLine& line, vmask<double> outside)
     return select(outside, negated(twice), twice) / line.bend;
 }
 
-/// The other root of a surface that no other piece belongs to.
-inline OwnCrossing only_crossing(const SurfaceLine& line, const vreal<double>& t_min,
-                                 vmask<double> outside)
+/// The hit at the other root of a surface that no other piece belongs to.
+inline OwnCrossing only_crossing(const vreal<double>& root, const vreal<double>& bend,
+                                 const vreal<double>& t_min, vmask<double> outside)
 {
     const vreal<double> never(__builtin_inf());
-    const vreal<double> root = other_root(line, outside);
     // A ray along the surface, on its inner side, leaves what bends away from it at once.
-    const std::uint32_t inwards = ~bits(outside) & bits(line.bend > vreal<double>(0.0));
+    const std::uint32_t inwards = ~bits(outside) & bits(bend > vreal<double>(0.0));
     const std::uint32_t ahead = inwards | bits(root > vreal<double>(0.0));
     const vreal<double> t = max(root, at_once());
     return {select(from_bits<double>(ahead & bits(t > t_min) & bits(t < never)), t, never)};
+}
+
+inline OwnCrossing only_crossing(const SurfaceLine& line, const vreal<double>& t_min,
+                                 vmask<double> outside)
+{
+    return only_crossing(other_root(line, outside), line.bend, t_min, outside);
 }
 
 }  // namespace

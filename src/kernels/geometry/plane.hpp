@@ -1,7 +1,5 @@
 #pragma once
 
-#include <type_traits>
-
 #include "kernel_abi/features.hpp"
 #include "kernel_abi/lists.hpp"
 #include "kernel_abi/observation.hpp"
@@ -10,6 +8,8 @@
 #include "kernels/geometry/filter.hpp"
 #include "kernels/geometry/object_list.hpp"
 #include "kernels/geometry/one_surface.hpp"
+
+#include <type_traits>
 
 // Planes: the test, for rays from one point, too, a hit's place, and the test with error bounds.
 namespace packtrace::PACKTRACE_ISA {

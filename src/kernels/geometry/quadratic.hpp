@@ -1,8 +1,8 @@
 #pragma once
 
-#include <limits>
-
 #include "kernels/geometry/packet.hpp"
+
+#include <limits>
 
 // The quadratic a t² + 2 b t + c = 0 with a > 0 that every curved surface comes down to, and
 // its discriminant b² - a c, which each surface computes in its own stable way.
@@ -88,15 +88,16 @@ inline void visit_roots(const Quadratic<Real>& quadratic, const Visit& visit)
 /// Of lanes whose quadratic is below zero at t_max as summed up, those where rounding has not made
 /// it so: from far away its terms cancel. a F(t) is also (a t + b)² - discriminant, which loses
 /// less where that root is near; `slope` is a t_max + b.
-inline vmask<double> ends_inside(const Quadratic<double>& q, const vreal<double>& t_max,
-                                 const vreal<double>& slope)
+template <class Real>
+inline vmask<Real> ends_inside(const Quadratic<Real>& q, const vreal<Real>& t_max,
+                               const vreal<Real>& slope)
 {
-    const vreal<double> slope2 = slope * slope;
-    const vreal<double> way = q.a * t_max;
-    const vreal<double> lost = madd(vreal<double>(2.0) * way, abs(slope), slope2);
-    const vreal<double> lost_by_sum = madd(way, way, q.a * abs(q.c));
-    const auto better = vreal<double>(16.0) * lost < lost_by_sum;
-    return from_bits<double>((bits(slope2 < q.discriminant) | ~bits(better)) & all_lanes<double>);
+    const vreal<Real> slope2 = slope * slope;
+    const vreal<Real> way = q.a * t_max;
+    const vreal<Real> lost = madd(vreal<Real>(Real(2)) * way, abs(slope), slope2);
+    const vreal<Real> lost_by_sum = madd(way, way, q.a * abs(q.c));
+    const auto better = vreal<Real>(Real(16)) * lost < lost_by_sum;
+    return from_bits<Real>((bits(slope2 < q.discriminant) | ~bits(better)) & all_lanes<Real>);
 }
 
 /// Lanes with a root between t_min and t_max, from the signs of the quadratic F at both ends:
@@ -113,9 +114,8 @@ inline vmask<Real> root_between(const Quadratic<Real>& q, const vreal<Real>& t_m
     const vreal<Real> far = madd(slope_far + q.b, t_max, q.c);
     const auto enters = (near < zero) & (far >= zero);
     auto leaves = (near >= zero) & (far < zero);
-    if constexpr (sizeof(Real) == sizeof(double))
-        if (any(leaves))
-            leaves = leaves & ends_inside(q, t_max, slope_far);
+    if (any(leaves))
+        leaves = leaves & ends_inside(q, t_max, slope_far);
     const auto dips = (near >= zero) & (far >= zero) & (q.discriminant >= zero) &
                       (slope_near < zero) & (slope_far > zero);
     return enters | leaves | dips;

@@ -1,8 +1,5 @@
 #pragma once
 
-#include <limits>
-#include <type_traits>
-
 #include "kernel_abi/features.hpp"
 #include "kernel_abi/lists.hpp"
 #include "kernel_abi/observation.hpp"
@@ -10,6 +7,9 @@
 #include "kernels/geometry/cone.hpp"
 #include "kernels/geometry/object_list.hpp"
 #include "kernels/geometry/quadric_equation.hpp"
+
+#include <limits>
+#include <type_traits>
 
 // Quadrics, clipped and capped: the test, for rays from one point, too.
 namespace packtrace::PACKTRACE_ISA {

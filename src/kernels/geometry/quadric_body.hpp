@@ -40,19 +40,6 @@ inline OwnCrossing first_of(const CrossingsAhead& ahead, const vreal<double>& t_
     return first;
 }
 
-/// How far rounding of the start `p`, where the equation's left side is 0 but for that, moves the
-/// side's `root` past the plane that clips it. One that only touches a bowl would cut a hole into
-/// it; with caps the order of side and caps decides.
-inline vreal<double> place_error(const abi::QuadricRecord<double>& quadric, const Vec3v<double>& p,
-                                 const SurfaceLine& line, const vreal<double>& root)
-{
-    if (quadric.capped)
-        return vreal<double>(0.0);
-    const vreal<double> moved =
-        abs(quadric_value<double>(quadric, p)) / max(abs(line.slope), vreal<double>(1e-300));
-    return min(moved, vreal<double>(0x1p-10) * abs(root));
-}
-
 /// A gradient as many times as large is much steeper.
 inline constexpr double much_steeper = 4.0;
 
@@ -61,9 +48,16 @@ inline constexpr double much_steeper = 4.0;
 inline constexpr double nearer_by_step = 0x1p-4;
 inline constexpr int further_steps = 3;
 
+/// Where rays start, and the lanes in which that is a point of the side but for double's rounding.
+struct SideStart {
+    Vec3v<double> p;
+    std::uint32_t on_side = 0;
+};
+
 /// The point of the side next to `p`, which is near it; p itself where it is not near by the size
 /// of the body.
-inline Vec3v<double> next_on_side(const abi::QuadricRecord<double>& quadric, const Vec3v<double>& p)
+inline SideStart next_on_side(const abi::QuadricRecord<double>& quadric, const Vec3v<double>& p,
+                              vmask<double> wanted)
 {
     const auto step_from = [&](const Vec3v<double>& at) {
         const Vec3v<double> gradient = side_gradient<double>(quadric, at);
@@ -71,30 +65,47 @@ inline Vec3v<double> next_on_side(const abi::QuadricRecord<double>& quadric, con
         const vreal<double> step = half / dot(gradient, gradient);
         return madd<double>(step, apply_inverse(quadric, gradient), at);
     };
+    const vreal<double> off = abs(quadric_value<double>(quadric, p));
     Vec3v<double> next = step_from(p);
     const auto nearer = abs(quadric_value<double>(quadric, next)) <=
-                        vreal<double>(nearer_by_step) * abs(quadric_value<double>(quadric, p));
+                        max(vreal<double>(nearer_by_step) * off,
+                            vreal<double>(residual_slack) * value_size<double>(quadric, p));
     for (int i = 0; i < further_steps; ++i)
         next = step_from(next);
-    return select(nearer, next, p);
+    const auto moves = wanted & nearer;
+    return {select(moves, next, p), bits(moves)};
 }
 
 /// Where on the side rays start whose start, as rounded, is `p`: as a rule p itself, as if it were
 /// on the side. The rays' other end, `far_t` away, then has the same value of the equation, and is
 /// further off the side than p is as the equation is less steep there. Where it is much less, as
 /// next to a cone's apex, they start from the point of the side next to p.
-inline Vec3v<double> start_on_side(const abi::QuadricRecord<double>& quadric,
-                                   const Vec3v<double>& p, const Vec3v<double>& v,
-                                   const vreal<double>& far_t)
+inline SideStart start_on_side(const abi::QuadricRecord<double>& quadric, const Vec3v<double>& p,
+                               const Vec3v<double>& v, const vreal<double>& far_t)
 {
     // Their gradient is not that of one equation, and as steep everywhere.
     if (crossing_planes(quadric))
-        return p;
+        return {p};
     const Vec3v<double> here = side_gradient<double>(quadric, p);
     const Vec3v<double> there = side_gradient<double>(quadric, madd<double>(far_t, v, p));
     const auto flatter =
         vreal<double>(much_steeper * much_steeper) * dot(there, there) < dot(here, here);
-    return none(flatter) ? p : select(flatter, next_on_side(quadric, p), p);
+    return none(flatter) ? SideStart{p} : next_on_side(quadric, p, flatter);
+}
+
+/// How far rounding of the start, where the equation's left side is 0 but for that, moves the
+/// side's `root` past the plane that clips it. One that only touches a bowl would cut a hole into
+/// it; with caps the order of side and caps decides.
+inline vreal<double> place_error(const abi::QuadricRecord<double>& quadric, const SideStart& start,
+                                 const SurfaceLine& line, const vreal<double>& root)
+{
+    if (quadric.capped)
+        return vreal<double>(0.0);
+    const vreal<double> size = abs(root);
+    const vreal<double> moved =
+        abs(quadric_value<double>(quadric, start.p)) / max(abs(line.slope), vreal<double>(1e-300));
+    return select(from_bits<double>(start.on_side), vreal<double>(clip_slack<double>) * size,
+                  min(moved, vreal<double>(0x1p-10) * size));
 }
 
 /// From a point of a quadric's side.
@@ -110,24 +121,29 @@ inline OwnCrossing crossing_from_side(const abi::QuadricRecord<double>& quadric,
         return madd(vreal<double>(quadric.linear), v.z, dot(scaled, p));
     };
     SurfaceLine line{slope_at(rounded), bend_along<double>(quadric, scaled, v, dir)};
-    const Vec3v<double> p = start_on_side(quadric, rounded, v, other_root(line, outside));
-    line.slope = slope_at(p);
+    const SideStart start = start_on_side(quadric, rounded, v, other_root(line, outside));
+    line.slope = slope_at(start.p);
+    vreal<double> root = other_root(line, outside);
+    // Of rays that pass an apex, slope and bend have lost digits that the surface there has.
+    if (start.on_side != 0)
+        for (int i = 0; i < 2; ++i)
+            root = select(from_bits<double>(start.on_side),
+                          bettered(quadric, start.p, v, root, zero), root);
     if (!quadric.clipped)
-        return only_crossing(line, t_min, outside);
+        return only_crossing(root, line.bend, t_min, outside);
     const ClipCrossings<double> clip = clip_crossings<double>(quadric, height, dir);
     const vreal<double> climb = dot(broadcast(quadric.clip), dir);
     const std::uint32_t climbs = bits(climb > zero);
     const vreal<double> out =
         select(climb == zero, vreal<double>(__builtin_inf()),
                max(select(from_bits<double>(climbs), clip.high_t, clip.low_t), zero));
-    const vreal<double> root = other_root(line, outside);
     // The inside is ahead up to the other root where the surface bends away, beyond it where the
     // surface bends towards rays outside. A ray that leaves across the gradient, as every ray from
     // a cone's apex, goes on in the inside where the surface bends towards it.
     const std::uint32_t bends_away = bits(line.bend > zero) & ~bits(outside);
     const std::uint32_t bends_towards = bits(line.bend < zero) & bits(root > zero) & bits(outside);
     const std::uint32_t by_side =
-        (bends_away | bends_towards) & bits(root - place_error(quadric, p, line, root) <= out);
+        (bends_away | bends_towards) & bits(root - place_error(quadric, start, line, root) <= out);
     const std::uint32_t goes_in = bits(line.bend < zero) & bits(line.slope == zero);
     const std::uint32_t ends_inside = quadric.capped ? by_side ^ (~bits(outside) | goes_in) : 0;
     return first_of({{root, root}, out, {by_side, 0}, ends_inside, climbs}, t_min);

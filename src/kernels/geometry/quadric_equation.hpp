@@ -1,10 +1,10 @@
 #pragma once
 
-#include <type_traits>
-
 #include "kernel_abi/lists.hpp"
 #include "kernels/geometry/one_surface.hpp"
 #include "kernels/geometry/quadratic.hpp"
+
+#include <type_traits>
 
 // The equation of a quadric's unclipped side after the inverse transform (abi::QuadricRecord), and
 // along rays.

@@ -1,8 +1,8 @@
 #pragma once
 
-#include <type_traits>
-
 #include "kernels/geometry/kinds.hpp"
+
+#include <type_traits>
 
 // The objects that rays are tested against, a list of each kind: all of a scene, or those that a
 // cone of rays may meet, with what depends on the rays' origin computed once, by the operations a

@@ -1,10 +1,10 @@
 #pragma once
 
-#include <type_traits>
-
 #include "kernels/geometry/cone.hpp"
 #include "kernels/lists/object_lists.hpp"
 #include "kernels/simd/stream_values.hpp"
+
+#include <type_traits>
 
 // What a tile's rays are tested against: with Features::exact objects with their error bounds, else
 // what depends on a shared origin alone, computed once.

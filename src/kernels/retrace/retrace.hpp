@@ -1,9 +1,9 @@
 #pragma once
 
-#include <limits>
-
 #include "kernels/bvh/bundle.hpp"
 #include "kernels/precision/met_again.hpp"
+
+#include <limits>
 
 // Rays in single precision that are unsure of their hit, traced again in double, together however
 // few they are. Their places are found afterwards as those of all others (refine.hpp).

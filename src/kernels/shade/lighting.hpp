@@ -60,9 +60,9 @@ inline Vec3v<Real> lit_color(const abi::LightRecord<Real>& light, const LightPac
     Vec3v<Real> sum = scale<Real>(packet.diffuse, material.diffuse);
     const std::uint32_t shiny = packet.has_highlight & lit;
     if (shiny != 0) {
-        const PartScope part(abi::Part::highlight);
+        const StepScope step(abi::Step::highlight);
         count_packet<Real>(abi::PacketWork::highlight, shiny);
-        counts.stages |= abi::stage_powers;
+        counts.passed |= abi::passed_powers;
         const vreal<Real> power =
             select(from_bits<Real>(shiny),
                    highlight_power<Real>(packet.highlight, material.shininess), zero);

@@ -27,24 +27,27 @@ inline Real way_end(const abi::LightRecord<Real>& light)
     return light.kind == abi::LightKind::directional ? static_cast<Real>(__builtin_inf()) : Real(1);
 }
 
-/// How far a place is beyond the planes that clip a side; none is beyond those of another piece.
+/// How far a place is over a piece of a body.
 template <class Shape>
-inline double height_beyond_clip(const Shape& shape, unsigned piece, const Vec3v<double>& place)
+inline double height_of_place(const Shape& shape, unsigned piece, const Vec3v<double>& place)
 {
-    if constexpr (requires { shape.clipped; })
-        if (shape.clipped && piece == 0)
-            return first_lane<double>(
-                max(height_over(shape, 1, place), height_over(shape, 2, place)));
-    return -__builtin_inf();
+    return first_lane<double>(height_over(shape, piece, place));
+}
+
+/// Whether a place is outside the body that a piece is of: of one that caps close over any piece.
+template <class Shape>
+inline bool is_outside(const Shape& shape, unsigned piece, const Vec3v<double>& place)
+{
+    if constexpr (requires { shape.capped; })
+        if (shape.capped)
+            return height_of_place(shape, 0, place) > 0 || height_of_place(shape, 1, place) > 0 ||
+                   height_of_place(shape, 2, place) > 0;
+    return height_of_place(shape, piece, place) > 0;
 }
 
 /// The share of a way within which rounding may have the body end before a light, or behind it: of
 /// ways along a surface, both terms of the t cancel.
 inline constexpr double ends_at_light = 0x1p-12;
-
-/// How far beyond a clipping plane rounding may put a light, of the size of coordinates, at most.
-template <class Real>
-inline constexpr Real clip_margin = sizeof(Real) == sizeof(float) ? Real(0x1p-30) : Real(0x1p-46);
 
 /// Lanes of a packet for which past_gap() holds of the body's side.
 template <class Real, class Shape>
@@ -67,31 +70,24 @@ inline std::uint32_t past_gap_of(const Shape& shape, unsigned piece, const Vec3v
 /// Lanes of `near`, whose ways to a light meet their own body again there, or nearly, for which
 /// that is before it: outside where they come from inside, or inside. What lies on the body is on
 /// neither side. Where the way has two more crossings, through a gap, the light may be inside
-/// again. Beyond the planes that clip the body's side, its equation tells nothing, but there the
-/// way has left it: from a point of the body to where it meets that, it is between them.
+/// again.
 template <class Real>
 [[gnu::noinline]] std::uint32_t behind_own_body(const abi::ShapesView& shapes,
-                                                const vint<Real>& surface, const Vec3v<Real>& point,
-                                                const Vec3v<Real>& way,
+                                                const vint<Real>& surface, const Vec3v<Real>& way,
                                                 const abi::LightRecord<Real>& light,
                                                 std::uint32_t outside, std::uint32_t near)
 {
     const double position[3] = {double{light.vector[0]}, double{light.vector[1]},
                                 double{light.vector[2]}};
     const Vec3v<double> place = broadcast(position);
-    const vreal<Real> size = size_of(point) + size_of(broadcast(light.vector));
     std::uint32_t behind = 0;
     for_each_distinct<Real>(surface, near, [&](lane_int<Real> number, vmask<Real> same) {
         const std::uint32_t lanes_of = bits(same) & near;
         with_shape(shapes, shapes.index[number], [&](const auto& shape, unsigned piece) {
-            const double height = first_lane<double>(height_over(shape, piece, place));
-            const double beyond = height_beyond_clip(shape, piece, place);
-            if (height > 0)
+            if (is_outside(shape, piece, place))
                 behind |= lanes_of & ~outside;
-            if (height < 0)
+            if (height_of_place(shape, piece, place) < 0)
                 behind |= lanes_of & (outside | past_gap_of<Real>(shape, piece, place, way));
-            behind |= lanes_of & bits(size * vreal<Real>(clip_margin<Real>) <
-                                      vreal<Real>(static_cast<Real>(beyond)));
         });
     });
     return behind;
@@ -119,8 +115,8 @@ inline std::uint32_t own_shadow(const abi::SceneView<Real>& scene,
         bits(abs(again.t - end) < vreal<Real>(static_cast<Real>(ends_at_light))) & wanted;
     if (near == 0)
         return before;
-    return (before & ~near) | behind_own_body<Real>(shapes, again.surface, surface.point,
-                                                    packet.to_light, light, outside, near);
+    return (before & ~near) |
+           behind_own_body<Real>(shapes, again.surface, packet.to_light, light, outside, near);
 }
 
 }  // namespace

@@ -1,11 +1,11 @@
 #pragma once
 
+#include "kernels/simd/exact_product.hpp"
+#include "kernels/simd/float_bits.hpp"
+
 #include <array>
 #include <cstddef>
 #include <utility>
-
-#include "kernels/simd/exact_product.hpp"
-#include "kernels/simd/float_bits.hpp"
 
 // x^n of a highlight, for cosines x and exponents up to 10 000. xsimd's pow differs between
 // widths, so this one is made of fixed operations: the logarithm as an unevaluated sum of two

@@ -1,11 +1,11 @@
 #pragma once
 
-#include <limits>
-
 #include "kernels/lists/occluded.hpp"
 #include "kernels/retrace/retrace_occluded.hpp"
 #include "kernels/shade/own_shadow.hpp"
 #include "kernels/shade/shade_context.hpp"
+
+#include <limits>
 
 // Shadow rays of a packet. Those of a point light are traced from it, where they share their
 // origin: t there is 1 - t of the notes' ray from the point. Those of a light from a direction, or
@@ -207,7 +207,7 @@ inline void count_shadow_rays(abi::RayCounts& counts, int first, std::uint32_t t
 {
     count_shadow_pixels(first, traced);
     counts.shadow += static_cast<unsigned>(__builtin_popcount(traced));
-    counts.stages |= abi::stage_shadow_rays;
+    counts.passed |= abi::passed_shadow_rays;
 }
 
 /// Lanes of `wanted` that no opaque or any other object keeps from the light.
@@ -221,7 +221,7 @@ inline std::uint32_t unshadowed(const ShadeContext<F, Real>& context, int light,
     count_shadow_rays(*context.counts, first, wanted);
     if (context.has_shadows(light))
         return count_lit<Real>(wanted, wanted & context.shadows[light].lit_lanes(first));
-    const ShadowScope shadow(abi::Part::ray_generation);
+    const ShadowScope shadow(abi::Step::ray_generation);
     tell_live(wanted);
     tell_first(first);
     const abi::SceneView<Real>& scene = *context.scene;
@@ -256,10 +256,10 @@ inline Vec3v<Real> transmitted(const ShadeContext<F, Real>& context, int light,
     const vreal<Real> one(Real(1));
     Vec3v<Real> share{one, one, one};
     count_shadow_rays(*context.counts, first, wanted);
-    context.counts->stages |= abi::stage_glass_shadows;
+    context.counts->passed |= abi::passed_glass_shadows;
     if (context.has_shadows(light))
         return context.shadows[light].shares(first);
-    const ShadowScope shadow(abi::Part::ray_generation);
+    const ShadowScope shadow(abi::Step::ray_generation);
     tell_live(wanted);
     tell_first(first);
     const auto pass_on = [&](std::int32_t occluder, std::uint32_t blocked) {

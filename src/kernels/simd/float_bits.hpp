@@ -1,8 +1,8 @@
 #pragma once
 
-#include <limits>
-
 #include "kernels/simd/simd.hpp"
+
+#include <limits>
 
 // The parts of a floating-point number. Integers go to and from reals by adding 1.5 * 2^52
 // (2^23 for floats), whose last bits then are the integer: one operation on every ISA.

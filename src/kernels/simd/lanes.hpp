@@ -5,10 +5,10 @@
 // and passes the matching -m flags. The architecture is always named: xsimd's default one
 // differs between its versions under the same flags.
 
+#include "kernel_abi/lists.hpp"
+
 #include <cstddef>
 #include <cstdint>
-
-#include "kernel_abi/lists.hpp"
 
 #if !defined(PACKTRACE_ISA) || !defined(PACKTRACE_LANES)
 #error "kernel sources are compiled once per instruction set; see kernels.cmake"

@@ -1,8 +1,8 @@
 #pragma once
 
-#include <utility>
-
 #include "kernels/simd/vec3.hpp"
+
+#include <utility>
 
 // Per-lane look-up of records by number. Neighbouring rays mostly ask for the same record, so
 // each distinct one is loaded once and blended into its lanes: no gathers.

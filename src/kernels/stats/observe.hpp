@@ -27,7 +27,7 @@ struct Nothing {
 
 inline constexpr Nothing begin_observation;
 inline constexpr Nothing end_observation;
-inline constexpr Nothing begin_span;
+inline constexpr Nothing begin_stage;
 inline constexpr Nothing tell_chunk;
 inline constexpr Nothing tell_untraced;
 inline constexpr Nothing tell_live;
@@ -80,7 +80,7 @@ inline std::uint32_t count_lit(std::uint32_t, std::uint32_t lit)
 {
     return lit;
 }
-constexpr abi::Part part_of(abi::Primitive)
+constexpr abi::Step step_of(abi::Primitive)
 {
     return {};
 }
@@ -91,14 +91,14 @@ struct NoScope {
     explicit NoScope(const Told&...)
     {
     }
-    void next(abi::Part) const
+    void next(abi::Step) const
     {
     }
     void test(abi::Primitive, int = 1) const
     {
     }
 };
-using PartScope = NoScope;
+using StepScope = NoScope;
 using ShadowScope = NoScope;
 using RetraceScope = NoScope;
 using TestScope = NoScope;

@@ -11,13 +11,13 @@ namespace {
 /// Where a thread's tile is at.
 struct Observer {
     abi::Observation* to = nullptr;
-    abi::SpanLaps* spans = nullptr;     ///< of the generation at hand, where they are clocked
-    abi::PartLaps* parts = nullptr;     ///< likewise
+    abi::StageTicks* stages = nullptr;  ///< of the generation at hand, where they are clocked
+    abi::StepTicks* steps = nullptr;    ///< likewise
     abi::WorkCounts* counts = nullptr;  ///< likewise, where it is counted
     std::uint64_t last = 0;             ///< reading of the clock
-    abi::Span span = abi::Span::setup;
-    abi::Role role = abi::Role::own;
-    abi::Part part = abi::Part::cones;
+    abi::Stage stage = abi::Stage::setup;
+    abi::RayPurpose purpose = abi::RayPurpose::own;
+    abi::Step step = abi::Step::cones;
     std::uint32_t live = 0;                ///< rays in the packet that objects are tested against
     double refracted_share = 0;            ///< of the chunk that is traced
     const std::int32_t* pixels = nullptr;  ///< of the rays at hand; null: their own numbers

@@ -8,38 +8,39 @@ namespace packtrace::PACKTRACE_ISA {
 namespace {
 
 /// Gives the time since the last reading to where the tile was at.
-[[gnu::noinline]] void take_lap()
+[[gnu::noinline]] void take_ticks()
 {
     Observer& at = observer;
-    const std::uint64_t now = at.parts != nullptr ? fenced_ticks() : ticks();
+    const std::uint64_t now = at.steps != nullptr ? fenced_ticks() : ticks();
     const std::uint64_t time = now - at.last;
     at.last = now;
-    if (at.parts != nullptr) {
-        abi::Lap& lap = at.parts->part[index(at.span)][index(at.role)][index(at.part)];
-        lap.ticks += time;
-        ++lap.reads;
+    if (at.steps != nullptr) {
+        abi::Ticks& clocked_step =
+            at.steps->step[index(at.stage)][index(at.purpose)][index(at.step)];
+        clocked_step.ticks += time;
+        ++clocked_step.reads;
         return;
     }
-    at.spans->span[index(at.span)] += time;
-    if (at.span == abi::Span::trace)
-        at.spans->refracted += at.refracted_share * static_cast<double>(time);
+    at.stages->stage[index(at.stage)] += time;
+    if (at.stage == abi::Stage::trace)
+        at.stages->refracted += at.refracted_share * static_cast<double>(time);
 }
 
 inline bool clocked()
 {
-    return observer.spans != nullptr || observer.parts != nullptr;
+    return observer.stages != nullptr || observer.steps != nullptr;
 }
 
 inline void go_to_generation(int generation)
 {
     const abi::Observation& to = *observer.to;
     const int known = generation < to.generations ? generation : to.generations - 1;
-    observer.spans = to.spans != nullptr ? to.spans + known : nullptr;
-    observer.parts = to.parts != nullptr ? to.parts + known : nullptr;
+    observer.stages = to.stages != nullptr ? to.stages + known : nullptr;
+    observer.steps = to.steps != nullptr ? to.steps + known : nullptr;
     observer.counts = to.counts != nullptr ? to.counts + known : nullptr;
 }
 
-/// What a reading between parts takes, the least of a few.
+/// What a reading between steps takes, the least of a few.
 inline std::uint64_t time_of_reading()
 {
     std::uint64_t least = ~std::uint64_t{0};
@@ -60,7 +61,7 @@ inline void begin_observation(abi::Observation* observation)
     go_to_generation(0);
     if (!clocked())
         return;
-    if (observer.parts != nullptr)
+    if (observer.steps != nullptr)
         observation->reading = time_of_reading();
     observer.last = ticks();
 }
@@ -68,92 +69,92 @@ inline void begin_observation(abi::Observation* observation)
 inline void end_observation()
 {
     if (clocked()) {
-        take_lap();
+        take_ticks();
         observer.to->end = observer.last;
     }
     observer = {};
 }
 
-/// The next span of a generation begins, with `part`.
-inline void begin_span(abi::Span span, int generation, abi::Part part)
+/// The next stage of a generation begins, with `step`.
+inline void begin_stage(abi::Stage stage, int generation, abi::Step step)
 {
     if (observer.to == nullptr)
         return;
     if (clocked())
-        take_lap();
+        take_ticks();
     go_to_generation(generation);
-    observer.span = span;
-    observer.part = part;
+    observer.stage = stage;
+    observer.step = step;
 }
 
-/// Until its end the time goes to a part, or to one after another.
-class PartScope {
+/// Until its end the time goes to a step, or to one after another.
+class StepScope {
 public:
-    explicit PartScope(abi::Part part) : before_(observer.part)
+    explicit StepScope(abi::Step step) : before_(observer.step)
     {
-        next(part);
+        next(step);
     }
-    ~PartScope()
+    ~StepScope()
     {
         next(before_);
     }
-    PartScope(const PartScope&) = delete;
-    PartScope& operator=(const PartScope&) = delete;
+    StepScope(const StepScope&) = delete;
+    StepScope& operator=(const StepScope&) = delete;
 
-    void next(abi::Part part) const
+    void next(abi::Step step) const
     {
-        if (observer.parts == nullptr || part == observer.part)
+        if (observer.steps == nullptr || step == observer.step)
             return;
-        take_lap();
-        observer.part = part;
+        take_ticks();
+        observer.step = step;
     }
 
 private:
-    abi::Part before_;
+    abi::Step before_;
 };
 
-/// Until its end the work is for shadow rays, and begins with `part`.
+/// Until its end the work is for shadow rays, and begins with `step`.
 class ShadowScope {
 public:
-    explicit ShadowScope(abi::Part part) : before_(observer.part)
+    explicit ShadowScope(abi::Step step) : before_(observer.step)
     {
-        change(abi::Role::shadow, part);
+        change(abi::RayPurpose::shadow, step);
     }
     ~ShadowScope()
     {
-        change(abi::Role::own, before_);
+        change(abi::RayPurpose::own, before_);
     }
     ShadowScope(const ShadowScope&) = delete;
     ShadowScope& operator=(const ShadowScope&) = delete;
 
 private:
-    static void change(abi::Role role, abi::Part part)
+    static void change(abi::RayPurpose purpose, abi::Step step)
     {
-        if (observer.parts != nullptr)
-            take_lap();
-        observer.role = role;
-        observer.part = part;
+        if (observer.steps != nullptr)
+            take_ticks();
+        observer.purpose = purpose;
+        observer.step = step;
     }
-    abi::Part before_;
+    abi::Step before_;
 };
 
-/// Until its end unsure rays are traced again; the parts of that count as one.
+/// Until its end unsure rays are traced again; the steps of that count as one.
 class RetraceScope {
 public:
-    RetraceScope() : part_(abi::Part::retrace), parts_(observer.parts)
+    RetraceScope() : step_(abi::Step::retrace), steps_(observer.steps)
     {
-        observer.parts = nullptr;
+        observer.steps = nullptr;
     }
     ~RetraceScope()
     {
-        observer.parts = parts_;
+        observer.steps = steps_;
     }
     RetraceScope(const RetraceScope&) = delete;
     RetraceScope& operator=(const RetraceScope&) = delete;
 
 private:
-    PartScope part_;
-    abi::PartLaps* parts_;
+    StepScope step_;
+    abi::StepTicks* steps_;
 };
 
 }  // namespace

@@ -117,7 +117,7 @@ inline void keep_noted_of_ray(int ray, std::uint32_t unsure)
 inline void count_unsure(abi::Cause cause, int ray)
 {
     if (observer.counts != nullptr)
-        ++observer.counts->unsure[index(observer.role)][index(cause)];
+        ++observer.counts->unsure[index(observer.purpose)][index(cause)];
     if (counts_pixels())
         ++pixel_of(ray).unsure;
 }

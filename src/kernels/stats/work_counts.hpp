@@ -7,7 +7,7 @@
 namespace packtrace::PACKTRACE_ISA {
 namespace {
 
-/// The rays that are traced next, after their span began.
+/// The rays that are traced next, after their stage began.
 inline void tell_chunk(int refracted, int rays)
 {
     observer.refracted_share = static_cast<double>(refracted) / rays;
@@ -76,7 +76,7 @@ inline void tell_live(std::uint32_t active)
 
 inline abi::TestCounts& tests_of(abi::Primitive kind)
 {
-    return observer.counts->tests[index(observer.role)][index(kind)];
+    return observer.counts->tests[index(observer.purpose)][index(kind)];
 }
 
 /// The packet is tested against `objects` of a kind.
@@ -100,11 +100,11 @@ inline void count_block_tests(const abi::SphereBlock<Real>& block)
         tests_of(abi::Primitive::sphere).pairs += radius >= 0 ? 1 : 0;
 }
 
-constexpr abi::Part part_of(abi::Primitive kind)
+constexpr abi::Step step_of(abi::Primitive kind)
 {
-    constexpr abi::Part parts[] = {abi::Part::spheres, abi::Part::anchored_spheres,
-                                   abi::Part::planes, abi::Part::quadrics, abi::Part::polygons};
-    return parts[static_cast<int>(kind)];
+    constexpr abi::Step steps[] = {abi::Step::spheres, abi::Step::anchored_spheres,
+                                   abi::Step::planes, abi::Step::quadrics, abi::Step::polygons};
+    return steps[static_cast<int>(kind)];
 }
 
 /// Until its end a packet is tested against lists of objects, one kind after another.
@@ -114,26 +114,26 @@ public:
     {
         if (objects == 0)
             return;
-        part_.next(part_of(kind));
+        step_.next(step_of(kind));
         count_tests(kind, objects);
     }
 
 private:
-    PartScope part_{observer.part};
+    StepScope step_{observer.step};
 };
 
 /// A node is met by the frustum of several rays.
 inline void count_bundle_node()
 {
     if (observer.counts != nullptr)
-        ++observer.counts->group_nodes[index(observer.role)];
+        ++observer.counts->group_nodes[index(observer.purpose)];
 }
 
 /// A node is met by one ray.
 inline void count_ray_node()
 {
     if (observer.counts != nullptr)
-        ++observer.counts->ray_nodes[index(observer.role)];
+        ++observer.counts->ray_nodes[index(observer.purpose)];
 }
 
 /// The pixels of the rays that are traced next, or of the hits that shadow rays start from; null

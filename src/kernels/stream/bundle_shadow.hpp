@@ -133,7 +133,7 @@ template <abi::Features F, class Real>
 inline void find_shadows(const ShadeContext<F, Real>& context, const HitStream<F, Real>& hits,
                          int light, RayBundle<Real>& bundle, LightShadows<F, Real>& shadows)
 {
-    const ShadowScope shadow(abi::Part::ray_generation);
+    const ShadowScope shadow(abi::Step::ray_generation);
     if constexpr (F.glass)
         if (context.scene->lighting.transparent_shadows)
             return find_shares(context, hits, light, bundle, shadows);

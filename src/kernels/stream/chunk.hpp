@@ -35,7 +35,7 @@ inline bool find_occluders(const TileRun<F, Real>& run)
         const abi::LightRecord<Real>& light = scene.lighting.lights.data[i];
         if (!light.casts_shadow)
             continue;
-        run.counts.stages |= abi::stage_blockers;
+        run.counts.passed |= abi::passed_occluders;
         LightObjects<F, Real>& occluders = run.work.occluders[i];
         const abi::SceneView<Real>& casters = casters_of(scene);
         if (light.sends_rays) {
@@ -79,15 +79,15 @@ inline void join_children(const TileRun<F, Real>& run, RayStream<F, Real>& next,
 {
     run.counts.reflected += static_cast<unsigned>(next.count);
     if (next.count > 0)
-        run.counts.stages |= abi::stage_mirrored;
+        run.counts.passed |= abi::passed_mirrored;
     if constexpr (F.glass) {
-        begin_span(abi::Span::children, depth, abi::Part::children);
+        begin_stage(abi::Stage::children, depth, abi::Step::children);
         if constexpr (F.probe)
             next.mirrored = next.count;
         const RayStream<F, Real>& refracted = *run.work.refracted;
         run.counts.refracted += static_cast<unsigned>(refracted.count);
         if (refracted.count > 0)
-            run.counts.stages |= abi::stage_refracted;
+            run.counts.passed |= abi::passed_refracted;
         append_stream(next, refracted);
     }
 }
@@ -102,10 +102,10 @@ inline RayStream<F, Real>* shade_chunk(const TileRun<F, Real>& run, PixelWrite w
     if (hits.count == 0)
         return nullptr;
     tell_pixels(hits.pixel);
-    run.counts.stages |= abi::stage_normals;
+    run.counts.passed |= abi::passed_normals;
     if constexpr (F.exact)
-        run.counts.stages |= abi::stage_refined;
-    begin_span(abi::Span::shadows, depth, abi::Part::cones);
+        run.counts.passed |= abi::passed_refined;
+    begin_stage(abi::Stage::shadows, depth, abi::Step::cones);
     const bool by_lists = find_occluders(run);
     const ShadeContext<F, Real> context{&run.scene,
                                         run.work.occluders,
@@ -115,12 +115,12 @@ inline RayStream<F, Real>* shade_chunk(const TileRun<F, Real>& run, PixelWrite w
                                         &run.counts,
                                         run.work.lacks};
     if (!by_lists) {
-        begin_span(abi::Span::shade, depth, abi::Part::surface);
+        begin_stage(abi::Stage::shade, depth, abi::Step::surface);
         find_surfaces(run);
-        begin_span(abi::Span::shadows, depth, abi::Part::cones);
+        begin_stage(abi::Stage::shadows, depth, abi::Step::cones);
         find_shadows(run, context);
     }
-    begin_span(abi::Span::shade, depth, abi::Part::surface);
+    begin_stage(abi::Stage::shade, depth, abi::Step::surface);
     if (!context.spawns())
         next = nullptr;
     if (next != nullptr)
@@ -147,7 +147,7 @@ template <abi::Features F, class Real>
                                                   const RayStream<F, Real>& rays, int begin,
                                                   int end, int depth, RayStream<F, Real>* next)
 {
-    begin_span(abi::Span::trace, depth, abi::Part::ray_generation);
+    begin_stage(abi::Stage::trace, depth, abi::Step::ray_generation);
     tell_pixels(rays.pixel + begin);
     if constexpr (F.probe)
         tell_chunk(refracted_rays(rays, begin, end), end - begin);

@@ -1,11 +1,11 @@
 #pragma once
 
-#include <limits>
-
 #include "kernel_abi/ray_streams.hpp"
 #include "kernels/lists/common_hit.hpp"
-#include "kernels/stream/pending_hits.hpp"
 #include "kernels/simd/stream_values.hpp"
+#include "kernels/stream/pending_hits.hpp"
+
+#include <limits>
 
 // The closest hits of rays from outside, as their callers want them.
 namespace packtrace::PACKTRACE_ISA {

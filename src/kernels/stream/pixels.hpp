@@ -1,10 +1,10 @@
 #pragma once
 
-#include <cstddef>
-#include <utility>
-
 #include "kernel_abi/kernel_table.hpp"
 #include "kernels/simd/records.hpp"
+
+#include <cstddef>
+#include <utility>
 
 // The pixels of a tile while it is rendered: r, g, b and one unused element each, along the
 // tile's Z-order curve, so that a pixel is one load and one store. They are one array, which

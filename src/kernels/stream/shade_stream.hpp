@@ -17,7 +17,7 @@ inline Vec3v<Real> light_color(const ShadeContext<F, Real>& context, int number,
                                int first)
 {
     const abi::LightRecord<Real>& light = context.scene->lighting.lights.data[number];
-    const PartScope part(abi::Part::diffuse);
+    const StepScope step(abi::Step::diffuse);
     const LightPacket<Real> packet = light_at(*context.scene, light, surface, material, active);
     if constexpr (F.glass) {
         if (context.scene->lighting.transparent_shadows && light.casts_shadow &&
@@ -65,7 +65,7 @@ inline void spawn_children(const ShadeContext<F, Real>& context, const Children<
                            const PathPacket<Real>& path, const GlassPacket<Real>& inside,
                            std::uint32_t active)
 {
-    const PartScope part(abi::Part::children);
+    const StepScope step(abi::Step::children);
     Vec3v<Real> reflect = material.reflect;
     if constexpr (F.glass) {
         const std::uint32_t glass = active & any_channel(material.transmit);
@@ -110,7 +110,7 @@ inline void shade_packet(PixelWrite write, const ShadeContext<F, Real>& context,
         color = madd<Real>(share, limit, color);
     }
     color = path.weight * color;
-    const PartScope part(abi::Part::film);
+    const StepScope step(abi::Step::film);
     write_colors(write, pixels, path.pixel, color, active);
 }
 

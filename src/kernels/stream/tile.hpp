@@ -37,12 +37,12 @@ void trace_sorted(const TileRun<F, Real>& run, int streams)
     RayStream<F, Real>* from = sorted.streams[0];
     RayStream<F, Real>* to = sorted.streams[1];
     for (int depth = 1; streams > 0; ++depth) {
-        begin_span(abi::Span::children, depth - 1, abi::Part::children);
+        begin_stage(abi::Stage::children, depth - 1, abi::Step::children);
         const int rays = sort_rays(sorted, from, streams);
         streams = 0;
         for (int begin = 0; begin < rays; begin += chunk_rays) {
             const int count = rays - begin < chunk_rays ? rays - begin : chunk_rays;
-            begin_span(abi::Span::children, depth - 1, abi::Part::children);
+            begin_stage(abi::Stage::children, depth - 1, abi::Step::children);
             gather_rays(*run.work.streams, from, sorted.order + begin, count);
             streams += has_rays(trace_chunk(run, *run.work.streams, 0, count, depth, to + streams));
         }
@@ -55,7 +55,7 @@ template <abi::Features F, class Real>
 inline RayStream<F, Real>* shade_camera(const TileRun<F, Real>& run, RayStream<F, Real>* next)
 {
     const HitStream<F, Real>& hits = run.work.memory->hits;
-    run.counts.stages |= hits.count > 0 ? abi::stage_hits : 0u;
+    run.counts.passed |= hits.count > 0 ? abi::passed_hits : 0u;
     if (F.probe || !run.scene.lighting.flat)
         return shade_chunk(run, PixelWrite::set, 0, next);
     shade_flat(run.scene, hits, run.work.memory->color);
@@ -102,14 +102,14 @@ inline void trace_camera_of_tile(const TileRun<F, Real>& run, const abi::TileJob
     find_objects<F>(work.visible, cone, scene);
     const bool are_all = picks_all<F>(work.visible, cone, scene);
     sort_by_distance<F>(work.visible);
-    begin_span(abi::Span::film, 0, abi::Part::film);
+    begin_stage(abi::Stage::film, 0, abi::Step::film);
     fill_pixels(memory.color + pixel_elements * first_pixel, scene.rules.background);
     memory.hits.count = 0;
     if constexpr (F.probe)
         memory.hits.probe = job.probe;
-    begin_span(abi::Span::trace, 0, abi::Part::ray_generation);
+    begin_stage(abi::Stage::trace, 0, abi::Step::ray_generation);
     if (!scene.tree.empty())
-        counts.stages |= abi::stage_hierarchy;
+        counts.passed |= abi::passed_hierarchy;
     if (!are_all) {
         trace_camera_bundle(job, first_pixel, work.visible, *work.bundle, memory, counts);
     } else if (is_probed<F>(job) || !work.visible.empty() || scene.lighting.seen_within > 0) {
@@ -143,7 +143,7 @@ inline abi::RayCounts render_tiles(const abi::TileJob<Real>* tiles, int count)
         trace_sorted(run, streams);
     else if (streams > 0)
         trace_generation(run, *work.streams, 1);
-    begin_span(abi::Span::film, 0, abi::Part::film);
+    begin_stage(abi::Stage::film, 0, abi::Step::film);
     for (int tile = 0; tile < count; ++tile)
         write_tile(tiles[tile], work.memory->color + tile_elements * tile);
     if (work.lacks != nullptr)

@@ -1,12 +1,12 @@
 #pragma once
 
-#include <limits>
-
 #include "kernels/lists/object_sets.hpp"
 #include "kernels/precision/refine.hpp"
 #include "kernels/retrace/retrace_closest.hpp"
 #include "kernels/stream/camera_rays.hpp"
 #include "kernels/stream/shade_stream.hpp"
+
+#include <limits>
 
 // From rays to hit points, one generation at a time.
 namespace packtrace::PACKTRACE_ISA {
@@ -71,7 +71,7 @@ inline void append_hits(const abi::SceneView<Real>& scene, HitStream<F, Real>& h
 {
     if (active == 0)
         return;
-    const PartScope part(abi::Part::compaction);
+    const StepScope step(abi::Step::compaction);
     append_places(scene, hits, from, hit, active);
     with_appender<Real>(active, [&](const auto& chosen) {
         append_weight(hits, chosen, from.path.weight);
@@ -154,7 +154,7 @@ inline void take_camera_hits(const abi::SceneView<Real>& scene, TileMemory<F, Re
     count_traced<Real>(pixels, hit.surface, from.path.pixel);
     append_hits(scene, memory.hits, from, hit, hits);
     report_rays(memory.hits, scene, from, hit, pixels);
-    const PartScope part(abi::Part::film);
+    const StepScope step(abi::Step::film);
     if (scene.lighting.seen_within > 0)
         write_colors(PixelWrite::set, memory.color, from.path.pixel, escaped(scene, from.rays),
                      pixels & ~hits);
@@ -256,7 +256,7 @@ inline void take_secondary_hits(const abi::SceneView<Real>& scene, TileMemory<F,
     count_traced<Real>(active, hit.surface, from.path.pixel);
     append_hits(scene, memory.hits, from, hit, hits);
     report_rays(memory.hits, scene, from, hit, active);
-    const PartScope part(abi::Part::film);
+    const StepScope step(abi::Step::film);
     write_colors(PixelWrite::add, memory.color, from.path.pixel,
                  from.path.weight * escaped(scene, from.rays), active & ~hits);
 }

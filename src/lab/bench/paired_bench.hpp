@@ -1,13 +1,12 @@
 #pragma once
 
+#include "lab/harness/report_variants.hpp"
+#include "lab/harness/statistics.hpp"
+#include <packtrace/report.hpp>
+
 #include <functional>
 #include <string>
 #include <vector>
-
-#include <packtrace/report.hpp>
-
-#include "lab/harness/report_variants.hpp"
-#include "lab/harness/statistics.hpp"
 
 namespace packtrace {
 

@@ -1,10 +1,10 @@
 #pragma once
 
+#include "lab/harness/statistics.hpp"
+
 #include <cmath>
 #include <optional>
 #include <vector>
-
-#include "lab/harness/statistics.hpp"
 
 // Whether something takes longer than it did: a verdict on samples, whoever measured them.
 namespace packtrace {

@@ -1,14 +1,12 @@
-#include <packtrace/explain.hpp>
-
-#include <stdexcept>
-#include <type_traits>
-
-#include <packtrace/isa.hpp>
-#include <packtrace/validate.hpp>
-
 #include "dispatch/kernels.hpp"
 #include "kernel_abi/probe.hpp"
 #include "lab/harness/ray_trees.hpp"
+#include <packtrace/explain.hpp>
+#include <packtrace/isa.hpp>
+#include <packtrace/validate.hpp>
+
+#include <stdexcept>
+#include <type_traits>
 
 namespace packtrace {
 namespace {

@@ -1,10 +1,9 @@
+#include "lab/harness/names.hpp"
 #include <packtrace/explain.hpp>
 
 #include <algorithm>
 #include <cmath>
 #include <set>
-
-#include "lab/harness/names.hpp"
 
 namespace packtrace {
 namespace {

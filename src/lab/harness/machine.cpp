@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cstdlib>
 #include <fstream>
-
 #include <sys/resource.h>
 #include <unistd.h>
 

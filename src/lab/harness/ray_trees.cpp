@@ -1,10 +1,5 @@
 #include "lab/harness/ray_trees.hpp"
 
-#include <algorithm>
-#include <bit>
-#include <cstdint>
-#include <memory>
-
 #include "core/aligned_array.hpp"
 #include "dispatch/kernels.hpp"
 #include "kernel_abi/probe.hpp"
@@ -12,6 +7,11 @@
 #include "reference/recorder.hpp"
 #include "reference/reference.hpp"
 #include "render/camera_view.hpp"
+
+#include <algorithm>
+#include <bit>
+#include <cstdint>
+#include <memory>
 
 namespace packtrace {
 namespace {

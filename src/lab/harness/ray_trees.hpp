@@ -1,12 +1,11 @@
 #pragma once
 
-#include <functional>
-#include <vector>
-
-#include <packtrace/explain.hpp>
-
 #include "kernel_abi/kernel_table.hpp"
 #include "lower/lowered_scene.hpp"
+#include <packtrace/explain.hpp>
+
+#include <functional>
+#include <vector>
 
 namespace packtrace {
 

@@ -1,16 +1,16 @@
 #include "lab/harness/report_variants.hpp"
 
-#include <algorithm>
-#include <memory>
-
-#include <packtrace/isa.hpp>
-
 #include "core/check_number.hpp"
 #include "core/text.hpp"
 #include "dispatch/kernels.hpp"
 #include "kernel_abi/probe.hpp"
 #include "render/frame_renderer.hpp"
 #include "render/option_words.hpp"
+#include "render/precision.hpp"
+#include <packtrace/isa.hpp>
+
+#include <algorithm>
+#include <memory>
 
 namespace packtrace {
 namespace {
@@ -33,12 +33,12 @@ std::string threads_text(int threads)
     return std::to_string(threads) + (threads == 1 ? " thread" : " threads");
 }
 
-Variant packets(const IsaInfo& isa, const std::string& precision, const Scene& scene)
+Variant packets(const IsaInfo& isa, Precision precision, const Scene& scene)
 {
     Variant variant;
     variant.precision = precision;
     variant.isa = isa.name;
-    variant.lanes = precision == "single" ? isa.lanes_single : isa.lanes_double;
+    variant.lanes = precision == Precision::single ? isa.lanes_single : isa.lanes_double;
     variant.depth = scene.max_depth;
     variant.min_weight = scene.min_weight;
     return variant;
@@ -78,7 +78,7 @@ Variant by_general(const Variant& usual, const ReportOptions& options)
     return variant;
 }
 
-Variant scalar(const std::string& precision, const Scene& scene)
+Variant scalar(Precision precision, const Scene& scene)
 {
     Variant variant;
     variant.kernel = Kernel::scalar;
@@ -95,7 +95,8 @@ void add_arithmetic(std::vector<Variant>& variants, Variant variant, const Repor
         variant.kernel == Kernel::scalar ? "scalar" : "packets " + variant.isa;
     for (const int threads : options.threads) {
         variant.threads = threads;
-        variant.name = kernel + " " + variant.precision + ", " + threads_text(threads);
+        variant.name = kernel + " " + std::string(language::word_of(variant.precision)) + ", " +
+                       threads_text(threads);
         variants.push_back(variant);
     }
 }
@@ -108,12 +109,12 @@ std::vector<Variant> report_variants(const Scene& scene, const ReportOptions& op
         check_number("threads", threads, 1, most_threads);
     std::vector<Variant> variants;
     const std::vector<IsaInfo> isas = wanted_isas(options);
-    for (const char* precision : {"single", "double"}) {
+    for (const Precision precision : packet_precisions) {
         add_arithmetic(variants, scalar(precision, scene), options);
         for (const IsaInfo& isa : isas)
             add_arithmetic(variants, packets(isa, precision, scene), options);
     }
-    Variant widest = packets(isas.back(), "single", scene);
+    Variant widest = packets(isas.back(), Precision::single, scene);
     variants.push_back(in_mode(widest, Accuracy::fast, options));
     variants.push_back(by_note(widest, options));
     variants.push_back(by_general(widest, options));
@@ -233,8 +234,8 @@ Subject packet_subject(const Scene& scene, const LoweredScene& lowered,
 
 Subject subject_of(const Scene& scene, const Variant& variant)
 {
-    return variant.precision == "single" ? subject_in<float>(scene, variant)
-                                         : subject_in<double>(scene, variant);
+    return with_packet_real(variant.precision,
+                            [&]<class Real>() { return subject_in<Real>(scene, variant); });
 }
 
 template Subject packet_subject<float>(const Scene&, const LoweredScene&, const abi::KernelTable&,

@@ -1,13 +1,12 @@
 #pragma once
 
-#include <cstdint>
-#include <functional>
-
-#include <packtrace/report.hpp>
-
 #include "kernel_abi/kernel_table.hpp"
 #include "lab/harness/ray_trees.hpp"
 #include "lower/lowered_scene.hpp"
+#include <packtrace/report.hpp>
+
+#include <cstdint>
+#include <functional>
 
 // The variants of a scene that are compared (the table, report_variants(), is public), made ready.
 namespace packtrace {

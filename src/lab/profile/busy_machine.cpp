@@ -1,9 +1,8 @@
+#include "core/text.hpp"
+#include "lab/harness/statistics.hpp"
 #include "lab/profile/profile_steps.hpp"
 
 #include <cmath>
-
-#include "core/text.hpp"
-#include "lab/harness/statistics.hpp"
 
 namespace packtrace {
 namespace {

@@ -1,11 +1,3 @@
-#include <packtrace/certainty.hpp>
-
-#include <array>
-#include <stdexcept>
-#include <utility>
-
-#include <tbb/enumerable_thread_specific.h>
-
 #include "core/arena.hpp"
 #include "dispatch/kernels.hpp"
 #include "lab/profile/observed_frame.hpp"
@@ -13,11 +5,18 @@
 #include "render/check_options.hpp"
 #include "render/tile_loop.hpp"
 #include "render/tile_renderer.hpp"
+#include <packtrace/certainty.hpp>
+
+#include <tbb/enumerable_thread_specific.h>
+
+#include <array>
+#include <stdexcept>
+#include <utility>
 
 namespace packtrace {
 namespace {
 
-const RenderOptions& checked(const RenderOptions& options)
+RenderOptions checked(const RenderOptions& options)
 {
     if (options.kernel != Kernel::packet)
         throw std::invalid_argument(

@@ -1,11 +1,10 @@
-#include "lab/profile/profile_steps.hpp"
-
-#include <algorithm>
-
 #include "dispatch/kernels.hpp"
 #include "lab/profile/observed_frame.hpp"
+#include "lab/profile/profile_steps.hpp"
 #include "lab/profile/stage_times.hpp"
 #include "lab/profile/work_rows.hpp"
+
+#include <algorithm>
 
 namespace packtrace {
 namespace {
@@ -21,8 +20,8 @@ void time_pieces(ObservedFrame<Real>& frame, PieceTimes& times)
 
 // Plain frames, observable ones, and those with the clock, in turns.
 template <class Real>
-void clock_spans(ObservedFrame<Real>& plain, ObservedFrame<Real>& observed,
-                 const ProfileOptions& options, SpanTimes& spans, KernelProfile& profile)
+void clock_stages(ObservedFrame<Real>& plain, ObservedFrame<Real>& observed,
+                  const ProfileOptions& options, StageTimes& stages, KernelProfile& profile)
 {
     const int pieces = observed.pieces();
     PieceTimes plain_times(pieces), observed_times(pieces), clocked_times(pieces);
@@ -30,9 +29,9 @@ void clock_spans(ObservedFrame<Real>& plain, ObservedFrame<Real>& observed,
     for (int turn = 0; turn < std::max(2, options.repetitions); ++turn) {
         time_pieces(plain, plain_times);
         time_pieces(observed, observed_times);
-        observed.render([&](int) { return spans.begin(); },
+        observed.render([&](int) { return stages.begin(); },
                         [&](int piece, double seconds) {
-                            spans.end(piece);
+                            stages.end(piece);
                             clocked_times.add(piece, seconds);
                         });
     }
@@ -41,20 +40,20 @@ void clock_spans(ObservedFrame<Real>& plain, ObservedFrame<Real>& observed,
     profile.clocked = clocked_times.frame();
 }
 
-// One frame that clocks the parts of all pieces, for their shares alone.
+// One frame that clocks the steps of all pieces, for their shares alone.
 template <class Real>
-std::vector<KernelStage> divide_spans(ObservedFrame<Real>& observed, const SpanTimes& spans,
-                                      int generations)
+std::vector<KernelStage> divide_stages(ObservedFrame<Real>& observed, const StageTimes& stages,
+                                       int generations)
 {
-    std::vector<abi::PartLaps> parts(static_cast<std::size_t>(generations));
-    abi::Observation observation{.generations = generations, .parts = parts.data()};
+    std::vector<abi::StepTicks> steps(static_cast<std::size_t>(generations));
+    abi::Observation observation{.generations = generations, .steps = steps.data()};
     StageSeconds seconds(generations);
     observed.render(
         [&](int) {
-            std::fill(parts.begin(), parts.end(), abi::PartLaps{});
+            std::fill(steps.begin(), steps.end(), abi::StepTicks{});
             return &observation;
         },
-        [&](int piece, double) { seconds.add(spans.seconds(piece), parts, observation.reading); });
+        [&](int piece, double) { seconds.add(stages.seconds(piece), steps, observation.reading); });
     return seconds.stages();
 }
 
@@ -78,9 +77,9 @@ ObservedKernels observe_kernels(const Scene& scene, const ProfileOptions& option
     const int generations = scene.max_depth + 1;
 
     ObservedKernels result;
-    SpanTimes spans(observed.pieces(), generations);
-    clock_spans(plain, observed, options, spans, result.profile);
-    result.profile.stages = divide_spans(observed, spans, generations);
+    StageTimes stages(observed.pieces(), generations);
+    clock_stages(plain, observed, options, stages, result.profile);
+    result.profile.stages = divide_stages(observed, stages, generations);
 
     result.counts.resize(static_cast<std::size_t>(generations));
     abi::Observation counting{.generations = generations, .counts = result.counts.data()};

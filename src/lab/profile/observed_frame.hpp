@@ -1,16 +1,15 @@
 #pragma once
 
-#include <chrono>
-#include <vector>
-
-#include <packtrace/render.hpp>
-
 #include "core/seconds_since.hpp"
 #include "image/contrast.hpp"
 #include "kernel_abi/observation.hpp"
 #include "lab/harness/statistics.hpp"
 #include "render/tile_loop.hpp"
 #include "render/tile_renderer.hpp"
+#include <packtrace/render.hpp>
+
+#include <chrono>
+#include <vector>
 
 // A frame traced piece by piece, observed by its kernels or not, and the times of the pieces.
 namespace packtrace {

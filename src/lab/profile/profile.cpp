@@ -1,9 +1,3 @@
-#include <packtrace/profile.hpp>
-
-#include <cstddef>
-
-#include <packtrace/read_scene.hpp>
-
 #include "dispatch/kernels.hpp"
 #include "image/formats.hpp"
 #include "lab/harness/statistics.hpp"
@@ -11,6 +5,10 @@
 #include "lab/profile/profile_steps.hpp"
 #include "lab/profile/work_rows.hpp"
 #include "lower/packed_scene.hpp"
+#include <packtrace/profile.hpp>
+#include <packtrace/read_scene.hpp>
+
+#include <cstddef>
 
 namespace packtrace {
 namespace {

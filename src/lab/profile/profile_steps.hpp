@@ -1,12 +1,11 @@
 #pragma once
 
+#include "kernel_abi/observation.hpp"
+#include <packtrace/profile.hpp>
+
 #include <functional>
 #include <string>
 #include <vector>
-
-#include <packtrace/profile.hpp>
-
-#include "kernel_abi/observation.hpp"
 
 // The steps of a profile, in the order in which profile() takes them.
 namespace packtrace {

@@ -1,14 +1,3 @@
-#include <algorithm>
-#include <atomic>
-#include <chrono>
-#include <cstdio>
-#include <mutex>
-#include <stdexcept>
-#include <string>
-
-#include <packtrace/profile.hpp>
-#include <packtrace/validate.hpp>
-
 #include "core/arena.hpp"
 #include "core/seconds_since.hpp"
 #include "core/text.hpp"
@@ -19,6 +8,16 @@
 #include "render/camera_view.hpp"
 #include "render/tile_loop.hpp"
 #include "render/tile_renderer.hpp"
+#include <packtrace/profile.hpp>
+#include <packtrace/validate.hpp>
+
+#include <algorithm>
+#include <atomic>
+#include <chrono>
+#include <cstdio>
+#include <mutex>
+#include <stdexcept>
+#include <string>
 
 namespace packtrace {
 namespace {

@@ -1,22 +1,20 @@
-#include "lab/profile/profile_steps.hpp"
-
-#include <algorithm>
-#include <memory>
-#include <utility>
-
-#include <sys/resource.h>
-
-#include <tbb/parallel_for.h>
-#include <tbb/partitioner.h>
-
 #include "core/aligned_array.hpp"
 #include "core/arena.hpp"
 #include "core/check_number.hpp"
 #include "dispatch/kernels.hpp"
 #include "lab/harness/statistics.hpp"
 #include "lab/harness/stopwatch.hpp"
+#include "lab/profile/profile_steps.hpp"
 #include "render/camera_view.hpp"
 #include "render/frame_renderer.hpp"
+
+#include <tbb/parallel_for.h>
+#include <tbb/partitioner.h>
+
+#include <algorithm>
+#include <memory>
+#include <sys/resource.h>
+#include <utility>
 
 // Times of whole frames: the first of a process, and variants of the frame in turns.
 namespace packtrace {

@@ -13,8 +13,8 @@ constexpr const char* primitive_names[] = {"spheres", "anchored spheres", "plane
                                            "polygons"};
 static_assert(std::size(primitive_names) == abi::primitive_count);
 
-constexpr const char* role_names[] = {"closest", "shadow"};
-static_assert(std::size(role_names) == abi::role_count);
+constexpr const char* purpose_names[] = {"closest", "shadow"};
+static_assert(std::size(purpose_names) == abi::purpose_count);
 
 const abi::PacketCounts& packets_of(const abi::WorkCounts& counts, abi::PacketWork work)
 {
@@ -50,17 +50,17 @@ std::vector<TestUse> test_rows(const std::vector<abi::WorkCounts>& counts)
 {
     std::vector<TestUse> rows;
     for (std::size_t depth = 0; depth < counts.size(); ++depth)
-        for (int role = 0; role < abi::role_count; ++role) {
+        for (int purpose = 0; purpose < abi::purpose_count; ++purpose) {
             const abi::WorkCounts& at = counts[depth];
             const auto add = [&](const char* tested, std::uint64_t tests, std::uint64_t single) {
                 if (tests + single > 0)
                     rows.push_back(
-                        {static_cast<int>(depth), role_names[role], tested, tests, single});
+                        {static_cast<int>(depth), purpose_names[purpose], tested, tests, single});
             };
-            add("nodes", at.group_nodes[role], at.ray_nodes[role]);
+            add("nodes", at.group_nodes[purpose], at.ray_nodes[purpose]);
             for (int kind = 0; kind < abi::primitive_count; ++kind)
-                add(primitive_names[kind], at.tests[role][kind].packets,
-                    at.tests[role][kind].pairs);
+                add(primitive_names[kind], at.tests[purpose][kind].packets,
+                    at.tests[purpose][kind].pairs);
         }
     return rows;
 }
@@ -115,11 +115,11 @@ std::vector<UnsureUse> unsure_rows(const std::vector<abi::WorkCounts>& counts)
 {
     std::vector<UnsureUse> rows;
     for (std::size_t depth = 0; depth < counts.size(); ++depth)
-        for (std::size_t role = 0; role < abi::role_count; ++role)
+        for (std::size_t purpose = 0; purpose < abi::purpose_count; ++purpose)
             for (std::size_t cause = 0; cause < abi::cause_count; ++cause)
-                if (const std::uint64_t count = counts[depth].unsure[role][cause]; count > 0)
-                    rows.push_back(
-                        {static_cast<int>(depth), role_names[role], unsure_causes()[cause], count});
+                if (const std::uint64_t count = counts[depth].unsure[purpose][cause]; count > 0)
+                    rows.push_back({static_cast<int>(depth), purpose_names[purpose],
+                                    unsure_causes()[cause], count});
     return rows;
 }
 

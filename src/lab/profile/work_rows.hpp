@@ -1,12 +1,11 @@
 #pragma once
 
-#include <optional>
-#include <vector>
-
+#include "kernel_abi/observation.hpp"
 #include <packtrace/certainty.hpp>
 #include <packtrace/profile.hpp>
 
-#include "kernel_abi/observation.hpp"
+#include <optional>
+#include <vector>
 
 // What a frame's kernels counted, by generation, as rows that name it.
 namespace packtrace {

@@ -1,16 +1,16 @@
 #include "lab/report/error_class.hpp"
 
-#include <algorithm>
-#include <array>
-#include <cmath>
-#include <limits>
-
-#include <glm/geometric.hpp>
-
 #include "lab/harness/ray_trees.hpp"
 #include "lab/report/neighbour_rays.hpp"
 #include "lower/lowered_scene.hpp"
 #include "scene/vectors.hpp"
+
+#include <glm/geometric.hpp>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
 
 namespace packtrace {
 namespace {
@@ -182,18 +182,19 @@ struct ErrorClassifier::State {
         const Light& source = scene.lights[static_cast<std::size_t>(light.light)];
         const bool point = source.type == LightType::point;
         const Vec3 way = point ? source.vector - tested.point : source.vector;
-        const auto blocker =
+        const auto occluder =
             rays.trace(tested.point, way, epsilon,
                        point ? 1.0 - epsilon : std::numeric_limits<double>::infinity());
-        const bool blocked = blocker.object >= 0;
+        const bool blocked = occluder.object >= 0;
         const bool tested_darker =
             largest_component(*light.share) < largest_component(*truth.share);
-        if (!blocker.stable || blocked == tested_darker)
+        if (!occluder.stable || blocked == tested_darker)
             return edge;
         // With nothing else in the way, the light is kept off by the surface it falls on.
         if (!blocked)
             return ErrorClass::near_start;
-        return blocker.t <= near_epsilons * epsilon ? ErrorClass::near_start : ErrorClass::lost_hit;
+        return occluder.t <= near_epsilons * epsilon ? ErrorClass::near_start
+                                                     : ErrorClass::lost_hit;
     }
 
     // The same object in the same light, of another colour.

@@ -1,13 +1,13 @@
 #pragma once
 
+#include <packtrace/explain.hpp>
+#include <packtrace/report.hpp>
+#include <packtrace/scene.hpp>
+
 #include <functional>
 #include <memory>
 #include <optional>
 #include <string>
-
-#include <packtrace/explain.hpp>
-#include <packtrace/report.hpp>
-#include <packtrace/scene.hpp>
 
 // Why pixels differ from the truth, and how many for which reason.
 namespace packtrace {

@@ -1,9 +1,8 @@
+#include "image/pixel_error.hpp"
 #include "lab/report/error_class.hpp"
 
 #include <algorithm>
 #include <array>
-
-#include "image/pixel_error.hpp"
 
 namespace packtrace {
 namespace {

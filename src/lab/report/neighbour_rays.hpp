@@ -1,12 +1,12 @@
 #pragma once
 
-#include <algorithm>
-#include <array>
-
 #include <packtrace/intersect.hpp>
 #include <packtrace/scene.hpp>
 
 #include <glm/geometric.hpp>
+
+#include <algorithm>
+#include <array>
 
 namespace packtrace {
 

@@ -1,15 +1,15 @@
 #include "lab/report/plot.hpp"
 
+#include "core/run_filter.hpp"
+#include "core/text.hpp"
+#include "lab/report/plot_layout.hpp"
+#include "scene/language/quote.hpp"
+
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstddef>
 #include <sstream>
-
-#include "core/run_filter.hpp"
-#include "core/text.hpp"
-#include "lab/report/plot_layout.hpp"
-#include "scene/language/quote.hpp"
 
 namespace packtrace {
 namespace {

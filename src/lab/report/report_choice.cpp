@@ -1,8 +1,7 @@
+#include "lab/report/report_study.hpp"
 #include <packtrace/report.hpp>
 
 #include <algorithm>
-
-#include "lab/report/report_study.hpp"
 
 namespace packtrace {
 namespace {

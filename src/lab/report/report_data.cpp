@@ -1,10 +1,10 @@
-#include <sstream>
-
-#include <nlohmann/json.hpp>
-
 #include "core/json_text.hpp"
 #include "lab/report/report_text.hpp"
 #include "render/option_words.hpp"
+
+#include <nlohmann/json.hpp>
+
+#include <sstream>
 
 // The report as data, for programs: CSV and JSON.
 namespace packtrace {
@@ -27,15 +27,15 @@ void write_row(std::ostream& to, const SceneReport& scene, const StudyReport& st
     const Variant& variant = run.variant;
     to << csv_text(scene.name) << ',' << scene.width << ',' << scene.height << ','
        << name_of(study.study) << ',' << csv_text(variant.name) << ','
-       << language::word_of(variant.kernel) << ',' << variant.precision << ',' << variant.isa << ','
-       << (has_accuracy(variant) ? language::word_of(variant.accuracy) : "") << ',' << variant.lanes
-       << ',' << variant.threads << ',' << variant.depth << ',' << exact(variant.min_weight) << ','
-       << variant.samples << ',' << (variant.adaptive ? exact(*variant.adaptive) : "") << ','
-       << exact(run.median) << ',' << exact(run.spread) << ',' << run.rays << ',' << run.cut.rays
-       << ',' << exact(run.cut.bound) << ',' << exact(run.error.rmse) << ','
-       << exact(run.error.max_abs) << ',' << exact(run.error.psnr) << ',' << run.error.pixels << ','
-       << run.error.pixels_off << ',' << name_of(run.pareto) << ',' << csv_text(shares_text(run))
-       << '\n';
+       << language::word_of(variant.kernel) << ',' << language::word_of(variant.precision) << ','
+       << variant.isa << ',' << (has_accuracy(variant) ? language::word_of(variant.accuracy) : "")
+       << ',' << variant.lanes << ',' << variant.threads << ',' << variant.depth << ','
+       << exact(variant.min_weight) << ',' << variant.samples << ','
+       << (variant.adaptive ? exact(*variant.adaptive) : "") << ',' << exact(run.median) << ','
+       << exact(run.spread) << ',' << run.rays << ',' << run.cut.rays << ',' << exact(run.cut.bound)
+       << ',' << exact(run.error.rmse) << ',' << exact(run.error.max_abs) << ','
+       << exact(run.error.psnr) << ',' << run.error.pixels << ',' << run.error.pixels_off << ','
+       << name_of(run.pareto) << ',' << csv_text(shares_text(run)) << '\n';
 }
 
 }  // namespace
@@ -80,7 +80,7 @@ Json run_json(const SceneReport& scene, const StudyReport& study, const ReportRu
     return {
         {"name", variant.name},
         {"kernel", packet ? "packet" : "scalar"},
-        {"precision", variant.precision},
+        {"precision", language::word_of(variant.precision)},
         {"isa", packet ? Json(variant.isa) : Json()},
         {"accuracy", has_accuracy(variant) ? Json(language::word_of(variant.accuracy)) : Json()},
         {"lanes", variant.lanes},

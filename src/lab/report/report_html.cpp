@@ -1,16 +1,16 @@
-#include <algorithm>
-#include <cstdint>
-#include <span>
-#include <sstream>
-#include <string>
-
-#include <nlohmann/json.hpp>
-
 #include "image/formats.hpp"
 #include "lab/report/plot.hpp"
 #include "lab/report/report_page.hpp"
 #include "lab/report/report_pictures.hpp"
 #include "lab/report/report_text.hpp"
+
+#include <nlohmann/json.hpp>
+
+#include <algorithm>
+#include <cstdint>
+#include <span>
+#include <sstream>
+#include <string>
 
 namespace packtrace {
 namespace {

@@ -1,6 +1,6 @@
-#include <sstream>
-
 #include "lab/report/report_text.hpp"
+
+#include <sstream>
 
 namespace packtrace {
 namespace {

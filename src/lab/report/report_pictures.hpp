@@ -1,16 +1,15 @@
 #pragma once
 
+#include "image/color_ramp.hpp"
+#include "image/pixel_error.hpp"
+#include "lab/report/report_text.hpp"
+#include <packtrace/compare.hpp>
+#include <packtrace/report.hpp>
+
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
 #include <string>
-
-#include <packtrace/compare.hpp>
-#include <packtrace/report.hpp>
-
-#include "image/color_ramp.hpp"
-#include "image/pixel_error.hpp"
-#include "lab/report/report_text.hpp"
 
 // The pictures of a report and their heat maps, by their index in StudyReport::pictures.
 namespace packtrace {

@@ -1,10 +1,10 @@
-#include <algorithm>
-#include <utility>
-
 #include "lab/report/plot.hpp"
 #include "lab/report/report_study.hpp"
 #include "lab/report/report_text.hpp"
 #include "render/option_words.hpp"
+
+#include <algorithm>
+#include <utility>
 
 namespace packtrace {
 namespace {
@@ -15,7 +15,8 @@ std::string series_name(const Variant& variant)
         return variant.adaptive ? "adaptive" : "uniform";
     if (variant.study != Study::arithmetic)
         return name_of(variant.study);
-    return (variant.kernel == Kernel::scalar ? "scalar " : "packets ") + variant.precision;
+    return (variant.kernel == Kernel::scalar ? "scalar " : "packets ") +
+           std::string(language::word_of(variant.precision));
 }
 
 std::string point_label(const Variant& variant)

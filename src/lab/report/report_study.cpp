@@ -1,18 +1,17 @@
 #include "lab/report/report_study.hpp"
 
-#include <algorithm>
-#include <limits>
-#include <stdexcept>
-#include <utility>
-
-#include <packtrace/stop.hpp>
-
 #include "core/check_number.hpp"
 #include "lab/harness/statistics.hpp"
 #include "lab/harness/stopwatch.hpp"
 #include "lab/report/error_class.hpp"
 #include "render/check_options.hpp"
 #include "scene/sample_pattern.hpp"
+#include <packtrace/stop.hpp>
+
+#include <algorithm>
+#include <limits>
+#include <stdexcept>
+#include <utility>
 
 namespace packtrace {
 namespace {

@@ -1,14 +1,13 @@
 #pragma once
 
-#include <functional>
-#include <memory>
-#include <vector>
-
-#include <packtrace/report.hpp>
-
 #include "lab/harness/report_variants.hpp"
 #include "lab/harness/statistics.hpp"
 #include "lab/truth/truth.hpp"
+#include <packtrace/report.hpp>
+
+#include <functional>
+#include <memory>
+#include <vector>
 
 namespace packtrace {
 

@@ -1,10 +1,9 @@
 #include "lab/report/report_text.hpp"
 
-#include <algorithm>
-
+#include "lab/report/report_study.hpp"
 #include <packtrace/compare.hpp>
 
-#include "lab/report/report_study.hpp"
+#include <algorithm>
 
 namespace packtrace {
 namespace {

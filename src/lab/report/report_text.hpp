@@ -1,10 +1,9 @@
 #pragma once
 
-#include <string>
-
+#include "core/text.hpp"
 #include <packtrace/write_report.hpp>
 
-#include "core/text.hpp"
+#include <string>
 
 // The parts of a written report, each as the text of its file.
 namespace packtrace {

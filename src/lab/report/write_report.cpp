@@ -1,15 +1,13 @@
+#include "core/atomic_file.hpp"
+#include "lab/report/report_pictures.hpp"
+#include "lab/report/report_text.hpp"
+#include "scene/language/quote.hpp"
+#include <packtrace/image_io.hpp>
 #include <packtrace/write_report.hpp>
 
 #include <algorithm>
 #include <set>
 #include <stdexcept>
-
-#include <packtrace/image_io.hpp>
-
-#include "core/atomic_file.hpp"
-#include "lab/report/report_pictures.hpp"
-#include "lab/report/report_text.hpp"
-#include "scene/language/quote.hpp"
 
 namespace packtrace {
 namespace {

@@ -1,13 +1,12 @@
 #include "lab/soak/soak_scene.hpp"
-
-#include <algorithm>
-#include <cmath>
+#include "lab/stress/placed_quadric.hpp"
+#include "scene/vectors.hpp"
 
 #include <glm/geometric.hpp>
 #include <glm/vec4.hpp>
 
-#include "lab/stress/placed_quadric.hpp"
-#include "scene/vectors.hpp"
+#include <algorithm>
+#include <cmath>
 
 namespace packtrace::lab {
 namespace {

@@ -1,12 +1,12 @@
+#include "lab/soak/soak.hpp"
+#include "render/precision.hpp"
+#include <packtrace/write_scene.hpp>
+
 #include <algorithm>
 #include <cmath>
 #include <cstring>
 #include <regex>
 #include <set>
-
-#include <packtrace/write_scene.hpp>
-
-#include "lab/soak/soak.hpp"
 
 // What pictures promise: the same bits in every way of a group, numbers everywhere, and the scalar
 // kernel's colours where these do not hang on the last digits.
@@ -24,11 +24,8 @@ Values values_of(const Image<Real>& image)
 
 Values picture(const Scene& scene, const SoakWay& way)
 {
-    if (way.precision == "single")
-        return values_of(render<float>(scene, way.options));
-    if (way.precision == "double")
-        return values_of(render<double>(scene, way.options));
-    return values_of(render<long double>(scene, way.options));
+    return with_real(way.precision,
+                     [&]<class Real>() { return values_of(render<Real>(scene, way.options)); });
 }
 
 std::string pixel_text(const Scene& scene, std::size_t value)
@@ -64,7 +61,7 @@ double allowed_difference(const Scene& scene, const SoakWay& a, const SoakWay& b
         a.options.traversal == Traversal::list && b.options.traversal == Traversal::list;
     if (scene.shadows != ShadowKind::transparent || same_order)
         return 0.0;
-    return (a.precision == "single" ? 1e-5 : 1e-13) * largest_value(values);
+    return (a.precision == Precision::single ? 1e-5 : 1e-13) * largest_value(values);
 }
 
 std::string differing(const Scene& scene, const Values& a, const Values& b, double allowed)
@@ -151,11 +148,12 @@ struct References {
     double differ;  ///< and must not be off by more
 };
 
-References references_of(const std::string& precision, SelfHits self_hits)
+References references_of(Precision precision, SelfHits self_hits)
 {
-    const bool single = precision == "single";
-    return {scalar_way("double", self_hits), scalar_way(single ? "single" : "extended", self_hits),
-            single ? 1e-4 : 1e-9, single ? 3e-2 : 1e-4};
+    const bool single = precision == Precision::single;
+    return {scalar_way(Precision::double_, self_hits),
+            scalar_way(single ? precision : Precision::extended, self_hits), single ? 1e-4 : 1e-9,
+            single ? 3e-2 : 1e-4};
 }
 
 /// Edges and paths through much glass are left out, as the references differ there, but for a few
@@ -214,8 +212,8 @@ std::optional<SoakFinding> check_reference(const Scene& scene, const SoakWay& wa
     return SoakFinding{std::move(what), {way, references.truth}, std::nullopt, again};
 }
 
-std::optional<SoakFinding> check_mode(const Scene& scene, const std::string& precision,
-                                      Accuracy accuracy, SelfHits self_hits, bool aligned)
+std::optional<SoakFinding> check_mode(const Scene& scene, Precision precision, Accuracy accuracy,
+                                      SelfHits self_hits, bool aligned)
 {
     Values first;
     Values values;
@@ -239,11 +237,11 @@ std::optional<SoakFinding> check_mode(const Scene& scene, const std::string& pre
 
 std::optional<SoakFinding> check_pictures(const Scene& scene, SelfHits self_hits, bool aligned)
 {
-    if (auto finding = check_mode(scene, "double", Accuracy::exact, self_hits, aligned))
+    if (auto finding = check_mode(scene, Precision::double_, Accuracy::exact, self_hits, aligned))
         return finding;
-    if (auto finding = check_mode(scene, "single", Accuracy::exact, self_hits, aligned))
+    if (auto finding = check_mode(scene, Precision::single, Accuracy::exact, self_hits, aligned))
         return finding;
-    return check_mode(scene, "single", Accuracy::fast, self_hits, aligned);
+    return check_mode(scene, Precision::single, Accuracy::fast, self_hits, aligned);
 }
 
 }  // namespace packtrace::lab

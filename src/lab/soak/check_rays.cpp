@@ -1,12 +1,13 @@
-#include <algorithm>
-#include <cmath>
-
-#include <glm/geometric.hpp>
-
 #include "lab/soak/soak.hpp"
 #include "lab/soak/soak_scene.hpp"
 #include "lab/stress/evaluate.hpp"
 #include "lab/stress/stress_family.hpp"
+#include "render/precision.hpp"
+
+#include <glm/geometric.hpp>
+
+#include <algorithm>
+#include <cmath>
 
 // What answers to rays promise: the same bits in every way of a group; of `exact` packets and
 // packets of doubles, to be right wherever double itself can tell.
@@ -113,7 +114,7 @@ std::string fault_in(const StressGroup& group, const StressRun& run, std::size_t
 template <class Real>
 bool counts(const SoakWay& way, const StressGroup& group, const StressRun& run, std::size_t i)
 {
-    if (way.precision == "double" || way.options.accuracy == Accuracy::exact)
+    if (way.precision == Precision::double_ || way.options.accuracy == Accuracy::exact)
         return true;
     const double roundoff = roundoff_of<Real>;
     const Expected& expected = group.expected[i];
@@ -155,7 +156,8 @@ bool differs(const SoakWay& first, const SoakWay& second, const StressGroup& gro
     if (first.options.traversal != second.options.traversal &&
         runs_along_polygon(group, group.rays[i]))
         return false;
-    const bool decided = first.precision == "double" || first.options.accuracy == Accuracy::exact;
+    const bool decided =
+        first.precision == Precision::double_ || first.options.accuracy == Accuracy::exact;
     return !same_hit || decided || run.crossings[i] == true_crossings(group, group.rays[i]);
 }
 
@@ -205,14 +207,14 @@ std::optional<SoakFinding> check_group(const StressGroup& group, const SoakGroup
 
 template <class Real>
 std::optional<SoakFinding> check_precision(const Scene& scene, const std::vector<StressRay>& rays,
-                                           const std::string& precision, bool aligned)
+                                           bool aligned)
 {
     const StressGroup group = group_of<Real>(scene, rays);
     for (const Accuracy accuracy : {Accuracy::exact, Accuracy::fast}) {
         // Packets of doubles are the same in both.
-        if (precision == "double" && accuracy == Accuracy::fast)
+        if (precision_of<Real> == Precision::double_ && accuracy == Accuracy::fast)
             continue;
-        for (const SoakGroup& ways : packet_groups(precision, accuracy, SelfHits::exact))
+        for (const SoakGroup& ways : packet_groups(precision_of<Real>, accuracy, SelfHits::exact))
             if (auto finding = check_group<Real>(group, ways, aligned))
                 return finding;
     }
@@ -228,9 +230,9 @@ std::optional<SoakFinding> check_rays(const Scene& scene, std::uint64_t seed, bo
     std::vector<StressRay> rays;
     for (int i = 0; i < count; ++i)
         rays.push_back(any_ray(random, scene, aligned ? grid_step(scene) : 0.0));
-    if (auto finding = check_precision<float>(scene, rays, "single", aligned))
+    if (auto finding = check_precision<float>(scene, rays, aligned))
         return finding;
-    return check_precision<double>(scene, rays, "double", aligned);
+    return check_precision<double>(scene, rays, aligned);
 }
 
 }  // namespace packtrace::lab

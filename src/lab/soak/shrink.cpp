@@ -1,12 +1,11 @@
 #include "lab/soak/soak.hpp"
+#include <packtrace/read_scene.hpp>
+#include <packtrace/write_scene.hpp>
 
 #include <algorithm>
 #include <charconv>
 #include <cmath>
 #include <exception>
-
-#include <packtrace/read_scene.hpp>
-#include <packtrace/write_scene.hpp>
 
 namespace packtrace::lab {
 namespace {

@@ -1,17 +1,16 @@
 #include "lab/soak/soak.hpp"
 
-#include <algorithm>
-#include <chrono>
-#include <stdexcept>
-#include <vector>
-
+#include "core/seconds_since.hpp"
+#include "lab/soak/soak_scene.hpp"
+#include "lab/stress/stress_family.hpp"
 #include <packtrace/read_scene.hpp>
 
 #include <tbb/parallel_for.h>
 
-#include "core/seconds_since.hpp"
-#include "lab/soak/soak_scene.hpp"
-#include "lab/stress/stress_family.hpp"
+#include <algorithm>
+#include <chrono>
+#include <stdexcept>
+#include <vector>
 
 namespace packtrace::lab {
 namespace {
@@ -77,7 +76,7 @@ SoakReport report_of(std::uint64_t number, Outcome outcome)
     SoakReport report{number, *std::move(outcome.finding), {}};
     report.scene = shrink(report.finding, std::move(outcome.scene));
     // The rays' truth is that of rounded numbers.
-    if (report.finding.ray && report.finding.ways.front().precision == "single")
+    if (report.finding.ray && report.finding.ways.front().precision == Precision::single)
         round_to_precision<float>(report.scene);
     return report;
 }

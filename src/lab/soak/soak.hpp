@@ -1,13 +1,13 @@
 #pragma once
 
+#include "lab/soak/soak_way.hpp"
+#include "lab/truth/wide_truth.hpp"
+
 #include <cstdint>
 #include <functional>
 #include <optional>
 #include <string>
 #include <vector>
-
-#include "lab/soak/soak_way.hpp"
-#include "lab/truth/wide_truth.hpp"
 
 // The search for scenes in which something is not as promised.
 namespace packtrace::lab {

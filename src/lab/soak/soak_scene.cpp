@@ -1,13 +1,13 @@
 #include "lab/soak/soak_scene.hpp"
 
-#include <algorithm>
-#include <cmath>
+#include "lab/stress/placed_quadric.hpp"
+#include "scene/language/keys.hpp"
 
 #include <glm/geometric.hpp>
 #include <glm/gtc/matrix_transform.hpp>
 
-#include "lab/stress/placed_quadric.hpp"
-#include "scene/language/keys.hpp"
+#include <algorithm>
+#include <cmath>
 
 namespace packtrace::lab {
 namespace {

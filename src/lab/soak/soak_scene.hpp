@@ -1,8 +1,7 @@
 #pragma once
 
-#include <packtrace/scene.hpp>
-
 #include "lab/stress/stress_random.hpp"
+#include <packtrace/scene.hpp>
 
 // Random scenes (soak_scene.cpp), and the same with much that coincides (align.cpp).
 namespace packtrace::lab {

@@ -1,12 +1,11 @@
 #pragma once
 
-#include <string>
-#include <vector>
-
+#include "render/option_words.hpp"
 #include <packtrace/isa.hpp>
 #include <packtrace/render.hpp>
 
-#include "render/option_words.hpp"
+#include <string>
+#include <vector>
 
 // The ways in which a scene is traced.
 namespace packtrace::lab {
@@ -16,7 +15,7 @@ inline constexpr int soak_threads = 3;
 
 /// A way to trace rays: precision and options.
 struct SoakWay {
-    std::string precision = "single";  ///< single, double, extended (scalar kernel only)
+    Precision precision = Precision::single;
     RenderOptions options;
 };
 
@@ -24,12 +23,12 @@ struct SoakWay {
 [[nodiscard]] inline std::string intersect_words(const SoakWay& way)
 {
     const RenderOptions& options = way.options;
-    std::string words = " --precision " + way.precision;
+    std::string words = " --precision " + std::string(language::word_of(way.precision));
     if (options.kernel == Kernel::scalar)
         return words + " --kernel scalar";
     words += " --isa " + options.isa;
     words.append(" --traversal ").append(language::word_of(options.traversal));
-    if (way.precision == "single")
+    if (way.precision == Precision::single)
         words.append(" --accuracy ").append(language::word_of(options.accuracy));
     return words + (options.self_hits == SelfHits::note ? " --self-hits note" : "");
 }
@@ -44,7 +43,7 @@ struct SoakWay {
 }
 
 /// The scalar kernel.
-[[nodiscard]] inline SoakWay scalar_way(const std::string& precision, SelfHits self_hits)
+[[nodiscard]] inline SoakWay scalar_way(Precision precision, SelfHits self_hits)
 {
     SoakWay way;
     way.precision = precision;
@@ -82,8 +81,8 @@ struct SoakGroup {
 /// Packets of one precision and accuracy through every instruction set here, list and hierarchy,
 /// special and general kernel, one thread and several: sets with fused multiply-add in one group,
 /// each other one in its own.
-[[nodiscard]] inline std::vector<SoakGroup> packet_groups(const std::string& precision,
-                                                          Accuracy accuracy, SelfHits self_hits)
+[[nodiscard]] inline std::vector<SoakGroup> packet_groups(Precision precision, Accuracy accuracy,
+                                                          SelfHits self_hits)
 {
     SoakWay plain;
     plain.precision = precision;

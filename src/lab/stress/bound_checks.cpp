@@ -1,9 +1,8 @@
 #include "lab/stress/stress_subject.hpp"
+#include <packtrace/intersect.hpp>
 
 #include <algorithm>
 #include <cmath>
-
-#include <packtrace/intersect.hpp>
 
 namespace packtrace::lab {
 namespace {

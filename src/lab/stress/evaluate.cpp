@@ -1,12 +1,12 @@
 #include "lab/stress/evaluate.hpp"
 
-#include <algorithm>
-#include <cmath>
-#include <cstdio>
+#include "scene/vectors.hpp"
 
 #include <glm/geometric.hpp>
 
-#include "scene/vectors.hpp"
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
 
 namespace packtrace::lab {
 namespace {

@@ -1,11 +1,11 @@
 #pragma once
 
+#include "lab/stress/stress_subject.hpp"
+
 #include <cstddef>
 #include <cstdint>
 #include <string>
 #include <vector>
-
-#include "lab/stress/stress_subject.hpp"
 
 // Holds answers against the truth.
 namespace packtrace::lab {

@@ -1,8 +1,8 @@
-#include <cmath>
+#include "lab/stress/placed_quadric.hpp"
 
 #include <glm/geometric.hpp>
 
-#include "lab/stress/placed_quadric.hpp"
+#include <cmath>
 
 // Edges: of crossing planes, of capped bodies; and rays along a cone's sides.
 namespace packtrace::lab {

@@ -1,9 +1,9 @@
-#include <cmath>
+#include "lab/stress/placed_quadric.hpp"
 
 #include <glm/geometric.hpp>
 #include <glm/gtc/matrix_transform.hpp>
 
-#include "lab/stress/placed_quadric.hpp"
+#include <cmath>
 
 // What is small, thin or huge, seen from afar.
 namespace packtrace::lab {

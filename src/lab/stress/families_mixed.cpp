@@ -1,9 +1,9 @@
-#include <cmath>
+#include "lab/stress/placed_quadric.hpp"
 
 #include <glm/geometric.hpp>
 #include <glm/gtc/matrix_transform.hpp>
 
-#include "lab/stress/placed_quadric.hpp"
+#include <cmath>
 
 // Odd rays and odd company: lengths and ranges of any size, twins, nests, crowds of every kind.
 namespace packtrace::lab {

@@ -1,9 +1,9 @@
-#include <cmath>
+#include "lab/stress/placed_quadric.hpp"
+#include "lab/stress/stress_family.hpp"
 
 #include <glm/geometric.hpp>
 
-#include "lab/stress/placed_quadric.hpp"
-#include "lab/stress/stress_family.hpp"
+#include <cmath>
 
 // Polygons: rays at edges that two share, at corners, past notches and through holes.
 namespace packtrace::lab {

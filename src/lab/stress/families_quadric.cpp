@@ -1,9 +1,9 @@
 #include "lab/stress/placed_quadric.hpp"
 
+#include <glm/geometric.hpp>
+
 #include <cmath>
 #include <utility>
-
-#include <glm/geometric.hpp>
 
 namespace packtrace::lab {
 namespace {

@@ -1,10 +1,10 @@
 #include "lab/stress/stress_family.hpp"
 
+#include <glm/geometric.hpp>
+
 #include <cmath>
 #include <limits>
 #include <utility>
-
-#include <glm/geometric.hpp>
 
 // Spheres and planes.
 namespace packtrace::lab {

@@ -1,9 +1,9 @@
 #include "lab/stress/stress_family.hpp"
 
+#include <glm/geometric.hpp>
+
 #include <algorithm>
 #include <cmath>
-
-#include <glm/geometric.hpp>
 
 // Scenes of several spheres: of any sizes and distances, and such as overlap, touch, or nearly tie.
 namespace packtrace::lab {

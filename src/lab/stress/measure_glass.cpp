@@ -1,11 +1,12 @@
-#include <cmath>
-
-#include <glm/geometric.hpp>
-
 #include "lab/stress/stress_family.hpp"
 #include "lab/stress/stress_measure.hpp"
 #include "lab/stress/stress_subject.hpp"
 #include "lab/truth/wide.hpp"
+#include "render/precision.hpp"
+
+#include <glm/geometric.hpp>
+
+#include <cmath>
 
 // Total internal reflection: from inside a ball of glass, at its critical angle.
 namespace packtrace::lab {
@@ -114,7 +115,10 @@ StressMeasure::Ask prepared(const StressOptions& options)
 StressMeasure glass_measure()
 {
     return {"critical-angle", "out of a ball of glass at total internal reflection",
-            prepared<float>, prepared<double>};
+            [](Precision precision, const StressOptions& options) {
+                return with_packet_real(precision,
+                                        [&]<class Real>() { return prepared<Real>(options); });
+            }};
 }
 
 }  // namespace packtrace::lab

@@ -1,13 +1,14 @@
-#include <chrono>
-#include <cmath>
-#include <memory>
-
-#include <boost/multiprecision/cpp_bin_float.hpp>
-
 #include "core/seconds_since.hpp"
 #include "dispatch/kernels.hpp"
 #include "lab/stress/stress_measure.hpp"
 #include "lab/stress/stress_random.hpp"
+#include "render/precision.hpp"
+
+#include <boost/multiprecision/cpp_bin_float.hpp>
+
+#include <chrono>
+#include <cmath>
+#include <memory>
 
 // The highlights' x^n.
 namespace packtrace::lab {
@@ -80,9 +81,10 @@ StressMeasure::Ask prepared(const StressOptions& options, double least, double m
 
 StressMeasure measure(const char* name, const char* what, double least, double most)
 {
-    return {name, what,
-            [=](const StressOptions& options) { return prepared<float>(options, least, most); },
-            [=](const StressOptions& options) { return prepared<double>(options, least, most); }};
+    return {name, what, [=](Precision precision, const StressOptions& options) {
+                return with_packet_real(
+                    precision, [&]<class Real>() { return prepared<Real>(options, least, most); });
+            }};
 }
 
 }  // namespace

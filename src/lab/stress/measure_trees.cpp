@@ -1,11 +1,12 @@
-#include <cmath>
-
-#include <glm/geometric.hpp>
-
 #include "lab/stress/stress_family.hpp"
 #include "lab/stress/stress_measure.hpp"
 #include "lab/stress/stress_subject.hpp"
 #include "lab/truth/wide.hpp"
+#include "render/precision.hpp"
+
+#include <glm/geometric.hpp>
+
+#include <cmath>
 
 // Deep ray trees: in a room of mirrors, and inside a mirrored ball.
 namespace packtrace::lab {
@@ -178,9 +179,10 @@ StressMeasure::Ask prepared(const StressOptions& options, bool room)
 
 StressMeasure measure(const char* name, const char* what, bool room)
 {
-    return {name, what,
-            [=](const StressOptions& options) { return prepared<float>(options, room); },
-            [=](const StressOptions& options) { return prepared<double>(options, room); }};
+    return {name, what, [=](Precision precision, const StressOptions& options) {
+                return with_packet_real(
+                    precision, [&]<class Real>() { return prepared<Real>(options, room); });
+            }};
 }
 
 }  // namespace

@@ -1,10 +1,10 @@
 #include "lab/stress/placed_quadric.hpp"
 
-#include <cmath>
-#include <utility>
-
 #include <glm/geometric.hpp>
 #include <glm/gtc/matrix_transform.hpp>
+
+#include <cmath>
+#include <utility>
 
 namespace packtrace::lab {
 

@@ -1,11 +1,10 @@
 #pragma once
 
-#include <functional>
-#include <vector>
-
+#include "lab/stress/stress_family.hpp"
 #include <packtrace/build.hpp>
 
-#include "lab/stress/stress_family.hpp"
+#include <functional>
+#include <vector>
 
 // Quadrics of a kind, points of them, and random places for them.
 namespace packtrace::lab {

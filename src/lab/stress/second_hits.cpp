@@ -1,14 +1,13 @@
+#include "lab/stress/evaluate.hpp"
+#include "lab/stress/stress_random.hpp"
 #include "lab/stress/stress_subject.hpp"
+#include <packtrace/intersect.hpp>
+
+#include <glm/geometric.hpp>
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
-
-#include <glm/geometric.hpp>
-#include <packtrace/intersect.hpp>
-
-#include "lab/stress/evaluate.hpp"
-#include "lab/stress/stress_random.hpp"
 
 namespace packtrace::lab {
 namespace {

@@ -1,15 +1,16 @@
 #include "lab/stress/stress.hpp"
 
-#include <algorithm>
-#include <iterator>
-#include <stdexcept>
-
-#include <tbb/parallel_for.h>
-#include <packtrace/write_scene.hpp>
-
 #include "lab/stress/evaluate.hpp"
 #include "lab/stress/stress_measure.hpp"
 #include "lab/stress/stress_subject.hpp"
+#include "render/precision.hpp"
+#include <packtrace/write_scene.hpp>
+
+#include <tbb/parallel_for.h>
+
+#include <algorithm>
+#include <iterator>
+#include <stdexcept>
 
 namespace packtrace::lab {
 namespace {
@@ -77,15 +78,14 @@ void add_example(StressRow& row, const std::vector<StressGroup>& groups,
         }
 }
 
-StressRow row_of(const StressSubject& subject, const std::string& precision, Errors errors,
-                 double seconds)
+StressRow row_of(const StressSubject& subject, Precision precision, Errors errors, double seconds)
 {
     StressRow row;
     static_cast<ErrorCounts&>(row) = errors;
     row.precision = precision;
     row.kernel = subject.kernel;
     row.isa = subject.isa;
-    const bool doubles = row.precision == "double" && subject.kernel == "packet";
+    const bool doubles = row.precision == Precision::double_ && subject.kernel == "packet";
     row.mode = doubles ? "any" : subject.mode;
     row.held = doubles || subject.exact;
     row.wrong = errors.wrong();
@@ -127,8 +127,7 @@ StressRow row_of(const StressSubject& subject, const std::vector<StressGroup>& g
     double seconds = 0.0;
     for (const StressRun& run : runs)
         seconds += run.seconds;
-    return row_of(subject, sizeof(Real) == sizeof(float) ? "single" : "double",
-                  evaluate_runs<Real>(groups, runs), seconds);
+    return row_of(subject, precision_of<Real>, evaluate_runs<Real>(groups, runs), seconds);
 }
 
 /// Adds a row for what each subject's `ask` gives; instruction sets with the `same` answers share
@@ -220,9 +219,8 @@ void mark_pareto(std::vector<StressRow>& rows)
 }
 
 /// The rows of one measure in one precision.
-void add_measured(const StressMeasure& measure, const std::string& precision,
-                  const StressMeasure::Ask& ask, const std::vector<StressSubject>& subjects,
-                  std::vector<StressRow>& rows)
+void add_measured(const StressMeasure& measure, const StressOptions& options, Precision precision,
+                  const std::vector<StressSubject>& subjects, std::vector<StressRow>& rows)
 {
     const auto same = [](const MeasureRun& a, const MeasureRun& b) {
         return a.answers == b.answers;
@@ -234,7 +232,8 @@ void add_measured(const StressMeasure& measure, const std::string& precision,
             row.faults = faults_of_measure(row);
         return row;
     };
-    add_distinct_rows(subjects, precision == "double", true, ask, same, make_row, rows);
+    add_distinct_rows(subjects, precision == Precision::double_, true,
+                      measure.prepare(precision, options), same, make_row, rows);
 }
 
 void check_families(const StressOptions& options)
@@ -261,10 +260,11 @@ void run_stress(const StressOptions& options,
         if (!mine(family.name))
             continue;
         std::vector<StressRow> rows;
-        if (wanted(options.precisions, "single"))
-            add_rows<float>(family, options, subjects, rows);
-        if (wanted(options.precisions, "double"))
-            add_rows<double>(family, options, subjects, rows);
+        for (const Precision precision : packet_precisions)
+            if (wanted(options.precisions, precision))
+                with_packet_real(precision, [&]<class Real>() {
+                    add_rows<Real>(family, options, subjects, rows);
+                });
         mark_pareto(rows);
         take(rows);
     }
@@ -272,10 +272,9 @@ void run_stress(const StressOptions& options,
         if (!mine(measure.name))
             continue;
         std::vector<StressRow> rows;
-        if (wanted(options.precisions, "single"))
-            add_measured(measure, "single", measure.in_single(options), subjects, rows);
-        if (wanted(options.precisions, "double"))
-            add_measured(measure, "double", measure.in_double(options), subjects, rows);
+        for (const Precision precision : packet_precisions)
+            if (wanted(options.precisions, precision))
+                add_measured(measure, options, precision, subjects, rows);
         mark_pareto(rows);
         take(rows);
     }
@@ -301,7 +300,7 @@ std::vector<StressOptions> stress_parts(const StressOptions& options)
     check_families(options);
     std::vector<StressOptions> parts;
     for (const StressFamilyInfo& family : list_stress_families())
-        for (const std::string precision : {"single", "double"}) {
+        for (const Precision precision : packet_precisions) {
             if (!wanted(options.families, family.name) || !wanted(options.precisions, precision))
                 continue;
             StressOptions part = options;

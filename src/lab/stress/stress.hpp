@@ -1,12 +1,12 @@
 #pragma once
 
+#include <packtrace/render.hpp>
+
 #include <array>
 #include <cstdint>
 #include <functional>
 #include <string>
 #include <vector>
-
-#include <packtrace/render.hpp>
 
 namespace packtrace::lab {
 
@@ -20,12 +20,12 @@ inline void run_alone(const Alone& alone, const std::function<void()>& timed)
 }
 
 struct StressOptions {
-    std::vector<std::string> families = {};    ///< by name; empty: all
-    std::vector<std::string> kernels = {};     ///< packet, scalar, textbook; empty: all
-    std::vector<std::string> modes = {};       ///< of stress_modes; empty: all; packets only
-    std::vector<std::string> precisions = {};  ///< single, double; empty: both
-    std::string isa = {};                      ///< empty: all that run here
-    SelfHits self_hits = SelfHits::exact;      ///< how second rays keep from their own start
+    std::vector<std::string> families = {};  ///< by name; empty: all
+    std::vector<std::string> kernels = {};   ///< packet, scalar, textbook; empty: all
+    std::vector<std::string> modes = {};     ///< of stress_modes; empty: all; packets only
+    std::vector<Precision> precisions = {};  ///< single, double_; empty: both
+    std::string isa = {};                    ///< empty: all that run here
+    SelfHits self_hits = SelfHits::exact;    ///< how second rays keep from their own start
     Traversal traversal = Traversal::automatic;
     int rays = 4096;  ///< of each family and precision
     std::uint64_t seed = 1;
@@ -100,8 +100,8 @@ inline constexpr std::array<ErrorCount, 18> error_counts{
 /// One kernel in one mode on one family.
 struct StressRow : ErrorCounts {
     std::string family;
-    std::string precision;    ///< single, double
-    std::string kernel;       ///< packet, scalar, textbook
+    Precision precision = Precision::single;  ///< or double_
+    std::string kernel;                       ///< packet, scalar, textbook
     std::string mode;         ///< of stress_modes; "any" for packets of doubles, empty for others
     std::string isa;          ///< those that gave the same bits, parted by spaces
     bool held = false;        ///< its answers count for the verdict

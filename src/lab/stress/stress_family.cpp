@@ -1,10 +1,10 @@
 #include "lab/stress/stress_family.hpp"
 
+#include <glm/geometric.hpp>
+
 #include <iterator>
 #include <limits>
 #include <variant>
-
-#include <glm/geometric.hpp>
 
 namespace packtrace::lab {
 namespace {

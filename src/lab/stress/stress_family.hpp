@@ -1,12 +1,12 @@
 #pragma once
 
+#include "lab/stress/stress_random.hpp"
+#include "lab/truth/wide_truth.hpp"
+
 #include <functional>
 #include <limits>
 #include <string>
 #include <vector>
-
-#include "lab/stress/stress_random.hpp"
-#include "lab/truth/wide_truth.hpp"
 
 namespace packtrace::lab {
 

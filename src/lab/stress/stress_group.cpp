@@ -1,11 +1,11 @@
 #include "lab/stress/stress_subject.hpp"
 
+#include <glm/geometric.hpp>
+#include <tbb/parallel_for.h>
+
 #include <algorithm>
 #include <cmath>
 #include <variant>
-
-#include <tbb/parallel_for.h>
-#include <glm/geometric.hpp>
 
 namespace packtrace::lab {
 namespace {

@@ -1,16 +1,15 @@
 #pragma once
 
-#include <functional>
-#include <string>
-#include <vector>
-
-#include <packtrace/explain.hpp>
-
 #include "dispatch/kernels.hpp"
 #include "lab/harness/ray_trees.hpp"
 #include "lab/stress/evaluate.hpp"
 #include "lab/stress/stress_random.hpp"
 #include "lab/stress/stress_subject.hpp"
+#include <packtrace/explain.hpp>
+
+#include <functional>
+#include <string>
+#include <vector>
 
 // Families that ask something else than what a ray hits first.
 namespace packtrace::lab {
@@ -22,14 +21,13 @@ struct MeasureRun {
     double seconds = 0.0;
 };
 
-/// A family whose question is not what a ray meets first. In either precision it is prepared
-/// once, with the truth, for what asks one packet kernel after the other.
+/// A family whose question is not what a ray meets first. In one of packet_precisions it is
+/// prepared once, with the truth, for what asks one packet kernel after the other.
 struct StressMeasure {
     std::string name;
     std::string what;
     using Ask = std::function<MeasureRun(const StressSubject&)>;
-    std::function<Ask(const StressOptions&)> in_single;
-    std::function<Ask(const StressOptions&)> in_double;
+    std::function<Ask(Precision, const StressOptions&)> prepare;
 };
 
 /// All of them, in the order they are shown.

@@ -1,10 +1,10 @@
 #pragma once
 
+#include <packtrace/vec.hpp>
+
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
-
-#include <packtrace/vec.hpp>
 
 namespace packtrace::lab {
 

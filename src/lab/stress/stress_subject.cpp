@@ -1,15 +1,14 @@
 #include "lab/stress/stress_subject.hpp"
 
+#include "core/seconds_since.hpp"
+#include "lab/truth/textbook.hpp"
+#include <packtrace/intersect.hpp>
+#include <packtrace/isa.hpp>
+
 #include <algorithm>
 #include <chrono>
 #include <limits>
 #include <stdexcept>
-
-#include <packtrace/intersect.hpp>
-#include <packtrace/isa.hpp>
-
-#include "core/seconds_since.hpp"
-#include "lab/truth/textbook.hpp"
 
 namespace packtrace::lab {
 namespace {
@@ -82,11 +81,6 @@ void add_packets(const StressOptions& options, std::vector<StressSubject>& subje
 }
 
 }  // namespace
-
-bool wanted(const std::vector<std::string>& names, const std::string& name)
-{
-    return names.empty() || std::find(names.begin(), names.end(), name) != names.end();
-}
 
 std::vector<StressSubject> stress_subjects(const StressOptions& options)
 {

@@ -1,16 +1,17 @@
 #pragma once
 
-#include <cstdint>
-#include <limits>
-#include <string>
-#include <vector>
-
-#include <packtrace/intersect.hpp>
-
 #include "lab/stress/stress.hpp"
 #include "lab/stress/stress_family.hpp"
 #include "lab/truth/wide_truth.hpp"
 #include "render/ray_columns.hpp"
+#include <packtrace/intersect.hpp>
+
+#include <algorithm>
+#include <cstdint>
+#include <limits>
+#include <string>
+#include <type_traits>
+#include <vector>
 
 // Groups of rays with their truth, the kernels that are tried, and what each is asked of a group.
 namespace packtrace::lab {
@@ -70,8 +71,12 @@ struct StressSubject {
     RenderOptions options;
 };
 
-/// Whether `name` is among `names`; where none are given all are.
-[[nodiscard]] bool wanted(const std::vector<std::string>& names, const std::string& name);
+/// Whether `one` is among those `chosen`; where none are all are.
+template <class T>
+[[nodiscard]] bool wanted(const std::vector<T>& chosen, const std::type_identity_t<T>& one)
+{
+    return chosen.empty() || std::find(chosen.begin(), chosen.end(), one) != chosen.end();
+}
 
 /// The subjects that the options ask for.
 [[nodiscard]] std::vector<StressSubject> stress_subjects(const StressOptions& options);

@@ -1,9 +1,9 @@
+#include "core/text.hpp"
 #include "lab/stress/stress.hpp"
+#include "render/option_words.hpp"
 
 #include <algorithm>
 #include <set>
-
-#include "core/text.hpp"
 
 namespace packtrace::lab {
 namespace {
@@ -44,7 +44,7 @@ public:
 };
 
 /// The families with faults, each once, in their order, and the faults of the first row of each.
-std::string faulty_families(const std::vector<StressRow>& rows, const std::string& precision)
+std::string faulty_families(const std::vector<StressRow>& rows, Precision precision)
 {
     std::set<std::string> named;
     std::vector<std::string> texts;
@@ -56,13 +56,13 @@ std::string faulty_families(const std::vector<StressRow>& rows, const std::strin
 
 /// Where t is off by more than 1 ulp of single precision, or a normal by more than 1e-6, because
 /// double has no more: the families, and how many of their hits.
-std::string limits_of(const std::vector<StressRow>& rows, const std::string& precision)
+std::string limits_of(const std::vector<StressRow>& rows, Precision precision)
 {
     std::string list;
     for (const StressRow& row : rows) {
         if (!row.held || row.precision != precision)
             continue;
-        const std::uint64_t t = precision == "single" ? row.t_at_limit : 0;
+        const std::uint64_t t = precision == Precision::single ? row.t_at_limit : 0;
         if (t + row.normal_beyond == 0)
             continue;
         list += (list.empty() ? "" : ", ") + row.family + " (" + std::to_string(t) + " t, " +
@@ -71,7 +71,7 @@ std::string limits_of(const std::vector<StressRow>& rows, const std::string& pre
     return list.empty() ? "" : ", double itself at its limit in " + list;
 }
 
-std::string verdict_of_precision(const std::vector<StressRow>& rows, const std::string& precision)
+std::string verdict_of_precision(const std::vector<StressRow>& rows, Precision precision)
 {
     std::uint64_t rays = 0;
     std::uint64_t wrong = 0;
@@ -95,7 +95,8 @@ std::string verdict_of_precision(const std::vector<StressRow>& rows, const std::
     }
     if (families.empty())
         return "";
-    const std::string name = precision == "single" ? mode : precision;
+    const std::string name =
+        precision == Precision::single ? mode : std::string(language::word_of(precision));
     const std::string bad = faulty_families(rows, precision);
     const std::string counts =
         std::to_string(wrong) + " wrong decisions, " + std::to_string(self_hits) + " self-hits, " +
@@ -129,7 +130,7 @@ std::vector<std::string> faults_of(const StressRow& row)
     faults.count(row.no_normal, "normals of no length");
     faults.count(row.wrong_side, "normals on the wrong side");
     // Doubles are not refined: their t is as good as the inputs in double.
-    const bool refined = row.precision == "single";
+    const bool refined = row.precision == Precision::single;
     faults.count(refined ? row.t_beyond : 0, "t off by more than an ulp");
     faults.hold(!refined || row.t_beyond_half * 100 <= row.hits,
                 "more than 1 in 100 t off by over 0.51 ulp");
@@ -156,8 +157,8 @@ std::vector<std::string> faults_of_measure(const StressRow& row)
 
 std::string stress_verdict(const std::vector<StressRow>& rows)
 {
-    const std::string single = verdict_of_precision(rows, "single");
-    const std::string doubles = verdict_of_precision(rows, "double");
+    const std::string single = verdict_of_precision(rows, Precision::single);
+    const std::string doubles = verdict_of_precision(rows, Precision::double_);
     if (single.empty() && doubles.empty())
         return "verdict: no rays were traced in an exact mode";
     return "verdict: " + single + (single.empty() || doubles.empty() ? "" : "; ") + doubles;

@@ -1,9 +1,9 @@
 #include "lab/truth/wide_truth.hpp"
 
+#include <glm/geometric.hpp>
+
 #include <algorithm>
 #include <cmath>
-
-#include <glm/geometric.hpp>
 
 namespace packtrace::lab {
 namespace {

@@ -1,8 +1,8 @@
 #pragma once
 
-#include <cmath>
-
 #include "lab/truth/wide_truth.hpp"
+
+#include <cmath>
 
 namespace packtrace::lab {
 

@@ -1,13 +1,13 @@
 #include "lab/truth/textbook.hpp"
 
-#include <cmath>
-#include <limits>
-#include <variant>
+#include "reference/vec3.hpp"
 
 #include <glm/gtc/matrix_transform.hpp>
 #include <glm/matrix.hpp>
 
-#include "reference/vec3.hpp"
+#include <cmath>
+#include <limits>
+#include <variant>
 
 namespace packtrace::lab {
 namespace {

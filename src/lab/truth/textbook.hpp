@@ -1,10 +1,10 @@
 #pragma once
 
+#include "lab/truth/wide_truth.hpp"
+
 #include <array>
 #include <limits>
 #include <vector>
-
-#include "lab/truth/wide_truth.hpp"
 
 namespace packtrace::lab {
 

@@ -1,13 +1,13 @@
 #pragma once
 
+#include <packtrace/image.hpp>
+#include <packtrace/scene.hpp>
+
 #include <filesystem>
 #include <functional>
 #include <optional>
 #include <stop_token>
 #include <string>
-
-#include <packtrace/image.hpp>
-#include <packtrace/scene.hpp>
 
 namespace packtrace {
 

@@ -10,15 +10,14 @@
 #include <gnu/libc-version.h>
 #endif
 
-#include <packtrace/render.hpp>
-#include <packtrace/version.hpp>
-#include <packtrace/write_scene.hpp>
-
 #include "core/atomic_file.hpp"
 #include "core/checksum.hpp"
 #include "core/read_file.hpp"
 #include "lab/harness/machine.hpp"
 #include "render/option_words.hpp"
+#include <packtrace/render.hpp>
+#include <packtrace/version.hpp>
+#include <packtrace/write_scene.hpp>
 
 namespace packtrace {
 namespace {

@@ -1,12 +1,11 @@
 #pragma once
 
+#include "lab/truth/truth.hpp"
+#include <packtrace/scene.hpp>
+
 #include <filesystem>
 #include <optional>
 #include <string>
-
-#include <packtrace/scene.hpp>
-
-#include "lab/truth/truth.hpp"
 
 // How truths are kept: the key of all that one depends on, and its file.
 namespace packtrace {

@@ -1,13 +1,13 @@
 #pragma once
 
-#include <algorithm>
-#include <cmath>
-#include <limits>
+#include "core/quad.hpp"
+#include "reference/vec3.hpp"
 
 #include <glm/common.hpp>
 
-#include "core/quad.hpp"
-#include "reference/vec3.hpp"
+#include <algorithm>
+#include <cmath>
+#include <limits>
 
 namespace packtrace::lab {
 

@@ -1,10 +1,10 @@
 #include "lab/truth/wide_truth.hpp"
 
+#include <glm/matrix.hpp>
+
 #include <algorithm>
 #include <type_traits>
 #include <variant>
-
-#include <glm/matrix.hpp>
 
 namespace packtrace::lab {
 namespace {

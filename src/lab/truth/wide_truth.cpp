@@ -1,11 +1,11 @@
 #include "lab/truth/wide_truth.hpp"
 
-#include <algorithm>
-#include <cmath>
+#include "lab/truth/sensitivity.hpp"
 
 #include <glm/geometric.hpp>
 
-#include "lab/truth/sensitivity.hpp"
+#include <algorithm>
+#include <cmath>
 
 namespace packtrace::lab {
 namespace {

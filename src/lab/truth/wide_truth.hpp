@@ -1,15 +1,14 @@
 #pragma once
 
+#include "geometry/canonical_form.hpp"
+#include "lab/truth/wide.hpp"
+#include <packtrace/scene.hpp>
+
 #include <array>
 #include <cstdint>
 #include <limits>
 #include <optional>
 #include <vector>
-
-#include <packtrace/scene.hpp>
-
-#include "geometry/canonical_form.hpp"
-#include "lab/truth/wide.hpp"
 
 // What a ray really hits, how sensitive that is, and how far it is from being otherwise.
 namespace packtrace::lab {

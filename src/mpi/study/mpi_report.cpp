@@ -1,14 +1,3 @@
-#include <chrono>
-#include <filesystem>
-#include <memory>
-#include <optional>
-#include <set>
-#include <stdexcept>
-#include <string>
-#include <vector>
-
-#include <packtrace/write_report.hpp>
-
 #include "cli/interrupts.hpp"
 #include "cli/options/scene_input.hpp"
 #include "cli/options/thread_limit.hpp"
@@ -19,6 +8,14 @@
 #include "lab/truth/truth.hpp"
 #include "mpi/commands.hpp"
 #include "mpi/study/study_wire.hpp"
+#include <packtrace/write_report.hpp>
+
+#include <chrono>
+#include <memory>
+#include <optional>
+#include <set>
+#include <string>
+#include <vector>
 
 namespace packtrace::mpi {
 namespace {
@@ -276,22 +273,12 @@ void ReportJob::take_times()
         }
 }
 
-/// What files are called that are made of a scene, as shared_scene() knows it.
-std::string stem_of(const std::string& scene)
-{
-    const std::string generate = "generate ";
-    if (scene.starts_with(generate))
-        return scene.substr(generate.size(), scene.find(' ', generate.size()) - generate.size());
-    return scene == "-" ? "stdin" : std::filesystem::path(scene).stem().string();
-}
-
 std::vector<SceneWork> read_works(const World& world, const ReportJobArguments& arguments,
                                   const ReportOptions& options)
 {
     world.together([&] {
         if (std::count(arguments.scenes.begin(), arguments.scenes.end(), "-") > 1)
-            throw std::runtime_error(
-                "standard input: has been read already; give - for one scene only");
+            cli::fail_read_already();
     });
     std::vector<SceneWork> works;
     std::set<std::string> taken;
@@ -299,7 +286,8 @@ std::vector<SceneWork> read_works(const World& world, const ReportJobArguments& 
         SceneWork work;
         work.scene.scene = shared_scene(world, file);
         world.together([&] {
-            work.scene.name = cli::free_scene_name(report_folder_name(stem_of(file)), taken);
+            work.scene.name =
+                cli::free_scene_name(report_folder_name(shared_scene_stem(file)), taken);
             apply(arguments.picture, work.scene.scene);
             work.plans = plan_studies(work.scene.scene, options);
             work.whole = scene_of_truth(work.scene.scene);
@@ -338,8 +326,11 @@ void run_report_on_ranks(const World& world, const ReportJobArguments& arguments
         cli::write_whole_report(job.reports(), options, arguments);
     });
     cli::set_interrupt_line("");
-    print_report(world, {}, arguments.quiet, arguments.folder.string(), "runs", reports,
-                 seconds_since(start));
+    print_report(world, {.output = arguments.folder.string(),
+                         .pieces = "runs",
+                         .ranks = reports,
+                         .seconds = seconds_since(start),
+                         .quiet = arguments.quiet});
 }
 
 }  // namespace

@@ -1,7 +1,3 @@
-#include <chrono>
-#include <memory>
-#include <vector>
-
 #include "cli/interrupts.hpp"
 #include "cli/options/thread_limit.hpp"
 #include "cli/study/stress_command.hpp"
@@ -10,6 +6,10 @@
 #include "mpi/commands.hpp"
 #include "mpi/quiet_node.hpp"
 #include "mpi/study/study_wire.hpp"
+
+#include <chrono>
+#include <memory>
+#include <vector>
 
 namespace packtrace::mpi {
 namespace {
@@ -74,8 +74,10 @@ void run_stress_on_ranks(const World& world, const cli::StressArguments& argumen
         if (world.is_first())
             cli::print_stress(arguments, rows);
     });
-    print_report(world, {}, false, "stress", "families in one precision", reports,
-                 seconds_since(start));
+    print_report(world, {.output = "stress",
+                         .pieces = "families in one precision",
+                         .ranks = reports,
+                         .seconds = seconds_since(start)});
     int failed = lab::without_faults(rows) ? 0 : 1;
     MPI_Bcast(&failed, 1, MPI_INT, 0, MPI_COMM_WORLD);
     if (failed != 0)

@@ -1,12 +1,12 @@
 #pragma once
 
-#include <type_traits>
-#include <utility>
-
 #include "lab/report/report_study.hpp"
 #include "lab/stress/stress.hpp"
 #include "mpi/job.hpp"
 #include "mpi/wire.hpp"
+
+#include <type_traits>
+#include <utility>
 
 // What ranks send each other of reports and stress tests.
 namespace packtrace {

@@ -62,7 +62,7 @@ bool Note001<Real, Recorder>::in_shadow(const Departure<Real>& on, const Vec3<Re
         return false;
     const Start<Real> start = start_at(world_, on.along(L), P);
     // The note looks for the closest sphere, though any one will do.
-    return any_in_way(world_.blockers, start, L, t_max, place_of_light(world_, light));
+    return any_in_way(world_.occluders, start, L, t_max, place_of_light(world_, light));
 }
 
 // The note has only spheres and lets N point away from the centre even when seen from inside.

@@ -66,7 +66,7 @@ Color<Real> Note002<Real, Recorder>::child(const Ray<Real>& ray, int depth,
 }
 
 // Ia + kd sum(N.Lj) + ks sum((Rj.V)^ns), each light by its intensity and the share of it that
-// the blockers pass on.
+// the occluders pass on.
 template <class Real, class Recorder>
 Color<Real> Note002<Real, Recorder>::lights(const Constants& k, const Color<Real>& color,
                                             const SurfacePoint<Real>& at, const Vec3<Real>& V) const

@@ -55,7 +55,7 @@ Note004<Real, Recorder>::Note004(const Scene& scene, const World<Real>& world, R
         object_list_.push_back(
             place_body<Real>(object, static_cast<int>(object_list_.size()), world.self_hits));
         if (object.casts_shadow)
-            blockers_.push_back(object_list_.back());
+            occluders_.push_back(object_list_.back());
         Material material;
         for (std::size_t i = 0; i < 4; ++i)
             material.r[i] = static_cast<Real>(model_of<ShaderMaterial>(object).reflectance[i]);
@@ -130,7 +130,7 @@ bool Note004<Real, Recorder>::shadowed(const PlacedBody<Real>& shaded, const Vec
         return false;
     const Vec3<Real> I = shaded.placement.point_to_world(own_I + epsilon<Real> * own_S);
     const Vec3<Real> S = shaded.placement.vector_to_world(own_S);
-    for (const PlacedBody<Real>& object : blockers_) {
+    for (const PlacedBody<Real>& object : occluders_) {
         // The note assigns the results to I and S themselves, so that each object would start
         // from the last one's space; each must start from the world's.
         const Vec3<Real> Te = object.placement.point_to_own(I);
@@ -152,7 +152,7 @@ bool Note004<Real, Recorder>::shadowed_exactly(const Departure<Real>& on, const 
         return false;
     const Start<Real> start = start_at(world_, on.along(S), P);
     const auto place = place_of_light(world_, light);
-    return std::any_of(blockers_.begin(), blockers_.end(), [&](const auto& object) {
+    return std::any_of(occluders_.begin(), occluders_.end(), [&](const auto& object) {
         return is_in_way(object, start, S, distance, place);
     });
 }

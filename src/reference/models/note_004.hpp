@@ -59,7 +59,7 @@ private:
     [[no_unique_address]] Recorder record_;
     const World<Real>& world_;
     std::vector<PlacedBody<Real>> object_list_;
-    std::vector<PlacedBody<Real>> blockers_;  // those that cast shadows
+    std::vector<PlacedBody<Real>> occluders_;  // those that cast shadows
     std::vector<Material> materials_;
 };
 

@@ -1,7 +1,7 @@
 #pragma once
 
-#include <packtrace/vec.hpp>
 #include "reference/vec3.hpp"
+#include <packtrace/vec.hpp>
 
 namespace packtrace::reference {
 

@@ -1,12 +1,12 @@
 #pragma once
 
-#include <packtrace/render.hpp>
-#include <packtrace/scene.hpp>
 #include "reference/surfaces/affine.hpp"
 #include "reference/surfaces/plane.hpp"
 #include "reference/surfaces/polygon.hpp"
 #include "reference/surfaces/quadric.hpp"
 #include "reference/surfaces/sphere.hpp"
+#include <packtrace/render.hpp>
+#include <packtrace/scene.hpp>
 
 #include <functional>
 #include <variant>

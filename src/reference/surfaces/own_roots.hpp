@@ -23,7 +23,8 @@ template <class Real>
                                    : Interior<Real>{0, std::numeric_limits<Real>::infinity(), true};
     // From a cone's apex into either half, which holds the whole ray.
     if (b == 0 && a < 0)
-        return {-std::numeric_limits<Real>::infinity(), std::numeric_limits<Real>::infinity(), true};
+        return {-std::numeric_limits<Real>::infinity(), std::numeric_limits<Real>::infinity(),
+                true};
     const Real other = -2 * b / a;
     return {std::min(Real(0), other), std::max(Real(0), other), a > 0};
 }

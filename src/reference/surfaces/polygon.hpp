@@ -1,11 +1,11 @@
 #pragma once
 
-#include <packtrace/surface.hpp>
 #include "kernel_abi/even_odd.hpp"
 #include "reference/surfaces/affine.hpp"
 #include "reference/surfaces/roots.hpp"
 #include "reference/vec3.hpp"
 #include "scene/polygon_plane.hpp"
+#include <packtrace/surface.hpp>
 
 #include <algorithm>
 #include <cmath>

@@ -1,10 +1,10 @@
 #include "scene/language/items.hpp"
 
+#include "scene/language/quote.hpp"
+
 #include <charconv>
 #include <cmath>
 #include <system_error>
-
-#include "scene/language/quote.hpp"
 
 namespace packtrace::language {
 namespace {

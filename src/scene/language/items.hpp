@@ -1,13 +1,12 @@
 #pragma once
 
+#include "scene/language/numbers.hpp"
+#include "scene/language/syntax_tree.hpp"
 #include <packtrace/vec.hpp>
 
 #include <cstddef>
 #include <string_view>
 #include <vector>
-
-#include "scene/language/numbers.hpp"
-#include "scene/language/syntax_tree.hpp"
 
 // What the items of a key's value say: numbers and words. All throw SceneError at what is wrong.
 namespace packtrace::language {

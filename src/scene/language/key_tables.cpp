@@ -1,9 +1,9 @@
+#include "core/text.hpp"
+#include "scene/language/keys.hpp"
+
 #include <map>
 #include <utility>
 #include <vector>
-
-#include "core/text.hpp"
-#include "scene/language/keys.hpp"
 
 namespace packtrace::language {
 namespace {

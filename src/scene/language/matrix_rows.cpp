@@ -2,13 +2,13 @@
 #include "scene/language/rows.hpp"
 #include "scene/vectors.hpp"
 
-#include <algorithm>
-#include <cmath>
-#include <limits>
-
 #include <glm/ext/matrix_transform.hpp>
 #include <glm/matrix.hpp>
 #include <glm/trigonometric.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
 
 // Keys whose values are matrices: an object's transforms and the camera's rotation.
 namespace packtrace::language {

@@ -1,11 +1,11 @@
 #include "scene/language/quote.hpp"
 
+#include "core/text.hpp"
+
 #include <algorithm>
 #include <cstddef>
 #include <numeric>
 #include <vector>
-
-#include "core/text.hpp"
 
 namespace packtrace::language {
 namespace {

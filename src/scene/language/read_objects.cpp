@@ -1,11 +1,11 @@
 #include "scene/language/read_objects.hpp"
 
-#include <map>
-
 #include "scene/language/keys.hpp"
 #include "scene/language/quote.hpp"
 #include "scene/object_names.hpp"
 #include "scene/scene_faults.hpp"
+
+#include <map>
 
 namespace packtrace::language {
 namespace {

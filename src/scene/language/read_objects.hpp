@@ -1,10 +1,9 @@
 #pragma once
 
-#include <cstddef>
-
+#include "scene/language/syntax_tree.hpp"
 #include <packtrace/scene.hpp>
 
-#include "scene/language/syntax_tree.hpp"
+#include <cstddef>
 
 // The blocks of objects and of the named materials that they use.
 namespace packtrace::language {

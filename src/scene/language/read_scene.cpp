@@ -1,14 +1,13 @@
-#include <packtrace/read_scene.hpp>
-
-#include <algorithm>
-#include <stdexcept>
-
+#include "scene/elliptic_sections.hpp"
 #include "scene/language/keys.hpp"
 #include "scene/language/quote.hpp"
 #include "scene/language/read_objects.hpp"
 #include "scene/object_names.hpp"
-#include "scene/elliptic_sections.hpp"
 #include "scene/scene_faults.hpp"
+#include <packtrace/read_scene.hpp>
+
+#include <algorithm>
+#include <stdexcept>
 
 // The steps from the blocks of the syntax tree to a scene. Each throws SceneError at the place that
 // is wrong.

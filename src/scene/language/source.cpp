@@ -1,8 +1,7 @@
 #include "scene/language/source.hpp"
 
-#include <packtrace/read_scene.hpp>
-
 #include "scene/language/quote.hpp"
+#include <packtrace/read_scene.hpp>
 
 #include <algorithm>
 #include <cerrno>

@@ -1,9 +1,9 @@
 #include "scene/language/syntax_tree.hpp"
 
+#include "scene/language/quote.hpp"
+
 #include <algorithm>
 #include <string>
-
-#include "scene/language/quote.hpp"
 
 namespace packtrace::language {
 namespace {

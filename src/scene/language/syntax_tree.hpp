@@ -1,11 +1,11 @@
 #pragma once
 
+#include "scene/language/source.hpp"
+
 #include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
-
-#include "scene/language/source.hpp"
 
 // A scene as its grammar sees it: entries, and blocks whose keys have been checked.
 namespace packtrace::language {

@@ -1,10 +1,9 @@
 #pragma once
 
-#include <packtrace/vec.hpp>
-
 #include "scene/language/items.hpp"
 #include "scene/language/numbers.hpp"
 #include "scene/language/words.hpp"
+#include <packtrace/vec.hpp>
 
 #include <algorithm>
 #include <array>

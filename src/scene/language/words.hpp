@@ -1,12 +1,12 @@
 #pragma once
 
+#include <packtrace/scene.hpp>
+
 #include <array>
 #include <optional>
 #include <span>
 #include <string_view>
 #include <vector>
-
-#include <packtrace/scene.hpp>
 
 // The words of the scene language that stand for values of enumerations and for kinds of surfaces,
 // each with what it stands for.

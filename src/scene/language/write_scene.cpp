@@ -1,12 +1,10 @@
+#include "scene/language/keys.hpp"
+#include "scene/object_names.hpp"
+#include <packtrace/validate.hpp>
 #include <packtrace/write_scene.hpp>
 
 #include <map>
 #include <string>
-
-#include <packtrace/validate.hpp>
-
-#include "scene/language/keys.hpp"
-#include "scene/object_names.hpp"
 
 namespace packtrace::language {
 namespace {

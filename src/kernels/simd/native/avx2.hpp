@@ -1,9 +1,9 @@
 #pragma once
 
-#include <immintrin.h>
-
 #include "kernels/simd/lanes.hpp"
 #include "kernels/simd/native/permutations.hpp"
+
+#include <immintrin.h>
 
 // What xsimd lacks or offers under differing names, in AVX2 and FMA3 instructions.
 namespace packtrace::PACKTRACE_ISA {

@@ -1,8 +1,8 @@
 #pragma once
 
-#include <immintrin.h>
-
 #include "kernels/simd/lanes.hpp"
+
+#include <immintrin.h>
 
 // What xsimd lacks or gets wrong (its 8.1 does not fuse fma here), in AVX-512 instructions.
 namespace packtrace::PACKTRACE_ISA {

@@ -1,8 +1,8 @@
 #pragma once
 
-#include <arm_neon.h>
-
 #include "kernels/simd/lanes.hpp"
+
+#include <arm_neon.h>
 
 // xsimd 8 has for floats what 32-bit Arm can: quotients and square roots from estimates, and
 // rounding by way of integers, which loses the sign of a zero. 64-bit Arm rounds all of them

@@ -1,8 +1,8 @@
 #pragma once
 
-#include <cstdint>
-
 #include "kernels/simd/lanes.hpp"
+
+#include <cstdint>
 
 // Tables that move the chosen lanes of a register to its front.
 namespace packtrace::PACKTRACE_ISA {

@@ -1,9 +1,9 @@
 #pragma once
 
-#include <immintrin.h>
-
 #include "kernels/simd/lanes.hpp"
 #include "kernels/simd/native/permutations.hpp"
+
+#include <immintrin.h>
 
 // What xsimd lacks, in SSE4.2 instructions; with FMA where the object is compiled for it.
 namespace packtrace::PACKTRACE_ISA {

@@ -1,10 +1,9 @@
 #pragma once
 
-#include <immintrin.h>
+#include "kernels/simd/lanes.hpp"
 
 #include <cstdint>
-
-#include "kernels/simd/lanes.hpp"
+#include <immintrin.h>
 
 // vfloat8 floats, whatever the packet width: the boxes of a node. Here in one AVX register.
 namespace packtrace::PACKTRACE_ISA {

@@ -1,10 +1,9 @@
 #pragma once
 
-#include <arm_neon.h>
-
-#include <cstdint>
-
 #include "kernels/simd/lanes.hpp"
+
+#include <arm_neon.h>
+#include <cstdint>
 
 // vfloat8 floats, whatever the packet width: the boxes of a node. Here in two NEON registers.
 namespace packtrace::PACKTRACE_ISA {
