@@ -1,4 +1,4 @@
-"""Five lines to first hits: where rays of a NumPy array meet a ball, and proven bounds of t."""
+"""Five lines to first hits: where rays of a NumPy array hit a ball, and proven bounds of t."""
 
 import numpy as np
 import packtrace as pt

@@ -199,7 +199,7 @@ TEST_CASE("a shard is one of its number", "[shard]")
         CAPTURE(shard);
         const ProgramResult result = bench.intersect("a.csv", {"--shard", shard});
         CHECK(result.exit_code == 2);
-        CHECK_THAT(result.err, ContainsSubstring("is no shard such as 0/8"));
+        CHECK_THAT(result.err, ContainsSubstring("is not a shard such as 0/8"));
     }
     const ProgramResult piped =
         run_packtrace({"intersect", four_spheres_file, "-", "--shard", "0/2"});

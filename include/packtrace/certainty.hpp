@@ -26,7 +26,7 @@ using UnsureCounts = std::vector<std::uint64_t>;
 
 /// The rays of a pixel: camera, mirrored, refracted and shadow rays.
 struct PixelCertainty {
-    std::uint32_t rays = 0;       ///< 0 for a camera ray of a tile that can meet nothing
+    std::uint32_t rays = 0;       ///< 0 for a camera ray of a tile that can hit nothing
     std::uint32_t unsure = 0;     ///< of these, traced again in double
     std::uint32_t undecided = 0;  ///< of these, such as double cannot decide either
 };

@@ -24,7 +24,7 @@ struct LightShare {
     Rgb color{0.0};
 };
 
-/// A ray, what it met, and the rays that went on from there. The pixel's colour is the sum of
+/// A ray, what it hit, and the rays that went on from there. The pixel's colour is the sum of
 /// weight * (local + brought) over all rays of its tree.
 struct RayNode {
     RayKind kind = RayKind::camera;

@@ -85,7 +85,7 @@ public:
                            const QueryWatch& watch = {}) const;
 
     /// Every hit of each ray, sorted by t as double has it, then object; `take` is called once a
-    /// ray, in order. A ray that touches a surface without crossing it may meet it twice at the
+    /// ray, in order. A ray that touches a surface without crossing it may hit it twice at the
     /// same t.
     using TakeHits = std::function<void(std::size_t ray, std::span<const SurfaceHit<Real>> hits)>;
     PACKTRACE_API void all_hits(const RaysView<Real>& rays, const TakeHits& take,
@@ -111,7 +111,7 @@ public:
                                       std::span<HitBounds> bounds) const;
 
     // Rays as structs: the answers are those of the same rays in arrays, bit for bit. All throw
-    // std::invalid_argument where there is not one answer for each ray.
+    // std::invalid_argument where there is not one answer for each ray, and for null pointers.
 
     /// The normal of a miss is (0, 0, 0).
     PACKTRACE_API void closest_hits(const RayStructs<Real>& rays, const HitStructs<Real>& hits,

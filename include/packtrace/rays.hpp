@@ -52,7 +52,7 @@ struct HitsView {
 };
 
 /// What rays that leave earlier hits start on, `count` elements each: with SelfHits::exact they
-/// meet that surface again only where they truly do, however shallow below it they go. `point` and
+/// hit that surface again only where they truly do, however shallow below it they go. `point` and
 /// `surface` are what HitsView got; for rays that leave on the inner side of the surface, the
 /// complement ~surface. `no_start` is a ray from elsewhere. Numbers that no surface of the scene
 /// has are refused; those of another scene's surfaces are not told from its own.

@@ -31,10 +31,10 @@ enum class Accuracy {
            ///< not; every hit that shading or the caller asks for is refined in double
 };
 
-/// How secondary and shadow rays keep from meeting the place they start at.
+/// How secondary and shadow rays avoid hitting the surface they start on.
 enum class SelfHits {
     note,  ///< they start 0.001 along their direction, as the notes have it
-    exact  ///< their own surface is solved as one they are on; they meet others, from t = 0 on,
+    exact  ///< their own surface is solved as one they are on; they hit others, from t = 0 on,
            ///< from as far off it as rounding can do
 };
 

@@ -26,7 +26,7 @@ Detail = Literal["t", "normal", "point", "start"]
 
 @dataclass(eq=False)
 class Starts:
-    """Rays' origins on the surfaces of earlier hits, made by `Hits.leave`. Rays that start there meet
+    """Rays' origins on the surfaces of earlier hits, made by `Hits.leave`. Rays that start there hit
     that surface again only where they truly do."""
 
     origin: Array  #: (..., 3), scene units; NaN where nothing was hit
@@ -210,7 +210,7 @@ class RayScene:
     def all_hits(self, origins: Any, directions: Any, t_min: Any = 0.0,
                  t_max: Any = np.inf) -> AllHits:
         """Every hit of each ray where t_min < t < t_max. A ray that touches a surface without crossing
-        it may meet it twice at the same t."""
+        it may hit it twice at the same t."""
         return AllHits(*self._native.all_hits(*_Rays(origins, directions, t_min, t_max).columns))
 
     def bounds(self, origins: Any, directions: Any, object: Any, t_min: Any = 0.0,

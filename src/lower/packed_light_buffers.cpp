@@ -305,7 +305,7 @@ void fill_blocks(std::span<abi::LightBlock> blocks, std::span<const int> places,
         const abi::SphereBlock<float>& from = tree.blocks[place / abi::node_width];
         const int there = place % abi::node_width;
         for (int axis = 0; axis < 3; ++axis)
-            block.center[axis][slot] = used ? from.center[axis][there] : 1e15f;
+            block.center[axis][slot] = used ? from.center[axis][there] : abi::largest_coordinate;
         block.radius[slot] = used ? from.radius[there] : -1.0f;
         block.surface[slot] = used ? tree.block_surfaces[place] : -1;
     }
@@ -315,6 +315,34 @@ void round_axis(float (&rounded)[3], const Vec3& axis)
 {
     for (int i = 0; i < 3; ++i)
         rounded[i] = static_cast<float>(axis[i]);
+}
+
+/// Cells that have room in the blocks, one after the other, for their spheres.
+AlignedArray<abi::LightCell> cells_of(const CellSpheres& sorted)
+{
+    AlignedArray<abi::LightCell> cells(sorted.first.size() - 1);
+    std::int32_t used = 0;
+    for (std::size_t cell = 0; cell < cells.size(); ++cell) {
+        const int spheres = sorted.first[cell + 1] - sorted.first[cell];
+        cells[cell].first = used;
+        cells[cell].count = (spheres + abi::light_block_width - 1) / abi::light_block_width;
+        used += cells[cell].count;
+    }
+    return cells;
+}
+
+/// The grid without its cells.
+abi::LightBuffer grid_of(const LightAxes& axes)
+{
+    abi::LightBuffer grid;
+    round_axis(grid.across, axes.across * axes.scale);
+    round_axis(grid.up, axes.up * axes.scale);
+    round_axis(grid.forward, axes.forward);
+    round_axis(grid.origin, axes.origin);
+    grid.parallel = axes.parallel;
+    grid.reach = static_cast<float>(0.25 * cell_margin / (place_error * axes.scale));
+    grid.size = axes.size;
+    return grid;
 }
 
 }  // namespace
@@ -332,18 +360,11 @@ PackedLightBuffer::PackedLightBuffer(const abi::LightRecord<float>& light,
     if (!is_sparse(spheres, axes.size))
         return;
     CellSpheres sorted = sort_into_cells(spheres, axes);
-
-    const std::size_t count = sorted.first.size() - 1;
-    cells_ = AlignedArray<abi::LightCell>(count);
-    std::int32_t used = 0;
-    for (std::size_t cell = 0; cell < count; ++cell) {
-        const int spheres_there = sorted.first[cell + 1] - sorted.first[cell];
-        cells_[cell].first = used;
-        cells_[cell].count = (spheres_there + abi::light_block_width - 1) / abi::light_block_width;
-        used += cells_[cell].count;
-    }
-    blocks_ = AlignedArray<abi::LightBlock>::unset(static_cast<std::size_t>(used));
-    tbb::parallel_for(std::size_t{0}, count, [&](std::size_t cell) {
+    cells_ = cells_of(sorted);
+    const abi::LightCell& last = cells_[cells_.size() - 1];
+    blocks_ =
+        AlignedArray<abi::LightBlock>::unset(static_cast<std::size_t>(last.first + last.count));
+    tbb::parallel_for(std::size_t{0}, cells_.size(), [&](std::size_t cell) {
         const std::span<int> places(sorted.place.data() + sorted.first[cell],
                                     sorted.place.data() + sorted.first[cell + 1]);
         sort_by_size(places, spheres);
@@ -353,14 +374,7 @@ PackedLightBuffer::PackedLightBuffer(const abi::LightRecord<float>& light,
             {blocks_.data() + cells_[cell].first, static_cast<std::size_t>(cells_[cell].count)},
             places, tree);
     });
-
-    round_axis(view_.across, axes.across * axes.scale);
-    round_axis(view_.up, axes.up * axes.scale);
-    round_axis(view_.forward, axes.forward);
-    round_axis(view_.origin, axes.origin);
-    view_.parallel = axes.parallel;
-    view_.reach = static_cast<float>(0.25 * cell_margin / (place_error * axes.scale));
-    view_.size = axes.size;
+    view_ = grid_of(axes);
     view_.cells = cells_.data();
     view_.blocks = blocks_.data();
 }

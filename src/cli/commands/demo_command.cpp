@@ -6,6 +6,7 @@
 #include "cli/output/distinct_files.hpp"
 #include "cli/output/text_table.hpp"
 #include "core/atomic_file.hpp"
+#include "core/check_number.hpp"
 #include "lab/harness/statistics.hpp"
 #include "lab/harness/stopwatch.hpp"
 #include "scene/language/quote.hpp"
@@ -268,7 +269,7 @@ void add_demo(CLI::App& app)
     command
         ->add_option("--rounds", arguments->rounds,
                      "How often to render with each kernel (default 5)")
-        ->check(whole_number(1, 1000))
+        ->check(whole_number(1, most_repetitions))
         ->type_name("N");
     command->callback([arguments] { run_demo(*arguments); });
 }

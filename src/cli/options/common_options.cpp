@@ -48,7 +48,7 @@ void add_accuracy_and_self_hits(CLI::App& command, AccuracyArguments& arguments)
     add_word_option(command, "--self-hits", arguments.self_hits,
                     "How secondary rays avoid hitting the surface they start on. note: they start "
                     "0.001 along their direction. exact: they never hit it where they start, only "
-                    "where they truly meet it again (default " +
+                    "where they truly hit it again (default " +
                         std::string(language::word_of(default_self_hits)) + ")",
                     words_of<SelfHits>());
 }

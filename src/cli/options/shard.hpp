@@ -42,13 +42,9 @@ struct Shard {
 inline CLI::Option* add_shard_option(CLI::App& command, std::optional<std::string>& shard,
                                      const std::string& what)
 {
-    const auto check = [](const std::string& text) {
-        return parse_shard(text)
-                   ? std::string()
-                   : "'" + text + "' is no shard such as 0/8, the first of eight, or 7/8, the last";
-    };
     return command.add_option("--shard", shard, what)
-        ->check(CLI::Validator(check, ""))
+        ->check(validator([](const std::string& text) { return parse_shard(text).has_value(); },
+                          "a shard such as 0/8, the first of eight, or 7/8, the last"))
         ->type_name("I/N");
 }
 

@@ -42,10 +42,12 @@ int startable_threads(int wanted)
 }
 
 /// More of them than processors only wait for each other.
+constexpr int threads_of_processor = 8;
+
 int useful_threads()
 {
-    constexpr int per_processor = 8;
-    return per_processor * static_cast<int>(std::max(1u, std::thread::hardware_concurrency()));
+    return threads_of_processor *
+           static_cast<int>(std::max(1u, std::thread::hardware_concurrency()));
 }
 
 /// `threads`, or fewer where that is of no use or not allowed; says so in one line.
@@ -57,8 +59,8 @@ int possible_threads(int threads, int others)
         std::fprintf(stderr, "packtrace: --threads %d: the system starts %d, which is used\n",
                      threads, startable);
     else if (useful < threads)
-        std::fprintf(stderr, "packtrace: --threads %d: %d are used, 8 a processor\n", threads,
-                     useful);
+        std::fprintf(stderr, "packtrace: --threads %d: %d are used, %d a processor\n", threads,
+                     useful, threads_of_processor);
     return startable;
 }
 

@@ -39,11 +39,6 @@ public:
         return samples_.row_bytes() * static_cast<std::size_t>(bands_.band(number).rows);
     }
 
-    /// Whether an earlier run noted the band as finished.
-    [[nodiscard]] bool was_kept(int number) const
-    {
-        return kept_[static_cast<std::size_t>(number)].has_value();
-    }
     /// The band; nothing where its samples are not those that were noted.
     [[nodiscard]] std::optional<FinishedBand> kept(int number) const;
 
@@ -55,6 +50,12 @@ public:
     void commit();
 
 private:
+    /// Whether an earlier run noted the band as finished.
+    [[nodiscard]] bool was_kept(int number) const
+    {
+        return kept_[static_cast<std::size_t>(number)].has_value();
+    }
+
     /// What the journal says of a band.
     struct Noted {
         std::uint64_t checksum = 0;
