@@ -28,11 +28,6 @@ std::vector<IsaInfo> wanted_isas(const ReportOptions& options)
     return isas;
 }
 
-std::string threads_text(int threads)
-{
-    return std::to_string(threads) + (threads == 1 ? " thread" : " threads");
-}
-
 Variant packets(const IsaInfo& isa, Precision precision, const Scene& scene)
 {
     Variant variant;
@@ -50,7 +45,7 @@ Variant beside(Variant variant, const std::string& how, const ReportOptions& opt
     variant.study = Study::arithmetic;
     variant.threads = options.threads.front();
     variant.name =
-        "packets " + variant.isa + " single " + how + ", " + threads_text(variant.threads);
+        "packets " + variant.isa + " single " + how + ", " + counted(variant.threads, "thread");
     return variant;
 }
 
@@ -96,7 +91,7 @@ void add_arithmetic(std::vector<Variant>& variants, Variant variant, const Repor
     for (const int threads : options.threads) {
         variant.threads = threads;
         variant.name = kernel + " " + std::string(language::word_of(variant.precision)) + ", " +
-                       threads_text(threads);
+                       counted(threads, "thread");
         variants.push_back(variant);
     }
 }
