@@ -4,23 +4,33 @@
 #include "pass_timer.hpp"
 #include <packtrace/intersect.hpp>
 
+#include <algorithm>
 #include <memory>
 
 namespace packtrace::peers {
 namespace {
 
+/// Each chunk is a copy, as those of the other side are: all find their rays in the cache.
 double trace_stream(const RayScene<float>& scene, const RaySet& rays, Query query, Hits& hits)
 {
+    RaySet chunk;
+    Hits found(chunk_size);
     PassTimer watch;
     for (std::size_t first = 0; first < rays.size(); first += chunk_size) {
-        const auto view = rays.view(first, std::min(chunk_size, rays.size() - first));
-        const HitsView<float> to{hits.t.data() + first, hits.object.data() + first, {}, {}, {}};
-        watch.measure([&] {
-            if (query == Query::closest)
-                scene.closest_hits(view, to);
-            else
-                scene.occluded(view, hits.occluded.data() + first);
-        });
+        const std::size_t count = std::min(chunk_size, rays.size() - first);
+        const auto to = static_cast<std::ptrdiff_t>(first);
+        chunk.copy(rays, first, count);
+        const RaysView<float> view = chunk.view(0, count);
+        if (query == Query::closest) {
+            watch.measure([&] {
+                scene.closest_hits(view, {found.t.data(), found.object.data(), {}, {}, {}});
+            });
+            std::copy_n(found.t.begin(), count, hits.t.begin() + to);
+            std::copy_n(found.object.begin(), count, hits.object.begin() + to);
+        } else {
+            watch.measure([&] { scene.occluded(view, found.occluded.data()); });
+            std::copy_n(found.occluded.begin(), count, hits.occluded.begin() + to);
+        }
     }
     return watch.seconds();
 }

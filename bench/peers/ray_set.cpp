@@ -62,6 +62,20 @@ RaysView<float> RaySet::view(std::size_t first, std::size_t count) const
             t_min.data() + first,  t_max.data() + first,  count};
 }
 
+void RaySet::copy(const RaySet& others, std::size_t first, std::size_t count)
+{
+    const auto part = [&](std::vector<float>& to, const std::vector<float>& from) {
+        const auto begin = from.begin() + static_cast<std::ptrdiff_t>(first);
+        to.assign(begin, begin + static_cast<std::ptrdiff_t>(count));
+    };
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+        part(org[axis], others.org[axis]);
+        part(dir[axis], others.dir[axis]);
+    }
+    part(t_min, others.t_min);
+    part(t_max, others.t_max);
+}
+
 RaySet camera_rays(const Scene& scene)
 {
     const CameraBasis basis = camera_basis(scene.camera, scene.width, scene.height);

@@ -28,6 +28,8 @@ struct RaySet {
     }
     void add(const Vec3& origin, const Vec3& direction, double longest);
     [[nodiscard]] RaysView<float> view(std::size_t first, std::size_t count) const;
+    /// Replaces these rays by some of others.
+    void copy(const RaySet& others, std::size_t first, std::size_t count);
 };
 
 /// What a pass over a RaySet found; `occluded` for any hit, the others for the closest.

@@ -10,7 +10,7 @@ namespace packtrace::peers {
 enum class Query { closest, occluded };
 
 /// Rays are handed over so many at a time, so that they and their hits stay in the second-level
-/// cache of either side; filling the other side's own layout does not count.
+/// cache of either side; filling the chunks and reading them does not count.
 inline constexpr std::size_t chunk_size = 4096;
 
 enum class Side { packtrace, embree_sphere, embree_user };
