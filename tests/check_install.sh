@@ -100,6 +100,8 @@ find_package() {
         quietly "$cmake" --build "$folder/$kind"
         runs "$folder/$kind/consumer" "$([ $kind = static ] && echo 0 || echo 1)"
     done
+    # An optional component that is missing leaves the package usable.
+    configure optional -DCMAKE_PREFIX_PATH="$prefix" "-DCOMPONENTS=OPTIONAL_COMPONENTS;wrong"
     # What can't be had is said.
     for options in "-DCOMPONENTS=wrong" "-DVERSION=0.1" "-DVERSION=0.9"; do
         ! "$cmake" -S "$consumer" -B "$folder/wrong" -DCMAKE_CXX_COMPILER="$cxx" -DWAY="$way" \

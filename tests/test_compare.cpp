@@ -209,6 +209,25 @@ TEST_CASE("packtrace compare --json prints what it measured", "[compare]")
     CHECK(same_json["worst"].empty());
 }
 
+TEST_CASE("packtrace compare takes its threshold as a number or a fraction", "[compare]")
+{
+    const TempFolder folder;
+    Image<float> image = grey<float>();
+    write_image(folder / "a.pfm", image);
+    image.pixel(2, 1)[0] = 0.75f;
+    write_image(folder / "b.pfm", image);
+    const auto run = [&](const std::string& threshold) {
+        const ProgramResult result = run_packtrace(
+            {"compare", folder / "a.pfm", folder / "b.pfm", "--threshold", threshold, "--json"});
+        return nlohmann::json::parse(result.out);
+    };
+    CHECK(run("1/255")["threshold"] == 1.0 / 255.0);
+    CHECK(run("1/4")["pixels_off"] == 0);
+    CHECK(run("0.5/2.5")["pixels_off"] == 1);
+    CHECK(run("0.25")["pixels_off"] == 0);
+    CHECK(run("0/1")["threshold"] == 0.0);
+}
+
 TEST_CASE("packtrace compare works across formats", "[compare]")
 {
     const TempFolder folder;
@@ -261,6 +280,12 @@ TEST_CASE("packtrace compare refuses wrong use with exit 2 and one line", "[comp
         {{"compare", a}, "B is required"},
         {{"compare", a, a, "--threshold", "nan"}, "'nan' is not a number from 0 up"},
         {{"compare", a, a, "--threshold", "-1"}, "'-1' is not a number from 0 up"},
+        {{"compare", a, a, "--threshold", "1/0"}, "'1/0' is not a number from 0 up, or a fraction"},
+        {{"compare", a, a, "--threshold", "1/inf"}, "'1/inf' is not a number from 0 up"},
+        {{"compare", a, a, "--threshold", "-1/-255"}, "'-1/-255' is not a number from 0 up"},
+        {{"compare", a, a, "--threshold", "1/"}, "'1/' is not a number from 0 up"},
+        {{"compare", a, a, "--threshold", "/255"}, "'/255' is not a number from 0 up"},
+        {{"compare", a, a, "--threshold", "1/2/3"}, "'1/2/3' is not a number from 0 up"},
         {{"compare", a, a, "--max-error", "inf"}, "'inf' is not a number from 0 up"},
         {{"compare", a, a, "--worst", "-2"}, "'-2' is not a whole number from 0 to 2147483647"},
         {{"compare", a, a, "--worst", "2.5"}, "'2.5' is not a whole number"},

@@ -637,7 +637,6 @@ TEST_CASE("the stress command prints rows, a verdict, JSON and its families", "[
     CHECK(list.exit_code == 0);
     for (const auto& family : lab::list_stress_families())
         CHECK(list.out.find(family.name) != std::string::npos);
-    CHECK(run_packtrace({"stress", "--family", "nonsense"}).exit_code == 2);
     CHECK(run_packtrace({"stress", "--rays", "0"}).exit_code == 2);
     CHECK(run_packtrace({"stress", "--mode", "nonsense"}).exit_code == 2);
     const ProgramResult doubles =
@@ -645,6 +644,25 @@ TEST_CASE("the stress command prints rows, a verdict, JSON and its families", "[
     CHECK(doubles.exit_code == 2);
     CHECK_THAT(doubles.err, ContainsSubstring("--mode: only packets of floats have a choice"));
     CHECK(run_packtrace({"stress", "--self-hits", "nonsense"}).exit_code == 2);
+}
+
+TEST_CASE("the stress command names families near an unknown one, and how to list all", "[stress]")
+{
+    const auto fault_of = [](const std::string& family) {
+        const ProgramResult result = run_packtrace({"stress", "--family", family});
+        CHECK(result.exit_code == 2);
+        CHECK(result.out.empty());
+        return result.err;
+    };
+    const std::string start = "packtrace stress: --family: ";
+    const std::string unknown = " is not a family that --list names; ";
+    CHECK(fault_of("nonsense") == start + "'nonsense'" + unknown + "see packtrace stress --help\n");
+    CHECK(fault_of("plnae") ==
+          start + "'plnae'" + unknown + "did you mean plane? See packtrace stress --help\n");
+    CHECK(fault_of("cone") == start + "'cone'" + unknown +
+                                  "did you mean cone-apex, cone-side or cone-generators? See "
+                                  "packtrace stress --help\n");
+    CHECK(fault_of("e") == start + "'e'" + unknown + "see packtrace stress --help\n");
 }
 
 TEST_CASE("the stress command writes wrong rays and their scenes", "[stress]")

@@ -10,6 +10,7 @@
 #include <glm/geometric.hpp>
 
 #include <cmath>
+#include <stdexcept>
 #include <string>
 #include <vector>
 
@@ -33,6 +34,14 @@ std::string fault_of(const Surface& surface)
 {
     return fault_of(scene_of({make_object(surface)}));
 }
+
+/// Throws in the midst of an emplace, which then leaves its variant without a value.
+struct FailingPolygon {
+    operator Polygon() const
+    {
+        throw std::runtime_error("no polygon");
+    }
+};
 
 /// One of the numbers that a range allows: its ends, and some between.
 double extreme(RandomScene& random, double smallest, double largest)
@@ -133,6 +142,21 @@ TEST_CASE("a fault is named with its object and the cure", "[validate]")
     scene = scene_of({good});
     scene.max_depth = 65;
     CHECK(fault_of(scene) == "'max_depth' is 65; use a whole number from 0 to 64");
+}
+
+TEST_CASE("a surface that an exception left without a value is refused", "[validate]")
+{
+    const Object good = make_object(packtrace::sphere({0, 0, 3}, 1));
+    Scene scene = scene_of({good, good});
+    CHECK_THROWS(scene.objects[1].surface.emplace<Polygon>(FailingPolygon()));
+    REQUIRE(scene.objects[1].surface.valueless_by_exception());
+    CHECK(fault_of(scene) ==
+          "object 2: an exception left 'surface' without a value; assign it one");
+    scene.objects[1].name = "ball";
+    CHECK(fault_of(scene) ==
+          "object 'ball': an exception left 'surface' without a value; assign it one");
+    scene.objects[1].surface = good.surface;
+    CHECK(fault_of(scene) == "accepted");
 }
 
 TEST_CASE("a quadric is complete or refused", "[validate]")

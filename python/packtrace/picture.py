@@ -74,6 +74,7 @@ def render(scene: Scene, *, width: Optional[int] = None, height: Optional[int] =
     """Renders a scene: an array (height, width, 3) of float32, or of float64 with dtype=np.float64.
 
     width, height: pixels, instead of the scene's; one alone keeps the picture's shape.
+    dtype: np.float32 or np.float64; None is the default, np.float32.
     frame: the frame of the scene's animation, 0 being the first.
     kernel, isa, lanes, accuracy, self_hits, traversal: as for RayScene.
     force_general: uses the packet kernel that knows everything; the picture is the same.
@@ -88,6 +89,8 @@ def render(scene: Scene, *, width: Optional[int] = None, height: Optional[int] =
     The array is the renderer's own memory, not a copy. Raises SceneError for a scene that cannot be
     used, ValueError for an impossible option.
     """
+    if dtype is None:  # which NumPy takes for float64
+        dtype = np.float32
     array, cut = _packtrace.render(
         scene, width=width, height=height, dtype=precision(dtype), frame=frame, kernel=kernel,
         isa=isa, lanes=lanes, accuracy=accuracy, self_hits=self_hits, traversal=traversal,

@@ -5,7 +5,7 @@ Rays are NumPy arrays of float32 or float64, which says the precision of the ans
 shape (...) too. An array is read where it is. Its components may lie in any order and at any stride;
 arrays whose components are contiguous each, as those of `np.empty((3, n)).T`, are the quickest, the
 others are sorted into components some thousand rays at a time. Other sequences than arrays are
-copied, as float64. All work runs without the GIL.
+copied, as float64; texts are not read as numbers. All work runs without the GIL.
 """
 
 from __future__ import annotations
@@ -58,11 +58,8 @@ class Hits:
         if (self.surface is None or self.normal is None or self.point is None or
                 self.outer_start is None or self.inner_start is None):
             raise ValueError('these hits have no starts; ask for them: closest(..., detail="start")')
-        try:
-            directions = np.asarray(directions, self.t.dtype)
-        except (TypeError, ValueError, OverflowError):
-            raise ValueError(f"directions is {shown(directions)}; use an array of shape "
-                             f"{self.normal.shape}") from None
+        directions = _numbers(directions, self.t.dtype, "directions",
+                              f"; use an array of shape {self.normal.shape}")
         if directions.shape not in (self.normal.shape, (3,)):
             raise ValueError(f"directions have shape {directions.shape}; these hits need "
                              f"{self.normal.shape}")
@@ -263,12 +260,7 @@ class _Rays:
                                  "dtype")
             array = t
         else:
-            try:
-                if t is None:  # which NumPy takes for a NaN
-                    raise TypeError
-                array = np.asarray(t, self.dtype)
-            except (TypeError, ValueError, OverflowError):
-                raise ValueError(f"{name} is {shown(t)}; use a number or an array of numbers") from None
+            array = _numbers(t, self.dtype, name, "; use a number or an array of numbers")
         if array.ndim > 0 and array.shape != self.shape:
             raise ValueError(f"{name} has shape {array.shape}; use a number or the rays' shape "
                              f"{self.shape}")
@@ -285,13 +277,26 @@ def _array(name: str, value: Any, beside: Any = None) -> Array:
         raise ValueError(f"{name} are Hits; use one of their arrays, such as hits.point, or for the "
                          "origins of closest hits.leave(directions)")
     is_single = isinstance(beside, np.ndarray) and beside.dtype == np.float32
+    return _numbers(value, np.float32 if is_single else np.float64, name,
+                    ", which is no array of vectors; use a NumPy array of shape (..., 3)")
+
+
+def _numbers(value: Any, dtype: Any, name: str, use: str) -> Array:
+    """A value as an array of numbers; `use` ends the message where it is none."""
     try:
-        if value is None:  # which NumPy takes for a NaN
+        # NumPy takes None for a NaN, and some texts for numbers.
+        if value is None or _holds_texts(np.asarray(value)):
             raise TypeError
-        return np.asarray(value, np.float32 if is_single else np.float64)
+        return np.asarray(value, dtype)
     except (TypeError, ValueError, OverflowError):
-        raise ValueError(f"{name} is {shown(value)}, which is no array of vectors; use a NumPy array "
-                         "of shape (..., 3)") from None
+        raise ValueError(f"{name} is {shown(value)}{use}") from None
+
+
+def _holds_texts(array: Array) -> bool:
+    """Whether there are texts in an array."""
+    if array.dtype.kind == "O":
+        return any(isinstance(item, (str, bytes)) for item in array.flat)
+    return array.dtype.kind in "SUT"
 
 
 def _checked_dtype(dtype: np.dtype[Any], name: str) -> np.dtype[Any]:

@@ -2,7 +2,8 @@
 (docs/scene.md); colours are linear, 1.0 is full.
 
 Classes here hold values and check their fields' names alone: `Scene.validate`, `render` and
-`RayScene` check all of a scene and raise `SceneError`, which names the object as in `objects[0]`.
+`RayScene` check all of a scene and raise `SceneError`, or its base `ValueError` for a field of the
+wrong type or form. The message names the object as in `objects[0]`.
 """
 
 from __future__ import annotations
@@ -308,7 +309,8 @@ class Scene(_Part):
         return _packtrace.scene_text(self)
 
     def validate(self) -> None:
-        """Raises SceneError for the first fault of the scene, in one line that names the object."""
+        """Raises SceneError for the first fault of the scene, in one line that names the object. A
+        field of the wrong type or form raises ValueError, the base of SceneError."""
         _packtrace.validate(self)
 
     def camera_at(self, frame: int) -> Camera:

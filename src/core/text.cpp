@@ -28,7 +28,12 @@ std::string brief(double value, int digits)
 
 std::string counted(std::int64_t number, std::string_view what)
 {
-    return std::to_string(number) + " " + std::string(what) + (number == 1 ? "" : "s");
+    return counted(number, what, std::string(what) + "s");
+}
+
+std::string counted(std::int64_t number, std::string_view one, std::string_view many)
+{
+    return std::to_string(number) + " " + std::string(number == 1 ? one : many);
 }
 
 std::string joined(const std::vector<std::string>& words, std::string_view between)

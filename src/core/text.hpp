@@ -29,6 +29,8 @@ template <class Number>
 
 /// "1 frame", "2 frames".
 [[nodiscard]] std::string counted(std::int64_t number, std::string_view what);
+/// "1 vertex", "2 vertices".
+[[nodiscard]] std::string counted(std::int64_t number, std::string_view one, std::string_view many);
 
 /// What `text` makes of each item, with `between` between each two.
 template <class Items, class Text>

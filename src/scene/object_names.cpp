@@ -84,6 +84,10 @@ std::string label_of(std::string_view kind, const std::optional<std::string>& ow
 
 std::string label_of(const Scene& scene, std::size_t object)
 {
+    // A surface without a value has no kind to be numbered by.
+    if (const Object& bare = scene.objects[object]; bare.surface.valueless_by_exception())
+        return label_of("object", bare.name.empty() ? std::nullopt : std::optional(bare.name),
+                        object + 1);
     const std::string_view kind = word_of(scene.objects[object].surface).word;
     DefaultNames defaults;
     std::size_t number = 0;

@@ -259,6 +259,8 @@ OwnerFault fault_of_surface(const Surface& surface, const Mat4& transform)
 
 OwnerFault fault_of_shape(const Object& object)
 {
+    if (object.surface.valueless_by_exception())
+        return KeyFault{"", "an exception left 'surface' without a value; assign it one"};
     OwnerFault fault =
         std::visit([](const auto& surface) { return fault_in_rows(surface); }, object.surface);
     if (!fault)

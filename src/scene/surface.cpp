@@ -10,6 +10,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <limits>
 
 // The axes of a plane, and the plane of a polygon.
@@ -107,8 +108,9 @@ std::optional<std::string> fault_of_contours(const Polygon& polygon)
         return "the polygon has no vertices; give it three or more";
     for (const Contour& contour : polygon.contours) {
         if (contour.size() < 3)
-            return "the polygon has a contour of " + std::to_string(contour.size()) +
-                   (contour.size() == 1 ? " vertex" : " vertices") + "; give it three or more";
+            return "the polygon has a contour of " +
+                   counted(static_cast<std::int64_t>(contour.size()), "vertex", "vertices") +
+                   "; give it three or more";
         for (const Vec3& corner : contour)
             if (!std::isfinite(corner.x) || !std::isfinite(corner.y) || !std::isfinite(corner.z))
                 return "a vertex of the polygon is not finite; give it three finite numbers";

@@ -52,6 +52,7 @@ class TestRender(unittest.TestCase):
         scene = lit_scene(width=40, height=30)
         exact = pt.render(scene, dtype=np.float64)
         self.assertEqual((exact.shape, exact.dtype), ((30, 40, 3), np.float64))
+        self.assertEqual(pt.render(scene, dtype=None).dtype, np.float32)
         scalar = pt.render(scene, dtype=np.float64, kernel="scalar")
         self.assertLess(pt.compare(exact, scalar).max_abs, 1e-9)
 

@@ -293,6 +293,27 @@ class TestArrays(unittest.TestCase):
         with self.assertRaisesRegex(ValueError, "zero byte"):
             pt.read_scene("a\0b")
 
+    def test_texts_are_no_numbers(self):
+        directions = [(0, 0, 1.0)] * 2
+        hits = self.rays.closest((0, 0, 0), directions, detail="start")
+        asks = (self.rays.closest, self.rays.occluded, self.rays.all_hits,
+                lambda *rays: self.rays.bounds(*rays[:2], 0, *rays[2:]))
+        for text in ("1", b"1", "far", np.str_("1"), np.array("1"), np.array("1", object), ["1", 2],
+                     [1, b"2"]):
+            for ask in asks:
+                with self.assertRaisesRegex(ValueError, r"^t_min is [^\n]*; use a number[^\n]*\Z"):
+                    ask((0, 0, 0), directions, text)
+                with self.assertRaisesRegex(ValueError, r"^t_max is [^\n]*; use a number[^\n]*\Z"):
+                    ask((0, 0, 0), directions, 0, text)
+        for texts in ("abc", ("0", "0", "1"), (0, None, "1"), (0, 0, np.str_("1"))):
+            for rays in ((texts, (0, 0, 1)), ((0, 0, 0), texts)):
+                with self.assertRaisesRegex(ValueError, r"is no array of vectors; use [^\n]*\Z"):
+                    self.rays.closest(*rays)
+            with self.assertRaisesRegex(ValueError, "^points is .*is no array of vectors"):
+                self.rays.lit(texts, 0)
+            with self.assertRaisesRegex(ValueError, "^directions is .*; use an array of shape"):
+                hits.leave(texts)
+
     def test_answers_have_the_shape_and_dtype_of_the_rays(self):
         for dtype in DTYPES:
             for shape in ((), (0,), (4,), (2, 3), (2, 3, 4)):

@@ -237,6 +237,12 @@ class TestErrors(unittest.TestCase):
         self.refuses("use the material class of its illumination",
                      objects=[pt.Object(ball, material=pt.WhittedMaterial())])
 
+    def test_a_value_of_the_wrong_type_is_a_value_error_but_no_scene_error(self):
+        for fields in ({"width": "a"}, {"objects": [pt.Object(pt.Sphere(radius="big"))]}):
+            with self.assertRaises(ValueError) as refused:
+                pt.Scene(**fields).validate()
+            self.assertNotIsInstance(refused.exception, pt.SceneError)
+
     def test_messages_are_cut_between_characters(self):
         for letter in "é漢😀":
             self.refuses(f"^width is 'a{letter * 58}[.]{{3}}; use a whole number$",

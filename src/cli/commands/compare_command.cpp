@@ -1,5 +1,5 @@
 #include "cli/command.hpp"
-#include "cli/options/validators.hpp"
+#include "cli/options/common_options.hpp"
 #include "cli/output/distinct_files.hpp"
 #include "core/json_text.hpp"
 #include <packtrace/compare.hpp>
@@ -109,11 +109,7 @@ void add_compare(CLI::App& app)
         ->required()
         ->type_name("");
     command->add_option("B", arguments->b, "Picture of the same size")->required()->type_name("");
-    command
-        ->add_option("--threshold", arguments->options.threshold,
-                     "Error above which a pixel counts as off (default 1/255)")
-        ->check(non_negative_number())
-        ->type_name("T");
+    add_threshold_option(*command, arguments->options.threshold);
     command
         ->add_option("--worst", arguments->options.worst,
                      "How many of the worst pixels to list (default 5)")

@@ -129,6 +129,17 @@ void add_threads_option(CLI::App& command, int& threads)
         ->type_name("N");
 }
 
+void add_threshold_option(CLI::App& command, double& threshold)
+{
+    command
+        .add_option_function<std::string>(
+            "--threshold",
+            [&threshold](const std::string& text) { threshold = *parse_fraction(text); },
+            "Error above which a pixel counts as off, a number or a fraction N/M (default 1/255)")
+        ->check(non_negative_fraction())
+        ->type_name("T");
+}
+
 void add_kernel_option(CLI::App& command, std::string& kernel)
 {
     add_word_option(command, "--kernel", kernel, "packet (default), or the scalar reference",

@@ -109,6 +109,8 @@ void add_size_option(CLI::App& command, PictureArguments& arguments);
 void add_picture_options(CLI::App& command, PictureArguments& arguments);
 void add_kernel_options(CLI::App& command, KernelArguments& arguments);
 void add_threads_option(CLI::App& command, int& threads);
+/// By how much pixels of two pictures may differ.
+void add_threshold_option(CLI::App& command, double& threshold);
 
 /// What the word of `--precision` stands for.
 [[nodiscard]] Precision chosen_precision(const std::string& word);

@@ -1,17 +1,22 @@
 #include "cli/options/validators.hpp"
 
 #include "core/text.hpp"
+#include "scene/language/quote.hpp"
 
 #include <algorithm>
 #include <charconv>
 #include <cmath>
 #include <iterator>
-#include <optional>
 #include <sstream>
 #include <utility>
 
 namespace packtrace::cli {
 namespace {
+
+/// More names would make a long line of the message.
+constexpr std::size_t most_meant = 3;
+/// Shorter texts are part of many names.
+constexpr std::size_t least_part = 3;
 
 /// Finite numbers that `accepts` says yes to.
 CLI::Validator number(bool (*accepts)(double), std::string wanted)
@@ -27,6 +32,34 @@ CLI::Validator number(bool (*accepts)(double), std::string wanted)
 CLI::Validator not_empty(std::string wanted)
 {
     return validator([](const std::string& text) { return !text.empty(); }, std::move(wanted));
+}
+
+bool contains(const std::vector<std::string>& words, const std::string& text)
+{
+    return std::find(words.begin(), words.end(), text) != words.end();
+}
+
+/// "a, b or c".
+std::string either(const std::vector<std::string>& words)
+{
+    std::string all = words.front();
+    for (std::size_t i = 1; i < words.size(); ++i)
+        all += (i + 1 < words.size() ? ", " : " or ") + words[i];
+    return all;
+}
+
+/// The word that `text` is a slip of, or else a few that it is a part of.
+std::vector<std::string> meant_words(const std::string& text, const std::vector<std::string>& words)
+{
+    const std::vector<std::string_view> views(words.begin(), words.end());
+    if (const std::string_view nearest = language::nearest_word(text, views); !nearest.empty())
+        return {std::string(nearest)};
+    std::vector<std::string> meant;
+    for (const std::string& word : words)
+        if (text.size() >= least_part && meant.size() < most_meant &&
+            word.find(text) != std::string::npos)
+            meant.push_back(word);
+    return meant;
 }
 
 }  // namespace
@@ -46,6 +79,19 @@ bool parse_numbers(std::string_view text, char separator, std::span<int> numbers
     return at == end;
 }
 
+std::optional<double> parse_fraction(std::string_view text)
+{
+    const std::size_t slash = text.find('/');
+    const std::optional<double> above = parse_number<double>(text.substr(0, slash));
+    const std::optional<double> below =
+        slash == std::string_view::npos ? 1.0 : parse_number<double>(text.substr(slash + 1));
+    // An infinite divisor would make 0 of what is no number.
+    if (!above || !below || !(*above >= 0.0) || !(*below > 0.0) || !std::isfinite(*below))
+        return std::nullopt;
+    const double value = *above / *below;
+    return std::isfinite(value) ? std::optional(value) : std::nullopt;
+}
+
 CLI::Validator validator(std::function<bool(const std::string&)> accepts, std::string wanted)
 {
     return CLI::Validator(
@@ -58,6 +104,12 @@ CLI::Validator validator(std::function<bool(const std::string&)> accepts, std::s
 CLI::Validator non_negative_number()
 {
     return number([](double value) { return value >= 0.0; }, "a number from 0 up");
+}
+
+CLI::Validator non_negative_fraction()
+{
+    return validator([](const std::string& text) { return parse_fraction(text).has_value(); },
+                     "a number from 0 up, or a fraction such as 1/255");
 }
 
 CLI::Validator positive_number()
@@ -99,14 +151,25 @@ CLI::Validator folder_name()
 
 CLI::Validator one_of(std::vector<std::string> words)
 {
-    std::string wanted = words.front();
-    for (std::size_t i = 1; i < words.size(); ++i)
-        wanted += (i + 1 < words.size() ? ", " : " or ") + words[i];
+    std::string wanted = either(words);
     const std::string name = offers(words).get_name();
     const auto accepts = [words = std::move(words)](const std::string& text) {
-        return std::find(words.begin(), words.end(), text) != words.end();
+        return contains(words, text);
     };
-    return validator(accepts, wanted).name(name);
+    return validator(accepts, std::move(wanted)).name(name);
+}
+
+CLI::Validator one_of_many(std::vector<std::string> words, std::string wanted)
+{
+    const std::string name = offers(words).get_name();
+    const auto fault = [words = std::move(words), wanted = std::move(wanted)](std::string& text) {
+        if (contains(words, text))
+            return std::string();
+        const std::string what = language::quote(text) + " is not " + wanted;
+        const std::vector<std::string> meant = meant_words(text, words);
+        return meant.empty() ? what : what + "; did you mean " + either(meant) + "?";
+    };
+    return CLI::Validator(fault, "").name(name);
 }
 
 // The words are kept as the validator's name, which CLI11 shows nowhere.

@@ -1,6 +1,7 @@
 #include "cli/study/report_command.hpp"
 
 #include "cli/command.hpp"
+#include "cli/options/common_options.hpp"
 #include "cli/options/scene_input.hpp"
 #include "cli/options/thread_limit.hpp"
 #include "cli/options/validators.hpp"
@@ -84,11 +85,7 @@ void add_measure_options(CLI::App& command, ReportArguments& arguments)
                     "Samples a pixel of the truth where samples are studied (default 256)")
         ->check(whole_number(2, most_samples))
         ->type_name("N");
-    command
-        .add_option("--threshold", arguments.options.threshold,
-                    "Error above which a pixel counts as off (default 1/255)")
-        ->check(non_negative_number())
-        ->type_name("T");
+    add_threshold_option(command, arguments.options.threshold);
     command
         .add_option_function<std::string>(
             "--threads",

@@ -7,11 +7,13 @@
 #include "cli/options/thread_limit.hpp"
 #include "cli/options/validators.hpp"
 #include "core/atomic_file.hpp"
+#include "core/text.hpp"
 #include "lab/stress/stress.hpp"
 #include "lab/stress/stress_subject.hpp"
 #include "render/precision.hpp"
 
 #include <algorithm>
+#include <cstdint>
 #include <limits>
 #include <memory>
 #include <vector>
@@ -43,7 +45,7 @@ void add_stress_options(CLI::App& command, StressArguments& arguments)
 {
     lab::StressOptions& options = arguments.options;
     command.add_option("--family", options.families, "Only this family of rays (repeatable)")
-        ->check(one_of(family_names()))
+        ->check(one_of_many(family_names(), "a family that --list names"))
         ->type_name("NAME");
     command.add_flag("--list", arguments.list, "List the families");
     command.add_option("--rays", options.rays, "Rays of each family (default 4096)")
@@ -117,7 +119,7 @@ void note_progress(std::size_t done, std::size_t families, const std::vector<Str
     const auto faulty = std::count_if(rows.begin(), rows.end(),
                                       [](const StressRow& row) { return !row.faults.empty(); });
     set_interrupt_line("interrupted after " + std::to_string(done) + " of " +
-                       std::to_string(families) + (families == 1 ? " family, " : " families, ") +
+                       counted(static_cast<std::int64_t>(families), "family", "families") + ", " +
                        std::to_string(faulty) + " of " + std::to_string(rows.size()) +
                        " rows with faults");
 }

@@ -76,21 +76,24 @@ struct RoughCommon {
     std::uint32_t sure;  ///< of these, those that enter it for sure beyond 0
 };
 
-template <Origin O>
-inline RoughCommon rough_common(const CommonSphere& sphere, const RayPacket<float>& rays,
-                                std::uint32_t open)
+/// Of rays that may have a ball before them.
+struct NearBall {
+    vreal<float> moment2;
+    vreal<float> b;
+    std::uint32_t lanes;
+    std::uint32_t outside;  ///< lanes that start outside
+};
+
+inline RoughCommon rough_common(const CommonSphere& sphere, const NearBall& near,
+                                const RayPacket<float>& rays)
 {
-    const Vec3v<float> w = from_center<O>(sphere, rays);
-    const vreal<float> moment2 = moment2_of(w, rays);
-    const vreal<float> b = dot(w, rays.dir);
     const vreal<float> across = rays.dir2 * vreal<float>(sphere.radius2);
-    const vreal<float> root = sqrt(max(across - moment2, vreal<float>(0.0f)));
+    const vreal<float> root = sqrt(max(across - near.moment2, vreal<float>(0.0f)));
     const vreal<float> inverse = vreal<float>(1.0f) / rays.dir2;
     const std::uint32_t sure =
-        bits((moment2 < vreal<float>(sphere.inner2) * rays.dir2) &
-             (dot(w, w) > vreal<float>(sphere.outer2 * (1.0f + roundoffs(16.0f)))) &
-             (b * abs(b) < vreal<float>(-sphere.slack2) * rays.dir2));
-    return {negated(b + root) * inverse, rays.dir2, open, open & sure};
+        near.outside & bits((near.moment2 < vreal<float>(sphere.inner2) * rays.dir2) &
+                            (near.b * abs(near.b) < vreal<float>(-sphere.slack2) * rays.dir2));
+    return {negated(near.b + root) * inverse, rays.dir2, near.lanes, near.lanes & sure};
 }
 
 template <Origin O>
@@ -136,19 +139,24 @@ struct WidePlace {
     }
 };
 
-/// The places `dt` further on.
-template <Origin O>
-inline Vec3v<float> place_at(const RayPacket<float>& rays, const float (&eye)[3],
-                             const WidePlace<O>& wide, const vreal<float>& dt)
+/// Moves hits `dt` on from a rough root. With Refine::t alone points are rounded a few times, which
+/// is_behind() allows for.
+template <Refine R, Origin O>
+inline void move_from(CommonHit& hit, const WidePlace<O>& wide, const RoughCommon& rough,
+                      const vreal<float>& dt, const RayPacket<float>& rays, const float (&eye)[3])
 {
-    const BothHalves<Vec3v<double>> org = wide_origins<O>(rays, eye);
-    return narrow(madd<double>(wide.t.low + widen_low(dt), wide.dir.low, org.low),
-                  madd<double>(wide.t.high + widen_high(dt), wide.dir.high, org.high));
+    hit.t = rough.t + dt;
+    if constexpr (R == Refine::place) {
+        const BothHalves<Vec3v<double>> org = wide_origins<O>(rays, eye);
+        hit.point = narrow(madd<double>(wide.t.low + widen_low(dt), wide.dir.low, org.low),
+                           madd<double>(wide.t.high + widen_high(dt), wide.dir.high, org.high));
+    } else {
+        hit.point = madd<float>(hit.t, rays.dir, rays.org);
+    }
 }
 
 /// Refines hits at a rough root; returns the lanes for which one step of Newton's was enough. With
-/// Refine::t alone points are rounded a few times, which is_behind() allows for, and there are no
-/// normals.
+/// Refine::t alone there are no normals.
 template <Refine R, Origin O>
 inline std::uint32_t refine_common(CommonHit& hit, const CommonSphere& sphere,
                                    const RoughCommon& rough, const RayPacket<float>& rays,
@@ -160,14 +168,10 @@ inline std::uint32_t refine_common(CommonHit& hit, const CommonSphere& sphere,
     const vreal<float> value = narrow(dot(low, low) - radius2, dot(high, high) - radius2);
     const vreal<float> slope = narrow(dot(low, wide.dir.low), dot(high, wide.dir.high));
     const vreal<float> dt = vreal<float>(-0.5f) * value / slope;
-    hit.t = rough.t + dt;
-    if constexpr (R == Refine::place) {
+    if constexpr (R == Refine::place)
         hit.outward = scale<float>(vreal<float>(sphere.inverse_radius),
                                    narrow(low, high) + scale<float>(dt, rays.dir));
-        hit.point = place_at(rays, eye, wide, dt);
-    } else {
-        hit.point = madd<float>(hit.t, rays.dir, rays.org);
-    }
+    move_from<R>(hit, wide, rough, dt, rays, eye);
     return is_surely_enough(rough.t, rays.dir2, slope, dt, rays.t_min);
 }
 
@@ -188,38 +192,30 @@ inline std::uint32_t refine_common(CommonHit& hit, const CommonGround& ground,
         narrow(dot(g_low + normal, low) + offset, dot(g_high + normal, high) + offset);
     const vreal<float> slope = narrow(dot(g_low, wide.dir.low), dot(g_high, wide.dir.high));
     const vreal<float> dt = vreal<float>(-0.5f) * value / slope;
-    hit.t = rough.t + dt;
-    if constexpr (R == Refine::place) {
+    if constexpr (R == Refine::place)
         hit.outward = madd<float>(vreal<float>(ground.curvature), scale<float>(dt, rays.dir),
                                   narrow(g_low, g_high));
-        hit.point = place_at(rays, eye, wide, dt);
-    } else {
-        hit.point = madd<float>(hit.t, rays.dir, rays.org);
-    }
+    move_from<R>(hit, wide, rough, dt, rays, eye);
     return is_surely_enough(rough.t, rough.bend, vreal<float>(ground.side) * slope, dt, rays.t_min);
 }
 
-/// The lanes of a packet whose rays may have a ball before them; `b` is set where there are any.
+/// The lanes of `active` whose rays may have a ball before them; the rest of what is returned is
+/// set where there are any.
 template <Origin O>
-inline std::uint32_t lanes_near(const CommonBall& sphere, const RayPacket<float>& rays,
-                                std::uint32_t active, vreal<float>& b)
+inline NearBall near_ball(const CommonBall& ball, const RayPacket<float>& rays,
+                          std::uint32_t active)
 {
-    const Vec3v<float> w = from_center<O>(sphere, rays);
-    const vreal<float> outer2(sphere.outer2);
-    const std::uint32_t near = active & ~bits(moment2_of(w, rays) > outer2 * rays.dir2);
-    if (near == 0)
-        return 0;
-    b = dot(w, rays.dir);
-    return near & ~bits((dot(w, w) > outer2 * vreal<float>(1.0f + roundoffs(16.0f))) &
-                        (b * abs(b) > vreal<float>(sphere.slack2) * rays.dir2));
-}
-
-template <Origin O>
-inline std::uint32_t lanes_near(const CommonBall& ball, const RayPacket<float>& rays,
-                                std::uint32_t active)
-{
-    vreal<float> b = rays.dir2;
-    return lanes_near<O>(ball, rays, active, b);
+    const Vec3v<float> w = from_center<O>(ball, rays);
+    const vreal<float> outer2(ball.outer2);
+    NearBall near{moment2_of(w, rays), rays.dir2, 0, 0};
+    const std::uint32_t not_past = active & ~bits(near.moment2 > outer2 * rays.dir2);
+    if (not_past == 0)
+        return near;
+    near.b = dot(w, rays.dir);
+    near.outside = bits(dot(w, w) > outer2 * vreal<float>(1.0f + roundoffs(16.0f)));
+    near.lanes = not_past & ~(near.outside &
+                              bits(near.b * abs(near.b) > vreal<float>(ball.slack2) * rays.dir2));
+    return near;
 }
 
 /// Whether another sphere is behind the hits for sure: they are outside, and the rays nearing it.
@@ -310,29 +306,26 @@ inline bool find_common_sphere(CommonHit& hit, const CommonObjects& common,
 {
     const CommonSphere* first = nullptr;
     const CommonSphere* second = nullptr;
-    std::uint32_t open = 0;
-    vreal<float> nearness = rays.dir2;
+    NearBall nearest{rays.dir2, rays.dir2, 0, 0};
     for (const CommonSphere& sphere : candidates.spheres) {
         if (sphere.body.first == own)
             continue;
-        vreal<float> b = nearness;
-        const std::uint32_t near = lanes_near<O>(sphere, rays, active, b);
-        if (near == 0)
+        const NearBall near = near_ball<O>(sphere, rays, active);
+        if (near.lanes == 0)
             continue;
         if (second != nullptr)
             return false;
-        if (first == nullptr || (bits(b > nearness) & active) == active) {
+        if (first == nullptr || (bits(near.b > nearest.b) & active) == active) {
             second = first;
             first = &sphere;
-            open = near;
-            nearness = b;
+            nearest = near;
         } else {
             second = &sphere;
         }
     }
     if (first == nullptr)
         return find_common_ground<R, O>(hit, common, candidates, rays, eye, own, active);
-    const RoughCommon rough = rough_common<O>(*first, rays, open);
+    const RoughCommon rough = rough_common(*first, nearest, rays);
     if (rough.sure != rough.open)
         return false;
     hit.lanes = rough.sure;
@@ -363,7 +356,7 @@ inline bool passes_balls(const CommonLists& candidates, const RayPacket<float>& 
                          std::int32_t own, std::uint32_t active)
 {
     for (const CommonBall& ball : candidates.balls)
-        if (!is_on(ball.body, own) && lanes_near<O>(ball, rays, active) != 0)
+        if (!is_on(ball.body, own) && near_ball<O>(ball, rays, active).lanes != 0)
             return false;
     return true;
 }

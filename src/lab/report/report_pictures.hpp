@@ -1,5 +1,6 @@
 #pragma once
 
+#include "core/text.hpp"
 #include "image/color_ramp.hpp"
 #include "image/pixel_error.hpp"
 #include "lab/report/report_text.hpp"
@@ -23,8 +24,9 @@ namespace packtrace {
         [&](const ReportRun& run) { return run.picture == picture && run.variant.name != name; });
     if (runs == 0)
         return name;
-    return name + (picture == 0 ? ", as " : " and ") + std::to_string(runs) +
-           (picture == 0 ? (runs == 1 ? " run has it" : " runs have it") : " alike");
+    if (picture == 0)
+        return name + ", as " + counted(runs, "run has it", "runs have it");
+    return name + " and " + std::to_string(runs) + " alike";
 }
 
 /// The largest finite error of a pixel against the truth, which white stands for in its heat map.
