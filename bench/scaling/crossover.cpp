@@ -33,6 +33,12 @@ struct Arguments {
     std::vector<double> mirrors = {0.0, 0.4};
     std::vector<std::string> isas;
     int repetitions = 9;
+    bool fast = false;
+
+    [[nodiscard]] RenderOptions options(const std::string& isa) const
+    {
+        return {.isa = isa, .accuracy = fast ? Accuracy::fast : Accuracy::exact, .threads = 1};
+    }
 };
 
 /// What all scenes of a crossing have in common but the number of spheres.
@@ -68,9 +74,8 @@ Scene scene_of(const Setting& setting, int objects)
 /// One scene, made ready both ways for an instruction set, and what was measured of it.
 class Race {
 public:
-    Race(const Scene& scene, const std::string& isa) : isa_(isa), scene_(scene)
+    Race(const Scene& scene, RenderOptions options) : isa_(options.isa), scene_(scene)
     {
-        RenderOptions options{.isa = isa, .threads = 1};
         for (const Traversal kind : kinds) {
             options.traversal = kind;
             renderers_.emplace_back(scene_, options);
@@ -233,7 +238,7 @@ void add_points(const Arguments& arguments, const Setting& setting, int objects,
     const Scene scene = scene_of(setting, objects);
     std::vector<std::unique_ptr<Race>> races;
     for (const std::string& isa : arguments.isas)
-        races.push_back(std::make_unique<Race>(scene, isa));
+        races.push_back(std::make_unique<Race>(scene, arguments.options(isa)));
     for (int turn = 0; turn <= arguments.repetitions; ++turn)
         for (const auto& race : races) {
             race->take_turn();
@@ -298,6 +303,7 @@ void add_options(bench::Program& program, Arguments& arguments)
                     "Shares of the light that the spheres mirror (default 0,0.4)");
     program.words("--isa", arguments.isas, "Instruction sets (default all of this machine)");
     program.number("--repetitions", arguments.repetitions, {1, 1000}, "Turns (default 9)");
+    program.flag("--fast", arguments.fast, "Accuracy::fast instead of the default");
 }
 
 }  // namespace

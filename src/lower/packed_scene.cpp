@@ -24,10 +24,13 @@ constexpr std::size_t frame_tree_objects(int lanes)
 {
     return lanes >= 16 ? 160 : lanes >= 8 ? 128 : 96;
 }
-/// In exact frames without mirrors or glass only short lists are left, whose bounds are found once
-/// a tile; a hierarchy's are found for each bundle of rays and leaf. So many spheres or quadrics,
-/// whatever the lanes (results/tree_designs.json).
-constexpr std::size_t plain_frame_tree_objects = 384;
+/// Without mirrors or glass frames have no rays but those that start or end together, which a
+/// hierarchy suits best (results/crossover_fast.json).
+constexpr std::size_t plain_frame_tree_objects = 64;
+/// In exact ones only short lists are left, whose bounds are found once a tile; a hierarchy's are
+/// found for each bundle of rays and leaf. So many spheres or quadrics, whatever the lanes
+/// (results/tree_designs.json).
+constexpr std::size_t exact_plain_frame_tree_objects = 384;
 /// Meshes are met as quickly through a hierarchy from some 80 polygons on.
 constexpr std::size_t plain_objects_a_polygon = 4;
 
@@ -113,12 +116,13 @@ bool are_objects(const std::vector<abi::MaterialIndex>& surfaces)
 Traversal frame_traversal(const LoweredScene& lowered, Traversal traversal, int lanes)
 {
     const TreeObjects objects = count_tree_objects(lowered);
-    if (lowered.features.exact && !(lowered.bounces && lowered.max_depth > 0))
-        return chosen(
-            traversal,
-            objects.spheres + objects.quadrics + objects.polygons * plain_objects_a_polygon,
-            plain_frame_tree_objects);
-    return chosen(traversal, objects.all(), frame_tree_objects(lanes));
+    if (lowered.bounces && lowered.max_depth > 0)
+        return chosen(traversal, objects.all(), frame_tree_objects(lanes));
+    if (!lowered.features.exact)
+        return chosen(traversal, objects.all(), plain_frame_tree_objects);
+    return chosen(traversal,
+                  objects.spheres + objects.quadrics + objects.polygons * plain_objects_a_polygon,
+                  exact_plain_frame_tree_objects);
 }
 
 LoweredScene shadow_casters(const LoweredScene& lowered)
