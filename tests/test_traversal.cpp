@@ -261,10 +261,10 @@ TEST_CASE("exact frames without mirrors or glass keep to lists for longest", "[t
     CHECK(chosen(matt_spheres(380), Accuracy::exact) == Traversal::list);
     CHECK(chosen(matt_spheres(390), Accuracy::exact) == Traversal::tree);
     CHECK(chosen(matt_spheres(380), Accuracy::fast) == Traversal::tree);
-    // In single precision alone a hierarchy is quicker for rays that start together.
-    CHECK(chosen(matt_spheres(60), Accuracy::fast) == Traversal::list);
-    CHECK(chosen(matt_spheres(70), Accuracy::fast) == Traversal::tree);
-    CHECK(chosen(random_spheres(70, 1), Accuracy::fast) == Traversal::list);
+    // In single precision alone earlier than where mirrored rays run apart.
+    CHECK(chosen(matt_spheres(108), Accuracy::fast) == Traversal::list);
+    CHECK(chosen(matt_spheres(116), Accuracy::fast) == Traversal::tree);
+    CHECK(chosen(random_spheres(116, 1), Accuracy::fast) == Traversal::list);
     // No ray is mirrored at depth 0.
     Scene mirrors = random_spheres(380, 1);
     CHECK(chosen(mirrors, Accuracy::exact) == Traversal::tree);

@@ -24,9 +24,10 @@ constexpr std::size_t frame_tree_objects(int lanes)
 {
     return lanes >= 16 ? 160 : lanes >= 8 ? 128 : 96;
 }
-/// Without mirrors or glass frames have no rays but those that start or end together, which a
-/// hierarchy suits best (results/crossover_fast.json).
-constexpr std::size_t plain_frame_tree_objects = 64;
+/// Without mirrors or glass frames have no rays but those that start or end together. So many
+/// objects, whatever the lanes: a hierarchy gains on more than 40 spheres where these hide each
+/// other, on more than 160 where they are far apart (results/crossover_fast.json).
+constexpr std::size_t plain_frame_tree_objects = 112;
 /// In exact ones only short lists are left, whose bounds are found once a tile; a hierarchy's are
 /// found for each bundle of rays and leaf. So many spheres or quadrics, whatever the lanes
 /// (results/tree_designs.json).
