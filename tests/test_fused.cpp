@@ -109,6 +109,12 @@ TEST_CASE("what registers have no room for goes through streams", "[fused]")
             scene.objects.push_back(make_object(sphere(Vec3(i, 5, 9), 0.3)));
         CHECK_FALSE(in_registers(scene, isa));
     }
+    SECTION("objects that crowd")
+    {
+        for (int i = 0; i < 8; ++i)
+            scene.objects.push_back(make_object(sphere(Vec3(0.1 * i, 0, 9), 3)));
+        CHECK_FALSE(in_registers(scene, isa));
+    }
     SECTION("weights that are cut")
     {
         scene.min_weight = 0.1;

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "dispatch/crowding.hpp"
 #include "kernel_abi/kernel_table.hpp"
 
 #include <stdexcept>
@@ -34,6 +35,10 @@ template <class Real>
     throw std::logic_error("no kernels know all that the scene uses");
 }
 
+/// Where lines cross more objects than this, neighbouring paths soon part, and streams bring those
+/// together again that go on (results/crowding.json).
+inline constexpr double most_crossed_in_registers = 1.5;
+
 /// The kernels that trace frames of a scene in registers; null where streams trace them.
 template <class Real>
 [[nodiscard]] const abi::FusedKernels<Real>* fused_for(const abi::PrecisionTable<Real>& table,
@@ -42,7 +47,10 @@ template <class Real>
 {
     for (const abi::FusedKernels<Real>& fused : table.fused)
         if (fused.render_tiles != nullptr && abi::covers(fused.features, needed))
-            return fused.plan_bytes(scene) > 0 ? &fused : nullptr;
+            return fused.plan_bytes(scene) > 0 &&
+                           !(crossed_by_a_line(scene) > most_crossed_in_registers)
+                       ? &fused
+                       : nullptr;
     return nullptr;
 }
 
