@@ -19,7 +19,7 @@ from ratios import by_turns, frame_milliseconds, share
 
 COUNTS = (4, 8, 16, 32)
 COVERS = (1, 2, 4, 8)
-IN_REGISTERS = "paths in registers"
+IN_REGISTERS = "in registers, from the eye"
 
 
 def make(build, scene, count, cover, mirror):

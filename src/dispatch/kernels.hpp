@@ -37,7 +37,7 @@ template <class Real>
 
 /// Where lines cross more objects than this, neighbouring paths soon part, and streams bring those
 /// together again that go on (results/crowding.json).
-inline constexpr double most_crossed_in_registers = 1.5;
+inline constexpr double most_crossed_in_registers = 1.75;
 
 /// The kernels that trace frames of a scene in registers; null where streams trace them.
 template <class Real>
