@@ -45,12 +45,11 @@ template <class Real>
                                                        abi::Features needed,
                                                        const abi::SceneView<Real>& scene)
 {
+    if (crossed_by_a_line(scene) > most_crossed_in_registers)
+        return nullptr;
     for (const abi::FusedKernels<Real>& fused : table.fused)
         if (fused.render_tiles != nullptr && abi::covers(fused.features, needed))
-            return fused.plan_bytes(scene) > 0 &&
-                           !(crossed_by_a_line(scene) > most_crossed_in_registers)
-                       ? &fused
-                       : nullptr;
+            return fused.plan_bytes(scene) > 0 ? &fused : nullptr;
     return nullptr;
 }
 
