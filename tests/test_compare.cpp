@@ -38,6 +38,15 @@ bool near(double a, double b)
     return std::abs(a - b) <= 1e-12 * std::abs(b);
 }
 
+/// a.pfm, and b.pfm that differs from it by 0.25 in one of six pixels.
+void write_pair(const TempFolder& folder)
+{
+    Image<float> image = grey<float>();
+    write_image(folder / "a.pfm", image);
+    image.pixel(2, 1)[0] = 0.75f;
+    write_image(folder / "b.pfm", image);
+}
+
 }  // namespace
 
 TEST_CASE("equal pictures have no error and an infinite PSNR", "[compare]")
@@ -168,10 +177,7 @@ TEST_CASE("an infinite error is white and does not set the heat map's scale", "[
 TEST_CASE("packtrace compare prints the distance of two files", "[compare]")
 {
     const TempFolder folder;
-    Image<float> image = grey<float>();
-    write_image(folder / "a.pfm", image);
-    image.pixel(2, 1)[0] = 0.75f;
-    write_image(folder / "b.pfm", image);
+    write_pair(folder);
     const ProgramResult result = run_packtrace(
         {"compare", folder / "a.pfm", folder / "b.pfm", "--heatmap", folder / "map.png"});
     CHECK(result.exit_code == 0);
@@ -187,10 +193,7 @@ TEST_CASE("packtrace compare prints the distance of two files", "[compare]")
 TEST_CASE("packtrace compare --json prints what it measured", "[compare]")
 {
     const TempFolder folder;
-    Image<float> image = grey<float>();
-    write_image(folder / "a.pfm", image);
-    image.pixel(2, 1)[0] = 0.75f;
-    write_image(folder / "b.pfm", image);
+    write_pair(folder);
     const ProgramResult result =
         run_packtrace({"compare", folder / "a.pfm", folder / "b.pfm", "--json"});
     const auto json = nlohmann::json::parse(result.out);
@@ -212,10 +215,7 @@ TEST_CASE("packtrace compare --json prints what it measured", "[compare]")
 TEST_CASE("packtrace compare takes its threshold as a number or a fraction", "[compare]")
 {
     const TempFolder folder;
-    Image<float> image = grey<float>();
-    write_image(folder / "a.pfm", image);
-    image.pixel(2, 1)[0] = 0.75f;
-    write_image(folder / "b.pfm", image);
+    write_pair(folder);
     const auto run = [&](const std::string& threshold) {
         const ProgramResult result = run_packtrace(
             {"compare", folder / "a.pfm", folder / "b.pfm", "--threshold", threshold, "--json"});

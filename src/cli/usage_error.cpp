@@ -66,12 +66,6 @@ std::string first_unexpected(const CLI::App& command, int count, const char* con
     return unexpected.empty() ? "" : unexpected.back();
 }
 
-std::string_view nearest_of(std::string_view word, const std::vector<std::string>& known)
-{
-    const std::vector<std::string_view> views(known.begin(), known.end());
-    return language::nearest_word(word, views);
-}
-
 std::string describe_unexpected(const CLI::App& command, const std::string& word)
 {
     const std::vector<std::string> subcommands = subcommands_of(command);
@@ -81,7 +75,7 @@ std::string describe_unexpected(const CLI::App& command, const std::string& word
                                                     : "unexpected argument ";
     const std::vector<std::string> known = is_option ? options_of(command) : subcommands;
     const std::string name = word.substr(0, word.find('='));
-    const std::string_view nearest = nearest_of(name, known);
+    const std::string_view nearest = language::nearest_word(name, known);
     const std::string text = what + language::quote(name);
     return nearest.empty() ? text : text + "; did you mean " + std::string(nearest) + "?";
 }

@@ -51,8 +51,7 @@ std::string either(const std::vector<std::string>& words)
 /// The word that `text` is a slip of, or else a few that it is a part of.
 std::vector<std::string> meant_words(const std::string& text, const std::vector<std::string>& words)
 {
-    const std::vector<std::string_view> views(words.begin(), words.end());
-    if (const std::string_view nearest = language::nearest_word(text, views); !nearest.empty())
+    if (const std::string_view nearest = language::nearest_word(text, words); !nearest.empty())
         return {std::string(nearest)};
     std::vector<std::string> meant;
     for (const std::string& word : words)

@@ -121,6 +121,12 @@ std::string_view nearest_word(std::string_view word, std::span<const std::string
     return nearest;
 }
 
+std::string_view nearest_word(std::string_view word, const std::vector<std::string>& known)
+{
+    const std::vector<std::string_view> views(known.begin(), known.end());
+    return nearest_word(word, views);
+}
+
 std::string suggest(std::string_view word, std::span<const std::string_view> known)
 {
     const std::string_view nearest = nearest_word(word, known);

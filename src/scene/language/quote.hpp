@@ -3,6 +3,7 @@
 #include <span>
 #include <string>
 #include <string_view>
+#include <vector>
 
 // How messages show what a user wrote, and what may have been meant.
 namespace packtrace::language {
@@ -18,6 +19,8 @@ namespace packtrace::language {
 /// in, left out or swapped with their neighbour. Empty when there is none.
 [[nodiscard]] std::string_view nearest_word(std::string_view word,
                                             std::span<const std::string_view> known);
+[[nodiscard]] std::string_view nearest_word(std::string_view word,
+                                            const std::vector<std::string>& known);
 
 /// "did you mean 'radius'?", or "use one of: a, b, c" when nothing is near.
 [[nodiscard]] std::string suggest(std::string_view word, std::span<const std::string_view> known);
