@@ -1,12 +1,15 @@
 #!/usr/bin/env python3
-"""Writes docs/commands.md, the reference of all commands, from the program's --help.
+"""Writes docs/commands.md, the reference of all commands, from the --help of both programs.
 
-Usage: docs/write_commands.py [--check] [PROGRAM [PAGE]]
+Usage: docs/write_commands.py [--check] [PROGRAM [PAGE [MPI_PROGRAM]]]
 
---check writes nothing, and exits 1 where the page differs from what the program says. PROGRAM is by
-default that of ./run build.
+--check writes nothing, and exits 1 if the page differs from the output of the programs. The default
+of PROGRAM is the packtrace of ./run build, that of MPI_PROGRAM the packtrace-mpi beside PROGRAM, which
+runs without mpirun. A build without MPI has no packtrace-mpi: then the page's part on packtrace-mpi
+stays unchanged, and --check ignores it.
 """
 import difflib
+import os
 import pathlib
 import re
 import subprocess
@@ -15,16 +18,25 @@ import sys
 DOCS = pathlib.Path(__file__).resolve().parent
 HEAD = """# Commands
 
-All commands of `packtrace` with their options, as `--help` of each prints them. `docs/write_commands.py` writes this page.
+All commands of `packtrace` and of [`packtrace-mpi`](#packtrace-mpi) with their options, as `--help` of each prints them. `docs/write_commands.py` writes this page.
 `packtrace completion bash` (or `zsh`, `fish`), which `--help` does not list, prints the completions of that shell.
 """
-# Descriptions begin at this column; what names an option, left of the other.
+# The start of the page's part on packtrace-mpi.
+MPI_HEADING = "\n## packtrace-mpi\n"
+MPI_HEAD = MPI_HEADING + """
+The work of `packtrace` on many ranks ([cluster](cluster.md)), in builds with MPI: `mpirun -n 8 packtrace-mpi render SCENE -o IMAGE`.
+SCENE is a file, - for standard input, or `'generate NAME OPTION...'`, which each rank generates by itself.
+"""
+# Descriptions begin at column COLUMN; the names of options, left of column CONTINUED.
 COLUMN = 30
 CONTINUED = 20
 
 
 def help_of(program, command):
-    done = subprocess.run([program, *command, "--help"], capture_output=True, text=True, check=True)
+    # For its help, a process of Open MPI without mpirun needs no second process.
+    environment = os.environ | {"OMPI_MCA_ess_singleton_isolated": "1"}
+    done = subprocess.run([program, *command, "--help"], capture_output=True, text=True, check=True,
+                          env=environment)
     return done.stdout
 
 
@@ -33,14 +45,14 @@ def is_continued(line):
 
 
 def entries(lines):
-    """[name, description] of each option or command under a heading."""
+    """[name, description] of each option or command below a heading."""
     found = []
     lines = [line for line in lines if line.strip()]
     for line, following in zip(lines, [*lines[1:], ""]):
         if is_continued(line):
             found[-1][1] = f"{found[-1][1]} {line.strip()}".strip()
             continue
-        # At least two spaces stand before a description, or one where its name just fits.
+        # At least two spaces precede a description, or one if the name just fits.
         fits = (len(line) > COLUMN and line[COLUMN - 1] == " " and line[COLUMN] != " "
                 and not is_continued(following))
         name, description = ((line[:COLUMN], line[COLUMN:]) if fits
@@ -50,7 +62,7 @@ def entries(lines):
 
 
 def parts(text):
-    """What the command does, and the entries below each heading, whose case CLI11 2.5 changed."""
+    """The command's purpose, and the entries below each heading. CLI11 2.5 changed the headings' case."""
     sections = re.split(r"^(Positionals|Options|Subcommands):\n", text,
                         flags=re.MULTILINE | re.IGNORECASE)
     headings = {name.capitalize(): entries(body.splitlines())
@@ -59,7 +71,7 @@ def parts(text):
 
 
 def row(name, meaning):
-    """A line of the table. CLI11 names what an option excludes beside its name."""
+    """A line of the table. Beside an option's name CLI11 lists the options that it excludes."""
     name, _, excluded = name.partition(" Excludes: ")
     required = " (required)" if " REQUIRED" in name else ""
     if excluded:
@@ -71,30 +83,48 @@ def cell(text):
     return re.sub(r"\s+", " ", text).replace("|", r"\|")
 
 
-def section(program, command):
-    """This command's part of the page, and those of its subcommands."""
+def section(program, name, command, level):
+    """The part of the page on this command of the program called `name`, and on its subcommands."""
     what, headings = parts(help_of(program, command))
     options = [(name, text) for name, text in headings.get("Options", []) if "--help" not in name]
     rows = headings.get("Positionals", []) + options
     text = ""
     if command:
-        text = f"\n{'#' * (1 + len(command))} packtrace {' '.join(command)}\n\n{what}.\n"
+        text = f"\n{'#' * level} {name} {' '.join(command)}\n\n{what}.\n"
     if rows:
         text += "\n| argument | meaning |\n| --- | --- |\n" + "".join(row(*each) for each in rows)
-    for name, _ in headings.get("Subcommands", []):
-        text += section(program, [*command, name])
+    for subcommand, _ in headings.get("Subcommands", []):
+        text += section(program, name, [*command, subcommand], level + 1)
     return text
+
+
+def mpi_part(page):
+    """The page's part on packtrace-mpi; empty if it has no such part."""
+    _, heading, text = page.partition(MPI_HEADING)
+    return heading + text
+
+
+def program_beside(program):
+    """The packtrace-mpi of the same build, if it has one."""
+    beside = pathlib.Path(program).with_name("packtrace-mpi")
+    return beside.resolve() if beside.exists() else None
 
 
 def main():
     arguments = [argument for argument in sys.argv[1:] if argument != "--check"]
     program = arguments[0] if arguments else DOCS.parent / "build/release/packtrace"
     page = pathlib.Path(arguments[1]) if len(arguments) > 1 else DOCS / "commands.md"
-    text = HEAD + section(program, [])
+    mpi_program = arguments[2] if len(arguments) > 2 else program_beside(program)
+
+    before = page.read_text() if page.exists() else ""
+    text = HEAD + section(program, "packtrace", [], 1)
+    if mpi_program:
+        text += MPI_HEAD + section(mpi_program, "packtrace-mpi", [], 2)
+    else:
+        text += mpi_part(before)
     if "--check" not in sys.argv:
         page.write_text(text)
         return 0
-    before = page.read_text()
     if before == text:
         return 0
     sys.stdout.writelines(difflib.unified_diff(before.splitlines(True), text.splitlines(True),

@@ -1,4 +1,5 @@
 #include "catch.hpp"
+#include "memory_limit.hpp"
 #include "run_on_terminal.hpp"
 #include "run_program.hpp"
 #include <packtrace/image_io.hpp>
@@ -51,8 +52,8 @@ Words listed_commands()
     return commands;
 }
 
-// Ends a program that works on: seconds of its own processor time, a hundred times what refusals
-// take. Other programs of a busy machine don't count.
+// Ends a program that does not stop: after 20 seconds of its own processor time, a hundred times
+// what a refusal takes. Other programs on a busy machine do not count.
 const std::string ends_soon = "ulimit -t 20;";
 
 bool is_one_line(const std::string& text)
@@ -240,8 +241,31 @@ TEST_CASE("wrong use exits 2 with one line and leaves no file", "[cli]")
     }
 }
 
-TEST_CASE("a mistyped word is answered with what may have been meant, and whose help to see",
-          "[cli]")
+TEST_CASE("a picture too large for memory is refused with its size", "[cli]")
+{
+    const std::string limit = test::memory_limit(4'000'000);
+    if (limit.empty())
+        return;
+    const TempFolder folder;
+    const auto render_part = [&](const std::string& precision) {
+        return run_packtrace(
+            {"render", four_spheres, "-o", folder / "a.pfm", "--size", "40000x20000", "--region",
+             "0,0,20000,20000", "--precision", precision, "--threads", "2"},
+            limit);
+    };
+    for (const auto& [precision, bytes] :
+         {std::pair{"single", "4.8 GB"}, std::pair{"double", "9.6 GB"}}) {
+        const ProgramResult result = render_part(precision);
+        CHECK(result.exit_code == 1);
+        CHECK(result.out.empty());
+        CHECK(result.err == std::string("not enough memory for 20000 x 20000 pixels, which alone "
+                                        "take ") +
+                                bytes + "; render fewer pixels at once\n");
+    }
+    CHECK(folder.names().empty());
+}
+
+TEST_CASE("a mistyped word gets a suggestion and the command whose help to read", "[cli]")
 {
     const std::vector<std::pair<Words, std::string>> wrong{
         {{"rendr", "x"},
@@ -296,7 +320,7 @@ TEST_CASE("every command that reads a scene reads it from standard input too", "
                ContainsSubstring("scene    standard input\n"));
 }
 
-TEST_CASE("a scene from standard input that can't be used is told so", "[cli]")
+TEST_CASE("an unusable scene from standard input is reported as such", "[cli]")
 {
     const TempFolder folder;
     const std::string out = folder / "a.png";
@@ -322,7 +346,7 @@ TEST_CASE("a scene from standard input that can't be used is told so", "[cli]")
     CHECK(folder.names() == Words{"bad.scene"});
 }
 
-TEST_CASE("a rotation of four digits is rendered with one warning", "[cli]")
+TEST_CASE("a rotation rounded to four digits is rendered with one warning", "[cli]")
 {
     const TempFolder folder;
     write_text(folder / "turned.scene",
@@ -346,7 +370,7 @@ TEST_CASE("a wrong PACKTRACE_ISA exits 2 and names the variable", "[cli]")
     CHECK(is_one_line(result.err));
     CHECK_THAT(result.err, ContainsSubstring("PACKTRACE_ISA: unknown instruction set 'mmx'"));
     CHECK(folder.names().empty());
-    // The scalar kernel has no use for it.
+    // The scalar kernel ignores the variable.
     const Words scalar{"--kernel", "scalar"};
     CHECK(render_small(four_spheres, folder / "a.png", scalar, "PACKTRACE_ISA=mmx").exit_code == 0);
 }
@@ -398,7 +422,7 @@ TEST_CASE("a scene that is missing or a folder exits 1 and says so", "[cli]")
     CHECK(folder.names().empty());
 }
 
-TEST_CASE("an output that can't be written is told before the rendering", "[cli]")
+TEST_CASE("an output that can't be written is reported before the rendering", "[cli]")
 {
     const TempFolder folder;
     const std::vector<std::pair<std::string, std::string>> outputs{
@@ -407,7 +431,7 @@ TEST_CASE("an output that can't be written is told before the rendering", "[cli]
         {"folder.png", "Is a directory"}};
     std::filesystem::create_directory(folder / "folder.png");
     for (const auto& [name, reason] : outputs) {
-        // A picture that would take minutes.
+        // A picture that would take minutes to render.
         const ProgramResult result = run_packtrace({"render", four_spheres, "-o", folder / name,
                                                     "--size", "20000x20000", "--kernel", "scalar"},
                                                    ends_soon);
@@ -423,7 +447,7 @@ TEST_CASE("an existing picture is replaced, and kept when writing fails", "[cli]
 {
     const TempFolder folder;
     write_text(folder / "a.pfm", "old");
-    // A limit of one block on the size of files stands for a full disk.
+    // A limit of one block on the size of files simulates a full disk.
     const ProgramResult full =
         render_small(four_spheres, folder / "a.pfm", {}, "trap '' XFSZ; ulimit -f 1;");
     CHECK(full.exit_code == 1);
@@ -436,7 +460,7 @@ TEST_CASE("an existing picture is replaced, and kept when writing fails", "[cli]
     CHECK(read_text(folder / "a.pfm").substr(0, 9) == "PF\n40 30\n");
 }
 
-TEST_CASE("info tells the machine's instruction sets and the one chosen", "[cli]")
+TEST_CASE("info lists the machine's instruction sets and the one chosen", "[cli]")
 {
     const ProgramResult text = run_packtrace({"info"});
     CHECK(text.exit_code == 0);
@@ -458,7 +482,7 @@ TEST_CASE("info tells the machine's instruction sets and the one chosen", "[cli]
     }
 }
 
-TEST_CASE("info tells what a scene holds", "[cli]")
+TEST_CASE("info describes a scene", "[cli]")
 {
     const ProgramResult text = run_packtrace({"info", four_spheres});
     CHECK_THAT(text.out, ContainsSubstring("objects  4 (4 sphere)\n"));

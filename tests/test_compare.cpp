@@ -23,7 +23,7 @@ using test::TempFolder;
 constexpr double inf = std::numeric_limits<double>::infinity();
 constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 
-// A 3 by 2 picture of 0.5 in every channel.
+// A 3 by 2 picture with 0.5 in every channel.
 template <class Real>
 Image<Real> grey()
 {
@@ -91,7 +91,7 @@ TEST_CASE("long double pictures are compared beyond double", "[compare]")
     CHECK(compare(a, b).max_abs == (wide ? 0x1p-60 : 0.0));
 }
 
-TEST_CASE("the threshold itself is not off", "[compare]")
+TEST_CASE("an error equal to the threshold does not exceed it", "[compare]")
 {
     const Image<double> a = grey<double>();
     Image<double> b = a;
@@ -136,7 +136,7 @@ TEST_CASE("NaN is infinitely far from everything, infinity only from others", "[
     CHECK(error(inf, inf) == 0.0);
 }
 
-TEST_CASE("pictures of different size are refused with both sizes", "[compare]")
+TEST_CASE("pictures of different sizes are refused with both sizes", "[compare]")
 {
     const Image<float> a(3, 2);
     const Image<float> b(2, 3);
@@ -148,7 +148,7 @@ TEST_CASE("the heat map runs from black over blue, green, yellow and red to whit
 {
     Image<double> a(8, 1);
     const Image<double> b(8, 1);
-    // Decades below the largest error, which is at 0; the stops are 1.2 decades apart.
+    // Decades below the largest error, which is at 0. The colour stops are 1.2 decades apart.
     const std::vector<double> decades{0, 1.2, 2.4, 3.6, 4.8, 6, 7};
     for (int x = 0; x < 7; ++x)
         a.pixel(x, 0)[1] = std::pow(10.0, -decades[static_cast<std::size_t>(x)]);
@@ -254,6 +254,10 @@ TEST_CASE("packtrace compare exits 1 beyond --max-error, with its result", "[com
     CHECK(beyond.exit_code == 1);
     CHECK(beyond.err == "packtrace: the largest error is 0.25, above --max-error 0.2499\n");
     CHECK_THAT(beyond.out, ContainsSubstring("max abs error  0.25\n"));
+    CHECK(run("1/4").exit_code == 0);
+    CHECK(run("60/255").err ==
+          "packtrace: the largest error is 0.25, above --max-error 0.235294\n");
+    CHECK(run("0").exit_code == 1);
 }
 
 TEST_CASE("packtrace compare names both files and sizes that differ", "[compare]")
@@ -287,6 +291,8 @@ TEST_CASE("packtrace compare refuses wrong use with exit 2 and one line", "[comp
         {{"compare", a, a, "--threshold", "/255"}, "'/255' is not a number from 0 up"},
         {{"compare", a, a, "--threshold", "1/2/3"}, "'1/2/3' is not a number from 0 up"},
         {{"compare", a, a, "--max-error", "inf"}, "'inf' is not a number from 0 up"},
+        {{"compare", a, a, "--max-error", "-1"}, "'-1' is not a number from 0 up"},
+        {{"compare", a, a, "--max-error", "1/0"}, "'1/0' is not a number from 0 up, or a fraction"},
         {{"compare", a, a, "--worst", "-2"}, "'-2' is not a whole number from 0 to 2147483647"},
         {{"compare", a, a, "--worst", "2.5"}, "'2.5' is not a whole number"},
         {{"compare", a, a, a}, "unexpected argument"},
@@ -301,7 +307,7 @@ TEST_CASE("packtrace compare refuses wrong use with exit 2 and one line", "[comp
     }
 }
 
-TEST_CASE("packtrace compare says which picture it can't read", "[compare]")
+TEST_CASE("packtrace compare names the picture that it can't read", "[compare]")
 {
     const TempFolder folder;
     write_image(folder / "a.png", Image<float>(3, 2));

@@ -38,7 +38,7 @@ Image<float> image_of(int width, int height, const std::vector<float>& values)
     return image;
 }
 
-// Values that differ in every channel of every pixel.
+// A picture with a different value in every channel of every pixel.
 Image<float> gradient(int width, int height)
 {
     Image<float> image(width, height);
@@ -57,7 +57,7 @@ std::string error_of_writing(const std::filesystem::path& file)
     return refusal<ImageError>([&] { write_image(file, gradient(3, 2)); });
 }
 
-// Writing more than this to a file fails while it lives.
+// Limits the size of written files for the lifetime of the object; longer writes fail.
 class FileSizeLimit {
 public:
     explicit FileSizeLimit(rlim_t bytes) : handler_(std::signal(SIGXFSZ, SIG_IGN))
@@ -89,7 +89,7 @@ std::vector<std::uint32_t> bits(const Image<float>& image)
 
 }  // namespace
 
-TEST_CASE("a new picture is black, unless it is to be filled", "[image]")
+TEST_CASE("a new picture is black, unless it is left uninitialized", "[image]")
 {
     for (const int edge : {1, 3, 700}) {
         {
@@ -261,7 +261,28 @@ TEST_CASE("Radiance HDR has no negative, infinite or NaN values", "[image]")
     CHECK(std::isfinite(back.rgb[6]));
 }
 
-TEST_CASE("files that are not what their name says are refused", "[image]")
+TEST_CASE("a Radiance picture is divided by the product of its exposures", "[image]")
+{
+    const TempFolder folder;
+    const auto pixel_of = [&](const std::string& lines) {
+        // 2^(exponent - 136) times 128, 64 and 0: 0.5, 0.25 and 0.
+        write_text(folder / "a.hdr",
+                   "#?RADIANCE\nFORMAT=32-bit_rle_rgbe\n" + lines + "\n-Y 1 +X 1\n\x80\x40\0\x80"s);
+        return read_image(folder / "a.hdr").rgb;
+    };
+    CHECK(pixel_of("") == Pixels{0.5f, 0.25f, 0});
+    CHECK(pixel_of("EXPOSURE=          1.0000000000000\n") == Pixels{0.5f, 0.25f, 0});
+    CHECK(pixel_of("EXPOSURE=2\n") == Pixels{0.25f, 0.125f, 0});
+    CHECK(pixel_of("EXPOSURE= +2.5e-1 \n") == Pixels{2, 1, 0});
+    CHECK(pixel_of("EXPOSURE=4\npfilt -x 512\nEXPOSURE=0.5\nEXPOSURE=4\n") ==
+          Pixels{0.0625f, 0.03125f, 0});
+    // Each of these exposures is beyond single precision.
+    CHECK(pixel_of("EXPOSURE=1e60\nEXPOSURE=1e-60\n") == Pixels{0.5f, 0.25f, 0});
+    // The header copied by a program that combined pictures.
+    CHECK(pixel_of("\tEXPOSURE=8\n") == Pixels{0.5f, 0.25f, 0});
+}
+
+TEST_CASE("files that contradict their extension are refused", "[image]")
 {
     const TempFolder folder;
     write_image(folder / "a.hdr", gradient(9, 9));
@@ -275,13 +296,13 @@ TEST_CASE("files that are not what their name says are refused", "[image]")
     CHECK_THAT(error_of_reading(folder / "empty.png"), ContainsSubstring("not a PNG file"));
 }
 
-TEST_CASE("a picture cut short anywhere is refused", "[image]")
+TEST_CASE("a picture truncated anywhere is refused", "[image]")
 {
     const TempFolder folder;
     for (const std::string name : {"a.png", "a.hdr", "a.pfm"}) {
         write_image(folder / name, gradient(16, 4));
         const std::string whole = read_text(folder / name);
-        // The last 12 bytes of a PNG hold no pixels, and its reader does not ask for them.
+        // The last 12 bytes of a PNG hold no pixels, and the reader does not need them.
         for (std::size_t length = 0; length + 12 < whole.size(); ++length) {
             write_text(folder / name, whole.substr(0, length));
             INFO(name << " of " << length << " bytes");
@@ -307,6 +328,24 @@ TEST_CASE("a wrong Radiance file is refused with the reason", "[image]")
         write_text(folder / "a.hdr", text);
         CHECK_THAT(error_of_reading(folder / "a.hdr"), ContainsSubstring(reason));
     }
+}
+
+TEST_CASE("a wrong exposure of a Radiance file is refused in one line", "[image]")
+{
+    const TempFolder folder;
+    const auto refusal_of = [&](const std::string& lines) {
+        write_text(folder / "a.hdr", "#?RADIANCE\n" + lines + "\n-Y 1 +X 1\n1234");
+        const std::string message = error_of_reading(folder / "a.hdr");
+        CHECK(message.starts_with((folder / "a.hdr").string() + ": "));
+        return message.substr(message.find(": ") + 2);
+    };
+    for (const std::string bad :
+         {"", " ", "0", "-1", "nan", "inf", "1e400", "1e-400", "0x10", "1,5", "1 2", "one"})
+        CHECK(refusal_of("EXPOSURE=2\nEXPOSURE=" + bad + "\n") ==
+              "HDR exposure '" + bad + "' is not a number above 0");
+    for (const std::string each : {"1e30", "1e-30", "1e300", "1e-300"})
+        CHECK(refusal_of("EXPOSURE=" + each + "\nEXPOSURE=" + each + "\n") ==
+              "the product of all HDR exposures is too large or too small");
 }
 
 TEST_CASE("an unknown extension lists the known ones", "[image]")
@@ -341,8 +380,8 @@ TEST_CASE("a disk that fills up leaves the old file and nothing else", "[image]"
 {
     const TempFolder folder;
     write_text(folder / "a.pfm", "old");
-    // A limit on the size of files stands for the full disk. The small picture meets it only
-    // when the file is closed.
+    // A limit on the size of files simulates the full disk. The small picture reaches it only when
+    // the file is closed.
     for (const int size : {10, 64}) {
         const std::string message = refusal<ImageError>([&] {
             const FileSizeLimit limit(100);
@@ -354,7 +393,7 @@ TEST_CASE("a disk that fills up leaves the old file and nothing else", "[image]"
     }
 }
 
-TEST_CASE("writability is told without leaving a file", "[image]")
+TEST_CASE("the check for writability leaves no file", "[image]")
 {
     const TempFolder folder;
     check_image_writable(folder / "a.png");
@@ -388,7 +427,7 @@ TEST_CASE("an atomic file appears only with its commit", "[image]")
     CHECK(read_text(folder / "a") == "new");
 }
 
-TEST_CASE("wider values are rounded once, to what the file holds", "[image]")
+TEST_CASE("values of higher precision are rounded once, to the file's precision", "[image]")
 {
     // Just below halfway between two bytes: the nearest float is often above.
     Image<double> image(255, 1);
@@ -438,7 +477,7 @@ TEST_CASE("a picture keeps the recipe it was written with", "[image]")
         CHECK((read_image(folder / name).rgb == plain.rgb));
         write_image(folder / name, gradient(5, 4), {.recipe = std::string(2000, 'x')});
         CHECK(read_recipe(folder / name) == std::string(2000, 'x'));
-        // Nor has one that was damaged since.
+        // A file that was damaged later has no recipe.
         const std::string whole = read_text(folder / name);
         std::string changed = whole;
         changed[whole.size() - 20] ^= 1;
@@ -446,7 +485,7 @@ TEST_CASE("a picture keeps the recipe it was written with", "[image]")
             write_text(folder / name, damaged);
             CHECK(read_recipe(folder / name).empty());
         }
-        // Another picture in its place has none.
+        // Another picture that replaces the file has no recipe.
         write_image(folder / name, gradient(4, 5));
         CHECK(read_recipe(folder / name).empty());
         for (const std::string& bad : {std::string(2001, 'x'), "two\nlines"s, "\xc3\xa4"s})

@@ -1,4 +1,4 @@
-// The program's `report`.
+// The command `report`.
 #include "catch.hpp"
 #include "run_program.hpp"
 #include <packtrace/write_report.hpp>
@@ -25,7 +25,7 @@ TEST_CASE("report writes its files and prints a judgement of each scene", "[repo
     const TempFolder folder;
     const ProgramResult result =
         run_report(folder, {four_spheres_file, four_spheres_file, "-o", (folder / "out").string(),
-                            "--repetitions", "2", "--max-error", "0.5", "--max-time", "1e6"});
+                            "--repetitions", "2", "--max-error", "1/2", "--max-time", "1e6"});
     CAPTURE(result.err);
     REQUIRE(result.exit_code == 0);
     CHECK(result.err.empty());
@@ -34,6 +34,7 @@ TEST_CASE("report writes its files and prints a judgement of each scene", "[repo
             CHECK_THAT(result.out, ContainsSubstring(std::string(scene) + study + "Cheapest"));
     const auto json = nlohmann::json::parse(read_text(folder / "out" / "report.json"));
     CHECK(json["repetitions"] == 2);
+    CHECK(json["max_error"] == 0.5);
     CHECK(json["max_time_s"] == 1000.0);
     CHECK(json["scenes"].size() == 2);
     const std::string command = json["conditions"]["command"];
@@ -56,7 +57,7 @@ TEST_CASE("a second report takes the truth from the cache", "[report_cli]")
     CHECK(cached("second"));
 }
 
-TEST_CASE("a scene file's name can't lead a report astray", "[report_cli]")
+TEST_CASE("a scene's file name can't change where a report is written", "[report_cli]")
 {
     const TempFolder folder;
     const std::string text = "image_size = 8 x 8\nsphere { center = (0, 0, 3)  radius = 1 }\n";
@@ -86,7 +87,7 @@ TEST_CASE("a scene file's name can't lead a report astray", "[report_cli]")
     CHECK(read_text(folder / "out" / "report.html").find("<!--<script>") == std::string::npos);
 }
 
-TEST_CASE("names of scenes become names of folders", "[report_cli]")
+TEST_CASE("names of scenes become valid folder names", "[report_cli]")
 {
     CHECK(report_folder_name("four spheres") == "four spheres");
     CHECK(report_folder_name("gr\xc3\xb6\xc3\x9f"
@@ -112,7 +113,7 @@ TEST_CASE("names of scenes become names of folders", "[report_cli]")
     CHECK(folder.names().empty());
 }
 
-TEST_CASE("messages have one line whatever a file is called", "[report_cli]")
+TEST_CASE("messages have one line, whatever the name of a file", "[report_cli]")
 {
     const TempFolder folder;
     for (const char* command : {"render", "report", "demo", "bench"}) {
@@ -159,7 +160,7 @@ TEST_CASE("a report that is refused leaves no folder behind", "[report_cli]")
     CHECK(folder.names().empty());
 }
 
-TEST_CASE("report.md says a scene's name as it is, and links to its pictures", "[report_cli]")
+TEST_CASE("report.md contains a scene's name unchanged, and links to its pictures", "[report_cli]")
 {
     const TempFolder folder;
     const std::filesystem::path scene = folder / "a|b%20#1 [x](y) <z>.scene";
@@ -216,8 +217,10 @@ TEST_CASE("report refuses wrong use in one line", "[report_cli]")
                ContainsSubstring("--repetitions"));
     CHECK_THAT(message({four_spheres_file, "-o", out, "--threads", "1,x"}),
                ContainsSubstring("--threads"));
-    CHECK_THAT(message({four_spheres_file, "-o", out, "--max-error", "0"}),
-               ContainsSubstring("--max-error"));
+    for (const std::string bad : {"0", "0/5", "-1", "1/0", "x"})
+        CHECK_THAT(message({four_spheres_file, "-o", out, "--max-error", bad}),
+                   ContainsSubstring("--max-error: '" + bad +
+                                     "' is not a number above 0, or a fraction such as 1/255"));
     CHECK_FALSE(std::filesystem::exists(out));
 }
 

@@ -16,23 +16,23 @@
 namespace packtrace::cli {
 namespace {
 
-/// A whole line, with an end of line before and behind it: the handler of signals allocates
-/// nothing.
+/// A complete line, with an end of line before and after it, because signal handlers must not
+/// allocate.
 using SignalLine = std::array<char, 512>;
 
-/// One that may be read, one that may be written.
+/// Two lines: one may be read by the handler while the other is written.
 std::array<SignalLine, 2> signal_lines;
 std::atomic<const char*> given_line{nullptr};
-/// Where none is given, and no unfinished file was there to remove, or some.
+/// The lines if none is given: without and with removed files.
 SignalLine usual_line;
 SignalLine removal_line;
 volatile std::sig_atomic_t linger = 0;  ///< milliseconds
 
-std::string program_name;  ///< what each line begins with
+std::string program_name;  ///< at the start of each line
 
 void fill(SignalLine& line, const std::string& given)
 {
-    // One line, whatever is in the names of files.
+    // escape() makes one line of it, even if names of files have line ends.
     const std::string text = language::escape(program_name + ": " + given);
     const std::size_t length = std::min(text.size(), line.size() - 3);
     line[0] = '\n';
@@ -46,10 +46,10 @@ void say(std::string_view line)
     [[maybe_unused]] const ssize_t written = write(STDERR_FILENO, line.data(), line.size());
 }
 
-// Calls nothing but what signal handlers may call.
+// Calls only functions that signal handlers may call.
 void say_and_end(int signal)
 {
-    // A line that is ready goes first: files may take a while.
+    // A given line is printed first, because removing files may take some time.
     const char* const given = given_line.load();
     if (given != nullptr)
         say(given);

@@ -12,7 +12,7 @@
 namespace packtrace::cli {
 namespace {
 
-// CLI11 prints help and version itself; a wrong use becomes one line.
+// CLI11 prints help and version itself. Wrong use is reported in one line.
 int report_parse_end(const CLI::App& app, const CLI::ParseError& end, int argc, char** argv)
 {
     if (end.get_exit_code() == 0) {
@@ -24,7 +24,7 @@ int report_parse_end(const CLI::App& app, const CLI::ParseError& end, int argc, 
     return exit_usage;
 }
 
-/// Runs the subcommand; what it throws ends the program.
+/// Runs the subcommand. Its exceptions end the program.
 int parse_and_run(CLI::App& app, int argc, char** argv)
 {
     ask_for_subcommand(app);
@@ -37,7 +37,7 @@ int parse_and_run(CLI::App& app, int argc, char** argv)
     return exit_ok;
 }
 
-/// The commands take memory, too, as they are set up.
+/// Adding the commands allocates, too, so it is inside the handlers of main().
 int set_up_and_run(int argc, char** argv)
 {
     CLI::App app{"packtrace: a SIMD ray-packet tracer for spheres, planes, quadrics and polygons"};
@@ -72,7 +72,7 @@ int run(int argc, char** argv)
         std::cerr << "packtrace: not enough memory\n";
         return exit_failed;
     } catch (const std::exception& error) {
-        // One line, whatever is in the names of files.
+        // escape() makes one line of it, even if names of files have line ends.
         std::cerr << language::escape(error.what()) << '\n';
         return exit_failed;
     }

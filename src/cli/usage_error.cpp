@@ -10,14 +10,14 @@
 namespace packtrace::cli {
 namespace {
 
-/// The subcommand in use, or its own (generate's), or the program itself.
+/// The innermost subcommand in use, or the program itself.
 const CLI::App& innermost(const CLI::App& app)
 {
     const auto used = app.get_subcommands();
     return used.empty() ? app : innermost(*used.front());
 }
 
-/// "packtrace generate lattice", or of another program what its file is called.
+/// "packtrace generate lattice". For other programs it begins with the name of their file.
 std::string full_name(const CLI::App& command)
 {
     const CLI::App* const parent = command.get_parent();
@@ -45,8 +45,8 @@ std::vector<std::string> options_of(const CLI::App& command)
     return names;
 }
 
-/// The words that neither this command nor those it belongs to took; a subcommand leaves words
-/// without a dash to its parent.
+/// The words that neither this command nor its parents accepted. A subcommand passes words without
+/// a dash to its parent.
 std::vector<std::string> unexpected_words(const CLI::App& command)
 {
     std::vector<std::string> words = command.remaining();
@@ -56,7 +56,8 @@ std::vector<std::string> unexpected_words(const CLI::App& command)
     return words;
 }
 
-/// The first of them on the command line, which CLI11 may list from the last; empty for none.
+/// The first unexpected word on the command line; empty for none. CLI11 may list them in reverse
+/// order.
 std::string first_unexpected(const CLI::App& command, int count, const char* const* arguments)
 {
     const std::vector<std::string> unexpected = unexpected_words(command);
@@ -80,7 +81,7 @@ std::string describe_unexpected(const CLI::App& command, const std::string& word
     return nearest.empty() ? text : text + "; did you mean " + std::string(nearest) + "?";
 }
 
-/// What CLI11 says of an option that is given more than once, or without its value, in plain words.
+/// Rewrites CLI11's message about a repeated option or a missing value in plain words.
 std::string describe_mismatch(const std::string& what)
 {
     static constexpr std::string_view repeated = ": At Most 1 required but received ";
@@ -107,7 +108,7 @@ std::string usage_error(const CLI::App& app, const CLI::ParseError& error, int c
     std::string what = dynamic_cast<const CLI::ArgumentMismatch*>(&error) != nullptr
                            ? describe_mismatch(error.what())
                            : error.what();
-    // What is missing may be there under a mistyped name: the name is told first.
+    // A missing option may be there under a mistyped name, so the unknown name is reported first.
     if (dynamic_cast<const CLI::ExtrasError*>(&error) != nullptr ||
         dynamic_cast<const CLI::RequiredError*>(&error) != nullptr)
         if (const std::string word = first_unexpected(command, count, arguments); !word.empty())
@@ -118,8 +119,8 @@ std::string usage_error(const CLI::App& app, const CLI::ParseError& error, int c
 void ask_for_subcommand(CLI::App& app)
 {
     app.require_subcommand(0, 1);
-    // Asked before the command runs: this takes memory, and after it a whole picture would stand
-    // there.
+    // Check before the command runs. The check allocates, and after the command a whole picture
+    // would still be in memory.
     app.parse_complete_callback([&app] {
         if (app.get_subcommands().empty())
             throw CLI::RequiredError::Subcommand(1);

@@ -6,12 +6,12 @@
 
 namespace packtrace::cli {
 
-/// The line, without its end, that a wrong use of the command line is told with: what is wrong,
-/// what may have been meant, and whose --help says more. `arguments` are those of main().
+/// The message for a wrong use of the command line, one line without its end: what is wrong, what
+/// may have been meant, and which --help has more. `arguments` are those of main().
 [[nodiscard]] std::string usage_error(const CLI::App& app, const CLI::ParseError& error, int count,
                                       const char* const* arguments);
 
-/// Makes one subcommand needed. A mistyped one is not called missing.
+/// Requires a subcommand. A mistyped subcommand is not reported as missing.
 void ask_for_subcommand(CLI::App& app);
 
 }  // namespace packtrace::cli

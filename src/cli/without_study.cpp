@@ -6,7 +6,7 @@
 #include <stdexcept>
 #include <string>
 
-// Stands in for the commands of src/cli/study in builds without it (PACKTRACE_BUILD_STUDY).
+// Replaces the commands of src/cli/study in builds without PACKTRACE_BUILD_STUDY.
 namespace packtrace::cli {
 namespace {
 

@@ -5,17 +5,18 @@
 #include <functional>
 #include <string>
 
-// How builds without the laboratory (PACKTRACE_BUILD_STUDY) refuse what it does, in both programs.
+// Error messages for commands that are missing in builds without PACKTRACE_BUILD_STUDY, for both
+// programs.
 namespace packtrace::cli {
 
-/// Why `program` can't do `what`.
+/// The message that `program` cannot do `what`.
 [[nodiscard]] inline std::string why_left_out(const std::string& program, const std::string& what)
 {
     return program + ": this build leaves out '" + what +
            "'; type ./run build, which builds all commands";
 }
 
-/// Adds a command in the place of one that is left out; `refuse` throws.
+/// Adds a command in place of a missing one. `refuse` must throw.
 inline void add_left_out(CLI::App& app, const std::string& name,
                          const std::function<void()>& refuse)
 {

@@ -5,7 +5,7 @@
 namespace packtrace {
 namespace {
 
-// Both comparisons are false for NaN, the first of which makes it 0.
+// Comparisons with NaN are false, so the first one makes it 0.
 template <class Real>
 std::uint8_t to_byte(Real value)
 {

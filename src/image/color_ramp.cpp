@@ -14,7 +14,7 @@ constexpr int legend_height = bar_height + 12;
 constexpr int digit_width = 3;
 constexpr int digit_height = 5;
 
-// Rows of three pixels from the top, a bit each, for the characters below.
+// The glyphs of these characters: rows of three pixels from the top, one bit per pixel.
 constexpr std::string_view legend_characters = "0123456789.nse+-";
 constexpr std::array<std::array<unsigned char, digit_height>, 16> legend_glyphs{{
     {7, 5, 5, 5, 7},

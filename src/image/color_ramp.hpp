@@ -7,7 +7,7 @@
 #include <cstddef>
 #include <string>
 
-// The colours of pictures that show numbers, and the legend below such a picture.
+// The colours and the legend of pictures that show numbers.
 namespace packtrace {
 
 /// The colour at `place` in [0, 1] from black through blue, green, yellow and red to white.
@@ -25,8 +25,8 @@ namespace packtrace {
     return color;
 }
 
-/// The picture over a bar with the colours of color_ramp() from end to end, and below it what
-/// the ends stand for. Texts are of digits and the characters of "e.+-ns".
+/// Adds a bar with the colours of color_ramp() below the picture, and the texts for its ends. Texts
+/// may have digits and the characters "e.+-ns".
 [[nodiscard]] Image<float> with_legend(const Image<float>& picture, const std::string& low,
                                        const std::string& high);
 

@@ -1,4 +1,4 @@
-// How far two pictures are apart: as numbers, and as a picture.
+// The difference between two pictures, as numbers and as a picture.
 #include "core/check_number.hpp"
 #include "image/color_ramp.hpp"
 #include "image/pixel_error.hpp"
@@ -38,7 +38,7 @@ bool is_worse(const PixelError& a, const PixelError& b)
     return a.y != b.y ? a.y < b.y : a.x < b.x;
 }
 
-// The `count` largest errors of those added, without keeping the others.
+// Keeps the `count` largest of the errors added.
 class WorstPixels {
 public:
     explicit WorstPixels(int count) : count_(static_cast<std::size_t>(count))
@@ -66,12 +66,12 @@ public:
 
 private:
     std::size_t count_;
-    std::vector<PixelError> heap_;  // the least of those kept is in front
+    std::vector<PixelError> heap_;  // the smallest error kept is in front
 };
 
 constexpr double decades = 6.0;
 
-// Where an error lies between `largest` (1) and six decades below it (0).
+// The position of an error on a logarithmic scale: 1 for `largest`, 0 from six decades below it on.
 double place_of(double error, double largest)
 {
     if (error == 0.0)
@@ -113,7 +113,7 @@ Comparison compare(const Image<Real>& a, const Image<Real>& b, const CompareOpti
     WorstPixels worst(options.worst);
     Comparison result;
     result.pixels = a.rgb.size() / 3;
-    // Sums by rows first, so that small errors are not lost beside a large total.
+    // Sum each row first, so that small errors are not lost beside a large total.
     ErrorReal<Real> sum = 0;
     for (int y = 0; y < a.height; ++y) {
         ErrorReal<Real> row_sum = 0;
@@ -150,7 +150,7 @@ Image<float> heatmap(const Image<Real>& a, const Image<Real>& b)
     double largest = 0.0;
     for (std::size_t i = 0; i < errors.size(); ++i) {
         errors[i] = static_cast<double>(pixel_error(&a.rgb[3 * i], &b.rgb[3 * i]));
-        // An infinite error is off the scale, not the scale.
+        // An infinite error is beyond the scale and does not define it.
         if (std::isfinite(errors[i]))
             largest = std::max(largest, errors[i]);
     }

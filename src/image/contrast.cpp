@@ -5,7 +5,7 @@
 namespace packtrace {
 namespace {
 
-// Least and greatest of three rows, with a copy of the first and the last pixel at either end.
+// The minimum and maximum of three rows, with a copy of the first and the last pixel at the ends.
 template <class Real>
 struct RowRange {
     std::vector<Real> low, high;

@@ -7,11 +7,11 @@
 #include <cstdint>
 #include <vector>
 
-// Adaptive sampling: where a picture is not smooth, and the regions that this is decided in.
+// Adaptive sampling: finds the pixels of a picture that need more samples.
 namespace packtrace {
 
-/// Where a picture is not smooth: by pixel, 1 where a channel differs by more than a threshold from
-/// that of one of the eight neighbours, else 0.
+/// Marks the pixels of a picture with contrast: a channel differs by more than a threshold from
+/// that of one of the eight neighbours.
 template <class Real>
 class ContrastMap {
 public:
@@ -20,7 +20,7 @@ public:
     {
     }
 
-    /// Fills row `y`; rows may be filled from several threads.
+    /// Computes row `y`. Different rows may be computed on several threads at once.
     void mark_row(int y);
 
     [[nodiscard]] bool operator()(int x, int y) const
@@ -35,7 +35,7 @@ private:
     std::vector<std::uint8_t> marks_;
 };
 
-/// The region and the pixels beside it, as far as the picture goes: what contrast looks at.
+/// The region and its neighbouring pixels inside the picture, which its contrast depends on.
 [[nodiscard]] inline Region with_neighbours(const Region& region, int width, int height)
 {
     const int x = std::max(0, region.x - 1);
@@ -44,7 +44,7 @@ private:
             std::min(height, region.y + region.height + 1) - y};
 }
 
-/// Copies a region of an image to one of the region's size.
+/// Copies a region of an image to an image of the region's size.
 template <class Real>
 void copy_region(const Region& region, const Image<Real>& from, Image<Real>& to)
 {

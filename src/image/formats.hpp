@@ -13,18 +13,18 @@
 #include <span>
 #include <string>
 
-// The formats of picture files: each one's encoder and decoder, whole or a row at a time.
+// The encoders and decoders of picture files, for whole pictures or one row at a time.
 namespace packtrace {
 
 enum class ImageFormat { png, pfm, hdr };
 
-/// The format a picture file's extension stands for, in either case, if any.
+/// The format of a file's extension, in upper or lower case; not set for an unknown extension.
 [[nodiscard]] std::optional<ImageFormat> find_image_format(const std::filesystem::path& file);
 
-/// The same. Throws ImageError that lists the known ones.
+/// The format of a file's extension. Throws ImageError, which lists the known extensions.
 [[nodiscard]] ImageFormat image_format(const std::filesystem::path& file);
 
-/// Runs `use`; what goes wrong becomes an ImageError that names the file.
+/// Runs `use`. Its errors become ImageErrors that name the file.
 template <class Use>
 auto named(const std::filesystem::path& file, const Use& use)
 {
@@ -43,8 +43,8 @@ auto named(const std::filesystem::path& file, const Use& use)
 struct PngSettings {
     double gamma = 1.0;       ///< as in ImageWriteOptions
     std::string recipe = {};  ///< as in ImageWriteOptions
-    /// Bytes of samples: more of them are compressed row by row, in little memory, into a larger
-    /// file.
+    /// The largest picture that is compressed as a whole, in bytes of samples. Larger ones are
+    /// compressed row by row, which takes little memory but gives a larger file.
     std::size_t largest_whole = std::size_t{1} << 27;
 };
 
@@ -52,20 +52,20 @@ struct PngSettings {
 template <class Real>
 [[nodiscard]] Bytes encode_png(const Image<Real>& image, const PngSettings& settings = {});
 
-/// The file of samples that are rounded already, 3 bytes a pixel, compressed as a whole.
+/// The PNG file of samples that are already rounded, 3 bytes per pixel, compressed as a whole.
 [[nodiscard]] Bytes encode_png_samples(const Bytes& samples, int width, int height);
 
-/// The recipe in a PNG file; empty for none, and where the file is damaged.
+/// The recipe in a PNG file; empty if there is none, or if the file is damaged.
 [[nodiscard]] std::string png_recipe(std::span<const std::uint8_t> file);
 
-/// The picture in a PNG file; alpha is dropped, grey spread. Throws ImageError without a name.
+/// The picture in a PNG file. Alpha is ignored, and grey is copied to all channels. Throws
+/// ImageError without a file's name.
 [[nodiscard]] Image<float> decode_png(std::span<const std::uint8_t> file);
 
-/// An 8-bit RGB PNG file made by libpng row by row. It holds one row at a time.
+/// Writes an 8-bit RGB PNG file with libpng, row by row. It holds one row at a time.
 class PngRows {
 public:
-    /// Takes the file's bytes as they come, in order. What it throws comes out of the call that
-    /// made them.
+    /// Receives the bytes of the file, in order. Its exceptions leave the call that made the bytes.
     using Take = std::function<void(std::span<const std::uint8_t>)>;
 
     PngRows(int width, int height, Take take);
@@ -73,9 +73,9 @@ public:
     PngRows(const PngRows&) = delete;
     PngRows& operator=(const PngRows&) = delete;
 
-    /// The next row, 3 bytes a pixel.
+    /// Writes the next row, 3 bytes per pixel.
     void write(const std::uint8_t* row);
-    /// After the last row.
+    /// Call it after the last row.
     void finish();
 
 private:
@@ -83,10 +83,10 @@ private:
     std::unique_ptr<State> state_;
 };
 
-/// Gives row `y` of a picture as 3 bytes a pixel.
+/// Writes row `y` of a picture to `row`, 3 bytes per pixel.
 using GiveRow = std::function<void(int y, std::uint8_t* row)>;
 
-/// The file in memory.
+/// A PNG file in memory, made with PngRows.
 [[nodiscard]] Bytes encode_png_rows(int width, int height, const GiveRow& give_row);
 
 // PFM
@@ -95,30 +95,32 @@ using GiveRow = std::function<void(int y, std::uint8_t* row)>;
 template <class Real>
 [[nodiscard]] Bytes encode_pfm(const Image<Real>& image);
 
-/// What stands before the rows.
+/// The part of the file before the rows.
 [[nodiscard]] std::string pfm_header(int width, int height);
 
-/// The bytes of these values, four each, into `to`.
+/// Writes the bytes of the values to `to`, four per value.
 template <class Real>
 void encode_pfm_values(std::span<const Real> values, std::uint8_t* to);
 
-/// The picture in a PFM file of either byte order, colour or grey, multiplied by the size of
-/// its scale. The raster must fill the file. Throws ImageError without a file's name.
+/// The picture in a PFM file of either byte order, in colour or grey, multiplied by the magnitude
+/// of its scale. The raster must extend to the end of the file. Throws ImageError without a file's
+/// name.
 [[nodiscard]] Image<float> decode_pfm(std::span<const std::uint8_t> file);
 
 // Radiance HDR
 
-/// A Radiance RGBE file. Negative values and NaN become 0, values from 2^127 up the largest
-/// below it: the format has no others.
+/// A Radiance RGBE file. The format has only values from 0 to below 2^127: negative values and NaN
+/// become 0, larger values the largest one.
 [[nodiscard]] Bytes encode_hdr(const Image<float>& image);
 
-/// What stands before the rows.
+/// The part of the file before the rows.
 [[nodiscard]] std::string hdr_header(int width, int height);
 
-/// Appends a row of red, green and blue to the file.
+/// Appends a row of r, g, b values to the file.
 void append_hdr_row(Bytes& file, std::span<const float> row);
 
-/// The picture in a Radiance file. Throws ImageError without a file's name.
+/// The picture in a Radiance file, divided by the product of its EXPOSURE lines. Throws ImageError
+/// without a file's name.
 [[nodiscard]] Image<float> decode_hdr(std::span<const std::uint8_t> file);
 
 }  // namespace packtrace

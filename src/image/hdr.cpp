@@ -1,5 +1,5 @@
-// Radiance pictures. stb_image_write makes them, a row at a time. The reader is an own one, because
-// stb_image before its version 2.28 never returns from a file that is cut short.
+// Radiance pictures. stb_image_write encodes them, one row at a time. The decoder is our own,
+// because stb_image before version 2.28 never returns from a truncated file.
 #include "image/formats.hpp"
 
 #define STB_IMAGE_WRITE_STATIC
@@ -10,6 +10,9 @@
 #include <array>
 #include <cmath>
 #include <cstdio>
+#include <limits>
+#include <locale>
+#include <sstream>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -24,7 +27,7 @@ void append(void* file, void* data, int size)
     to.insert(to.end(), bytes, bytes + size);
 }
 
-// The format keeps exponents up to 2^127; both comparisons make NaN 0.
+// The format has exponents up to 2^127. Comparisons with NaN are false, which makes it 0.
 float clamp_to_rgbe(float value)
 {
     constexpr float largest = 0x1.fffffep126f;
@@ -32,7 +35,7 @@ float clamp_to_rgbe(float value)
     return positive < largest ? positive : largest;
 }
 
-// Reads a file from front to back; its end where more is needed is an error.
+// Reads a file from front to back. It is an error if the file ends early.
 class Cursor {
 public:
     explicit Cursor(std::span<const std::uint8_t> file) : rest_(file)
@@ -70,15 +73,42 @@ struct Size {
     int height = 0;
 };
 
-Size read_header(Cursor& file)
+struct HdrHeader {
+    Size size;
+    float exposure = 1.0f;  // factor of the values in the file
+};
+
+constexpr std::string_view format_key = "FORMAT=";
+constexpr std::string_view exposure_key = "EXPOSURE=";
+
+void check_format(const std::string& format)
 {
-    const std::string magic = file.line();
-    if (magic != "#?RADIANCE" && magic != "#?RGBE")
-        throw ImageError("not a Radiance HDR file");
-    for (std::string line = file.line(); !line.empty(); line = file.line())
-        if (line.starts_with("FORMAT=") && line != "FORMAT=32-bit_rle_rgbe")
-            throw ImageError("HDR pixels of the kind " + line.substr(7) + " are not supported");
-    const std::string resolution = file.line();
+    if (format != "32-bit_rle_rgbe")
+        throw ImageError("HDR pixels of the kind " + format + " are not supported");
+}
+
+double parse_exposure(const std::string& text)
+{
+    std::istringstream number(text);
+    number.imbue(std::locale::classic());
+    double exposure = 0.0;
+    if (!(number >> exposure) || !(number >> std::ws).eof() || !(exposure > 0.0))
+        throw ImageError("HDR exposure '" + text + "' is not a number above 0");
+    return exposure;
+}
+
+/// The product of all exposures. Rejects a product that single precision cannot divide by.
+float checked_exposure(double product)
+{
+    constexpr double least = std::numeric_limits<float>::min();
+    constexpr double most = std::numeric_limits<float>::max();
+    if (!(product >= least && product <= most))
+        throw ImageError("the product of all HDR exposures is too large or too small");
+    return static_cast<float>(product);
+}
+
+Size parse_resolution(const std::string& resolution)
+{
     Size size;
     char end = 0;
     if (std::sscanf(resolution.c_str(), "-Y %9d +X %9d%c", &size.height, &size.width, &end) != 2 ||
@@ -87,7 +117,23 @@ Size read_header(Cursor& file)
     return size;
 }
 
-// Four runs of bytes, one a component; a count above 128 repeats one byte.
+HdrHeader read_header(Cursor& file)
+{
+    const std::string magic = file.line();
+    if (magic != "#?RADIANCE" && magic != "#?RGBE")
+        throw ImageError("not a Radiance HDR file");
+    // Each program that scales the picture adds a line with its exposure.
+    double exposure = 1.0;
+    for (std::string line = file.line(); !line.empty(); line = file.line())
+        if (line.starts_with(format_key))
+            check_format(line.substr(format_key.size()));
+        else if (line.starts_with(exposure_key))
+            exposure *= parse_exposure(line.substr(exposure_key.size()));
+    const Size size = parse_resolution(file.line());
+    return {size, checked_exposure(exposure)};
+}
+
+// Four sequences of bytes, one per component. A count above 128 repeats one byte.
 void read_packed_row(Cursor& file, Bytes& row)
 {
     const std::size_t width = row.size() / 4;
@@ -119,11 +165,11 @@ void read_row(Cursor& file, Bytes& row)
     }
 }
 
-void expand(const std::uint8_t* rgbe, float* rgb)
+void expand(const std::uint8_t* rgbe, float exposure, float* rgb)
 {
     const float unit = rgbe[3] == 0 ? 0.0f : std::ldexp(1.0f, rgbe[3] - (128 + 8));
     for (int c = 0; c < 3; ++c)
-        rgb[c] = static_cast<float>(rgbe[c]) * unit;
+        rgb[c] = static_cast<float>(rgbe[c]) * unit / exposure;
 }
 
 }  // namespace
@@ -160,9 +206,9 @@ Bytes encode_hdr(const Image<float>& image)
 Image<float> decode_hdr(std::span<const std::uint8_t> bytes)
 {
     Cursor file(bytes);
-    const Size size = read_header(file);
-    // A run of two bytes gives one component of at most 127 pixels. A size that the file can't
-    // hold is not allocated.
+    const auto [size, exposure] = read_header(file);
+    // Two bytes encode one component of at most 127 pixels. Reject a size that the file cannot
+    // hold, before memory is allocated.
     if (static_cast<double>(size.width) * size.height / 127.0 * 8.0 >
         static_cast<double>(file.rest().size()))
         throw ImageError("damaged HDR picture: the file ends early");
@@ -171,7 +217,7 @@ Image<float> decode_hdr(std::span<const std::uint8_t> bytes)
     for (int y = 0; y < size.height; ++y) {
         read_row(file, row);
         for (int x = 0; x < size.width; ++x)
-            expand(&row[4 * static_cast<std::size_t>(x)], image.pixel(x, y));
+            expand(&row[4 * static_cast<std::size_t>(x)], exposure, image.pixel(x, y));
     }
     return image;
 }

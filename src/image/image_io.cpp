@@ -1,5 +1,5 @@
-// Picture files by their names: written, checked and read in the format of the extension, and the
-// recipe of what made a picture, which formats without room for text keep in a file beside it.
+// Writes, checks and reads picture files in the format of their extension, and their recipes.
+// Formats without room for text have the recipe in a second file.
 #include "core/atomic_file.hpp"
 #include "core/checksum.hpp"
 #include "core/read_file.hpp"
@@ -24,7 +24,7 @@ std::filesystem::path beside(std::filesystem::path picture)
     return picture;
 }
 
-/// Tells a picture from one that has since been put into its place.
+/// Identifies the bytes of a picture, to detect that the file was replaced.
 std::string mark_of(std::span<const std::uint8_t> bytes)
 {
     return std::to_string(bytes.size()) + " bytes, checksum " + std::to_string(checksum(bytes));
@@ -35,19 +35,19 @@ std::string recipe_in_png(const std::filesystem::path& picture)
     try {
         return png_recipe(bytes_of(read_file(picture)));
     } catch (const FileError&) {
-        // Not there, or not to be read.
+        // The file does not exist or cannot be read.
         return {};
     }
 }
 
-/// Writes the file beside `picture`, which has these bytes. Throws FileError.
+/// Writes the recipe file beside `picture`, whose content is `bytes`. Throws FileError.
 void write_recipe_beside(const std::filesystem::path& picture, std::span<const std::uint8_t> bytes,
                          const std::string& recipe)
 {
     write_file(beside(picture), recipe + "\n" + mark_of(bytes) + "\n");
 }
 
-/// The recipe beside `picture`; empty when there is none, or when the picture has other bytes now.
+/// The recipe beside `picture`; empty if there is none, or if the picture has other bytes now.
 std::string read_recipe_beside(const std::filesystem::path& picture)
 {
     try {
@@ -57,7 +57,7 @@ std::string read_recipe_beside(const std::filesystem::path& picture)
         if (text.ends_with(mark))
             return text.substr(0, text.size() - mark.size());
     } catch (const FileError&) {
-        // Not there, or not to be read: nobody knows what made the picture.
+        // There is no picture or no recipe, or it cannot be read.
     }
     return {};
 }
@@ -79,7 +79,8 @@ Bytes encode(ImageFormat format, const Image<Real>& image, const ImageWriteOptio
         return encode_hdr(convert<float>(image));
 }
 
-/// What a PNG may have, its encoder checks.
+/// Throws std::invalid_argument for a gamma that the format does not support. The encoder of PNG
+/// checks its own range.
 void check_gamma(ImageFormat format, double gamma)
 {
     if (format != ImageFormat::png && gamma != 1.0)

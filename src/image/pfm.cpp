@@ -17,28 +17,28 @@ struct Header {
     int channels = 3;
     int width = 0;
     int height = 0;
-    float scale = -1.0f;     // its sign tells the byte order, negative for little endian
+    float scale = -1.0f;     // the sign is the byte order, negative for little endian
     std::size_t raster = 0;  // offset of the first sample
 };
 
-// Swaps the bytes of a word that is stored in the other order than this machine's.
-std::uint32_t ordered(std::uint32_t word, bool little)
+// Swaps the bytes of a word if `order` is not the order of this machine.
+std::uint32_t ordered(std::uint32_t word, std::endian order)
 {
-    if (little == (std::endian::native == std::endian::little))
+    if (order == std::endian::native)
         return word;
     return word << 24 | (word & 0xff00u) << 8 | (word >> 8 & 0xff00u) | word >> 24;
 }
 
-float load(const std::uint8_t* bytes, bool little)
+float load(const std::uint8_t* bytes, std::endian order)
 {
     std::uint32_t word = 0;
     std::memcpy(&word, bytes, sizeof word);
-    return std::bit_cast<float>(ordered(word, little));
+    return std::bit_cast<float>(ordered(word, order));
 }
 
 void store(float value, std::uint8_t* bytes)
 {
-    const std::uint32_t word = ordered(std::bit_cast<std::uint32_t>(value), true);
+    const std::uint32_t word = ordered(std::bit_cast<std::uint32_t>(value), std::endian::little);
     std::memcpy(bytes, &word, sizeof word);
 }
 
@@ -56,7 +56,7 @@ Header read_header(std::span<const std::uint8_t> file)
         throw ImageError("bad PFM header: width and height must be positive whole numbers");
     if (!(text >> header.scale) || header.scale == 0.0f || !std::isfinite(header.scale))
         throw ImageError("bad PFM header: the scale must be a number other than 0");
-    // One character of white space stands between header and raster.
+    // One character of white space separates the header from the raster.
     if (text.get() == std::istringstream::traits_type::eof())
         throw ImageError("bad PFM header: it does not end");
     header.raster = static_cast<std::size_t>(text.tellg());
@@ -65,7 +65,7 @@ Header read_header(std::span<const std::uint8_t> file)
 
 void check_length(const Header& header, std::size_t size)
 {
-    // Fits 64 bits for any two ints; its product with the sample's size might not.
+    // Fits in 64 bits for any two ints; the product with the size of a sample might not.
     const std::size_t samples = static_cast<std::size_t>(header.width) *
                                 static_cast<std::size_t>(header.height) *
                                 static_cast<std::size_t>(header.channels);
@@ -117,15 +117,15 @@ Image<float> decode_pfm(std::span<const std::uint8_t> file)
 {
     const Header header = read_header(file);
     check_length(header, file.size());
-    const bool little = header.scale < 0.0f;
+    const std::endian order = header.scale < 0.0f ? std::endian::little : std::endian::big;
     const float unit = std::abs(header.scale);
     Image<float> image(header.width, header.height);
     const std::uint8_t* from = file.data() + header.raster;
     for (int y = image.height - 1; y >= 0; --y) {
         float* row = image.pixel(0, y);
         for (int i = 0; i < 3 * image.width; ++i) {
-            row[i] = load(from, little) * unit;
-            // A grey sample stands for all three channels.
+            row[i] = load(from, order) * unit;
+            // A grey sample is the value of all three channels.
             if (header.channels == 3 || i % 3 == 2)
                 from += sizeof(float);
         }

@@ -8,12 +8,12 @@
 
 namespace packtrace {
 
-// Wide enough to take the difference of two values of Real without rounding twice.
+// Wide enough for the difference of two values of Real, so that it is rounded only once.
 template <class Real>
 using ErrorReal = std::conditional_t<(sizeof(Real) > sizeof(double)), long double, double>;
 
-/// Absolute difference of two channels: infinite where one is NaN or infinite and the other
-/// not the same infinity. Two NaN differ, too: neither says what the picture is.
+/// The absolute difference of two channels. It is infinite if one of them is NaN, or if one is
+/// infinite and the other is not the same infinity. So two NaN differ, too.
 template <class Real>
 [[nodiscard]] ErrorReal<Real> channel_error(Real a, Real b)
 {
@@ -33,7 +33,7 @@ template <class Real>
         {channel_error(a[0], b[0]), channel_error(a[1], b[1]), channel_error(a[2], b[2])});
 }
 
-/// Throws std::invalid_argument that names both sizes when they differ.
+/// Throws std::invalid_argument if the sizes differ. The message names both.
 void check_same_size(int a_width, int a_height, int b_width, int b_height);
 
 }  // namespace packtrace

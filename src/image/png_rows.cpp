@@ -1,4 +1,4 @@
-// libpng, row by row: reads every PNG, and writes those that are too large to be held whole.
+// Reads all PNG files with libpng, and writes those that are too large to be held as a whole.
 #include "image/formats.hpp"
 
 #include <png.h>
@@ -15,16 +15,16 @@
 namespace packtrace {
 namespace {
 
-// A byte of deflate stands for at most 1032 bytes.
+// A byte of deflate encodes at most 1032 bytes.
 constexpr std::size_t most_growth = 1040;
 
-/// What libpng's functions reach. It reports a fault by a jump over them, past no destructor: all
-/// that owns memory is here.
+/// The state of libpng's functions. libpng reports errors by longjmp, which skips destructors, so
+/// everything that owns memory is here.
 struct PngState {
     png_structp png = nullptr;
     png_infop info = nullptr;
     char fault[200] = "";
-    std::span<const std::uint8_t> unread;  ///< of the file that is read
+    std::span<const std::uint8_t> unread;  ///< the part of the file that is not yet read
     Bytes samples;
     Image<float> image;
 };
@@ -53,7 +53,7 @@ void give_bytes(png_structp png, png_bytep to, std::size_t count)
     unread = unread.subspan(count);
 }
 
-/// Asks libpng for rows of red, green and blue, of 8 or 16 bits.
+/// Makes libpng return rows of r, g, b with 8 or 16 bits.
 void ask_for_rgb(png_structp png, png_infop info)
 {
     png_set_expand(png);
@@ -75,7 +75,7 @@ void read_picture(PngState& state)
     png_read_info(state.png, state.info);
     const auto width = static_cast<int>(png_get_image_width(state.png, state.info));
     const auto height = static_cast<int>(png_get_image_height(state.png, state.info));
-    // Before memory is asked for: what so few bytes can't hold.
+    // Rejects impossible sizes before memory is allocated.
     if (png_get_rowbytes(state.png, state.info) * static_cast<std::size_t>(height) / most_growth >
         state.unread.size())
         png_error(state.png, "the file is too short for its size in pixels");
@@ -88,7 +88,7 @@ void read_picture(PngState& state)
     const auto give = [&](int y, const std::uint8_t* row) {
         take_row(row, wide, {state.image.pixel(0, y), 3 * static_cast<std::size_t>(width)});
     };
-    // An interlaced picture comes in seven passes, each over all its rows.
+    // An interlaced picture has seven passes, each over all its rows.
     state.samples.resize(interlaced ? row_bytes * static_cast<std::size_t>(height) : row_bytes);
     for (int pass = 0; pass < (interlaced ? PNG_INTERLACE_ADAM7_PASSES : 1); ++pass)
         for (int y = 0; y < height; ++y) {
@@ -100,7 +100,7 @@ void read_picture(PngState& state)
     png_read_end(state.png, nullptr);
 }
 
-/// Makes what libpng keeps of a picture. Throws std::bad_alloc.
+/// Creates libpng's info struct. Throws std::bad_alloc.
 void make_info(PngState& state)
 {
     if (state.png != nullptr)
@@ -109,7 +109,7 @@ void make_info(PngState& state)
         throw std::bad_alloc();
 }
 
-/// Runs `use`, whose fault becomes an ImageError.
+/// Runs `use`. Its libpng errors become ImageErrors.
 template <class Use>
 void guard(PngState& state, const std::string& what, const Use& use)
 {
@@ -140,7 +140,7 @@ Image<float> decode_png(std::span<const std::uint8_t> file)
 struct PngRows::State {
     PngState png;
     Take take;
-    std::exception_ptr error;  ///< of `take`: no exception passes through libpng
+    std::exception_ptr error;  ///< of `take`; exceptions must not pass through libpng
 
     ~State()
     {

@@ -1,5 +1,5 @@
-// Pictures as PNG: stb_image_write with libdeflate behind it, one filter and one level, chosen in
-// results/png.json.
+// Writes PNG with stb_image_write and libdeflate, with one filter and one level. results/png.json
+// has the measurements for the choice.
 #include "core/checksum.hpp"
 #include "core/text.hpp"
 #include "image/bytes.hpp"
@@ -21,7 +21,7 @@ namespace {
 constexpr int filter_up = 2;
 constexpr int deflate_level = 2;
 
-/// What stb calls to compress; the result is freed by stb. Null for want of memory.
+/// stb calls it to compress, and frees the result. Null if memory runs out.
 unsigned char* compress(unsigned char* data, int size, int* compressed_size, int /*quality*/)
 {
     const std::unique_ptr<libdeflate_compressor, void (*)(libdeflate_compressor*)> compressor(
@@ -49,9 +49,9 @@ unsigned char* compress(unsigned char* data, int size, int* compressed_size, int
 namespace packtrace {
 namespace {
 
-// A PNG starts with 8 bytes of signature and 25 of the header's chunk; the recipe's chunk follows.
+// A PNG starts with a signature of 8 bytes and the header chunk of 25. The recipe's chunk follows.
 constexpr std::size_t recipe_at = 8 + 25;
-// The keyword of the text chunk, and the zero byte after it.
+// The keyword of the text chunk, and a zero byte.
 constexpr std::string_view recipe_keyword("packtrace recipe\0", 17);
 
 std::string big_endian(std::size_t number)
@@ -78,7 +78,7 @@ std::size_t number_at(std::span<const std::uint8_t> file, std::size_t at)
     return number;
 }
 
-/// Whether a PNG file has all of its chunks, with the checksums that they were written with.
+/// Whether a PNG file has all its chunks, with correct checksums.
 bool is_whole(std::span<const std::uint8_t> file)
 {
     constexpr std::size_t around = 12;  // length, type and checksum
@@ -100,7 +100,7 @@ bool is_whole(std::span<const std::uint8_t> file)
 
 Bytes encode_png_samples(const Bytes& samples, int width, int height)
 {
-    // stb's setting is a global, which no two threads may write.
+    // stb's setting is a global variable. The static makes one thread write it, once.
     [[maybe_unused]] static const int filter = stbi_write_force_png_filter = filter_up;
     int length = 0;
     const std::unique_ptr<unsigned char, void (*)(void*)> file(

@@ -37,7 +37,7 @@ template void RowSamples::encode(std::span<const float>, std::uint8_t*) const;
 template void RowSamples::encode(std::span<const double>, std::uint8_t*) const;
 template void RowSamples::encode(std::span<const long double>, std::uint8_t*) const;
 
-/// Turns samples into the bytes of the file.
+/// Encodes samples into the bytes of the file.
 struct RowFile::Encoder {
     explicit Encoder(const std::filesystem::path& file) : output(file)
     {

@@ -10,11 +10,11 @@
 
 namespace packtrace {
 
-/// How rows of a picture are kept until they are written: a byte a value for PNG, a float for the
-/// other formats. Pictures of one format and gamma that have the same samples are the same files.
+/// The samples of rows that are kept until they are written: one byte per value for PNG, one float
+/// for other formats. Equal samples, format and gamma give equal files.
 class RowSamples {
 public:
-    /// Throws ImageError for a file whose extension says no format.
+    /// Throws ImageError for an unknown extension.
     RowSamples(const std::filesystem::path& file, int width, double gamma);
 
     [[nodiscard]] ImageFormat format() const
@@ -25,19 +25,19 @@ public:
     {
         return values_ * (format_ == ImageFormat::png ? 1 : sizeof(float));
     }
-    /// The samples of whole rows, into `to`. `Real` is float, double or long double.
+    /// Writes the samples of whole rows to `to`. `Real` is float, double or long double.
     template <class Real>
     void encode(std::span<const Real> rows, std::uint8_t* to) const;
 
 private:
     ImageFormat format_;
-    std::size_t values_;  ///< of a row
+    std::size_t values_;  ///< per row
     double gamma_;
 };
 
-/// A picture file written some rows at a time. It has the bytes that write_image() gives the whole
-/// picture, appears complete or not at all, and takes little memory however large it is. Everything
-/// but the destructor throws ImageError.
+/// Writes a picture file some rows at a time. The file equals that of write_image(), byte for byte,
+/// and appears complete or not at all. The memory does not depend on the number of rows. All
+/// members except the destructor throw ImageError.
 class RowFile {
 public:
     /// `file` may have any extension that write_image() knows.
@@ -52,10 +52,10 @@ public:
         return format == ImageFormat::pfm;
     }
 
-    /// Adjoining rows, from their uppermost, as RowSamples made them. Calls go through the picture
-    /// from the top, or from below where begins_below().
+    /// Writes adjacent rows, made by RowSamples, uppermost row first. Successive calls go down the
+    /// picture; up, if begins_below().
     void write(std::span<const std::uint8_t> samples);
-    /// After the last rows.
+    /// Call it after the last rows.
     void commit();
 
     struct Encoder;

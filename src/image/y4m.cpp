@@ -11,7 +11,7 @@
 namespace packtrace {
 namespace {
 
-/// A plane's factors for R, G, B and what is added in the end.
+/// The factors of a plane for R, G, B, and the offset.
 struct ColorPlane {
     int r, g, b, offset;
 };
@@ -25,7 +25,7 @@ std::uint8_t sample(const ColorPlane& plane, const std::uint8_t* rgb)
     return static_cast<std::uint8_t>((sum >> 8) + plane.offset);
 }
 
-/// A text of digits alone, few enough for what is made of the number.
+/// Reads a text that has only digits, few enough for the computations with the number.
 std::optional<std::int64_t> digits(std::string_view text)
 {
     constexpr std::size_t most = 9;
@@ -34,7 +34,7 @@ std::optional<std::int64_t> digits(std::string_view text)
     return parse_number<std::int64_t>(text);
 }
 
-/// In lowest terms.
+/// The rate in lowest terms.
 std::optional<FrameRate> rate_of(std::int64_t frames, std::int64_t seconds)
 {
     constexpr std::int64_t most_a_second = 1000;

@@ -11,17 +11,18 @@
 #include <string>
 #include <vector>
 
-// The commands, and the steps that they have in common: options, the scene, checks of all ranks,
-// and a report at the end.
+// The commands, and their common steps: options, the scene, checks of all ranks, and a final
+// report.
 namespace packtrace::mpi {
 
-// Each adds its subcommand, which all ranks run together and end by JobFailed or well.
+// Each function adds its subcommand. All ranks run it together, and all ranks either succeed or
+// throw JobFailed.
 void add_render(CLI::App& app, const World& world);
 void add_intersect(CLI::App& app, const World& world);
 void add_report(CLI::App& app, const World& world);
 void add_stress(CLI::App& app, const World& world);
 
-/// What all programs of packtrace-mpi take besides those of packtrace.
+/// The options of all packtrace-mpi commands that packtrace does not have.
 struct JobArguments {
     bool allow_mixed = false;
     bool json = false;
@@ -34,28 +35,29 @@ struct JobArguments {
 
 void add_job_options(CLI::App& command, JobArguments& arguments);
 
-/// The scene, on every rank: rank 0 reads the file, or standard input for -, and sends its text. A
-/// name such as "generate random --count 10000000" is made by each rank itself. Throws JobFailed.
+/// Returns the scene on every rank. Rank 0 reads the file, or standard input for -, and sends its
+/// text. For a name such as "generate random --count 10000000" each rank generates the scene.
+/// Throws JobFailed.
 [[nodiscard]] Scene shared_scene(const World& world, const std::string& name);
 
-/// What the files that are made of such a scene are called: by its file, or by its generator.
+/// The name for the output files of such a scene, from its file or its generator.
 [[nodiscard]] std::string shared_scene_stem(const std::string& name);
 
-/// Throws JobFailed where ranks may not work on one result.
+/// Throws JobFailed if the ranks may not work on one result.
 void check_ranks(const World& world, const RenderOptions& options, Mixing mixing);
 
-/// Throws JobFailed where ranks are of unequal versions, or run other instruction sets: rows of
-/// studies would differ. No names are all that run on this machine.
+/// Throws JobFailed if ranks have different versions or instruction sets, because the rows of
+/// studies would differ. Without names it compares all sets that the machines support.
 void check_same_isas(const World& world, std::vector<std::string> isas);
 
-/// What a job did, and how to say so.
+/// The results of a job, and how to print them.
 struct JobReport {
-    std::string output;  ///< what it made
-    std::string pieces;  ///< what its pieces of work are called
+    std::string output;  ///< name of the output
+    std::string pieces;  ///< name of the pieces of work
     std::vector<RankReport> ranks = {};
     double seconds = 0.0;
     bool quiet = false;  ///< without the line on standard error
-    bool json = false;   ///< in its place, an object on standard output
+    bool json = false;   ///< instead of the line, a JSON object on standard output
 };
 
 /// Called by all ranks together; rank 0 prints.

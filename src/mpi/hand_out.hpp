@@ -5,17 +5,17 @@
 #include <cstdint>
 #include <vector>
 
-// How pieces of work are handed out and come together again, without a word about MPI: what ranks
-// do, and what the model of scaling (bench/cluster) does.
+// How pieces of work are distributed and collected. It is independent of MPI, because the scaling
+// model (bench/cluster) uses it, too.
 namespace packtrace::mpi {
 
-/// Finished pieces that a rank may have on their way before it begins another.
+/// The largest number of finished pieces that a rank may be sending when it begins another.
 inline constexpr int most_on_their_way = 2;
 
-/// Memory of rank 0 for pieces that came before their turn.
+/// Memory of rank 0 for pieces that arrive before their turn.
 inline constexpr std::size_t window_bytes = std::size_t{256} << 20;
 
-/// How many pieces from the next one on may come to rank 0, whatever their order.
+/// The number of pieces, from the next one on, that may arrive at rank 0 in any order.
 [[nodiscard]] inline int window_of(int ranks, std::size_t piece_bytes)
 {
     const std::size_t room = window_bytes / std::max<std::size_t>(piece_bytes, 1);
@@ -23,9 +23,9 @@ inline constexpr std::size_t window_bytes = std::size_t{256} << 20;
     return static_cast<int>(std::clamp<std::size_t>(room, 4, wanted + 4));
 }
 
-/// Pieces that come in any order and leave in their own. Ranks take the next number of a shared
-/// counter, so that the pieces at work are never far apart; one that comes too early waits with its
-/// sender.
+/// Pieces that arrive in any order and leave in order of their numbers. Ranks take the next number
+/// from a shared counter, so the pieces in progress have close numbers. A piece that is too early
+/// waits at its sender.
 class PieceWindow {
 public:
     PieceWindow(int count, int window) : window_(window), here_(static_cast<std::size_t>(count), 0)
@@ -36,7 +36,7 @@ public:
     {
         return static_cast<int>(here_.size());
     }
-    /// The first that has not left, and the end of those that may come.
+    /// The first piece that has not left, and the end of the pieces that may arrive.
     [[nodiscard]] int first() const
     {
         return first_;
@@ -45,7 +45,7 @@ public:
     {
         return std::min(count(), first_ + window_);
     }
-    /// Whether a piece may come now.
+    /// Whether a piece may arrive now.
     [[nodiscard]] bool admits(int piece) const
     {
         return piece >= first_ && piece < end() && !here_[static_cast<std::size_t>(piece)];
@@ -54,7 +54,7 @@ public:
     {
         here_[static_cast<std::size_t>(piece)] = 1;
     }
-    /// Whether the first is here and may leave.
+    /// Whether the first piece has arrived and may leave.
     [[nodiscard]] bool ready() const
     {
         return first_ < count() && here_[static_cast<std::size_t>(first_)] != 0;

@@ -16,12 +16,12 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-/// How long a rank sleeps where MPI has nothing for it. Waking up takes about 15 us of a processor
-/// that others work on.
+/// How long a rank sleeps if MPI has no work for it. Waking up costs about 15 us of a processor
+/// that other threads use.
 constexpr std::chrono::microseconds shortest_nap{200};
 constexpr std::chrono::microseconds longest_nap{2000};
 
-/// What goes ahead of a piece's bytes.
+/// The message before a piece's bytes.
 struct Head {
     std::uint64_t bytes = 0;
     std::uint64_t error_bytes = 0;
@@ -39,17 +39,17 @@ struct Job::Sending {
     explicit Sending(Piece sent) : piece(std::move(sent))
     {
         head = {piece.bytes.size(), piece.error.size(), piece.cut};
-        const auto send = [&](const void* bytes, int count, bool waits) {
+        const auto send = [&](const auto& start, const void* bytes, int count) {
             requests.emplace_back();
-            // Bytes leave only when rank 0 has room for them.
-            (waits ? MPI_Issend : MPI_Isend)(bytes, count, MPI_BYTE, 0, piece.number,
-                                             MPI_COMM_WORLD, &requests.back());
+            start(bytes, count, MPI_BYTE, 0, piece.number, MPI_COMM_WORLD, &requests.back());
         };
-        send(&head, sizeof head, false);
-        in_messages(piece.bytes.size(),
-                    [&](std::size_t at, int count) { send(piece.bytes.data() + at, count, true); });
+        send(MPI_Isend, &head, sizeof head);
+        // With Issend, the bytes are sent only when rank 0 has room for them.
+        in_messages(piece.bytes.size(), [&](std::size_t at, int count) {
+            send(MPI_Issend, piece.bytes.data() + at, count);
+        });
         if (!piece.error.empty())
-            send(piece.error.data(), static_cast<int>(piece.error.size()), true);
+            send(MPI_Issend, piece.error.data(), static_cast<int>(piece.error.size()));
     }
 
     [[nodiscard]] bool is_over()
@@ -100,7 +100,7 @@ std::vector<RankReport> Job::run(const Work& work, const Take& take)
 {
     const auto start = Clock::now();
     run_threads(work, take);
-    // Rank 0 waits for the others' work.
+    // Rank 0 waits for the work of the other ranks.
     if (!world_.is_first()) {
         const char over = 0;
         MPI_Send(&over, 1, MPI_BYTE, 0, window_.count(), MPI_COMM_WORLD);
@@ -116,7 +116,7 @@ std::vector<RankReport> Job::run(const Work& work, const Take& take)
     return reports;
 }
 
-/// Runs the threads of this rank, and calls MPI for them until nothing is left to do.
+/// Runs the threads of this rank, and calls MPI for them until all work is done.
 void Job::run_threads(const Work& work, const Take& take)
 {
     std::thread worker;
@@ -132,8 +132,8 @@ void Job::run_threads(const Work& work, const Take& take)
             else
                 rest();
     } catch (...) {
-        // Unwinding would wait without end: the threads wait for this one to call MPI, and all
-        // ranks free the counter together.
+        // Unwinding would never end: the threads wait for this one to call MPI, and all ranks must
+        // destroy the counter together.
         abort_job(world_, std::current_exception());
     }
     worker.join();
@@ -156,7 +156,7 @@ void Job::work_all(const Work& work)
     changed_.notify_all();
 }
 
-/// For who holds the mutex.
+/// The caller must hold the mutex.
 void Job::fail(const std::string& why)
 {
     if (!failed_)
@@ -193,7 +193,7 @@ void Job::hand_over(Piece piece)
     changed_.notify_all();
 }
 
-/// On rank 0: gives pieces to `take` in order.
+/// On rank 0: calls `take` with the pieces in order.
 void Job::write_all(const Take& take)
 {
     std::unique_lock lock(mutex_);
@@ -220,7 +220,7 @@ void Job::write_all(const Take& take)
     }
 }
 
-/// Does what there is to do for MPI; returns whether there was anything.
+/// Does the present work for MPI. Returns whether there was any.
 bool Job::step()
 {
     bool stop = false;
@@ -236,7 +236,7 @@ bool Job::step()
     return (world_.is_first() && receive_pieces()) || busy;
 }
 
-/// Gets a number for the thread that works.
+/// Gets a number for the working thread.
 bool Job::answer(std::unique_lock<std::mutex>& lock)
 {
     if (!asks_)
@@ -275,7 +275,7 @@ bool Job::send_finished(std::unique_lock<std::mutex>& lock)
     return busy;
 }
 
-/// On rank 0: what other ranks have sent, of the pieces that may come.
+/// On rank 0: receives pieces of other ranks, as far as the window admits them.
 bool Job::receive_pieces()
 {
     int first = 0;
@@ -287,13 +287,13 @@ bool Job::receive_pieces()
         end = window_.end();
         failed = failed_;
     }
-    // Mostly nothing is there: one question instead of one a piece.
+    // Mostly there are no messages. This takes one probe instead of one per piece.
     int there = 0;
     MPI_Iprobe(MPI_ANY_SOURCE, MPI_ANY_TAG, MPI_COMM_WORLD, &there, MPI_STATUS_IGNORE);
     if (there == 0)
         return false;
     bool busy = false;
-    // After a failure, whatever comes: nobody may be left waiting.
+    // After a failure receive all messages, so that no rank waits for ever.
     if (failed)
         busy = receive_one(MPI_ANY_TAG);
     for (int piece = first; piece < end && !failed; ++piece)
@@ -341,7 +341,7 @@ bool Job::receive_one(int tag)
     return true;
 }
 
-/// Sleeps until there may be something to do. Messages alone have to be looked for.
+/// Sleeps until there may be work. Threads wake it; only messages must be polled.
 void Job::rest()
 {
     std::unique_lock lock(mutex_);
@@ -357,7 +357,7 @@ void Job::rest()
 
 std::chrono::microseconds Job::nap() const
 {
-    // Other nodes' ranks take no number while rank 0 sleeps.
+    // Ranks of other nodes get no number while rank 0 sleeps.
     if (link_ == Link::network)
         return shortest_nap;
     const auto since =
@@ -371,7 +371,7 @@ bool Job::is_over()
     return nothing_left();
 }
 
-/// Whether this rank has nothing more to do for MPI. For who holds the mutex.
+/// Whether this rank has no more work for MPI. The caller must hold the mutex.
 bool Job::nothing_left() const
 {
     const bool own = !works_ && finished_.empty() && sending_.empty() && (!failed_ || stopped_);

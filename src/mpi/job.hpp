@@ -25,22 +25,22 @@ struct Piece {
     int number = 0;
     Bytes bytes;
     CutRays cut;
-    /// Why there are no bytes; empty where there are. The first piece in order that has one ends
-    /// the job.
+    /// Why there are no bytes; empty for success. The first piece, in order, with an error ends the
+    /// job.
     std::string error;
 };
 
-/// What one rank did.
+/// The work of one rank.
 struct RankReport {
     std::int64_t pieces = 0;
     std::uint64_t rays = 0;
     std::uint64_t bytes_sent = 0;
     double busy = 0.0;     ///< seconds of work
-    double waiting = 0.0;  ///< seconds besides
+    double waiting = 0.0;  ///< seconds without work
 };
 
-/// A number on rank 0 that every rank may take and raise at once: whose turn it is, without a
-/// master. Made and unmade by all ranks together.
+/// A counter on rank 0 that every rank can read and increment atomically. It distributes work
+/// without a master. All ranks construct and destroy it together.
 class Counter {
 public:
     explicit Counter(const World& world)
@@ -67,7 +67,7 @@ public:
     {
         return call(MPI_SUM, 1);
     }
-    /// From now on every rank gets numbers beyond all work.
+    /// From now on every rank gets numbers beyond the work.
     void stop()
     {
         call(MPI_REPLACE, std::numeric_limits<std::int64_t>::max() / 2);
@@ -86,34 +86,34 @@ private:
     MPI_Win window_ = MPI_WIN_NULL;
 };
 
-/// Pieces of work handed out to all ranks, made on a thread of each rank's own, and brought to rank
-/// 0 in order. The thread that runs it, and no other, calls MPI. Made by all ranks together, for
-/// one run.
+/// Distributes pieces of work to all ranks and collects them on rank 0 in order. Each rank makes
+/// pieces on a separate thread. Only the thread that calls run() calls MPI. All ranks construct it
+/// together, for one run.
 class Job {
 public:
-    /// 0 pieces where none come to rank 0. Of those that come it holds a `window` at most
-    /// (window_of).
+    /// `pieces` is the number of pieces that are sent to rank 0, which may be 0. Rank 0 holds at
+    /// most `window` of them (window_of()).
     Job(const World& world, int pieces, int window) : Job(world, pieces, window, world.link())
     {
     }
-    /// For ranks that are linked otherwise.
+    /// For another link between the ranks.
     Job(const World& world, int pieces, int window, Link link);
     ~Job();
 
-    /// Gives the next number, from 0 on over all ranks, to the thread that works.
+    /// Returns the next number to the working thread. Numbers count from 0 over all ranks.
     using Next = std::function<std::int64_t()>;
-    /// Makes a piece. Adds its rays to the report.
+    /// Makes a piece, and adds its rays to the report.
     using Make = std::function<Piece(int number, RankReport& report)>;
-    /// Takes the pieces on rank 0, in order, on a thread of its own.
+    /// Receives the pieces on rank 0, in order, on a separate thread.
     using Take = std::function<void(Piece piece)>;
-    /// Works until Next gives no more work; fills the report's pieces, rays and busy seconds.
+    /// Works until Next returns no more work. Sets the report's pieces, rays and busy seconds.
     using Work = std::function<void(const Next& next, RankReport& report)>;
 
-    /// Makes all pieces. Returns every rank's report on every rank. Where a rank fails, one line
+    /// Makes all pieces. Returns the reports of all ranks, on every rank. If a rank fails, one line
     /// says why, and all ranks throw JobFailed.
     std::vector<RankReport> run(const Make& make, const Take& take);
 
-    /// The same for work whose results do not come to rank 0.
+    /// For work whose results are not sent to rank 0; otherwise as above.
     std::vector<RankReport> run(const Work& work);
 
 private:
@@ -144,16 +144,16 @@ private:
     std::condition_variable changed_;
     RankReport report_;
 
-    // Between the thread that works and the one that calls MPI.
+    // Shared by the working thread and the thread that calls MPI.
     bool asks_ = false;
     std::optional<std::int64_t> given_;
     std::deque<Piece> finished_;
     int on_their_way_ = 0;
     bool works_ = true;
     std::vector<std::unique_ptr<Sending>> sending_;
-    std::chrono::steady_clock::time_point last_busy_;  ///< with MPI
+    std::chrono::steady_clock::time_point last_busy_;  ///< last time with work for MPI
 
-    // On rank 0.
+    // Used on rank 0.
     PieceWindow window_;
     std::map<int, Piece> here_;
     int ranks_at_work_;

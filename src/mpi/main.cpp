@@ -19,20 +19,20 @@
 namespace packtrace::mpi {
 namespace {
 
-/// Of rank 0, on this host; 0 elsewhere.
+/// The process of rank 0 if it is on this host, else 0.
 volatile pid_t first_process = 0;
 
-/// mpirun of Open MPI kills all ranks of a node by SIGKILL as soon as one has ended by its SIGTERM:
-/// each leaves the others so long to do what they have to do.
+/// mpirun of Open MPI kills all ranks of a node with SIGKILL as soon as one has ended after
+/// SIGTERM. So each rank waits for this time, to let the others clean up.
 constexpr int linger_milliseconds = 300;
 
-/// What rank 1 says where that died.
+/// The message of rank 1 if rank 0 has died.
 std::string death_line;
 
-// Calls nothing but what signal handlers may call.
+// Calls only functions that signal handlers may call.
 void end_quietly(int signal)
 {
-    // Rank 0 says what is missing, unless it is the one that died.
+    // Rank 0 prints the message, unless it has died.
     if (first_process != 0 && kill(first_process, 0) != 0) {
         [[maybe_unused]] const ssize_t written =
             write(STDERR_FILENO, death_line.data(), death_line.size());
@@ -41,7 +41,7 @@ void end_quietly(int signal)
     cli::end_by_signal(signal, linger_milliseconds);
 }
 
-/// A job that ends by a signal says so once.
+/// Makes a job that a signal ends print only one message.
 void clean_up_when_ended(const World& world)
 {
     const std::string advice =
@@ -62,7 +62,7 @@ void clean_up_when_ended(const World& world)
     cli::handle_ending_signals(end_quietly);
 }
 
-/// Help, version or a wrong use: rank 0 says so.
+/// Prints help, version or a wrong use on rank 0.
 int report_parse_end(const World& world, const CLI::App& app, const CLI::ParseError& end, int argc,
                      char** argv)
 {
@@ -73,8 +73,8 @@ int report_parse_end(const World& world, const CLI::App& app, const CLI::ParseEr
     return cli::exit_usage;
 }
 
-/// Throws JobFailed where ranks were told to do different work: a picture would be made of several,
-/// and ranks would wait for each other in different places.
+/// Throws JobFailed if ranks have arguments for different work. A picture would be a mixture, and
+/// ranks would wait for each other in different functions.
 void check_same_arguments(const World& world, int argc, char** argv)
 {
     const std::vector<std::string> arguments(argv + std::min(argc, 1), argv + argc);
@@ -122,8 +122,8 @@ int run(const World& world, int argc, char** argv)
     }
 }
 
-/// Work is over. The first rank that ends with an error has all others ended by a signal, which is
-/// no news any more.
+/// Ends the program after the work. When the first rank ends with an error, mpirun ends the others
+/// with a signal, which must not be reported.
 int end_together(int exit_code)
 {
     for (const int number : cli::ending_signals)

@@ -31,7 +31,7 @@ struct IntersectJobArguments : cli::IntersectArguments {
     }
 };
 
-/// The file of rays in ranges, whose number depends on the file alone.
+/// The file of rays, divided into ranges. Their number depends only on the file.
 class RayPieces {
 public:
     explicit RayPieces(const std::string& file) : file_(file)
@@ -50,7 +50,7 @@ public:
         return static_cast<int>(count_);
     }
 
-    /// Counts the lines and rays before each, all ranks together, each a share of the file.
+    /// Counts the lines and rays before each range. Each rank counts a share of the file.
     void number(const World& world)
     {
         std::vector<std::uint64_t> counts(2 * count_);
@@ -72,20 +72,20 @@ public:
             const std::uint64_t own_rays = before_[i + 1];
             before_[i] = std::exchange(lines, end);
             before_[i + 1] = rays;
-            // Behind comments longer than a piece the header was counted as a ray.
+            // After comments longer than a piece, the header was counted as a ray.
             const bool has_header =
                 i > 0 && format_.header_line > before_[i] && format_.header_line <= end;
             rays += own_rays - (has_header ? 1 : 0);
         }
     }
 
-    /// With its numbers, where they have been counted.
+    /// A range, with its numbers if they were counted.
     [[nodiscard]] RayRange range(std::uint64_t i) const
     {
         RayRange range = cli::cut_rays(file_, i, count_);
         if (range.begin > 0)
             range.format = format_;
-        // Lines that have no numbers yet are no header.
+        // Without line numbers no line is the header.
         if (before_.empty()) {
             range.format.header_line = 0;
         } else {
@@ -95,13 +95,13 @@ public:
         return range;
     }
 
-    /// The same with numbers counted by this rank alone.
+    /// A range with its numbers, which this rank counts alone.
     [[nodiscard]] RayRange numbered(std::uint64_t i) const
     {
         return cli::numbered_rays(file_, i, count_);
     }
 
-    /// Tells the text of a range from another.
+    /// Identifies the text of a range.
     [[nodiscard]] std::string mark(std::uint64_t i) const
     {
         const RayRange part = range(i);
@@ -116,7 +116,7 @@ private:
     std::string file_;
     std::uint64_t count_ = 1;
     cli::RayFormat format_;
-    std::vector<std::uint64_t> before_;  ///< lines and rays in turn
+    std::vector<std::uint64_t> before_;  ///< lines and rays, alternating
 };
 
 /// The rows of a range.
@@ -153,7 +153,7 @@ std::vector<RankReport> trace(const World& world, const IntersectJobArguments& a
         try {
             piece.bytes = rows_of(*tracer, arguments.rays, pieces.range(i), report);
         } catch (const FileError&) {
-            // Again, so that the message has the right line.
+            // Repeat it with numbers, so that the message has the right line.
             piece.bytes = rows_of(*tracer, arguments.rays, pieces.numbered(i), report);
         }
         return piece;
@@ -166,7 +166,7 @@ std::vector<RankReport> trace(const World& world, const IntersectJobArguments& a
     });
 }
 
-/// Throws for what a job of rays can't do, before any work.
+/// Checks before any work. Throws for options that a job of rays does not support.
 void check_job(const World& world, const IntersectJobArguments& arguments)
 {
     if (arguments.json_on_rows())
@@ -176,7 +176,25 @@ void check_job(const World& world, const IntersectJobArguments& arguments)
     cli::check_not_read(arguments.output, {arguments.scene, arguments.rays});
 }
 
-/// The output on rank 0, after the rows that an earlier run finished.
+/// The options and the file of rays, which all ranks check before any work.
+struct IntersectSetup {
+    RenderOptions options;
+    std::unique_ptr<RayPieces> pieces;
+};
+
+IntersectSetup check_together(const World& world, const IntersectJobArguments& arguments)
+{
+    IntersectSetup setup;
+    world.together([&] {
+        setup.options = cli::checked_intersect_options(arguments);
+        check_job(world, arguments);
+        setup.pieces = std::make_unique<RayPieces>(arguments.rays);
+    });
+    check_ranks(world, setup.options, arguments.job.mixing());
+    return setup;
+}
+
+/// Opens the output on rank 0, after the rows that an earlier run finished.
 std::unique_ptr<cli::HitOutput> open_output(const IntersectJobArguments& arguments,
                                             const Scene& scene, const RenderOptions& options,
                                             const RayPieces& pieces)
@@ -196,32 +214,26 @@ std::unique_ptr<cli::HitOutput> open_output(const IntersectJobArguments& argumen
 void run_intersect(const World& world, const IntersectJobArguments& arguments)
 {
     const auto start = std::chrono::steady_clock::now();
-    RenderOptions options;
-    std::unique_ptr<RayPieces> pieces;
-    world.together([&] {
-        options = checked_options(arguments);
-        check_job(world, arguments);
-        pieces = std::make_unique<RayPieces>(arguments.rays);
-    });
-    check_ranks(world, options, arguments.job.mixing());
+    const IntersectSetup setup = check_together(world, arguments);
+    const RenderOptions& options = setup.options;
+    RayPieces& pieces = *setup.pieces;
     const Scene scene = shared_scene(world, arguments.scene);
     cli::limit_threads(options.threads, 2);
     if (arguments.all)
-        pieces->number(world);
+        pieces.number(world);
 
     std::unique_ptr<cli::HitOutput> output;
     std::vector<int> finished{0};
     world.together([&] {
         if (!world.is_first())
             return;
-        output = open_output(arguments, scene, options, *pieces);
+        output = open_output(arguments, scene, options, pieces);
         finished[0] = static_cast<int>(output->finished());
     });
     world.broadcast(finished);
     const std::vector<RankReport> reports =
         with_packet_real(cli::chosen_precision(arguments.kernel.precision), [&]<class Real>() {
-            return trace<Real>(world, arguments, scene, options, *pieces, output.get(),
-                               finished[0]);
+            return trace<Real>(world, arguments, scene, options, pieces, output.get(), finished[0]);
         });
     world.together([&] {
         if (output)

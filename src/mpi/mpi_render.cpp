@@ -30,7 +30,7 @@ struct RenderJobArguments : RenderArguments {
     JobArguments job;
 };
 
-/// The picture on rank 0: bands that an earlier run kept, and those that come.
+/// The picture on rank 0: bands of an earlier run, and bands that arrive.
 class Assembly {
 public:
     Assembly(const RenderJobArguments& arguments, const Scene& scene, const RenderOptions& options)
@@ -50,7 +50,7 @@ public:
         return missing_;
     }
 
-    /// The next of those.
+    /// Adds the next missing band.
     void take(Piece piece)
     {
         const int number = missing_[static_cast<std::size_t>(piece.number)];
@@ -68,7 +68,7 @@ public:
         cli::set_interrupt_line("");
     }
 
-    /// Says on standard error which bands an earlier run finished, and how many rays were cut.
+    /// Prints on standard error how many bands an earlier run finished, and how many rays were cut.
     void print_summary(const Scene& scene, const RenderOptions& options) const
     {
         const int count = file_.bands().count();
@@ -84,7 +84,7 @@ private:
         bar_.update(static_cast<double>(++written_) / file_.bands().count());
     }
 
-    /// Bands of an earlier run, up to that one.
+    /// Writes the bands of an earlier run, up to `end`.
     void write_kept(int end)
     {
         while (written_ < end)
@@ -114,7 +114,7 @@ private:
     int written_ = 0;
 };
 
-/// Renders the missing bands on all ranks; the assembly on rank 0 takes them.
+/// Renders the missing bands on all ranks. The assembly on rank 0 receives them.
 std::vector<RankReport> render_bands(const World& world, const RenderJobArguments& arguments,
                                      const Scene& scene, const RenderOptions& options,
                                      const std::vector<int>& missing, Assembly* assembly)
@@ -169,7 +169,7 @@ void render_picture(const World& world, const RenderJobArguments& arguments, con
                          .json = arguments.job.json});
 }
 
-/// On rank 0, how many frames and cut rays all ranks have.
+/// On rank 0: the sum of the frames and cut rays of all ranks.
 cli::FrameTally sum_of_ranks(const cli::FrameTally& mine)
 {
     cli::FrameTally all;
@@ -181,7 +181,7 @@ cli::FrameTally sum_of_ranks(const cli::FrameTally& mine)
     return all;
 }
 
-/// Renders the frames whose turn comes to this rank.
+/// Renders the frames that this rank gets.
 cli::FrameTally render_turns(const RenderJobArguments& arguments, const Scene& scene,
                              const RenderOptions& options, const FrameRange& range,
                              cli::FrameOutput& output, cli::ProgressBar& bar, const Job::Next& next)
@@ -192,7 +192,7 @@ cli::FrameTally render_turns(const RenderJobArguments& arguments, const Scene& s
             return std::nullopt;
         return range.first + static_cast<int>(number);
     };
-    // Frames are handed out in order: the share of this rank's is that of the animation.
+    // Frames are distributed in order, so this rank's frame shows the share of the animation.
     const auto show = [&](int frame, double share) {
         bar.update((frame - range.first + share) / range.count());
     };
@@ -244,7 +244,7 @@ void render_frames(const World& world, const RenderJobArguments& arguments, cons
                          .json = arguments.job.json});
 }
 
-/// Throws CLI::ValidationError for what a job of many ranks does not do.
+/// Throws CLI::ValidationError for options that an MPI job does not support.
 void check_job(const RenderJobArguments& arguments)
 {
     const auto refuse = [](const std::string& option, const std::string& why) {
@@ -263,7 +263,7 @@ void run_render(const World& world, const RenderJobArguments& arguments)
     RenderOptions options;
     world.together([&] {
         check_job(arguments);
-        options = checked_options(arguments);
+        options = cli::checked_render_options(arguments);
         if (world.is_first() && !arguments.animation.many())
             check_image_writable(arguments.output);
     });
@@ -288,7 +288,7 @@ void add_render(CLI::App& app, const World& world)
     CLI::App* command = app.add_subcommand("render", "Render a scene to a picture on all ranks");
     const auto arguments = std::make_shared<RenderJobArguments>();
     cli::add_render_options(*command, *arguments);
-    // check_job() says why not.
+    // Hidden from the help. check_job() rejects them with a reason.
     for (const char* const refused : {"--certainty", "--y4m", "--fps", "--shard"})
         command->get_option(refused)->group("");
     add_job_options(*command, arguments->job);

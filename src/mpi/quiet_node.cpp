@@ -21,7 +21,7 @@ private:
     pthread_rwlock_t* lock_;
 };
 
-/// Gives up a lock held for reading, and takes it again.
+/// Releases a lock held for reading, and takes it again in the destructor.
 class Released {
 public:
     explicit Released(pthread_rwlock_t* lock) : lock_(lock)
@@ -45,7 +45,7 @@ void make_lock(pthread_rwlock_t* lock)
     pthread_rwlockattr_init(&attributes);
     pthread_rwlockattr_setpshared(&attributes, PTHREAD_PROCESS_SHARED);
 #ifdef __GLIBC__
-    // Else ranks that work side by side, one after the other, keep one that waits to time out.
+    // Prefer writers. Otherwise ranks that work in parallel could keep a measurement waiting.
     pthread_rwlockattr_setkind_np(&attributes, PTHREAD_RWLOCK_PREFER_WRITER_NONRECURSIVE_NP);
 #endif
     pthread_rwlock_init(lock, &attributes);

@@ -7,8 +7,8 @@
 
 namespace packtrace::mpi {
 
-/// A node on which ranks work side by side, but for what one of them times: all others then wait.
-/// Made and unmade by all ranks together; its other functions call no MPI.
+/// Lets the ranks of a node work in parallel, except while one of them measures times: then all
+/// others wait. All ranks construct and destroy it together. Its other functions do not call MPI.
 class QuietNode {
 public:
     QuietNode();
@@ -16,11 +16,11 @@ public:
     QuietNode(const QuietNode&) = delete;
     QuietNode& operator=(const QuietNode&) = delete;
 
-    /// Runs work that others of the node may work beside.
+    /// Runs work in parallel with that of the node's other ranks.
     void side_by_side(const std::function<void()>& work) const;
 
-    /// Within such work: waits until no other rank of the node works, and lets none begin before
-    /// `timed` ends.
+    /// Call it within side_by_side(). Waits until no other rank of the node works, and lets none
+    /// begin before `timed` ends.
     void alone(const std::function<void()>& timed) const;
 
 private:

@@ -5,7 +5,7 @@
 
 namespace packtrace::mpi {
 
-/// What of a rank the bits of its results depend on.
+/// The properties of a rank that the bits of its results depend on.
 struct RankSetup {
     std::string version;
     bool fma = true;  ///< its packets use fused multiply-add
@@ -18,7 +18,7 @@ struct RankSetup {
 
 enum class Mixing { refused, allowed };
 
-/// Why ranks of these setups may not work on one result, in one line; empty if they may.
+/// Why ranks with these setups may not work on one result, in one line; empty if they may.
 [[nodiscard]] inline std::string why_not_together(const std::vector<std::string>& setups,
                                                   Mixing mixing)
 {
@@ -38,7 +38,7 @@ enum class Mixing { refused, allowed };
     return {};
 }
 
-/// Why ranks that run these instruction sets may not share a study, in one line; empty if they may.
+/// Why ranks with these instruction sets may not share a study, in one line; empty if they may.
 [[nodiscard]] inline std::string why_rows_differ(const std::vector<std::string>& isas)
 {
     for (std::size_t rank = 1; rank < isas.size(); ++rank)
@@ -49,7 +49,8 @@ enum class Mixing { refused, allowed };
     return {};
 }
 
-/// A rank's arguments without those that ranks may have of their own: what its processor can do.
+/// A rank's arguments without those that may differ between ranks, because they depend on the
+/// processor.
 [[nodiscard]] inline std::string shared_arguments(const std::vector<std::string>& arguments)
 {
     std::string shared;

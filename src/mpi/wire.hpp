@@ -9,8 +9,8 @@
 #include <type_traits>
 #include <vector>
 
-// Values as the bytes of a message, between ranks of one version. A type says what it consists of
-// by each_field(wire, value), which calls wire(field, …) for writing and reading alike.
+// Converts values to the bytes of a message and back, between ranks of one version. A type defines
+// its fields by each_field(wire, value), which calls wire(field, …) for both writing and reading.
 namespace packtrace::mpi {
 
 template <class T>
@@ -69,7 +69,7 @@ public:
     {
     }
 
-    /// Throws std::runtime_error where the message is shorter.
+    /// Throws std::runtime_error if the message is too short.
     template <class... T>
     void operator()(T&... values)
     {

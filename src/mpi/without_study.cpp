@@ -5,7 +5,7 @@
 #include <stdexcept>
 #include <string>
 
-// Stands in for the commands of src/mpi/study in builds without it (PACKTRACE_BUILD_STUDY).
+// Replaces the commands of src/mpi/study in builds without PACKTRACE_BUILD_STUDY.
 namespace packtrace::mpi {
 namespace {
 

@@ -16,7 +16,7 @@
 namespace packtrace::mpi {
 namespace {
 
-/// Why a step failed; empty where it did not.
+/// Why a step failed; empty for success.
 struct Failure {
     std::string why;
     int exit_code = 0;
@@ -36,13 +36,13 @@ Failure attempt(const std::function<void()>& step)
     return {};
 }
 
-/// This rank among those of its node.
+/// The position of this rank among the ranks of its node.
 struct RanksOfNode {
     int number = 0;
     int size = 1;
 };
 
-/// Called by all ranks together.
+/// All ranks must call it together.
 RanksOfNode ranks_of_node()
 {
     MPI_Comm node;
@@ -54,7 +54,7 @@ RanksOfNode ranks_of_node()
     return ranks;
 }
 
-/// Why work failed. `program` stands before the sentences of this function.
+/// The message of an exception. This function's own messages begin with `program`.
 std::string why_failed(const std::exception_ptr& error, const std::string& program)
 {
     try {
@@ -105,7 +105,7 @@ World::~World()
     MPI_Finalize();
 }
 
-// MPI's own waiting takes all of a processor, which others may work with or time on.
+// MPI's own waiting would occupy a processor that others need for work or measurements.
 void World::sleep_until_all_are_here() const
 {
     constexpr std::chrono::microseconds longest{2000};
@@ -130,7 +130,7 @@ void World::together(const std::function<void()>& step) const
     if (first == size_)
         return;
     if (rank_ == first)
-        // One line, whatever is in the names of files.
+        // escape() makes one line of it, even if names of files have line ends.
         std::cerr << language::escape(failure.why) << '\n';
     int code = failure.exit_code;
     MPI_Bcast(&code, 1, MPI_INT, first, MPI_COMM_WORLD);

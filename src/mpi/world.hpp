@@ -13,16 +13,16 @@
 
 namespace packtrace::mpi {
 
-/// Thrown on all ranks alike when one of them has said what is wrong.
+/// Thrown on all ranks after one of them has printed what is wrong.
 struct JobFailed {
     int exit_code = 1;
 };
 
-/// Why work failed, in a line, whatever was thrown.
+/// The message of any exception, in one line.
 [[nodiscard]] std::string what_of(const std::exception_ptr& error);
 
-/// Calls `use` with the beginning and size of each message that so many bytes are sent in: a count
-/// of MPI is an int.
+/// Splits `bytes` bytes into messages, because counts of MPI are int. Calls `use` with the
+/// beginning and the size of each message.
 template <class Use>
 void in_messages(std::size_t bytes, const Use& use)
 {
@@ -31,14 +31,14 @@ void in_messages(std::size_t bytes, const Use& use)
         use(at, static_cast<int>(std::min(largest_message, bytes - at)));
 }
 
-/// What ranks reach each other by.
+/// The link between the ranks.
 enum class Link {
-    memory,  ///< of a node that all are on: one takes another's number without its help
+    memory,  ///< all ranks are on one node: rank 0 need not help when others take a number
     network
 };
 
-/// MPI from its start to its end, and what ranks tell each other. Only the thread that made it
-/// calls MPI.
+/// Initialises and finalises MPI, and exchanges data between ranks. Only the thread that
+/// constructed it may call MPI.
 class World {
 public:
     World(int& argc, char**& argv);
@@ -64,11 +64,11 @@ public:
         return link_;
     }
 
-    /// Runs `step` on every rank and sleeps until all have done so. Where it throws, the lowest
-    /// rank that failed says why in one line, and all throw JobFailed.
+    /// Runs `step` on every rank and sleeps until all have finished it. If it throws, the lowest
+    /// rank that failed says why in one line, and all ranks throw JobFailed.
     void together(const std::function<void()>& step) const;
 
-    /// Rank 0's text, bytes or numbers, on every rank.
+    /// Copies rank 0's text, bytes or numbers to every rank.
     template <class Values>
     void broadcast(Values& values) const
     {
@@ -80,10 +80,10 @@ public:
             MPI_Bcast(bytes.data() + at, size, MPI_BYTE, 0, MPI_COMM_WORLD);
         });
     }
-    /// Every rank's text, on every rank.
+    /// Returns the texts of all ranks, on every rank.
     [[nodiscard]] std::vector<std::string> gather(const std::string& text) const;
 
-    /// The first rank of each node, in order. Called by all ranks together.
+    /// The first rank of each node, in order. All ranks must call it together.
     [[nodiscard]] std::vector<int> node_leaders() const;
     [[nodiscard]] std::string host() const;
 
@@ -95,9 +95,9 @@ private:
     Link link_ = Link::network;
 };
 
-/// Ends the job on all ranks, and says which rank failed and why. For an error outside of
-/// World::together(): the other ranks would wait without end. Called by the thread that calls MPI;
-/// other threads may still work.
+/// Ends the job on all ranks, and says which rank failed and why. For errors outside of
+/// World::together(), after which the other ranks would wait for ever. Only the thread that calls
+/// MPI may call it; other threads may still work.
 [[noreturn]] void abort_job(const World& world, const std::exception_ptr& error);
 
 }  // namespace packtrace::mpi

@@ -12,6 +12,7 @@
 #include <iomanip>
 #include <iostream>
 #include <memory>
+#include <optional>
 #include <stdexcept>
 #include <string>
 
@@ -23,7 +24,7 @@ struct CompareArguments {
     std::string b;
     CompareOptions options;
     std::string heatmap;
-    double max_error = -1.0;  // none
+    std::optional<double> max_error;
     bool json = false;
 };
 
@@ -49,8 +50,8 @@ void print_text(const Comparison& result, const CompareOptions& options)
                   << '\n';
 }
 
-// An infinite number is null, and `equal` tells the PSNR of equal pictures from that of pictures
-// infinitely far apart.
+// Infinite numbers become null. `equal` distinguishes equal pictures, whose PSNR is infinite, from
+// pictures with an infinite error.
 void print_json(const CompareArguments& arguments, const Image<float>& image,
                 const Comparison& result)
 {
@@ -91,9 +92,9 @@ void run_compare(const CompareArguments& arguments)
         print_json(arguments, a, result);
     else
         print_text(result, arguments.options);
-    if (arguments.max_error >= 0.0 && result.max_abs > arguments.max_error) {
+    if (arguments.max_error && result.max_abs > *arguments.max_error) {
         std::cerr << std::setprecision(6) << "packtrace: the largest error is " << result.max_abs
-                  << ", above --max-error " << arguments.max_error << '\n';
+                  << ", above --max-error " << *arguments.max_error << '\n';
         throw Failed{};
     }
 }
@@ -118,10 +119,10 @@ void add_compare(CLI::App& app)
     command->add_option("--heatmap", arguments->heatmap, "Write a picture of the error per pixel")
         ->check(file_name())
         ->type_name("IMAGE");
-    command
-        ->add_option("--max-error", arguments->max_error,
-                     "Exit 1, and say why, when the largest error exceeds this")
-        ->check(non_negative_number())
+    add_fraction_option(
+        *command, "--max-error", arguments->max_error,
+        "Exit 1, and say why, when the largest error exceeds this, a number or a fraction N/M")
+        ->check(non_negative_fraction())
         ->type_name("X");
     command->add_flag("--json", arguments->json, "Print JSON; infinite numbers become null");
     command->callback([arguments] { run_compare(*arguments); });

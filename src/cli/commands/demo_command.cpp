@@ -39,20 +39,20 @@ struct DemoArguments {
     int rounds = 5;
 };
 
-/// One way to render the demonstration's scene, and what came of it.
+/// One way to render the demonstration's scene, and its result.
 struct DemoEntry {
     bool packet = false;
-    bool single = false;  ///< precision; else double
+    bool single = false;  ///< precision: single, otherwise double
     std::string isa;      ///< packets only
     int lanes = 1;
     int threads = 1;
-    std::vector<double> seconds;  ///< one a round
-    std::uint64_t rays = 0;       ///< of the packets' picture: camera, shadow and reflected
+    std::vector<double> seconds;  ///< one per round
+    std::uint64_t rays = 0;       ///< camera, shadow and reflected rays of the packets' picture
     Image<double> image;
 };
 
-/// The scalar reference, then every instruction set of this machine, in single and double on
-/// one thread; then the widest single packets on `threads` when there are more than one.
+/// The scalar reference, then all instruction sets of this machine, in single and double with one
+/// thread; then the widest single packets with `threads` threads, if that is more than one.
 std::vector<DemoEntry> demo_entries(int threads)
 {
     std::vector<DemoEntry> entries;
@@ -80,7 +80,7 @@ double render_packets(const Scene& scene, DemoEntry& entry)
 {
     const Renderer<Real> renderer(scene, {.isa = entry.isa, .threads = entry.threads});
     Image<Real> image;
-    // A renderer's first frame pays for the memory that later ones reuse.
+    // The first frame of a renderer allocates the memory that later frames reuse.
     entry.rays = renderer.render(image).total();
     const double seconds =
         seconds_of(entry.threads, [&] { static_cast<void>(renderer.render(image)); });
@@ -98,7 +98,7 @@ double render_scalar(const Scene& scene, DemoEntry& entry)
     return seconds;
 }
 
-/// Renders the scene once more and keeps the picture; the seconds it took.
+/// Renders the scene once more and keeps the picture. Returns the seconds.
 double render_entry(const Scene& scene, DemoEntry& entry)
 {
     if (entry.packet)
@@ -113,7 +113,7 @@ void render_rounds(const Scene& scene, int rounds, std::vector<DemoEntry>& entri
                                  [&](std::size_t i) { return render_entry(scene, entries[i]); });
     for (std::size_t i = 0; i < entries.size(); ++i)
         entries[i].seconds = std::move(seconds[i]);
-    // The reference traces the packets' rays, but does not count them.
+    // The reference traces the same rays as the packets, but does not count them.
     for (DemoEntry& entry : entries)
         entry.rays = entry.packet ? entry.rays : entries[1].rays;
 }
@@ -154,8 +154,8 @@ void print_table(const std::vector<DemoEntry>& entries)
     table.print(std::cout);
 }
 
-/// What the widest packets gain over the reference, told apart: the same kernels one lane at a time
-/// have the algorithm and no SIMD.
+/// Splits the speed-up of the widest packets over the reference into algorithm and SIMD: the
+/// kernels with one lane have the algorithm without SIMD.
 void print_split(const std::vector<DemoEntry>& entries)
 {
     for (const bool single : {false, true}) {
@@ -180,7 +180,7 @@ void print_split(const std::vector<DemoEntry>& entries)
     }
 }
 
-/// What is written into the folder.
+/// The pictures in the output folder.
 struct DemoPictures {
     std::filesystem::path folder;
     std::filesystem::path picture;
@@ -191,7 +191,7 @@ struct DemoPictures {
     {
     }
 
-    /// Throws FileError where they can't be written, or would replace the scene.
+    /// Throws FileError if they cannot be written, or would replace the scene.
     void check(const std::string& scene) const
     {
         check_folder(folder);
@@ -214,7 +214,7 @@ struct DemoPictures {
     }
 };
 
-/// Of the folder that the program runs in or, where that has none, as it is installed.
+/// The scene in the present folder or, if there is none, the installed one.
 std::string default_scene()
 {
     const std::filesystem::path scene = "scenes/four_spheres.scene";

@@ -19,9 +19,10 @@ struct Arguments {
     Options options;
 };
 
-// Options end where a scene file would have more keys than its reader takes: a sphere has four.
+// Options are limited so that a scene file does not exceed the reader's limit of keys. A sphere has
+// four keys.
 
-/// The generator's command with the options all have; the caller adds its own.
+/// Adds a generator's command with the common options. The caller adds its own.
 template <class Options>
 CLI::App* add_generator(CLI::App& generate, const std::string& name, const std::string& help,
                         const std::shared_ptr<Arguments<Options>>& arguments,
@@ -118,7 +119,7 @@ void add_generate(CLI::App& app)
         command->add_option("-o,--output", *file, "Scene file (default standard output)")
             ->check(file_name())
             ->type_name("FILE");
-        // Before the work, so that a wrong name doesn't cost it.
+        // Check before the work, so that a wrong name costs no time.
         command->parse_complete_callback([file] {
             if (!file->empty())
                 check_writable(*file);

@@ -46,8 +46,7 @@ void print_isas(const IsaInfo& chosen)
     table.print(std::cout);
 }
 
-/// How many there are of each kind that occurs, in the order in which the scene language lists
-/// the kinds.
+/// The number of objects of each kind that occurs, in the order of kinds in the scene language.
 using Census = std::vector<std::pair<std::string, int>>;
 
 template <class Kinds, class Things, class WordOf>
@@ -106,7 +105,7 @@ void print_scene(const std::string& file, const Scene& scene, const SceneFeature
     print_memory(features.bytes, scene.objects.size());
 }
 
-// The rays of a small picture that are unsure, by cause.
+// Prints the unsure rays of a small picture, by cause.
 void print_unsure(const UnsureSample& sample)
 {
     std::uint64_t sum = 0;

@@ -25,14 +25,14 @@ struct JoinArguments {
     std::string output;
 };
 
-/// A part of a file of hits. It is open only while it is read: there may be more parts than files
-/// that a system lets a program open.
+/// A part of a file of hits. It is open only while it is read, because there may be more parts than
+/// a program may open.
 struct HitPart {
-    std::string file;  ///< empty for a part that is missing
+    std::string file;  ///< empty for a missing part
     PartHead head;
     std::uint64_t end = 0;  ///< bytes before the last line
 
-    /// For messages.
+    /// The name for messages.
     [[nodiscard]] std::string name() const
     {
         return language::escape(file);
@@ -47,10 +47,10 @@ OpenFile open_file(const std::string& name)
     return file;
 }
 
-/// No line that is read here is longer, in a part that was written here.
+/// An upper limit of the first and the last line of a part.
 constexpr std::size_t longest_line = std::size_t{1} << 16;
 
-/// A line without its end; empty for one that is too long.
+/// Reads a line without its end; empty for a line that is too long.
 std::string read_line(const std::string& name, std::FILE* file)
 {
     std::string line;
@@ -79,7 +79,7 @@ std::uint64_t size_of(const std::string& name, std::FILE* file)
     return static_cast<std::uint64_t>(size);
 }
 
-/// Calls `take(bytes)` with the next `count` bytes, or with as many as there are, piece by piece.
+/// Calls `take(bytes)` with the next `count` bytes, piece by piece. There may be fewer bytes.
 template <class Take>
 void read_bytes(const std::string& name, std::FILE* file, std::uint64_t count, const Take& take)
 {
@@ -92,8 +92,8 @@ void read_bytes(const std::string& name, std::FILE* file, std::uint64_t count, c
         throw FileError(name, FileAction::read, errno);
 }
 
-/// How many bytes stand before the last line, which says so. Throws where they are not those that
-/// were written.
+/// The number of bytes before the last line. Throws unless they have the length and checksum that
+/// the last line says.
 std::uint64_t bytes_of_whole(const std::string& name, std::FILE* file)
 {
     const std::uint64_t size = size_of(name, file);
@@ -126,7 +126,7 @@ HitPart check_part(const std::string& name)
     return part;
 }
 
-/// All parts, each in its place. Throws where one is missing or of other work.
+/// All parts, sorted by index. Throws if one is missing or belongs to other work.
 std::vector<HitPart> check_parts(const std::vector<std::string>& names)
 {
     std::vector<HitPart> parts;

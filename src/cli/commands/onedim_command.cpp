@@ -17,7 +17,7 @@
 #include <string>
 #include <vector>
 
-// Not in a nameless namespace, where lookup by the argument's type would not find them.
+// Not in an unnamed namespace, because argument-dependent lookup must find them.
 namespace packtrace::onedim {
 
 constexpr std::array<language::Spelling<Solver>, 3> spellings(Solver)
@@ -59,7 +59,7 @@ onedim::SolveOptions solve_options(const OnedimArguments& arguments)
     return {solver, "auto"};
 }
 
-// Answers lines in blocks, so that memory does not grow with the file.
+// Solves lines in blocks, so that memory does not grow with the file.
 class LineAnswerer {
 public:
     explicit LineAnswerer(const OnedimArguments& arguments)
@@ -70,7 +70,7 @@ public:
     {
     }
 
-    // Whether the line is well-formed.
+    // Returns whether the line is well-formed.
     bool add(const std::string& line)
     {
         ++line_number_;
@@ -84,7 +84,7 @@ public:
         return !error;
     }
 
-    // Prints an answer for every line since the last time, ? for a malformed one.
+    // Prints an answer for every line since the last call, ? for a malformed line.
     void flush()
     {
         const std::vector<onedim::Intensity> answers = solve(systems_, options_);
@@ -132,7 +132,7 @@ private:
     Output output_{"-"};
     bool keep_going_;
     onedim::Systems systems_;
-    std::vector<std::size_t> malformed_;  ///< numbers of the block's systems that stand for a line
+    std::vector<std::size_t> malformed_;  ///< indices of systems that replace malformed lines
     std::size_t line_number_ = 0;
 };
 

@@ -12,17 +12,17 @@
 
 namespace packtrace::cli {
 
-/// What becomes of a scene when packets of floats render it.
+/// How float packets render a scene.
 struct SceneFeatures {
     std::string kernel;             ///< name of the feature set
-    bool in_registers = false;      ///< paths are traced in registers, without streams
+    bool in_registers = false;      ///< fused kernels trace paths in registers, without streams
     bool sorts_mirrored = false;    ///< mirrored rays of several tiles are sorted
     std::vector<std::string> uses;  ///< in the order of a frame's stages
     std::vector<LeftOut> left_out;
-    std::size_t bytes = 0;  ///< held for the scene by packets
+    std::size_t bytes = 0;  ///< memory of the packed scene
 };
 
-/// What a scene makes the kernels do, in words.
+/// The features that a scene uses, in words.
 [[nodiscard]] inline std::vector<std::string> used_features(const LoweredScene& lowered,
                                                             Traversal traversal)
 {

@@ -5,9 +5,9 @@
 namespace packtrace::cli {
 namespace {
 
-// The words of the line lead to a command, whose path is "packtrace render". An option that takes
-// an argument then decides what may come, or else the command does. "--option=value" comes as three
-// words.
+// The script follows the words of the line to a command, whose path is, say, "packtrace render". If
+// the last word is an option with an argument, the option decides the completion, otherwise the
+// command does. Bash splits "--option=value" into three words.
 constexpr const char* bash_start =
     R"(# Completion of packtrace for bash, made by: packtrace completion bash
 _packtrace()

@@ -12,8 +12,8 @@
 namespace packtrace::cli {
 namespace {
 
-// What options call their arguments where these are paths; positional arguments have no type name,
-// and are all paths.
+// The type names of options whose arguments are paths. Positional arguments have no type name, and
+// all of them are paths.
 constexpr std::array<std::string_view, 5> path_types{"DIR", "FILE", "FOLDER", "IMAGE", "PROGRAM"};
 
 std::string first_sentence(const std::string& text)
@@ -41,7 +41,7 @@ OptionWords option_words(CLI::Option& option)
     return words;
 }
 
-/// The words of `app`; commands without a group are hidden, here as in the help.
+/// The words of `app`. Commands without a group are hidden, as in the help.
 CommandWords command_words(CLI::App& app)
 {
     CommandWords words;
@@ -74,7 +74,7 @@ std::string inner_names(const CommandWords& command)
     return joined(command.commands, " ", [](const CommandWords& inner) { return inner.name; });
 }
 
-// For installation, and for those who don't install: hidden from the help.
+// Used by the installation, and by users who do not install the program. The help does not show it.
 void add_completion(CLI::App& app)
 {
     CLI::App* command = app.add_subcommand(

@@ -27,7 +27,7 @@ void write_fish_option(std::ostream& out, const OptionWords& option, const std::
     out << " -d " << fish_quoted(option.description) << '\n';
 }
 
-/// `condition` holds where the line's commands lead to this one.
+/// `condition` is true if the commands of the line lead to this one.
 void write_fish_command(std::ostream& out, const CommandWords& command,
                         const std::string& condition)
 {

@@ -5,7 +5,7 @@
 namespace packtrace::cli {
 namespace {
 
-/// Between single quotes, with what _arguments and _describe give a meaning to taken literally.
+/// For use in single quotes. Escapes characters with a meaning for _arguments and _describe.
 std::string zsh_quoted(const std::string& text)
 {
     std::string result;
@@ -35,7 +35,7 @@ std::string zsh_action(const OptionWords& option)
     return {};
 }
 
-/// Each name as a specification of its own; either name excludes the other.
+/// Writes one specification per name. Each name excludes the other.
 void write_zsh_option(std::ostream& out, const OptionWords& option)
 {
     const std::string names = joined(option.names, " ");
@@ -51,7 +51,7 @@ std::string zsh_function(const std::string& path, const CommandWords& command)
     return path + '_' + command.name;
 }
 
-/// A function for a command; those of its own commands first.
+/// Writes the function of a command, after those of its subcommands.
 void write_zsh_command(std::ostream& out, const CommandWords& command, const std::string& function)
 {
     for (const CommandWords& inner : command.commands)
@@ -85,7 +85,7 @@ std::string zsh_completion(const CommandWords& program)
     out << "#compdef packtrace\n# Completion of packtrace for zsh, made by: packtrace completion "
            "zsh\n\n";
     write_zsh_command(out, program, "_packtrace");
-    // Called by compinit, or read by the user's own start file.
+    // The script is either called by compinit, or read by the user's start file.
     out << "if [[ $funcstack[1] == _packtrace ]]; then\n    _packtrace \"$@\"\nelse\n"
            "    compdef _packtrace packtrace\nfi\n";
     return out.str();

@@ -43,14 +43,14 @@ HitOutput::HitOutput(const IntersectArguments& arguments, const std::string& rec
     note_progress();
 }
 
-/// The last entry whose bytes are in the part file.
+/// The progress at the last entry whose bytes are in the part file.
 HitOutput::Progress HitOutput::find_finished(std::string_view header) const
 {
     Progress done{.bytes = header.size(), .rows = checksum(bytes_of(header))};
     Bytes begun(header.size());
     journal_->read(0, begun);
     if (checksum(begun) != done.rows) {
-        // The head of a part names its file of rays.
+        // The head of a part depends on its file of rays, so the rays have changed.
         const std::string_view text(reinterpret_cast<const char*>(begun.data()), begun.size());
         if (PartHead::parse(text.substr(0, text.find('\n'))))
             fail_of_rays();
@@ -94,7 +94,7 @@ void HitOutput::take(std::string_view block, std::string_view rows)
     note_progress();
 }
 
-/// Says what an interrupted run leaves.
+/// Sets the message for an interruption: what the run leaves behind.
 void HitOutput::note_progress() const
 {
     set_interrupt_line("interrupted; the same command goes on after the " +

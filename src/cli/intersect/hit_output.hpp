@@ -12,43 +12,43 @@
 
 namespace packtrace::cli {
 
-/// Where rows of hits go: standard output, or a file that appears when complete. With `--resume`
-/// the rows of finished blocks are kept beside it until then.
+/// Writes rows of hits to standard output, or to a file that appears when it is complete. With
+/// `--resume` the rows of finished blocks are kept beside the file until then.
 class HitOutput {
 public:
-    /// `recipe` says what hits depend on. Throws FileError.
+    /// `recipe` has everything that hits depend on. Throws FileError.
     HitOutput(const IntersectArguments& arguments, const std::string& recipe,
               std::string_view header);
 
-    /// Blocks that an earlier run finished.
+    /// The number of blocks that an earlier run finished.
     [[nodiscard]] std::uint64_t finished() const
     {
         return done_.blocks;
     }
 
-    /// Passes over them: `next` gives the text of one after the other. Throws FileError where that
-    /// has changed since.
+    /// Skips the finished blocks: `next` returns their texts, one by one. Throws FileError if a
+    /// text has changed since.
     void skip_finished(const std::function<std::string()>& next);
 
-    /// Rows of the next block of rays, which has this text. Throws FileError.
+    /// Writes the rows of the next block of rays, whose text is `block`. Throws FileError.
     void take(std::string_view block, std::string_view rows);
 
-    /// After the last rows of a part: the line that says that it is whole.
+    /// Call it after the last rows of a part. Writes the last line, with length and checksum.
     void end_part();
 
-    /// After the last rows.
+    /// Call it after the last rows.
     void finish();
 
 private:
-    /// How much of input and output is finished, the header included.
+    /// The finished input and output, including the header.
     struct Progress {
         std::uint64_t blocks = 0;
-        std::uint32_t rays = 0;  ///< checksum
+        std::uint32_t rays = 0;  ///< checksum of the input
         std::uint64_t bytes = 0;
-        std::uint32_t rows = 0;  ///< checksum
+        std::uint32_t rows = 0;  ///< checksum of the output
     };
 
-    /// Behind all that is finished, which it is part of then.
+    /// Appends text to the finished output.
     void append(std::string_view text);
 
     [[nodiscard]] Progress find_finished(std::string_view header) const;

@@ -8,7 +8,7 @@
 namespace packtrace::cli {
 namespace {
 
-// RFC 4180: quotes around what would be read as several fields or lines.
+// RFC 4180: puts text in quotes that would otherwise be read as several fields or lines.
 std::string csv_field(const std::string& text)
 {
     if (text.find_first_of(",\"\r\n") == std::string::npos)
@@ -19,13 +19,13 @@ std::string csv_field(const std::string& text)
 void append_number(std::string& rows, double value)
 {
     char digits[32];  // at most 24 are needed: -1.2345678901234567e-308
-    // Adding +0 rids a zero of its sign, which kernels needn't agree about.
+    // Adding +0 removes the sign of a zero, because kernels may disagree about it.
     const auto end =
         std::to_chars(digits, digits + sizeof digits, value + 0.0, std::chars_format::general, 17);
     rows.append(digits, end.ptr);
 }
 
-/// Two more columns.
+/// Appends the two columns of bounds.
 void append_bounds(std::string& rows, const HitBounds& bounds)
 {
     rows += ',';

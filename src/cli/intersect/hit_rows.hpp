@@ -11,13 +11,13 @@
 
 namespace packtrace::cli {
 
-/// What to say of each ray: its first hit, all of them in order, or whether there is any.
+/// The query for each ray: its closest hit, all hits in order, or whether there is any hit.
 enum class RayQuery { closest, all, any };
 
 /// Whether hits come with proven bounds of their t.
 enum class RayBounds { none, proven };
 
-/// Writes hits as CSV rows, numbers with 17 significant digits, objects by name.
+/// Writes hits as CSV rows, with 17 significant digits and the names of objects.
 class HitRows {
 public:
     static constexpr std::string_view closest_header = "hit,t,object,nx,ny,nz\n";
@@ -29,14 +29,14 @@ public:
 
     explicit HitRows(const Scene& scene);
 
-    /// Appends a row of `closest_header`, or of `bounded_closest_header` where there are bounds.
-    /// These are left empty where they are, and for a miss.
+    /// Appends a row of `closest_header`, or of `bounded_closest_header` if there are bounds. The
+    /// columns of bounds stay empty for empty bounds and for a miss.
     template <class Real>
     void append_closest(std::string& rows, const SurfaceHit<Real>& hit,
                         const HitBounds* bounds) const;
 
-    /// Appends a row of `all_header` for each hit of the ray of that number, or of
-    /// `bounded_all_header` where there are bounds: none, or one a hit.
+    /// Appends a row of `all_header` for each hit of the ray with number `ray`, or of
+    /// `bounded_all_header` if there are bounds. There must be no bounds, or one for each hit.
     template <class Real>
     void append_all(std::string& rows, std::uint64_t ray, std::span<const SurfaceHit<Real>> hits,
                     std::span<const HitBounds> bounds) const;
@@ -45,11 +45,11 @@ public:
     static void append_any(std::string& rows, std::uint8_t hit);
 
 private:
-    /// Without the line's end.
+    /// Appends a hit without the line's end.
     template <class Real>
     void append_hit(std::string& rows, const SurfaceHit<Real>& hit) const;
 
-    std::vector<std::string> names_;  // in quotes where CSV wants them
+    std::vector<std::string> names_;  // in quotes if CSV needs them
 };
 
 /// The line above all rows.

@@ -7,7 +7,7 @@
 namespace packtrace::cli {
 namespace {
 
-// Not add_kernel_options: here double is the default, and nothing is wider.
+// Not add_kernel_options(): here double is the default and the widest precision.
 void add_options(CLI::App& command, KernelArguments& arguments)
 {
     add_kernel_option(command, arguments.kernel);
@@ -51,7 +51,7 @@ void add_intersect_options(CLI::App& command, IntersectArguments& arguments)
                      "interruption, the same command goes on with them");
 }
 
-RenderOptions checked_options(const IntersectArguments& arguments)
+RenderOptions checked_intersect_options(const IntersectArguments& arguments)
 {
     if (arguments.scene == "-" && arguments.rays == "-")
         throw CLI::ValidationError(
@@ -66,7 +66,7 @@ std::string hits_recipe(const IntersectArguments& arguments, const Scene& scene,
 {
     RenderArguments kernel;
     kernel.kernel = arguments.kernel;
-    // No hit depends on the picture.
+    // Hits do not depend on the picture's options.
     Scene without_picture = scene;
     set_usual_picture(without_picture);
     std::string recipe = FrameRecipe(kernel, without_picture, options).of(Camera{});

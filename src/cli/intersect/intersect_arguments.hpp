@@ -30,13 +30,13 @@ struct IntersectArguments {
     }
 };
 
-/// All options but `--shard`, which jobs of many ranks do not take.
+/// Adds all options except `--shard`, which MPI jobs do not have.
 void add_intersect_options(CLI::App& command, IntersectArguments& arguments);
 
-/// Throws CLI::ValidationError for options that contradict each other.
-[[nodiscard]] RenderOptions checked_options(const IntersectArguments& arguments);
+/// The render options. Throws CLI::ValidationError for options that contradict each other.
+[[nodiscard]] RenderOptions checked_intersect_options(const IntersectArguments& arguments);
 
-/// Says of hits all that they depend on, but for the rays.
+/// Everything that hits depend on, except the rays.
 [[nodiscard]] std::string hits_recipe(const IntersectArguments& arguments, const Scene& scene,
                                       const RenderOptions& options);
 

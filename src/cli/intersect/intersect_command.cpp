@@ -30,9 +30,9 @@ void run(const IntersectArguments& arguments, const Scene& scene, const RenderOp
 
 void run_intersect(const IntersectArguments& arguments)
 {
-    const RenderOptions options = checked_options(arguments);
+    const RenderOptions options = checked_intersect_options(arguments);
     limit_threads(options.threads);
-    // Before the work, so that a wrong name doesn't cost it.
+    // Check before the work, so that a wrong name costs no time.
     if (!arguments.output.empty())
         check_writable(arguments.output);
     check_not_read(arguments.output, {arguments.scene, arguments.rays});

@@ -78,15 +78,15 @@ template class BlockTracer<double>;
 
 namespace {
 
-// A block between two stages. Errors wait in it for their turn, so that the first wrong line
-// is the one reported, whichever block was worked on first.
+// A block between two stages. It also carries an error until its turn, so that the first wrong line
+// is reported, whichever block was processed first.
 struct Task {
     RayBlock block;
     std::string rows;
     std::exception_ptr error;
 };
 
-// Runs a stage's step unless an earlier one failed.
+// Runs a step unless an earlier step of the block failed.
 template <class Step>
 void attempt(Task& task, const Step& step)
 {
@@ -99,7 +99,7 @@ void attempt(Task& task, const Step& step)
     }
 }
 
-// Fills `task`; stops the pipeline behind the last block or the first error.
+// Reads a block into `task`. Stops the pipeline after the last block or the first error.
 void read_block(Task& task, RayBlocks& rays, tbb::flow_control& control, bool& ended)
 {
     task = {};
@@ -115,12 +115,12 @@ void read_block(Task& task, RayBlocks& rays, tbb::flow_control& control, bool& e
 template <class Real>
 void intersect_rays(BlockTracer<Real>& tracer, RayBlocks& rays, const TakeRows& take)
 {
-    // Two blocks a thread: one to work on, one that waits.
+    // Two blocks per thread: one is processed, one waits.
     const std::size_t blocks =
         2 * tbb::global_control::active_value(tbb::global_control::max_allowed_parallelism);
-    // Held here, as a pipeline that ends early loses what is between its stages. Blocks are written
-    // in the order they are read in, and so many are under way at most: a place is free again when
-    // its turn comes.
+    // The tasks are stored here, because a pipeline that ends early leaks the data between its
+    // stages. Blocks are written in the order of reading, and at most `blocks` are in the pipeline,
+    // so a task is free again when its turn comes.
     std::vector<Task> tasks(blocks);
     std::size_t next = 0;
     bool ended = false;

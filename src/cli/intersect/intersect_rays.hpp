@@ -15,7 +15,7 @@
 
 namespace packtrace::cli {
 
-/// Turns blocks of rays into rows of hits; several threads may do so at once.
+/// Turns blocks of rays into rows of hits. Thread-safe.
 template <class Real>
 class BlockTracer {
 public:
@@ -26,7 +26,7 @@ public:
     [[nodiscard]] std::string rows_of(const RayBlock& block);
 
 private:
-    // The memory a thread needs for a block, kept for its next one.
+    // The memory of a thread for a block, reused for its next block.
     struct Scratch {
         RayColumns<Real> rays;
         HitColumns<Real> hits;
@@ -45,11 +45,11 @@ private:
     tbb::enumerable_thread_specific<Scratch> scratch_;
 };
 
-/// Takes the rows of one block after the other, in order.
+/// Receives the rows of the blocks, in order.
 using TakeRows = std::function<void(const RayBlock& block, std::string_view rows)>;
 
-/// Answers every ray in turn, working on several blocks at once; memory does not grow with
-/// their number. Throws FileError for the first wrong line.
+/// Traces all rays, several blocks at once. Memory does not grow with the number of blocks. Throws
+/// FileError for the first wrong line.
 template <class Real>
 void intersect_rays(BlockTracer<Real>& tracer, RayBlocks& rays, const TakeRows& take);
 

@@ -25,7 +25,7 @@ std::string_view trimmed(std::string_view text)
     return text;
 }
 
-/// Cuts the next field off `rest`, without the blanks around it.
+/// Removes the next field from `rest` and returns it without the blanks around it.
 std::string_view cut_field(std::string_view& rest)
 {
     const std::size_t end = rest.find(',');
@@ -56,9 +56,10 @@ constexpr std::size_t t_max = 7;
 
 using Fields = std::array<std::string_view, most_ray_columns>;
 
-/// A number of a CSV field in the precision of Real. `error` is std::errc{} for a number,
-/// infinities and NaN among them; invalid_argument for anything else; result_out_of_range for
-/// one too large. One too small becomes zero, but below the range of long double an error too.
+/// The number of a CSV field in the precision of Real. `error` is std::errc{} for a number,
+/// including infinities and NaN, result_out_of_range for a number that is too large, and
+/// invalid_argument for other text. A number that is too small becomes zero; below the range of
+/// long double it is an error, too.
 template <class Real>
 struct RayNumber {
     Real value = 0;
@@ -75,7 +76,7 @@ RayNumber<Real> parse(std::string_view text)
     return number;
 }
 
-// from_chars does not tell too small from too large, but a wider type does.
+// from_chars does not distinguish too small from too large, but parsing in a wider type does.
 template <class Real>
 RayNumber<Real> parse_extreme(std::string_view text)
 {
@@ -89,14 +90,14 @@ RayNumber<Real> parse_extreme(std::string_view text)
 template <class Real>
 RayNumber<Real> to_ray_number(std::string_view field)
 {
-    // The scene language has the plus sign too, from_chars does not.
+    // from_chars does not accept a plus sign, but the scene language does.
     if (field.starts_with('+') && !field.starts_with("+-"))
         field.remove_prefix(1);
     const RayNumber<Real> number = parse<Real>(field);
     return number.error == std::errc::result_out_of_range ? parse_extreme<Real>(field) : number;
 }
 
-/// Turns lines of one format into rays.
+/// Reads rays from lines of one format.
 template <class Real>
 class RowReader {
 public:
@@ -125,8 +126,8 @@ private:
     static constexpr double furthest = 1e150;
     static constexpr const char* limits = is_single ? "1e-12 and 1e12" : "1e-100 and 1e100";
 
-    // Kernels square directions: far from 1 that over- or underflows, and a hit would be moved
-    // or lost.
+    // Kernels square directions. Far from 1 this overflows or underflows, and hits would be wrong
+    // or missing.
     void check_direction(const CsvLine& line, const char* at,
                          const std::array<Real, most_ray_columns>& row) const
     {
@@ -159,7 +160,7 @@ private:
 
     [[noreturn]] void fail_count(const CsvLine& line, std::size_t count) const
     {
-        // At the first field too many, or where one is missing.
+        // Report the first surplus field, or the place of the missing one.
         std::string_view rest = line.text;
         for (std::size_t column = 0; column < std::min(count, format_.columns); ++column)
             static_cast<void>(cut_field(rest));

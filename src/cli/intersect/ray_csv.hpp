@@ -8,7 +8,7 @@
 #include <string>
 #include <string_view>
 
-// Rays as lines of a CSV file: its lines, the format that the first of them tells, and its numbers.
+// Reads rays from the lines of a CSV file. The first line defines the format.
 namespace packtrace::cli {
 
 /// A line of a CSV file without its line end.
@@ -17,8 +17,8 @@ struct CsvLine {
     std::size_t number = 1;  ///< in the file, from 1
 };
 
-/// Walks the lines of a text that are neither blank nor # comments. Lines end in LF or CR LF;
-/// the last may lack its end.
+/// Iterates over the lines of a text, except blank lines and # comments. Lines end in LF or CR LF;
+/// the last line may have no end.
 class CsvLines {
 public:
     CsvLines(std::string_view text, std::size_t first_line) : rest_(text), number_(first_line)
@@ -36,7 +36,7 @@ public:
         return std::nullopt;
     }
 
-    /// The number of the line after those walked.
+    /// The number of the next line.
     [[nodiscard]] std::size_t number() const
     {
         return number_;
@@ -61,20 +61,20 @@ inline constexpr std::size_t most_ray_columns = 8;
 inline constexpr std::array<std::string_view, most_ray_columns> ray_columns{
     "ox", "oy", "oz", "dx", "dy", "dz", "t_min", "t_max"};
 
-/// How a file writes its rays; its first line tells.
+/// The format of a file of rays, defined by its first line.
 struct RayFormat {
     std::string file;             ///< its name, as messages show it
     std::size_t columns = 0;      ///< 6 or 8; 0 until the first line has been read
-    std::size_t first_line = 0;   ///< the number of that line
-    std::size_t header_line = 0;  ///< the same if it is a header, else 0
+    std::size_t first_line = 0;   ///< the number of the first line
+    std::size_t header_line = 0;  ///< the number of the first line if it is a header, else 0
 };
 
-/// Learns the format from the file's first line. Throws FileError for a line that has neither
-/// 6 nor 8 columns.
+/// Sets the format from the file's first line. Throws FileError for a line that has neither 6 nor 8
+/// columns.
 void learn(RayFormat& format, const CsvLine& first);
 
-/// Replaces `rays` by those of whole lines of a file, the first of which has the number
-/// `first_line`. Throws FileError, `file:line:column: …`, for what is not a ray.
+/// Replaces `rays` by the rays of `text`, whole lines of a file. `first_line` is the number of the
+/// first of them. Throws FileError, `file:line:column: …`, for a line that is not a ray.
 template <class Real>
 void read_rays(const RayFormat& format, std::string_view text, std::size_t first_line,
                RayColumns<Real>& rays);

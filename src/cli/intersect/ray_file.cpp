@@ -17,10 +17,10 @@
 namespace packtrace::cli {
 namespace {
 
-// What spreadsheets put before a text to say that it is UTF-8.
+// Spreadsheets put it before a text in UTF-8.
 constexpr std::string_view byte_order_mark = "\xEF\xBB\xBF";
 
-/// The first line that begins at `place` or after it.
+/// The start of the first line that begins at or after `place`.
 std::uint64_t next_line(const std::string& file, std::uint64_t place)
 {
     const std::uint64_t size = ray_file_size(file);
@@ -143,7 +143,7 @@ std::uint64_t ray_file_size(const std::string& file)
 RayRange cut_rays(const std::string& file, std::uint64_t index, std::uint64_t count)
 {
     const std::uint64_t size = ray_file_size(file);
-    // In two steps: a product could exceed 64 bits.
+    // Computed in two steps, because size * i could exceed 64 bits.
     const auto place = [&](std::uint64_t i) { return size / count * i + size % count * i / count; };
     return {.begin = next_line(file, place(index)), .end = next_line(file, place(index + 1))};
 }

@@ -8,23 +8,23 @@
 #include <limits>
 #include <string>
 
-// A file of rays, read block by block, and cut into ranges that machines or ranks share.
+// Reads a file of rays block by block, and divides it into ranges for machines or ranks.
 namespace packtrace::cli {
 
-/// Whole lines of a file of rays that follow each other.
+/// A range of whole, consecutive lines of a file of rays.
 struct RayRange {
     std::uint64_t begin = 0;  ///< bytes
     std::uint64_t end = std::numeric_limits<std::uint64_t>::max();
     std::size_t first_line = 1;   ///< number of its first line in the file
     std::uint64_t first_ray = 0;  ///< number of its first ray
-    RayFormat format = {};        ///< of what stands before it, if known
+    RayFormat format = {};        ///< from the lines before the range, if known
 };
 
-/// Reads a file, or its bytes from `begin` to `end`, in blocks of whole lines, so that its length
-/// costs no memory. `-` is standard input.
+/// Reads a file, or its bytes from `begin` to `end`, in blocks of whole lines. Memory does not grow
+/// with the file. `-` is standard input.
 class TextBlocks {
 public:
-    /// Also the longest line allowed.
+    /// The largest block, and so the longest line, in bytes.
     static constexpr std::size_t largest = std::size_t{1} << 16;
 
     /// Throws FileError.
@@ -34,7 +34,7 @@ public:
     /// The next block, at most `largest` bytes; empty at the end. Throws FileError.
     [[nodiscard]] std::string next();
 
-    /// The file's name as messages show it.
+    /// The file's name in messages.
     [[nodiscard]] const std::string& name() const
     {
         return name_;
@@ -43,21 +43,21 @@ public:
 private:
     std::string name_;
     OpenFile file_;
-    std::uint64_t left_;  // bytes of the range that have not been read yet
-    std::string begun_;   // the start of a line whose end has not been read yet
+    std::uint64_t left_;  // bytes of the range that are not yet read
+    std::string begun_;   // the start of a line whose end is not yet read
     std::size_t lines_ = 0;
 };
 
-/// Some lines of a file of rays, with all that is needed to read them apart from the others.
+/// Some lines of a file of rays, with everything needed to read them independently of other blocks.
 struct RayBlock {
-    std::string text;  ///< empty: the file is at its end
+    std::string text;  ///< empty at the end of the file
     RayFormat format;
     std::size_t first_line = 1;
     std::uint64_t first_ray = 0;
-    std::uint64_t rays = 0;  ///< in it
+    std::uint64_t rays = 0;  ///< number of rays in the block
 };
 
-/// Cuts a file of rays into blocks that can be read in any order.
+/// Divides a file of rays into blocks that can be processed in any order.
 class RayBlocks {
 public:
     /// Throws FileError.
@@ -73,31 +73,33 @@ private:
     std::uint64_t ray_ = 0;
 };
 
-/// Lines and rays of a range, for those after it.
+/// The numbers of lines and rays of a range, to number the ranges after it.
 struct RayCount {
     std::uint64_t lines = 0;
     std::uint64_t rays = 0;
 };
 
-/// The length of a file of rays. Throws FileError, also for what is no regular file: a pipe can't
-/// be cut into ranges.
+/// The length of a file of rays, in bytes. Throws FileError, also if it is not a regular file,
+/// because a pipe cannot be divided into ranges.
 [[nodiscard]] std::uint64_t ray_file_size(const std::string& file);
 
-/// Of all of a file of rays up to 64 MiB, else of 1024 pieces of 64 KiB, spread evenly from its
-/// beginning to its end: parts of a large file are made without reading all of it.
+/// A checksum of a file of rays: of all of it up to 64 MiB, otherwise of 1024 pieces of 64 KiB,
+/// distributed evenly from its beginning to its end. So parts of a large file are processed without
+/// reading all of it.
 [[nodiscard]] std::uint32_t ray_file_checksum(const std::string& file);
 
-/// Part `index` of `count` parts of about the same length; numbers and format are not set.
+/// Part `index` of `count` parts of about equal length. Numbers and format are not set.
 [[nodiscard]] RayRange cut_rays(const std::string& file, std::uint64_t index, std::uint64_t count);
 
-/// The same with its numbers and format, for which what stands before it is read.
+/// Part `index` of `count`, with numbers and format. To find them, it reads the file up to the
+/// part.
 [[nodiscard]] RayRange numbered_rays(const std::string& file, std::uint64_t index,
                                      std::uint64_t count);
 
-/// What the file's first ray or header says of its format; without columns where there is none.
+/// The format of the file, from its first ray or header; without columns if it has neither.
 [[nodiscard]] RayFormat format_of_rays(const std::string& file);
 
-/// Counts without looking at numbers. `range` may lack its own numbers.
+/// Counts lines and rays without parsing numbers. Numbers of `range` need not be set.
 [[nodiscard]] RayCount count_rays(const std::string& file, const RayRange& range);
 
 }  // namespace packtrace::cli

@@ -4,31 +4,27 @@
 #include "render/check_options.hpp"
 #include "render/precision.hpp"
 
+#include <algorithm>
 #include <array>
 #include <stdexcept>
-#include <utility>
+#include <string_view>
 
 namespace packtrace::cli {
 namespace {
 
-// As the scene language has them.
+// The limits of the scene language.
 constexpr int largest_side = 65536;
 constexpr int most_depth = 64;
 constexpr int adaptive_samples = 16;
 
-// The two numbers of "640x480"; zeros when it is something else.
-std::pair<int, int> parse_size(const std::string& text)
+/// Reads width and height from "640x480", in pixels. Not set if they are not valid sides.
+std::optional<std::array<int, 2>> parse_size(std::string_view text)
 {
-    std::array<int, 2> numbers{};
-    if (!parse_numbers(text, 'x', numbers))
-        return {};
-    return {numbers[0], numbers[1]};
-}
-
-bool is_size(const std::string& text)
-{
-    const auto [width, height] = parse_size(text);
-    return width >= 1 && width <= largest_side && height >= 1 && height <= largest_side;
+    const std::optional<std::array<int, 2>> sides = parse_numbers<2>(text, 'x');
+    const auto is_side = [](int side) { return side >= 1 && side <= largest_side; };
+    if (!sides || !std::all_of(sides->begin(), sides->end(), is_side))
+        return std::nullopt;
+    return sides;
 }
 
 }  // namespace
@@ -63,7 +59,7 @@ void add_traversal_option(CLI::App& command, std::optional<std::string>& travers
 
 void add_isa_option(CLI::App& command, std::optional<std::string>& isa, const std::string& meaning)
 {
-    // Completion is made on one machine for others: it has those that do not run here, too.
+    // Also sets that do not run here, because completion scripts may be made for other machines.
     std::vector<std::string> names{"auto"};
     for (const IsaInfo& each : list_isas())
         names.push_back(each.name);
@@ -87,8 +83,8 @@ void add_size_option(CLI::App& command, PictureArguments& arguments)
     command
         .add_option("--size", arguments.size,
                     "Size of the picture (default " + arguments.size.value_or("the scene's") + ")")
-        ->check(validator(
-            is_size, "a size such as 640x480, of sides from 1 to " + std::to_string(largest_side)))
+        ->check(parsed_by(parse_size, "a size such as 640x480, of sides from 1 to " +
+                                          std::to_string(largest_side)))
         ->type_name("WxH");
 }
 
@@ -131,11 +127,9 @@ void add_threads_option(CLI::App& command, int& threads)
 
 void add_threshold_option(CLI::App& command, double& threshold)
 {
-    command
-        .add_option_function<std::string>(
-            "--threshold",
-            [&threshold](const std::string& text) { threshold = *parse_fraction(text); },
-            "Error above which a pixel counts as off, a number or a fraction N/M (default 1/255)")
+    add_fraction_option(
+        command, "--threshold", threshold,
+        "Error above which a pixel counts as off, a number or a fraction N/M (default 1/255)")
         ->check(non_negative_fraction())
         ->type_name("T");
 }
@@ -167,7 +161,7 @@ void add_kernel_options(CLI::App& command, KernelArguments& arguments)
 
 namespace {
 
-/// The option given that only packets have, or nothing.
+/// An option that was given and that only the packet kernel has; empty for none.
 std::string packet_option(const KernelArguments& arguments)
 {
     return arguments.isa.isa         ? "--isa"
@@ -189,7 +183,7 @@ IsaInfo chosen_isa(const IsaArguments& arguments)
     try {
         return choose_isa(arguments.isa.value_or("auto"), arguments.width.value_or(0));
     } catch (const std::invalid_argument& error) {
-        // It names the option, or the environment variable.
+        // The message begins with the option or the environment variable.
         const std::string what = error.what();
         throw CLI::ValidationError(what.starts_with("PACKTRACE_ISA") ? what : "--" + what);
     }
@@ -197,8 +191,11 @@ IsaInfo chosen_isa(const IsaArguments& arguments)
 
 void apply(const PictureArguments& arguments, Scene& scene)
 {
-    if (arguments.size)
-        std::tie(scene.width, scene.height) = parse_size(*arguments.size);
+    if (arguments.size) {
+        const auto [width, height] = parse_size(*arguments.size).value();
+        scene.width = width;
+        scene.height = height;
+    }
     if (arguments.depth)
         scene.max_depth = *arguments.depth;
     if (arguments.min_weight)

@@ -17,7 +17,7 @@
 
 namespace packtrace::cli {
 
-/// An option that takes one of a few words.
+/// Adds an option that takes one of a few words.
 template <class Argument>
 CLI::Option* add_word_option(CLI::App& command, const std::string& name, Argument& argument,
                              const std::string& meaning, const std::vector<std::string>& words)
@@ -27,7 +27,17 @@ CLI::Option* add_word_option(CLI::App& command, const std::string& name, Argumen
         ->type_name(joined(words, "|"));
 }
 
-/// The words of an enumeration, for such an option.
+/// Adds an option that takes a number or a fraction N/M. The caller adds a validator for its range.
+template <class Argument>
+CLI::Option* add_fraction_option(CLI::App& command, const std::string& name, Argument& argument,
+                                 const std::string& meaning)
+{
+    return command.add_option_function<std::string>(
+        name, [&argument](const std::string& text) { argument = parse_fraction(text).value(); },
+        meaning);
+}
+
+/// The words of an enumeration, for an option that takes one of them.
 template <class Enum>
 [[nodiscard]] std::vector<std::string> words_of()
 {
@@ -47,7 +57,7 @@ template <class Enum, std::size_t count>
     return words;
 }
 
-/// What such an option says, if it was given.
+/// The value of such an option; `usual` if it was not given.
 template <class Enum>
 [[nodiscard]] Enum value_or(const std::optional<std::string>& word, Enum usual)
 {
@@ -60,21 +70,21 @@ struct IsaArguments {
     std::optional<int> width;
 };
 
-/// What picture to render of a scene: `--size`, `--depth` and `--min-weight`.
+/// The picture to render: `--size`, `--depth` and `--min-weight`.
 struct PictureArguments {
     std::optional<std::string> size;
     std::optional<int> depth;
     std::optional<double> min_weight;
 };
 
-/// How exact hits are: `--accuracy` and `--self-hits`.
+/// The exactness of hits: `--accuracy` and `--self-hits`.
 struct AccuracyArguments {
     std::optional<std::string> accuracy;
     std::optional<std::string> self_hits;
 };
 
-/// How to render it: `--kernel`, `--precision`, `--traversal`, `--force-general`, `--threads` and
-/// those of AccuracyArguments and IsaArguments.
+/// How to render: `--kernel`, `--precision`, `--traversal`, `--force-general`, `--threads`, and the
+/// options of AccuracyArguments and IsaArguments.
 struct KernelArguments {
     std::string kernel = "packet";
     std::optional<std::string> traversal;
@@ -85,52 +95,53 @@ struct KernelArguments {
     int threads = 0;
 };
 
-/// How many samples a pixel gets: `--spp` and `--adaptive`.
+/// The samples per pixel: `--spp` and `--adaptive`.
 struct SamplingArguments {
     std::optional<int> samples;
     std::optional<double> adaptive;
 };
 
 void add_accuracy_option(CLI::App& command, AccuracyArguments& arguments);
-/// `--accuracy`, and `--self-hits` for what traces secondary rays.
+/// `--accuracy` and `--self-hits`, for commands that trace secondary rays.
 void add_accuracy_and_self_hits(CLI::App& command, AccuracyArguments& arguments);
 void add_traversal_option(CLI::App& command, std::optional<std::string>& traversal);
-/// packet or scalar.
+/// `--kernel`: packet or scalar.
 void add_kernel_option(CLI::App& command, std::string& kernel);
-/// single or double.
+/// `--precision`: single or double.
 void add_precision_option(CLI::App& command, std::string& precision, const std::string& meaning);
 void add_sampling_options(CLI::App& command, SamplingArguments& arguments);
-/// `--isa` alone, for chosen_isa().
+/// `--isa` only, for chosen_isa().
 void add_isa_option(CLI::App& command, std::optional<std::string>& isa, const std::string& meaning);
 /// `--isa` and `--width`.
 void add_isa_and_width(CLI::App& command, IsaArguments& arguments);
-/// `--size` alone.
+/// `--size` only.
 void add_size_option(CLI::App& command, PictureArguments& arguments);
 void add_picture_options(CLI::App& command, PictureArguments& arguments);
 void add_kernel_options(CLI::App& command, KernelArguments& arguments);
 void add_threads_option(CLI::App& command, int& threads);
-/// By how much pixels of two pictures may differ.
+/// `--threshold`: the largest difference of pixels that does not count as off.
 void add_threshold_option(CLI::App& command, double& threshold);
 
-/// What the word of `--precision` stands for.
+/// The value of a word of `--precision`.
 [[nodiscard]] Precision chosen_precision(const std::string& word);
 
-/// The instruction set asked for. Throws CLI::ValidationError when there is no such one here.
+/// The instruction set of the options. Throws CLI::ValidationError if it is unknown or this machine
+/// does not support it.
 [[nodiscard]] IsaInfo chosen_isa(const IsaArguments& arguments);
 
-/// Puts the size, depth and least weight asked for into the scene.
+/// Sets the scene's size, depth and minimum weight, if they were given.
 void apply(const PictureArguments& arguments, Scene& scene);
 
-/// Puts the sampling asked for into the options. Throws CLI::ValidationError for `--adaptive` with
-/// one sample.
+/// Sets the sampling in the render options. Throws CLI::ValidationError for `--adaptive` with one
+/// sample.
 void apply(const SamplingArguments& arguments, RenderOptions& options);
 
-/// Puts the accuracy asked for into the options. Throws CLI::ValidationError where there is no
-/// choice: the kernel is not packets, or the precision not single.
+/// Sets the accuracy in the render options. Throws CLI::ValidationError if there is no choice of
+/// accuracy: for kernels other than packets, and for precisions other than single.
 void apply(const AccuracyArguments& arguments, const std::string& kernel, Precision precision,
            RenderOptions& options);
 
-/// Throws CLI::ValidationError for options that contradict each other.
+/// The render options. Throws CLI::ValidationError for options that contradict each other.
 [[nodiscard]] RenderOptions render_options(const KernelArguments& arguments);
 
 }  // namespace packtrace::cli

@@ -17,33 +17,33 @@
 
 namespace packtrace::cli {
 
-/// A scene as a command line names it: a file, or - for standard input.
+/// A scene from the command line: a file, or - for standard input.
 struct SceneInput {
     std::string name;  ///< for messages and tables
-    std::string stem;  ///< for the names of files made of it
+    std::string stem;  ///< for the names of its output files
     std::string text;
     Scene scene;
 };
 
-/// What messages and tables call a scene.
+/// The name of a scene in messages and tables.
 [[nodiscard]] inline std::string scene_name(const std::string& file)
 {
     return file == "-" ? "standard input" : file;
 }
 
-/// What the files that are made of a scene are called.
+/// The name for a scene's output files.
 [[nodiscard]] inline std::string scene_stem(const std::string& file)
 {
     return file == "-" ? "stdin" : std::filesystem::path(file).stem().string();
 }
 
-/// Throws SceneError for a second scene from standard input.
+/// Throws SceneError: standard input was already read for another scene.
 [[noreturn]] inline void fail_read_already()
 {
     throw SceneError(scene_name("-") + ": has been read already; give - for one scene only");
 }
 
-/// A scene's name among results that have those `taken`, to which it is added.
+/// A name for a scene that is not in `taken`. Adds it to `taken`.
 [[nodiscard]] inline std::string free_scene_name(const std::string& stem,
                                                  std::set<std::string>& taken)
 {
@@ -53,7 +53,7 @@ struct SceneInput {
     return name;
 }
 
-/// Adds the positional SCENE, which is required.
+/// Adds the required positional argument SCENE.
 inline CLI::Option* add_scene_option(CLI::App& command, std::string& file)
 {
     return command.add_option("SCENE", file, "Scene file; - is standard input")
@@ -62,8 +62,8 @@ inline CLI::Option* add_scene_option(CLI::App& command, std::string& file)
         ->type_name("");
 }
 
-/// Reads it; warnings go to standard error. Throws SceneError, also where standard input has been
-/// read before, and FileError where that can't be read.
+/// Reads a scene and prints warnings on standard error. Throws SceneError, also if standard input
+/// was read before, and FileError if standard input cannot be read.
 [[nodiscard]] inline SceneInput read_scene_input(const std::string& file)
 {
     const bool piped = file == "-";
@@ -73,7 +73,7 @@ inline CLI::Option* add_scene_option(CLI::App& command, std::string& file)
     if (piped && std::cin.eof())
         fail_read_already();
     input.text = piped ? language::load_text(std::cin, input.name) : language::load_text(file);
-    // Of which the stream, that is of the C library's, tells nothing.
+    // std::cin reads through the C library and does not report its read errors.
     if (piped && std::ferror(stdin) != 0)
         throw FileError(input.name, FileAction::read, errno);
     input.scene = parse_scene(input.text, input.name, [](const std::string& line) {

@@ -13,7 +13,7 @@
 
 namespace packtrace::cli {
 
-/// One of `count` parts that work is cut into, for machines that know nothing of each other.
+/// One of `count` parts of the work, for machines that do not communicate.
 struct Shard {
     int index = 0;  ///< from 0
     int count = 1;
@@ -25,33 +25,32 @@ struct Shard {
     }
 };
 
-/// Reads "I/N"; nothing where it is none.
+/// Reads "I/N"; not set for other text.
 [[nodiscard]] inline std::optional<Shard> parse_shard(const std::string& text)
 {
     constexpr int most_shards = 1'000'000;
-    std::array<int, 2> numbers{};
-    if (!parse_numbers(text, '/', numbers))
+    const std::optional<std::array<int, 2>> numbers = parse_numbers<2>(text, '/');
+    if (!numbers)
         return std::nullopt;
-    const Shard shard{numbers[0], numbers[1]};
+    const Shard shard{(*numbers)[0], (*numbers)[1]};
     if (shard.index < 0 || shard.index >= shard.count || shard.count > most_shards)
         return std::nullopt;
     return shard;
 }
 
-/// `--shard`; `what` says what it cuts.
+/// Adds `--shard`. `what` names the work that it divides.
 inline CLI::Option* add_shard_option(CLI::App& command, std::optional<std::string>& shard,
                                      const std::string& what)
 {
     return command.add_option("--shard", shard, what)
-        ->check(validator([](const std::string& text) { return parse_shard(text).has_value(); },
-                          "a shard such as 0/8, the first of eight, or 7/8, the last"))
+        ->check(parsed_by(parse_shard, "a shard such as 0/8, the first of eight, or 7/8, the last"))
         ->type_name("I/N");
 }
 
-/// The first line of a part of a file of hits, so that parts of different work are not joined.
+/// The first line of a part of a file of hits. It prevents that parts of different work are joined.
 struct PartHead {
     Shard shard;
-    std::string recipe;  ///< what the hits depend on, the same for all parts
+    std::string recipe;  ///< everything that the hits depend on; equal for all parts
 
     static constexpr std::string_view begin = "# packtrace part ";
 
@@ -59,7 +58,7 @@ struct PartHead {
     {
         return std::string(begin) + shard.text() + " of " + recipe + "\n";
     }
-    /// Of a line without its end; nothing for any other line.
+    /// Parses a line without its end. Not set for other lines.
     [[nodiscard]] static std::optional<PartHead> parse(std::string_view line)
     {
         if (!line.starts_with(begin))
@@ -73,10 +72,10 @@ struct PartHead {
     }
 };
 
-/// The last line of such a part, so that one that was cut or changed is not joined.
+/// The last line of a part. It prevents that truncated or changed parts are joined.
 struct PartEnd {
     std::uint64_t bytes = 0;     ///< of the part, before this line
-    std::uint32_t checksum = 0;  ///< of these
+    std::uint32_t checksum = 0;  ///< of these bytes
 
     static constexpr std::string_view begin = "# packtrace part ends after ";
     static constexpr std::size_t longest = 100;

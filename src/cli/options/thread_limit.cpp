@@ -13,8 +13,8 @@
 namespace packtrace::cli {
 namespace {
 
-/// How many threads can run at once besides this one, of `wanted`: the system may allow fewer, and
-/// oneTBB ends the program where one can't be started.
+/// How many threads, at most `wanted`, can run besides this one. The system may allow fewer, and
+/// oneTBB ends the program if it cannot start a thread.
 int startable_threads(int wanted)
 {
     std::mutex mutex;
@@ -29,7 +29,7 @@ int startable_threads(int wanted)
                 changed.wait(lock, [&] { return end; });
             });
     } catch (const std::exception&) {
-        // As many as there are: the system allows no more, or has no memory for them.
+        // The system allows no more threads, or has no memory for them.
     }
     {
         const std::scoped_lock lock(mutex);
@@ -41,7 +41,7 @@ int startable_threads(int wanted)
     return static_cast<int>(threads.size());
 }
 
-/// More of them than processors only wait for each other.
+/// The largest number of threads per processor. More of them only wait for each other.
 constexpr int threads_of_processor = 8;
 
 int useful_threads()
@@ -50,7 +50,7 @@ int useful_threads()
            static_cast<int>(std::max(1u, std::thread::hardware_concurrency()));
 }
 
-/// `threads`, or fewer where that is of no use or not allowed; says so in one line.
+/// Returns `threads`, or fewer if so many are useless or not allowed. Reports this in one line.
 int possible_threads(int threads, int others)
 {
     const int useful = std::min(threads, useful_threads());
@@ -68,7 +68,7 @@ int possible_threads(int threads, int others)
 
 void limit_threads(int threads, int others)
 {
-    // Never lifted, but held where who looks for leaks finds it.
+    // Never lifted. The pointer is static, so that leak checkers find it.
     [[maybe_unused]] static const tbb::global_control* volatile limit = nullptr;
     if (threads > 0)
         limit =

@@ -4,7 +4,6 @@
 #include "scene/language/quote.hpp"
 
 #include <algorithm>
-#include <charconv>
 #include <cmath>
 #include <iterator>
 #include <sstream>
@@ -13,12 +12,12 @@
 namespace packtrace::cli {
 namespace {
 
-/// More names would make a long line of the message.
+/// The largest number of names in a suggestion. More would make the message too long.
 constexpr std::size_t most_meant = 3;
-/// Shorter texts are part of many names.
+/// The shortest text that is searched in names. Shorter texts are in many names.
 constexpr std::size_t least_part = 3;
 
-/// Finite numbers that `accepts` says yes to.
+/// Accepts finite numbers for which `accepts` is true.
 CLI::Validator number(bool (*accepts)(double), std::string wanted)
 {
     return validator(
@@ -48,7 +47,7 @@ std::string either(const std::vector<std::string>& words)
     return all;
 }
 
-/// The word that `text` is a slip of, or else a few that it is a part of.
+/// The word that was probably meant by `text`, or else a few words that contain it.
 std::vector<std::string> meant_words(const std::string& text, const std::vector<std::string>& words)
 {
     if (const std::string_view nearest = language::nearest_word(text, words); !nearest.empty())
@@ -63,19 +62,18 @@ std::vector<std::string> meant_words(const std::string& text, const std::vector<
 
 }  // namespace
 
-bool parse_numbers(std::string_view text, char separator, std::span<int> numbers)
+std::optional<std::vector<int>> parse_numbers(std::string_view text, char separator)
 {
-    const char* at = text.data();
-    const char* const end = at + text.size();
-    for (std::size_t i = 0; i < numbers.size(); ++i) {
-        if (i > 0 && (at == end || *at++ != separator))
-            return false;
-        const auto [behind, error] = std::from_chars(at, end, numbers[i]);
-        if (error != std::errc())
-            return false;
-        at = behind;
+    std::vector<int> numbers;
+    for (std::size_t begin = 0; begin <= text.size();) {
+        const std::size_t end = std::min(text.find(separator, begin), text.size());
+        const std::optional<int> number = parse_number<int>(text.substr(begin, end - begin));
+        if (!number)
+            return std::nullopt;
+        numbers.push_back(*number);
+        begin = end + 1;
     }
-    return at == end;
+    return numbers;
 }
 
 std::optional<double> parse_fraction(std::string_view text)
@@ -84,7 +82,7 @@ std::optional<double> parse_fraction(std::string_view text)
     const std::optional<double> above = parse_number<double>(text.substr(0, slash));
     const std::optional<double> below =
         slash == std::string_view::npos ? 1.0 : parse_number<double>(text.substr(slash + 1));
-    // An infinite divisor would make 0 of what is no number.
+    // Rejects an infinite divisor, which would make any fraction 0.
     if (!above || !below || !(*above >= 0.0) || !(*below > 0.0) || !std::isfinite(*below))
         return std::nullopt;
     const double value = *above / *below;
@@ -107,8 +105,13 @@ CLI::Validator non_negative_number()
 
 CLI::Validator non_negative_fraction()
 {
-    return validator([](const std::string& text) { return parse_fraction(text).has_value(); },
-                     "a number from 0 up, or a fraction such as 1/255");
+    return parsed_by(parse_fraction, "a number from 0 up, or a fraction such as 1/255");
+}
+
+CLI::Validator positive_fraction()
+{
+    return validator([](const std::string& text) { return parse_fraction(text) > 0.0; },
+                     "a number above 0, or a fraction such as 1/255");
 }
 
 CLI::Validator positive_number()
@@ -171,7 +174,7 @@ CLI::Validator one_of_many(std::vector<std::string> words, std::string wanted)
     return CLI::Validator(fault, "").name(name);
 }
 
-// The words are kept as the validator's name, which CLI11 shows nowhere.
+// The words are stored in the validator's name, which CLI11 does not print.
 CLI::Validator offers(const std::vector<std::string>& words)
 {
     return validator([](const std::string&) { return true; }, "").name(joined(words, " "));

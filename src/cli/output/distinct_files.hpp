@@ -7,10 +7,10 @@
 #include <string>
 #include <vector>
 
-// Outputs that would take the place of something else that the user named.
+// Rejects outputs that would replace another file of the command line.
 namespace packtrace::cli {
 
-/// Whether two names are of one file, by links too, whether it is there yet or not.
+/// Whether two names are names of one file, also by links. The file need not exist.
 [[nodiscard]] inline bool is_same_file(const std::filesystem::path& a,
                                        const std::filesystem::path& b)
 {
@@ -24,8 +24,8 @@ namespace packtrace::cli {
     return !error && whole_a == whole_b;
 }
 
-/// Throws FileError where a file to be written is one that the command reads; `inputs` and `output`
-/// may be empty or - for standard streams. What is no regular file is not replaced.
+/// Throws FileError if `output` is one of the `inputs`. Names may be empty or - for standard
+/// streams. Files that are not regular are not replaced, so they are allowed.
 inline void check_not_read(const std::string& output, const std::vector<std::string>& inputs)
 {
     std::error_code error;
@@ -38,7 +38,7 @@ inline void check_not_read(const std::string& output, const std::vector<std::str
                             "file");
 }
 
-/// Throws FileError where two outputs are one file.
+/// Throws FileError if two outputs are one file.
 inline void check_two_files(const std::string& a, const std::string& b)
 {
     std::error_code error;

@@ -28,7 +28,7 @@ std::uint32_t checksum_of(std::string_view text)
     return static_cast<std::uint32_t>(text_hash(text));
 }
 
-/// Cuts the next line off `text`; without its end where there is none.
+/// Removes the next line from `text` and returns it. The last line may have no end.
 std::string_view cut_line(std::string_view& text)
 {
     const std::size_t end = text.find('\n');
@@ -37,7 +37,7 @@ std::string_view cut_line(std::string_view& text)
     return line;
 }
 
-/// The numbers of a line whose checksum, the last, holds; empty for any other line.
+/// The numbers of a line, whose last one must be a correct checksum; empty for other lines.
 Journal::Entry parse_entry(std::string_view line)
 {
     const std::size_t last = line.rfind(' ');
@@ -60,7 +60,7 @@ Journal::Entry parse_entry(std::string_view line)
     return entry;
 }
 
-/// Whether it is what a run leaves that ended before it had written the head.
+/// Whether the text comes from a run that ended before it had written the head.
 bool has_no_head(std::string_view text)
 {
     if (!text.starts_with(first_line))
@@ -69,7 +69,7 @@ bool has_no_head(std::string_view text)
     return text.find('\n') == std::string_view::npos;
 }
 
-/// What a symbolic link points to in the end; any other name itself.
+/// The end of a chain of symbolic links; other names are returned unchanged.
 std::filesystem::path end_of_link(const std::filesystem::path& name)
 {
     std::error_code error;
@@ -110,7 +110,7 @@ void Journal::open(const std::string& head,
     if (before != head)
         throw FileError(journal_name_.string() + ": was begun " + differs(before, head) +
                         "; use what it was begun with, or remove this file to begin again");
-    // What was cut short stays a line of its own.
+    // Ends a truncated line, so that new entries are not appended to it.
     if (!text.ends_with('\n'))
         append("\n");
     const int handle = ::open(part_name_.c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0666);
@@ -119,8 +119,9 @@ void Journal::open(const std::string& head,
         throw FileError(part_name_, FileAction::write, errno);
 }
 
-/// Opens the journal, an empty one where there is none, for this run alone. False where the run
-/// that had it has removed it in between: a lock on a file without a name keeps nobody away.
+/// Opens the journal, or creates an empty one, and locks it for this run. Returns false if the run
+/// that had the lock has removed the journal meanwhile, because a lock on a removed file is
+/// useless.
 bool Journal::lock()
 {
     journal_.reset(std::fopen(journal_name_.c_str(), "abe"));
@@ -136,12 +137,12 @@ bool Journal::lock()
            locked.st_ino == named.st_ino;
 }
 
-/// Makes a file without a head a journal without pieces. Returns its text.
+/// Turns a file without a head into a journal without pieces. Returns its text.
 std::string Journal::begin(const std::string& head)
 {
     std::string text = std::string(first_line) + head + "\n";
     try {
-        // It comes after the head: no run of this program leaves one without a journal.
+        // The part file is created after the head, so a part file without a journal is not ours.
         std::error_code ignored;
         if (std::filesystem::exists(part_name_, ignored))
             throw FileError(part_name_.string() +
@@ -158,7 +159,7 @@ std::string Journal::begin(const std::string& head)
     return text;
 }
 
-/// Returns the head.
+/// Reads the entries and returns the head.
 std::string Journal::read_entries(const std::string& text)
 {
     std::string_view rest = text;
@@ -229,7 +230,7 @@ void Journal::truncate(std::uint64_t length)
 void Journal::remove()
 {
     std::error_code ignored;
-    // In this order: a part file without a journal is taken for somebody else's.
+    // In this order, because a part file without a journal counts as somebody else's.
     std::filesystem::remove(part_name_, ignored);
     std::filesystem::remove(journal_name_, ignored);
 }

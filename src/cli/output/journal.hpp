@@ -11,38 +11,39 @@
 
 namespace packtrace::cli {
 
-/// What remains of an interrupted run beside its output: a journal `OUTPUT.journal` of finished
-/// pieces, and `OUTPUT.part` with their bytes. The journal begins with what the pieces depend on;
-/// a file that ends before or in that is no journal yet. Each line has a checksum, so that a line
-/// that was cut short counts for nothing. A run has a lock on its journal. All throw FileError.
+/// The files of an interrupted run beside its output: a journal `OUTPUT.journal` of finished
+/// pieces, and `OUTPUT.part` with their bytes. The journal begins with a head, which has everything
+/// that the pieces depend on; a file without a complete head is not yet a journal. Each line has a
+/// checksum, so that truncated lines are ignored. A run locks its journal. All members throw
+/// FileError.
 class Journal {
 public:
-    /// Begins both files, or goes on with those that are there. `head` is one line. Throws also
-    /// where another run is at work on `output`, or where one was begun with another head:
-    /// `differs` then says with what it was begun, and what is other now, of the two heads.
+    /// Creates both files, or continues existing ones. `head` is one line. Also throws if another
+    /// run works on `output`, or if the existing journal has another head. Then `differs` describes
+    /// the difference of the two heads for the message.
     Journal(const std::filesystem::path& output, const std::string& head,
             std::string (*differs)(const std::string& before, const std::string& now));
 
-    /// A line for a piece: its words, parted by spaces.
+    /// The line of a piece: numbers separated by spaces.
     using Entry = std::vector<std::uint64_t>;
 
-    /// Those of an earlier run, in order.
+    /// The entries of an earlier run, in order.
     [[nodiscard]] const std::vector<Entry>& entries() const
     {
         return entries_;
     }
-    /// Notes a piece whose bytes have been written to the part file.
+    /// Adds a piece whose bytes were written to the part file.
     void add(const Entry& entry);
 
-    /// The bytes of the part file from `offset` on; fewer where it ends. For pieces.
+    /// Reads bytes of the part file from `offset` on. If it ends early, the rest is unchanged.
     void read(std::uint64_t offset, std::span<std::uint8_t> bytes) const;
     void write(std::uint64_t offset, std::span<const std::uint8_t> bytes);
-    /// Cuts the part file there.
+    /// Truncates the part file to `length` bytes.
     void truncate(std::uint64_t length);
 
     /// Removes both files.
     void remove();
-    /// Makes the part file the output, and removes the journal.
+    /// Renames the part file to the output, and removes the journal.
     void rename_part();
 
 private:

@@ -12,11 +12,11 @@
 
 namespace packtrace::cli {
 
-/// Text or bytes for standard output, or for a file that appears whole or not at all. All throw
-/// FileError.
+/// Writes text or bytes to standard output, or to a file that appears complete or not at all. All
+/// members throw FileError.
 class Output {
 public:
-    /// Standard output where `file` is empty or -.
+    /// Writes to standard output if `file` is empty or -.
     explicit Output(const std::string& file)
     {
         if (!file.empty() && file != "-")
@@ -35,14 +35,14 @@ public:
         write(std::as_bytes(std::span(text)));
     }
 
-    /// Passes on what standard output has not taken yet.
+    /// Flushes standard output.
     void flush()
     {
         if (!file_ && std::fflush(stdout) != 0)
             throw FileError("standard output", FileAction::write, errno);
     }
 
-    /// Without it, a file does not appear.
+    /// Call it at the end. Without it, a file does not appear.
     void finish()
     {
         if (file_)

@@ -10,8 +10,8 @@ namespace packtrace::cli {
 
 enum class Verbosity { normal, quiet };
 
-/// A bar on stderr for renders that take over a second; nothing when stderr is no terminal.
-/// It disappears with the object.
+/// A progress bar on standard error for renders that take over a second. Without a terminal it
+/// shows nothing. The destructor removes the bar.
 class ProgressBar {
 public:
     explicit ProgressBar(Verbosity verbosity)
@@ -21,14 +21,14 @@ public:
     }
     ~ProgressBar()
     {
-        // Back to the start of the line, and clear it.
+        // Go back to the start of the line and clear it.
         if (drawn_)
             std::cerr << "\r\033[K" << std::flush;
     }
     ProgressBar(const ProgressBar&) = delete;
     ProgressBar& operator=(const ProgressBar&) = delete;
 
-    /// `share` of the work is done, in [0, 1]. One call at a time.
+    /// Shows the share of the work that is done, in [0, 1]. Not thread-safe.
     void update(double share)
     {
         if (!wanted_ || Clock::now() < next_)

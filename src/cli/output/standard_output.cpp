@@ -14,7 +14,7 @@ void hold_standard_output()
 {
     if (fcntl(STDOUT_FILENO, F_GETFD) >= 0 || errno != EBADF)
         return;
-    // For reading alone, so that a write fails as to a closed one.
+    // Read-only, so that writing fails as it does on a closed descriptor.
     const int nothing = open("/dev/null", O_RDONLY);
     if (nothing < 0 || nothing == STDOUT_FILENO)
         return;

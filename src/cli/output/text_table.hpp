@@ -8,13 +8,12 @@
 
 namespace packtrace::cli {
 
-/// Rows of words, printed in columns: the first `left` columns from the left, the others to
-/// the right.
+/// Rows of words, printed in columns. The first `left` columns are aligned left, the others right.
 class TextTable {
 public:
     TextTable(std::size_t left, std::vector<std::string> head);
 
-    /// A row has as many words as the head.
+    /// A row must have as many words as the head.
     void add(std::vector<std::string> row);
     void print(std::ostream& to) const;
 
@@ -24,7 +23,7 @@ private:
 };
 
 [[nodiscard]] std::string milliseconds(double seconds);
-/// The share of `part` in `whole`, with one decimal and its sign.
+/// The share of `part` in `whole` in percent, with one decimal and the percent sign.
 [[nodiscard]] std::string percent(double part, double whole);
 
 }  // namespace packtrace::cli

@@ -18,10 +18,10 @@ struct FinishedBand {
 };
 
 /// The file of a picture that is rendered in bands. With `--resume`, finished bands are kept beside
-/// it until it is complete, and those that an earlier run kept are given back.
+/// it until it is complete, and bands of an earlier run are reused.
 class BandFile {
 public:
-    /// Bands of about `pixels` pixels. Throws ImageError, or FileError where the journal is of
+    /// Bands have about `pixels` pixels. Throws ImageError, and FileError if the journal belongs to
     /// another picture.
     BandFile(const RenderArguments& arguments, const Scene& scene, const RenderOptions& options,
              std::int64_t pixels);
@@ -39,24 +39,24 @@ public:
         return samples_.row_bytes() * static_cast<std::size_t>(bands_.band(number).rows);
     }
 
-    /// The band; nothing where its samples are not those that were noted.
+    /// A band of an earlier run; not set if its samples do not match the journal.
     [[nodiscard]] std::optional<FinishedBand> kept(int number) const;
 
-    /// Keeps a finished band, if there is a journal. In any order.
+    /// Keeps a finished band, if there is a journal. Bands may come in any order.
     void keep(int number, const FinishedBand& band);
     /// Writes the next band, in the file's order.
     void write(const Bytes& samples);
-    /// After the last band.
+    /// Call it after the last band.
     void commit();
 
 private:
-    /// Whether an earlier run noted the band as finished.
+    /// Whether the journal has the band as finished by an earlier run.
     [[nodiscard]] bool was_kept(int number) const
     {
         return kept_[static_cast<std::size_t>(number)].has_value();
     }
 
-    /// What the journal says of a band.
+    /// The journal's entry of a band.
     struct Noted {
         std::uint64_t checksum = 0;
         CutRays cut;

@@ -20,7 +20,7 @@ public:
     {
     }
 
-    // Pictures are renamed into place when complete, so that what is there is finished.
+    // Pictures get their names when they are complete, so an existing file is finished.
     [[nodiscard]] Found find(int frame, const Camera& camera) const override
     {
         std::error_code error;
@@ -102,7 +102,7 @@ std::unique_ptr<FrameOutput> frame_files(const RenderArguments& arguments, const
                                          const RenderOptions& options)
 {
     auto files = std::make_unique<FrameFiles>(arguments, scene, options);
-    // Before the work, so that a wrong folder doesn't cost it.
+    // Check before the work, so that a wrong folder costs no time.
     check_image_writable(FramePattern(arguments.output).name(0));
     return files;
 }

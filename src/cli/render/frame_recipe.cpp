@@ -19,7 +19,8 @@ std::string hash_of(const Scene& scene)
     return text_hash_digits(scene_text(scene));
 }
 
-/// Width, threads, traversal and --force-general are not among them: no pixel depends on those.
+/// The options that pixels depend on. They do not depend on width, threads, traversal and
+/// --force-general.
 std::string text_of(const RenderArguments& arguments, const Scene& scene,
                     const RenderOptions& options)
 {
@@ -27,7 +28,7 @@ std::string text_of(const RenderArguments& arguments, const Scene& scene,
     text += ", --depth " + std::to_string(scene.max_depth);
     text += ", --min-weight " + language::shortest(scene.min_weight);
     text += ", --kernel " + std::string(language::word_of(options.kernel));
-    // The one instruction set without fused multiply-add rounds otherwise than all others.
+    // The only instruction set without fused multiply-add rounds differently from all others.
     if (options.kernel == Kernel::packet)
         text += options.isa == "sse42" ? ", --isa without FMA" : ", --isa with FMA";
     text += ", --precision " + arguments.kernel.precision;
@@ -41,8 +42,8 @@ std::string text_of(const RenderArguments& arguments, const Scene& scene,
     return text + ", --gamma " + language::shortest(arguments.write.gamma);
 }
 
-/// What commas part: the program, the scene, the camera; then an option each, and what the caller
-/// added.
+/// The parts of a recipe, which are separated by commas: the program, the scene, the camera, then
+/// the options, and additions of the caller.
 std::vector<std::string> parts_of(const std::string& recipe)
 {
     std::vector<std::string> parts;
@@ -54,13 +55,13 @@ std::vector<std::string> parts_of(const std::string& recipe)
     return parts;
 }
 
-/// "--spp" of "--spp 4"; all of what is no option.
+/// "--spp" for "--spp 4"; the whole part if it is not an option.
 std::string name_of(const std::string& part)
 {
     return part.starts_with("--") ? part.substr(0, part.find(' ')) : part;
 }
 
-/// Those parts of one recipe that the other has not, and the options that only the other has.
+/// The parts of one recipe that are not in the other, and the options that only the other has.
 std::string parts_apart(const std::vector<std::string>& from, const std::vector<std::string>& other)
 {
     std::vector<std::string> apart;
@@ -92,8 +93,8 @@ FrameRecipe::FrameRecipe(const RenderArguments& arguments, const Scene& scene,
                          const RenderOptions& options)
     : options_(text_of(arguments, scene, options))
 {
-    // The camera of each frame is named by itself, so that a longer animation keeps its frames, and
-    // what options change is named with them.
+    // The recipe has the camera of each frame instead of the animation, so that a longer animation
+    // keeps its frames. It also has the options instead of the values that they set in the scene.
     Scene still = scene;
     still.animation.reset();
     still.camera = {};

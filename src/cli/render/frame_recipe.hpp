@@ -9,11 +9,11 @@
 
 namespace packtrace::cli {
 
-/// Gives a scene the size, depth and least weight of any other, which options can change.
+/// Sets the size, depth and minimum weight of a scene, which options can change, to their defaults.
 void set_usual_picture(Scene& scene);
 
-/// Says of a frame all that its pixels depend on: the scene, the camera, the options and the
-/// version of this program. Frames of one recipe have the same pixels.
+/// A text with everything that the pixels of a frame depend on: the scene, the camera, the options
+/// and the version of this program. Frames with equal recipes have equal pixels.
 class FrameRecipe {
 public:
     FrameRecipe(const RenderArguments& arguments, const Scene& scene, const RenderOptions& options);
@@ -25,7 +25,7 @@ private:
     std::string options_;
 };
 
-/// In which respect two recipes differ, for messages: "with --spp 4; now with --spp 1".
+/// The difference of two recipes, for messages: "with --spp 4; now with --spp 1".
 [[nodiscard]] std::string recipe_difference(const std::string& before, const std::string& now);
 
 }  // namespace packtrace::cli

@@ -25,7 +25,7 @@
 namespace packtrace::cli {
 namespace {
 
-/// What `call` returns; an argument it finds wrong becomes a wrong use of `option`.
+/// Returns `call()`. Turns std::invalid_argument into a wrong use of `option`.
 template <class Call>
 auto checked(const std::string& option, const Call& call)
 {
@@ -36,7 +36,7 @@ auto checked(const std::string& option, const Call& call)
     }
 }
 
-/// What the name of a video that --y4m doesn't write may end in.
+/// Extensions of video formats that --y4m does not write.
 constexpr std::array<std::string_view, 6> other_videos{".mp4",  ".mkv", ".mov",
                                                        ".webm", ".avi", ".gif"};
 
@@ -59,7 +59,7 @@ std::string seconds_text(double seconds, int frames)
     return fixed(seconds, 1) + " s, " + fixed(1e3 * seconds / frames, 1) + " ms each";
 }
 
-/// Renders a frame and adds to the tally what it took.
+/// Renders a frame and adds its time to the tally.
 AnyImage render_frame(const Scene& scene, Precision precision, const RenderOptions& options,
                       FrameTally& tally)
 {
@@ -86,7 +86,7 @@ FrameRange frames_of(const AnimationArguments& arguments, const Scene& scene)
             range = parse_frame_range(*arguments.frames);
             check_frame_range(range, frames);
         }
-        // A frame without a view would end the work in its middle.
+        // Check all cameras first, because a frame without a view would end the work halfway.
         for (int frame = range.first; frame <= range.last; ++frame)
             (void)camera_at(scene, frame);
         return range;
@@ -165,10 +165,9 @@ void add_animation_options(CLI::App& command, AnimationArguments& arguments)
         .add_option("--fps", arguments.fps,
                     "Frames per second of --y4m, such as 24, 23.976 or 30000/1001 (default 30)")
         ->needs(y4m)
-        ->check(
-            validator([](const std::string& text) { return parse_frame_rate(text).has_value(); },
-                      "a number of frames per second, up to 1000, such as 24, 23.976 or "
-                      "30000/1001"))
+        ->check(parsed_by(parse_frame_rate,
+                          "a number of frames per second, up to 1000, such as 24, 23.976 or "
+                          "30000/1001"))
         ->type_name("N");
 }
 

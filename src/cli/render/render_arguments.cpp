@@ -22,13 +22,14 @@ void check_gamma(const RenderArguments& arguments)
         throw CLI::ValidationError("--gamma: only PNG has one; .pfm and .hdr hold linear values");
 }
 
-/// Four whole numbers "X,Y,W,H", or nothing.
+/// Reads four whole numbers "X,Y,W,H". Not set for other text.
 std::optional<Region> parse_region(std::string_view text)
 {
-    std::array<int, 4> numbers{};
-    if (!parse_numbers(text, ',', numbers))
+    const std::optional<std::array<int, 4>> numbers = parse_numbers<4>(text, ',');
+    if (!numbers)
         return std::nullopt;
-    return Region{numbers[0], numbers[1], numbers[2], numbers[3]};
+    const auto [x, y, width, height] = *numbers;
+    return Region{x, y, width, height};
 }
 
 }  // namespace
@@ -60,14 +61,14 @@ void add_render_options(CLI::App& command, RenderArguments& arguments)
     command.add_flag("-q,--quiet", arguments.quiet, "No progress bar, no summary");
 }
 
-RenderOptions checked_options(const RenderArguments& arguments)
+RenderOptions checked_render_options(const RenderArguments& arguments)
 {
     RenderOptions options = render_options(arguments.kernel);
     apply(arguments.sampling, options);
     check_animation_options(arguments);
     check_not_read(arguments.output, {arguments.scene});
     check_gamma(arguments);
-    // Before the work, so that a wrong name doesn't cost it.
+    // Check before the work, so that a wrong name costs no time.
     if (arguments.certainty)
         check_certainty(arguments, options);
     return options;
@@ -81,7 +82,7 @@ void add_region_option(CLI::App& command, RenderArguments& arguments)
             "Render a part of the picture alone: column and row of its first pixel, from "
             "the upper left, its width and height (default all of it). Not with --resume or "
             "--certainty")
-        ->check(validator([](const std::string& text) { return parse_region(text).has_value(); },
+        ->check(parsed_by(parse_region,
                           "a region such as 100,50,320,240: column and row of its first pixel, "
                           "width and height"))
         ->type_name("X,Y,W,H");

@@ -9,7 +9,7 @@
 
 namespace packtrace::cli {
 
-/// `--frame`, `--frames` and what belongs to them.
+/// `--frame`, `--frames` and the options that belong to them.
 struct AnimationArguments {
     std::optional<int> frame;
     std::optional<std::string> frames;
@@ -18,7 +18,7 @@ struct AnimationArguments {
     bool overwrite = false;
     std::string fps = "30";
 
-    /// More than one picture is asked for.
+    /// Whether the options want more than one picture.
     [[nodiscard]] bool many() const
     {
         return frames || y4m;
@@ -28,30 +28,31 @@ struct AnimationArguments {
 struct RenderArguments {
     std::string scene;
     std::string output;
-    std::optional<std::string> certainty;  ///< where a picture of unsure rays goes
+    std::optional<std::string> certainty;  ///< file for a picture of unsure rays
     KernelArguments kernel;
     PictureArguments picture;
     SamplingArguments sampling;
-    std::optional<std::string> region;  ///< what of the picture is rendered
+    std::optional<std::string> region;  ///< the part of the picture to render
     AnimationArguments animation;
     ImageWriteOptions write;
-    bool resume = false;  ///< keep finished bands, and go on with those of an earlier run
+    bool resume = false;  ///< keep finished bands, and reuse those of an earlier run
     bool quiet = false;
 };
 
 void add_render_options(CLI::App& command, RenderArguments& arguments);
 
-/// Throws CLI::ValidationError for options that contradict each other, ImageError where a picture
-/// can't be written.
-[[nodiscard]] RenderOptions checked_options(const RenderArguments& arguments);
+/// The render options. Throws CLI::ValidationError for options that contradict each other, and
+/// ImageError if a picture cannot be written.
+[[nodiscard]] RenderOptions checked_render_options(const RenderArguments& arguments);
 
-/// Adds `--region`, which jobs of many ranks do not take.
+/// Adds `--region`, which MPI jobs do not have.
 void add_region_option(CLI::App& command, RenderArguments& arguments);
 
-/// Throws CLI::ValidationError where a region can't be together with another option.
+/// Throws CLI::ValidationError if `--region` is combined with an option that excludes it.
 void check_region_options(const RenderArguments& arguments);
 
-/// What of the scene's picture is rendered. Throws CLI::ValidationError for a region outside it.
+/// The region to render; not set without `--region`. Throws CLI::ValidationError for a region
+/// outside the picture.
 [[nodiscard]] std::optional<Region> region_of(const RenderArguments& arguments, const Scene& scene);
 
 }  // namespace packtrace::cli

@@ -31,7 +31,7 @@ RenderBand band_renderer(const Scene& scene, const RenderOptions& options,
     };
 }
 
-/// Says what an interrupted run leaves.
+/// Sets the message for an interruption: what the run leaves behind.
 void note_progress(const RenderArguments& arguments, int done, int bands)
 {
     if (arguments.resume)

@@ -21,7 +21,7 @@
 namespace packtrace::cli {
 namespace {
 
-/// Says on standard error what a picture took, in seconds.
+/// Prints the times of a picture on standard error.
 void print_summary(const RenderArguments& arguments, const RenderOptions& options,
                    const Scene& scene, double seconds, double writing)
 {
@@ -37,7 +37,7 @@ void print_summary(const RenderArguments& arguments, const RenderOptions& option
     std::cerr << language::escape(arguments.output) << text;
 }
 
-/// A picture that is held as a whole until it is written.
+/// Renders a picture that is held in memory as a whole.
 void render_whole(const RenderArguments& arguments, const Scene& scene, RenderOptions options)
 {
     const auto start = std::chrono::steady_clock::now();
@@ -81,7 +81,7 @@ void render_one(const RenderArguments& arguments, const Scene& scene, const Rend
 
 void run_render(const RenderArguments& arguments)
 {
-    RenderOptions options = checked_options(arguments);
+    RenderOptions options = checked_render_options(arguments);
     check_region_options(arguments);
     if (!arguments.animation.many())
         check_image_writable(arguments.output);
@@ -90,7 +90,7 @@ void run_render(const RenderArguments& arguments)
     options.region = region_of(arguments, scene);
     if (arguments.certainty)
         check_certainty_size(scene);
-    // Frames of an animation and bands of a picture are written by one more.
+    // One more thread writes frames of an animation and bands of a picture.
     limit_threads(options.threads, 1);
     if (arguments.animation.many())
         return render_animation(arguments, scene, options);

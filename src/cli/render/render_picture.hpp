@@ -10,19 +10,23 @@
 
 namespace packtrace::cli {
 
-/// A picture in the precision it was rendered in.
+/// A picture in the precision of its rendering.
 using AnyImage = std::variant<Image<float>, Image<double>, Image<long double>>;
 
-/// render() in a precision that is chosen at run time.
+/// "12.3 GB"
+[[nodiscard]] std::string gigabytes(double bytes);
+
+/// render() with a precision that is chosen at run time. If memory runs out, it throws
+/// std::runtime_error with the size of a large picture, and std::bad_alloc for a small picture.
 [[nodiscard]] AnyImage render_picture(const Scene& scene, Precision precision,
                                       const RenderOptions& options, CutRays* cut = nullptr);
 
-/// write_image() in whatever precision.
+/// write_image() for any precision.
 void write_picture(const std::filesystem::path& file, const AnyImage& picture,
                    const ImageWriteOptions& options);
 
-/// Says on standard error how many rays `--min-weight` left out of what went to `output`, and how
-/// far off that can make a pixel; nothing where all rays are traced.
+/// Prints on standard error how many rays of `output` were cut because of `--min-weight`, and the
+/// bound of the resulting error of a pixel. Prints nothing if all rays are traced.
 void print_cut_rays(const std::string& output, const Scene& scene, const RenderOptions& options,
                     const CutRays& cut);
 

@@ -24,7 +24,7 @@
 namespace packtrace::cli {
 namespace {
 
-// How often a line is measured again that seems slower, or of which nothing can be told.
+// How often a line is measured again if it seems slower, or if the measurement is not conclusive.
 constexpr int confirmations = 2;
 
 struct BenchArguments {
@@ -38,7 +38,7 @@ struct BenchArguments {
     std::optional<double> max_slowdown;
 };
 
-/// The number of "10%" or "0.1"; none when it is something else.
+/// Reads "10%" or "0.1". Not set for other text.
 std::optional<double> parse_share(std::string_view text)
 {
     const bool percent = text.ends_with('%');
@@ -49,11 +49,11 @@ std::optional<double> parse_share(std::string_view text)
     return percent ? *value / 100.0 : *value;
 }
 
-// This program's figures, beside those of a file where there is one.
+// Measures this program, to be compared with a baseline file if there is one.
 void measure_alone(const std::vector<ReportScene>& scenes, const BenchArguments& arguments,
                    BenchResult& result)
 {
-    // Measured here are processor seconds, of which other threads should take none.
+    // CPU seconds are measured, so there should be no other threads.
     limit_threads(1);
     std::vector<std::string> isas;
     if (arguments.isa)
@@ -70,7 +70,7 @@ void measure_alone(const std::vector<ReportScene>& scenes, const BenchArguments&
     }
 }
 
-// The words of a command line that measures the same.
+// A command line for the same measurement.
 std::vector<std::string> bench_words(const BenchArguments& arguments)
 {
     std::vector<std::string> words{"--size", *arguments.picture.size};
@@ -97,7 +97,7 @@ void measure_in_pairs(const BenchArguments& arguments, BenchResult& result)
     }
 }
 
-// What of a picture times hang on, beside its scene.
+// The options of a picture that times depend on, besides the scene.
 std::string picture_text(const PictureArguments& picture)
 {
     const auto given = [](const auto& value) {
@@ -107,7 +107,7 @@ std::string picture_text(const PictureArguments& picture)
            given(picture.min_weight);
 }
 
-// Earlier versions did not write it.
+// Files of earlier versions do not have the picture.
 void check_same_picture(const BenchFigures& now, const BenchFigures& before,
                         const std::string& baseline)
 {
@@ -116,7 +116,7 @@ void check_same_picture(const BenchFigures& now, const BenchFigures& before,
                                  now.picture + "; give the same options");
 }
 
-// Earlier versions did not write it.
+// Files of earlier versions do not have the scenes.
 void check_same_scenes(const BenchFigures& now, const BenchFigures& before,
                        const std::string& baseline)
 {
@@ -127,7 +127,7 @@ void check_same_scenes(const BenchFigures& now, const BenchFigures& before,
                                      " is another scene; measure this one's baseline");
 }
 
-// Before they are measured.
+// Call it before the scenes are measured.
 void check_any_compared(const std::vector<ReportScene>& scenes, const BenchFigures& before,
                         const std::string& baseline)
 {
@@ -140,7 +140,7 @@ void check_any_compared(const std::vector<ReportScene>& scenes, const BenchFigur
         throw std::runtime_error(baseline + ": has no line of these scenes; give the same scenes");
 }
 
-// Every run of a program reads the scenes anew.
+// Rejects standard input, because every run of a program reads the scenes again.
 void check_files(const BenchArguments& arguments)
 {
     for (const std::string& file : arguments.scenes)
@@ -150,7 +150,7 @@ void check_files(const BenchArguments& arguments)
                 "give files");
 }
 
-/// Before the work, so that a wrong name doesn't cost it.
+/// Checks before the work, so that a wrong name costs no time.
 void check_output(const BenchArguments& arguments)
 {
     if (arguments.output.empty())
@@ -161,7 +161,7 @@ void check_output(const BenchArguments& arguments)
     check_writable(arguments.output);
 }
 
-/// Throws what is wrong with the options, before any work.
+/// Checks the options before any work, and throws for the first fault.
 void check_bench(const BenchArguments& arguments)
 {
     check_files(arguments);
@@ -173,7 +173,7 @@ void check_bench(const BenchArguments& arguments)
     check_output(arguments);
 }
 
-/// Reads the scenes, and notes their checksums in `figures`.
+/// Reads the scenes, and stores their checksums in `figures`.
 std::vector<ReportScene> read_bench_scenes(const BenchArguments& arguments, BenchFigures& figures)
 {
     std::vector<ReportScene> scenes;
@@ -243,8 +243,7 @@ void add_comparing_options(CLI::App& command, BenchArguments& arguments)
                 limit = parse_share(text);
             },
             "By how much a line may be slower than the baseline (default 10%)")
-        ->check(validator([](const std::string& text) { return parse_share(text).has_value(); },
-                          "a share such as 10% or 0.1"))
+        ->check(parsed_by(parse_share, "a share such as 10% or 0.1"))
         ->type_name("SHARE");
 }
 

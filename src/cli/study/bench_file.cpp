@@ -69,7 +69,7 @@ bool is_bench(const Json& json)
 
 BenchLine bench_line_of(const Json& json)
 {
-    // Of the times only the median is kept.
+    // A file has only the median of the times.
     return {json["name"], json["ratios"], {1e-3 * json["milliseconds"].get<double>()}};
 }
 
@@ -115,7 +115,7 @@ BenchFigures read_bench_text(const std::string& text, const std::string& name)
     if (!is_bench(json))
         throw std::runtime_error(name + ": not a file that packtrace bench -o writes");
     BenchFigures figures;
-    // Earlier versions wrote none, nor scenes, nor references.
+    // Files of earlier versions have no picture, scenes or references.
     if (const Json picture = json.value("picture", Json()); picture.is_string())
         figures.picture = picture;
     const Json scenes = json.value("scenes", Json::object());

@@ -9,24 +9,24 @@
 
 namespace packtrace::cli {
 
-/// What `bench` measured: the lines of all scenes, and what they are compared to.
+/// The results of `bench`: the lines of all scenes, and the references.
 struct BenchFigures {
     std::vector<BenchLine> lines;
-    std::vector<BenchLine> references;          ///< one a scene
-    std::string picture;                        ///< its options; empty where a file has none
-    std::map<std::string, std::string> scenes;  ///< by name, a checksum; empty likewise
+    std::vector<BenchLine> references;          ///< one per scene
+    std::string picture;                        ///< options of the picture; empty for old files
+    std::map<std::string, std::string> scenes;  ///< checksums by name; empty for old files
 
-    /// The samples of a line; null when there is no line of that name.
+    /// The line with this name; null if there is none.
     [[nodiscard]] const BenchLine* find(const std::string& name) const;
-    /// Adds samples to those of the lines of the same names.
+    /// Adds samples to the lines with equal names.
     void add(const BenchFigures& more);
 };
 
-/// The text of a file that a later run takes as its baseline.
+/// The text of a baseline file for later runs.
 [[nodiscard]] std::string bench_text(const BenchFigures& figures);
 
-/// What such a text says, whatever version wrote it; `name` is for messages. Throws
-/// std::runtime_error, in one line, for any other.
+/// Reads the text of a baseline file of any version. `name` is for messages. Throws
+/// std::runtime_error, with one line, for other text.
 [[nodiscard]] BenchFigures read_bench_text(const std::string& text, const std::string& name);
 [[nodiscard]] BenchFigures read_bench_file(const std::filesystem::path& file);
 

@@ -10,10 +10,10 @@
 namespace packtrace::cli {
 namespace {
 
-// Of so many in a row the median is one sample.
+// One sample is the median of this many repetitions in a row.
 constexpr const char* repetitions_of_a_run = "3";
 
-// Where a program writes its figures: standard output has its table.
+// The descriptor for a program's figures, because standard output has its table.
 constexpr int figures_descriptor = 3;
 
 BenchFigures run_once(const std::string& program, const std::vector<std::string>& words)
@@ -36,7 +36,7 @@ BenchFigures run_once(const std::string& program, const std::vector<std::string>
     return figures;
 }
 
-// Lines that both programs have.
+// The lines that both programs have.
 BenchFigures shared(BenchFigures figures, const BenchFigures& other)
 {
     std::erase_if(figures.lines,
@@ -52,7 +52,7 @@ BenchPairs run_in_pairs(const std::string& other, const std::vector<std::string>
     const std::string own = std::filesystem::read_symlink("/proc/self/exe").string();
     BenchPairs pairs;
     for (int i = 0; i < repetitions; ++i) {
-        // Whoever begins a pair ends the next, so that neither gains by a machine that warms up.
+        // The order alternates, so that a machine that warms up does not favour one program.
         BenchFigures first = run_once(i % 2 == 0 ? other : own, words);
         BenchFigures second = run_once(i % 2 == 0 ? own : other, words);
         if (i % 2 != 0)

@@ -7,16 +7,16 @@
 
 namespace packtrace::cli {
 
-/// What two programs measured in pairs: a line's i-th samples of both were taken right after each
-/// other.
+/// The figures of two programs, measured in pairs: the i-th samples of a line were taken right
+/// after each other.
 struct BenchPairs {
     BenchFigures now;     ///< of this program
-    BenchFigures before;  ///< of the other, of the same lines as `now`
+    BenchFigures before;  ///< of the other program, with the lines of `now`
 };
 
-/// Runs `bench` with these words of a command line, this program's and the other's, by turns, each
-/// as a process of its own and so in other places in memory. Throws std::runtime_error, in one
-/// line, where either fails.
+/// Runs `bench` of this program and of the other in turns, with the given command line. Each run is
+/// a separate process, so that the layout in memory varies. Throws std::runtime_error, with one
+/// line, if one of them fails.
 [[nodiscard]] BenchPairs run_in_pairs(const std::string& other,
                                       const std::vector<std::string>& words, int repetitions);
 

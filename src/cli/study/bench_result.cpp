@@ -37,7 +37,7 @@ const char* verdict_text(Verdict verdict)
     return "can't tell";
 }
 
-// Names the lines of one verdict, and says whether there are any.
+// Prints the names of the lines with one verdict. Returns whether there are any.
 bool name_lines(const BenchResult& result, Verdict wanted, const std::string& what)
 {
     bool any = false;

@@ -9,25 +9,25 @@
 
 namespace packtrace::cli {
 
-/// What was measured, and what it is compared with.
+/// The measurements, and the baseline they are compared with.
 struct BenchResult {
     BenchPairs figures;
     bool paired = false;
     double limit = 0.0;
 
-    /// None for a line that the baseline lacks.
+    /// Not set for a line that the baseline does not have.
     [[nodiscard]] std::optional<Slowdown> slowdown(const BenchLine& line) const;
     [[nodiscard]] std::optional<Verdict> verdict(const BenchLine& line) const;
-    /// A busy spell passes, a regression stays.
+    /// Whether the line should be measured again. A busy machine is temporary, a regression is not.
     [[nodiscard]] bool is_doubtful(const BenchLine& line) const;
     [[nodiscard]] bool has_doubts() const;
 };
 
-/// On standard output, as a table.
+/// Prints a table on standard output.
 void print_bench_lines(const BenchResult& result);
 
-/// Throws std::runtime_error where `baseline` has no line of what was measured, and Failed where a
-/// line is slower, or may be.
+/// Throws std::runtime_error if `baseline` has none of the measured lines, and Failed if a line is
+/// slower or may be slower.
 void end_with_verdict(const BenchResult& result, const std::string& baseline);
 
 }  // namespace packtrace::cli

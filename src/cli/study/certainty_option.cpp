@@ -1,6 +1,6 @@
 #include "cli/output/distinct_files.hpp"
+#include "cli/render/render_picture.hpp"
 #include "cli/study/study.hpp"
-#include "core/text.hpp"
 #include "image/formats.hpp"
 #include "lab/harness/machine.hpp"
 #include "scene/language/quote.hpp"
@@ -15,17 +15,12 @@
 namespace packtrace::cli {
 namespace {
 
-/// Longest edge of the picture that `info` takes rays from.
+/// The longest edge of the picture whose rays `info` counts.
 constexpr int sample_edge = 128;
 
-/// Bytes a pixel of the counts, and of the picture made of them, twice: its file is made whole.
+/// Bytes per pixel: the counts, and twice the picture of them, because its file is encoded as a
+/// whole.
 constexpr double certainty_bytes = sizeof(PixelCertainty) + 2 * 3 * sizeof(float);
-
-/// "12.3 GB"
-std::string gigabytes(double bytes)
-{
-    return fixed(1e-9 * bytes, 1) + " GB";
-}
 
 std::uint64_t unsure_total(const UnsureCounts& counts)
 {

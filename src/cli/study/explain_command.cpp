@@ -10,15 +10,16 @@
 #include <array>
 #include <iostream>
 #include <memory>
+#include <optional>
 #include <string>
-#include <utility>
+#include <string_view>
 
 namespace packtrace::cli {
 namespace {
 
 struct ExplainArguments {
     std::string scene;
-    std::string pixel;
+    std::string pixel;  ///< column and row
     std::string precision = "single";
     AccuracyArguments accuracy;
     IsaArguments isa;
@@ -26,24 +27,18 @@ struct ExplainArguments {
     bool json = false;
 };
 
-// The two numbers of "320,240"; negative ones when it is something else.
-std::pair<int, int> parse_pixel(const std::string& text)
+/// Reads column and row from "320,240". Not set if no picture can have this pixel.
+std::optional<std::array<int, 2>> parse_pixel(std::string_view text)
 {
-    std::array<int, 2> numbers{};
-    if (!parse_numbers(text, ',', numbers))
-        return {-1, -1};
-    return {numbers[0], numbers[1]};
-}
-
-bool is_pixel(const std::string& text)
-{
-    const auto [x, y] = parse_pixel(text);
-    return x >= 0 && y >= 0;
+    const std::optional<std::array<int, 2>> pixel = parse_numbers<2>(text, ',');
+    if (!pixel || (*pixel)[0] < 0 || (*pixel)[1] < 0)
+        return std::nullopt;
+    return pixel;
 }
 
 void check_inside(const ExplainArguments& arguments, const Scene& scene)
 {
-    const auto [x, y] = parse_pixel(arguments.pixel);
+    const auto [x, y] = parse_pixel(arguments.pixel).value();
     if (x >= scene.width || y >= scene.height)
         throw CLI::ValidationError("--pixel: " + arguments.pixel + " lies outside the picture of " +
                                    std::to_string(scene.width) + " x " +
@@ -64,7 +59,9 @@ Explanation explain(const ExplainArguments& arguments, const std::string& name, 
     RenderOptions options = packet_options(arguments);
     Explanation result;
     result.file = name;
-    std::tie(result.x, result.y) = parse_pixel(arguments.pixel);
+    const auto [x, y] = parse_pixel(arguments.pixel).value();
+    result.x = x;
+    result.y = y;
     result.precision = chosen_precision(arguments.precision);
     result.isa = options.isa;
     result.tolerance =
@@ -102,7 +99,7 @@ void add_explain(CLI::App& app)
     add_scene_option(*command, arguments->scene);
     command->add_option("--pixel", arguments->pixel, "Column and row, from 0 at the top left")
         ->required()
-        ->check(validator(is_pixel, "a pixel such as 320,240: column and row, counted from 0"))
+        ->check(parsed_by(parse_pixel, "a pixel such as 320,240: column and row, counted from 0"))
         ->type_name("X,Y");
     add_precision_option(*command, arguments->precision,
                          "Of the packets: single (default) or double");

@@ -35,7 +35,7 @@ std::string heading(const TreeRow& row)
 
 TextTable lines_of(const Scene& scene, const Explanation& explanation)
 {
-    // Enough to see a difference of the tolerance, and a little more.
+    // Enough digits to show a difference of the tolerance.
     const int digits = explanation.precision == Precision::double_ ? 12 : 7;
     const TreeRow* const different = first_difference(explanation);
     TextTable lines(4, {"", "reference", "packets", ""});

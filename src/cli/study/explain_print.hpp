@@ -12,7 +12,7 @@
 
 namespace packtrace::cli {
 
-/// A pixel's ray trees and what `explain` says above them.
+/// A pixel's ray trees, and the text above them.
 struct Explanation {
     std::string file;
     int x = 0;
@@ -25,10 +25,10 @@ struct Explanation {
     std::vector<TreeRow> rows;
 };
 
-/// The first row in which the trees differ, or null.
+/// The first row in which the trees differ; null if there is none.
 [[nodiscard]] const TreeRow* first_difference(const Explanation& explanation);
 
-/// An indented tree, the reference's numbers beside the packets'.
+/// Prints an indented tree with the numbers of the reference beside those of the packets.
 void print_explanation(std::ostream& to, const Scene& scene, const Explanation& explanation);
 
 [[nodiscard]] nlohmann::ordered_json explanation_json(const Scene& scene,

@@ -28,8 +28,8 @@ struct Part {
     throw FileError(language::escape(name) + ": " + why);
 }
 
-/// The JSON of a part; nothing where it is none. Deeper than stress writes it, it is not kept: it
-/// is written again by a function that calls itself.
+/// Parses the JSON of a part; null for other text. Deeper nesting than stress writes is discarded,
+/// because the JSON is written again by a recursive function.
 Json parse_part(const std::string& text)
 {
     constexpr int deepest = 8;
@@ -44,7 +44,7 @@ Json parse_part(const std::string& text)
     return is_too_deep ? Json() : json;
 }
 
-/// Whether all keys are there that joining reads.
+/// Whether the JSON has all keys that joining reads.
 bool is_whole(const Json& json)
 {
     const auto has = [&](const char* key, bool (Json::*is_kind)() const noexcept) {
@@ -70,7 +70,7 @@ Part read_part(const std::string& name)
     return part;
 }
 
-/// The families that all parts together have to have.
+/// The families that all parts together must have.
 std::vector<std::string> families_of(const Json& recipe)
 {
     std::vector<std::string> names = recipe.value("families", std::vector<std::string>());
@@ -80,7 +80,7 @@ std::vector<std::string> families_of(const Json& recipe)
     return names;
 }
 
-/// In the order of their numbers.
+/// Reads the parts and sorts them by index.
 std::vector<Part> read_parts(const std::vector<std::string>& names)
 {
     std::vector<Part> parts;
@@ -112,7 +112,7 @@ std::vector<Part> read_parts(const std::vector<std::string>& names)
     fail(name, "has a row that stress did not write: " + why);
 }
 
-/// As much of a row as the verdict asks for. Messages begin with `name`.
+/// The members of a row that the verdict needs. Messages begin with `name`.
 lab::StressRow row_of(const std::string& name, const Json& json)
 {
     lab::StressRow row;
@@ -155,7 +155,7 @@ std::string join_stress(const std::vector<std::string>& names)
         rows.insert(rows.end(), part.json.at("rows").begin(), part.json.at("rows").end());
     std::vector<lab::StressRow> judged;
     try {
-        // A family is wholly in one part, its rows in order.
+        // Each family is completely in one part, with its rows in order.
         std::stable_sort(rows.begin(), rows.end(), [](const Json& a, const Json& b) {
             return place_of(a.at("family").get<std::string>()) <
                    place_of(b.at("family").get<std::string>());

@@ -78,7 +78,7 @@ void profile_as(const ProfileArguments& arguments, const SceneInput& input)
 void run_profile(const ProfileArguments& arguments)
 {
     (void)profile_options(arguments);
-    // Before the work, so that a wrong name doesn't cost it.
+    // Check before the work, so that a wrong name costs no time.
     if (!arguments.heatmap.empty())
         check_image_writable(arguments.heatmap);
     if (!arguments.trace.empty())

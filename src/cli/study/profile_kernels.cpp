@@ -10,10 +10,10 @@
 namespace packtrace::cli {
 namespace {
 
-/// Generations that tables show apart; the last of them stands for all further ones, too.
+/// The number of generations in tables. The last of them includes all deeper generations.
 constexpr int depths_shown = 5;
 
-/// `deepest` is that of all rows.
+/// `deepest` is the largest depth of all rows.
 std::string depth_name(int depth, int deepest)
 {
     const bool more = depth == depths_shown - 1 && deepest > depth;
@@ -29,8 +29,8 @@ int deepest_of(const std::vector<Row>& rows)
     return depth;
 }
 
-/// Rows of generations that are not shown apart, added by `add(to, row)` where `same` says they
-/// are of one kind.
+/// Joins the rows of generations that are not shown separately: `add(to, row)` adds a row to
+/// another if `same` is true for them.
 template <class Row, class Same, class Add>
 std::vector<Row> with_deep_ones_joined(const std::vector<Row>& rows, const Same& same,
                                        const Add& add)
@@ -54,10 +54,10 @@ std::string ratio(std::uint64_t part, std::uint64_t whole)
     return whole > 0 ? fixed(static_cast<double>(part) / static_cast<double>(whole), 2) : "-";
 }
 
-// Whose work the rows of the table of stages are, in their order.
+// The kinds of rays in the table of stages, in its order.
 constexpr const char* ray_kinds[] = {"camera", "reflected", "refracted", "shadow", "hits"};
 
-// A stage of one kind of ray in all generations.
+// A stage of one kind of rays in all generations.
 struct StageRow {
     std::string rays;
     std::string name;
@@ -150,7 +150,7 @@ void print_lanes(std::ostream& to, const Profile& profile)
     table.print(to);
 }
 
-// Rays of the kind and generation of a row.
+// The rays with the kind and the generation of a row.
 template <class Row>
 std::uint64_t rays_tested(const KernelProfile& kernels, const Row& test)
 {
@@ -179,7 +179,7 @@ void print_tests(std::ostream& to, const KernelProfile& kernels)
     table.print(to);
 }
 
-// Nothing where no ray is unsure.
+// Prints nothing if no ray is unsure.
 void print_unsure(std::ostream& to, const KernelProfile& kernels)
 {
     if (kernels.unsure.empty())

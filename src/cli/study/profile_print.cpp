@@ -8,7 +8,7 @@
 namespace packtrace::cli {
 namespace {
 
-// Nothing where there are no rays.
+// Empty without rays.
 std::string nanoseconds_per_ray(double seconds, std::uint64_t rays)
 {
     return rays > 0 ? fixed(1e9 * seconds / static_cast<double>(rays), 2) : "-";
@@ -61,7 +61,7 @@ void print_what_if(std::ostream& to, const Profile& profile)
     table.print(to);
 }
 
-// Above all figures, so that nobody reads them first.
+// Printed above all figures, so that it is read first.
 void print_too_busy(std::ostream& to, const Profile& profile)
 {
     if (profile.too_busy.empty())
@@ -78,6 +78,46 @@ nlohmann::ordered_json rays_json(const FrameCounts& rays)
             {"shadow", rays.shadow},
             {"reflected", rays.reflected},
             {"refracted", rays.refracted}};
+}
+
+using Json = nlohmann::ordered_json;
+
+/// The list of `json_of(item)` for all items.
+template <class Items, class JsonOf>
+Json list_json(const Items& items, const JsonOf& json_of)
+{
+    Json list = Json::array();
+    for (const auto& item : items)
+        list.push_back(json_of(item));
+    return list;
+}
+
+Json step_json(const FirstFrameStep& step)
+{
+    return {{"name", step.name}, {"seconds", step.seconds}, {"page_faults", step.page_faults}};
+}
+
+Json stage_json(const ProfileStage& stage)
+{
+    return {{"name", stage.name}, {"seconds", stage.seconds}};
+}
+
+Json generation_json(const ProfileGeneration& generation)
+{
+    return {{"depth", generation.depth},
+            {"rays", rays_json(generation.rays)},
+            {"seconds", generation.seconds},
+            {"spread_s", generation.spread},
+            {"lanes_filled", generation.lanes_filled ? Json(*generation.lanes_filled) : Json()}};
+}
+
+Json what_if_json(const ProfileWhatIf& row)
+{
+    return {{"name", row.name},
+            {"seconds", row.seconds},
+            {row.does_more ? "costs" : "saves", row.difference},
+            {"spread_s", row.spread},
+            {"rays", rays_json(row.rays)}};
 }
 
 }  // namespace
@@ -107,44 +147,23 @@ void print_profile(std::ostream& to, const std::string& scene, const Profile& pr
 
 nlohmann::ordered_json profile_json(const std::string& scene, const Profile& profile)
 {
-    nlohmann::ordered_json json{{"packtrace_profile", 1},
-                                {"scene", scene},
-                                {"width", profile.width},
-                                {"height", profile.height},
-                                {"isa", profile.isa},
-                                {"lanes", profile.lanes},
-                                {"threads", profile.threads},
-                                {"frame_s", profile.frame},
-                                {"frame_spread", profile.frame_spread},
-                                {"whole_s", profile.whole},
-                                {"too_busy", profile.too_busy},
-                                {"rays", rays_json(profile.rays)},
-                                {"first_frame", nlohmann::ordered_json::array()},
-                                {"stages", nlohmann::ordered_json::array()},
-                                {"generations", nlohmann::ordered_json::array()},
-                                {"what_if", nlohmann::ordered_json::array()}};
-    for (const FirstFrameStep& step : profile.first_frame)
-        json["first_frame"].push_back(
-            {{"name", step.name}, {"seconds", step.seconds}, {"page_faults", step.page_faults}});
-    for (const ProfileStage& stage : profile.stages)
-        json["stages"].push_back({{"name", stage.name}, {"seconds", stage.seconds}});
-    for (const ProfileGeneration& generation : profile.generations)
-        json["generations"].push_back(
-            {{"depth", generation.depth},
-             {"rays", rays_json(generation.rays)},
-             {"seconds", generation.seconds},
-             {"spread_s", generation.spread},
-             {"lanes_filled", generation.lanes_filled
-                                  ? nlohmann::ordered_json(*generation.lanes_filled)
-                                  : nlohmann::ordered_json()}});
-    for (const ProfileWhatIf& row : profile.what_if)
-        json["what_if"].push_back({{"name", row.name},
-                                   {"seconds", row.seconds},
-                                   {row.does_more ? "costs" : "saves", row.difference},
-                                   {"spread_s", row.spread},
-                                   {"rays", rays_json(row.rays)}});
-    json["kernels"] = kernels_json(profile.kernels);
-    return json;
+    return {{"packtrace_profile", 1},
+            {"scene", scene},
+            {"width", profile.width},
+            {"height", profile.height},
+            {"isa", profile.isa},
+            {"lanes", profile.lanes},
+            {"threads", profile.threads},
+            {"frame_s", profile.frame},
+            {"frame_spread", profile.frame_spread},
+            {"whole_s", profile.whole},
+            {"too_busy", profile.too_busy},
+            {"rays", rays_json(profile.rays)},
+            {"first_frame", list_json(profile.first_frame, step_json)},
+            {"stages", list_json(profile.stages, stage_json)},
+            {"generations", list_json(profile.generations, generation_json)},
+            {"what_if", list_json(profile.what_if, what_if_json)},
+            {"kernels", kernels_json(profile.kernels)}};
 }
 
 nlohmann::ordered_json trace_json(const std::vector<TileSpan>& tiles)

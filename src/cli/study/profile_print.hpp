@@ -14,10 +14,10 @@ void print_profile(std::ostream& to, const std::string& scene, const Profile& pr
 
 [[nodiscard]] nlohmann::ordered_json profile_json(const std::string& scene, const Profile& profile);
 
-/// Events that chrome://tracing and Perfetto show: a row a thread.
+/// Events for chrome://tracing and Perfetto, with one row per thread.
 [[nodiscard]] nlohmann::ordered_json trace_json(const std::vector<TileSpan>& tiles);
 
-/// The inside of a frame: stages, rays, lanes and tests.
+/// Prints the work inside a frame: stages, rays, lanes and tests.
 void print_kernels(std::ostream& to, const Profile& profile);
 
 [[nodiscard]] nlohmann::ordered_json kernels_json(const KernelProfile& kernels);

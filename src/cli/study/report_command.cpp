@@ -29,7 +29,7 @@
 namespace packtrace::cli {
 namespace {
 
-/// By the XDG Base Directory Specification, to which relative folders are none.
+/// The cache folder by the XDG Base Directory Specification, which ignores relative folders.
 std::filesystem::path default_cache()
 {
     const auto folder_of = [](const char* variable) {
@@ -44,8 +44,8 @@ std::filesystem::path default_cache()
     return {};
 }
 
-/// Why no file can be kept in a folder, which is made; empty if it can, or there is none. Ranks of
-/// one job may ask at once, so what is made stays.
+/// Why no file can be written into the cache folder, which is created; empty if files can, or if no
+/// folder is given. The folder is not removed again, because several ranks may check at once.
 std::string fault_of(const std::filesystem::path& cache)
 {
     try {
@@ -59,18 +59,13 @@ std::string fault_of(const std::filesystem::path& cache)
     return "";
 }
 
-/// The numbers of a text such as 1,2,4; nothing where it is another.
-std::optional<std::vector<int>> thread_counts(std::string_view text)
+/// Reads the numbers of a text such as 1,2,4. Not set for other text.
+std::optional<std::vector<int>> parse_thread_counts(std::string_view text)
 {
-    std::vector<int> counts;
-    for (std::size_t begin = 0; begin <= text.size();) {
-        const std::size_t end = std::min(text.find(',', begin), text.size());
-        const std::optional<int> count = parse_number<int>(text.substr(begin, end - begin));
-        if (!count || *count < 1 || *count > most_threads)
-            return std::nullopt;
-        counts.push_back(*count);
-        begin = end + 1;
-    }
+    std::optional<std::vector<int>> counts = parse_numbers(text, ',');
+    const auto is_possible = [](int count) { return count >= 1 && count <= most_threads; };
+    if (counts && !std::all_of(counts->begin(), counts->end(), is_possible))
+        return std::nullopt;
     return counts;
 }
 
@@ -90,12 +85,12 @@ void add_measure_options(CLI::App& command, ReportArguments& arguments)
         .add_option_function<std::string>(
             "--threads",
             [&threads = arguments.options.threads](const std::string& text) {
-                threads = *thread_counts(text);
+                threads = *parse_thread_counts(text);
             },
             "Numbers of threads (default 1,2)")
-        ->check(validator([](const std::string& text) { return thread_counts(text).has_value(); },
-                          "whole numbers from 1 to " + std::to_string(most_threads) +
-                              " with commas between them"))
+        ->check(parsed_by(parse_thread_counts, "whole numbers from 1 to " +
+                                                   std::to_string(most_threads) +
+                                                   " with commas between them"))
         ->type_name("N[,N…]");
     command
         .add_option(
@@ -105,7 +100,7 @@ void add_measure_options(CLI::App& command, ReportArguments& arguments)
         ->type_name("DIR");
 }
 
-// A word of a command line as a shell reads it.
+// Quotes a word of a command line for a shell.
 std::string quoted(const std::string& word)
 {
     constexpr std::string_view plain =
@@ -115,7 +110,7 @@ std::string quoted(const std::string& word)
     return "'" + replaced(word, '\'', "'\\''") + "'";
 }
 
-// Two runs of one number would have one name.
+// Removes duplicates, because two runs with one number would have one name.
 std::vector<int> each_once(const std::vector<int>& numbers)
 {
     std::vector<int> once;
@@ -139,10 +134,10 @@ void add_report_options(CLI::App& command, ReportArguments& arguments)
         ->type_name("DIR");
     add_picture_options(command, arguments.picture);
     add_measure_options(command, arguments);
-    command
-        .add_option("--max-error", arguments.options.max_error,
-                    "Name the fastest run whose RMSE is at most E (default 0.001)")
-        ->check(positive_number())
+    add_fraction_option(command, "--max-error", arguments.options.max_error,
+                        "Name the fastest run whose RMSE is at most E, a number or a fraction N/M "
+                        "(default 0.001)")
+        ->check(positive_fraction())
         ->type_name("E");
     command
         .add_option("--max-time", arguments.max_time_ms,
@@ -246,7 +241,7 @@ std::vector<ReportScene> read_scenes(const ReportArguments& arguments)
     return scenes;
 }
 
-// A bar for each step of the work.
+// Shows a progress bar for each step of the work.
 class StepBar {
 public:
     explicit StepBar(Verbosity verbosity) : verbosity_(verbosity)
@@ -282,9 +277,9 @@ void run_report(const ReportArguments& arguments)
 {
     const ReportOptions options = report_options(arguments);
     const std::vector<ReportScene> scenes = read_scenes(arguments);
-    // Before the work, so that a wrong name doesn't cost it.
+    // Check before the work, so that a wrong name costs no time.
     check_report_target(arguments);
-    // The runs have arenas of their own sizes.
+    // The runs use arenas of different sizes.
     limit_threads(report_threads(options));
     std::vector<SceneReport> reports;
     for (const ReportScene& scene : scenes) {

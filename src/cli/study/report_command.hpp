@@ -8,10 +8,10 @@
 #include <string>
 #include <vector>
 
-// The parts of `report` that packtrace-mpi uses, too: all but the order of the work.
+// The parts of `report` that packtrace-mpi shares: all except the order of the work.
 namespace packtrace::cli {
 
-/// What `report` takes, on one machine or many ranks.
+/// The arguments of `report`, on one machine or many ranks.
 struct ReportArguments {
     std::vector<std::string> scenes;
     std::filesystem::path folder;
@@ -23,24 +23,24 @@ struct ReportArguments {
     double max_time_ms = 20.0;
     bool quick = false;
     bool quiet = false;
-    std::string command;  ///< as it was typed
+    std::string command;  ///< the command line as typed
 };
 
 void add_report_options(CLI::App& command, ReportArguments& arguments);
 
-/// The command as it was typed, its program by its bare name.
+/// The command line as typed, with the program's name without its folder.
 [[nodiscard]] std::string report_command(const std::string& program, const CLI::App& command,
                                          const ReportArguments& arguments);
 
 [[nodiscard]] ReportOptions report_options(const ReportArguments& arguments);
 
-/// What a report can't be written without: gnuplot, and a folder that can be made. Throws.
+/// Throws if the report could not be written: gnuplot is missing, or the folder cannot be created.
 void check_report_target(const ReportArguments& arguments);
 
-/// As many threads as the runs of a report ask for.
+/// The largest number of threads of the report's runs.
 [[nodiscard]] int report_threads(const ReportOptions& options);
 
-/// Prints which runs to take of a scene.
+/// Prints the recommended runs of a scene.
 void print_judgement(const SceneReport& scene, const ReportOptions& options);
 
 /// Writes the report into its folder.

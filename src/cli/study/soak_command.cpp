@@ -37,7 +37,7 @@ struct SoakArguments {
     int threads = 0;
 };
 
-/// The commands whose answers show what was found.
+/// Prints the commands that reproduce a finding.
 void print_commands(const lab::SoakFinding& finding, const std::string& scene,
                     const std::string& rays)
 {
@@ -72,19 +72,19 @@ void print_report(const SoakArguments& arguments, const lab::SoakReport& report)
     std::cout << std::flush;
 }
 
-/// What is found in a scene by either rule for self-hits.
-std::optional<lab::SoakFinding> finding_in(const Scene& scene, std::uint64_t seed, bool aligned)
+/// Checks a scene with both rules for self-hits. Returns the first finding.
+std::optional<lab::SoakFinding> finding_in(const Scene& scene, const lab::SoakOptions& options)
 {
     for (const SelfHits self_hits : {SelfHits::exact, SelfHits::note})
-        if (auto finding = lab::check_scene(scene, self_hits, seed, aligned))
+        if (auto finding = lab::check_scene(scene, self_hits, options.seed, options.aligned))
             return finding;
     return std::nullopt;
 }
 
-/// Scenes from files, in place of random ones.
+/// Checks scenes from files instead of random ones.
 int check_files(const SoakArguments& arguments)
 {
-    // All before the work, so that a wrong name doesn't cost it.
+    // Read all files before the work, so that a wrong name costs no time.
     std::vector<SceneInput> inputs;
     for (const std::string& file : arguments.files)
         inputs.push_back(read_scene_input(file));
@@ -92,8 +92,7 @@ int check_files(const SoakArguments& arguments)
     for (std::size_t i = 0; i < inputs.size(); ++i) {
         set_interrupt_line("interrupted after " + std::to_string(i) + " of " +
                            std::to_string(inputs.size()) + " scenes");
-        const auto finding =
-            finding_in(inputs[i].scene, arguments.options.seed, arguments.options.aligned);
+        const auto finding = finding_in(inputs[i].scene, arguments.options);
         std::cout << language::escape(inputs[i].name) << ": "
                   << (finding ? finding->what : "as it should be") << '\n'
                   << std::flush;
@@ -132,18 +131,69 @@ int check_random(const SoakArguments& arguments)
 
 void run(const SoakArguments& arguments)
 {
-    // Before the work, so that a wrong name doesn't cost it.
+    // Check before the work, so that a wrong name costs no time.
     if (arguments.files.empty())
         check_folder(arguments.cases);
     const int threads =
         arguments.threads > 0 ? arguments.threads : tbb::info::default_concurrency();
-    // Some pictures are made by several threads, in arenas of their own.
+    // Some pictures are rendered on several threads, in their own arenas.
     limit_threads(std::max(threads, lab::soak_threads));
     const int findings = run_on_threads(threads, [&] {
         return arguments.files.empty() ? check_random(arguments) : check_files(arguments);
     });
     if (findings > 0)
         throw Failed{};
+}
+
+/// The options for the scenes: files, or the number and the kind of random scenes.
+void add_scene_options(CLI::App& command, SoakArguments& arguments)
+{
+    CLI::Option* const files =
+        command
+            .add_option("SCENE", arguments.files,
+                        "Check these scene files in place of random scenes; - is standard input")
+            ->check(file_name())
+            ->type_name("");
+    command
+        .add_option("--minutes", arguments.minutes,
+                    "Stop after N minutes (default 1; no limit with --scenes)")
+        ->excludes(files)
+        ->check(positive_number())
+        ->type_name("N");
+    command.add_option("--scenes", arguments.scenes, "How many scenes to trace at most")
+        ->excludes(files)
+        ->check(whole_number(1, most_scenes))
+        ->type_name("N");
+    command
+        .add_option("--seed", arguments.options.seed,
+                    "Seed of the random scenes, 0 to 2147483647 (default 1)")
+        ->check(whole_number(0, std::numeric_limits<int>::max()))
+        ->type_name("N");
+    command
+        .add_option("--first", arguments.first,
+                    "Number of the first scene (default 0); a finding names its own")
+        ->excludes(files)
+        ->check(whole_number(0, most_scenes))
+        ->type_name("N");
+    command.add_flag(
+        "--aligned", arguments.options.aligned,
+        "Round the random scenes and rays to a coarse grid and its axes, so that much of them "
+        "touches, coincides or runs parallel; answers are held against each other alone");
+}
+
+/// The options for findings: how many end the work, and where they are written.
+void add_finding_options(CLI::App& command, SoakArguments& arguments)
+{
+    command
+        .add_option("--findings", arguments.options.most_findings,
+                    "Stop after so many findings (default 10)")
+        ->check(whole_number(1, 1000))
+        ->type_name("N");
+    command
+        .add_option("--cases", arguments.cases,
+                    "Write the scenes of findings into this folder (default .)")
+        ->check(folder_name())
+        ->type_name("FOLDER");
 }
 
 }  // namespace
@@ -153,47 +203,8 @@ void add_soak(CLI::App& app)
     CLI::App* command = app.add_subcommand(
         "soak", "Trace random scenes with every kernel, mode and query, and compare the answers");
     const auto arguments = std::make_shared<SoakArguments>();
-    CLI::Option* const files =
-        command
-            ->add_option("SCENE", arguments->files,
-                         "Check these scene files in place of random scenes; - is standard input")
-            ->check(file_name())
-            ->type_name("");
-    command
-        ->add_option("--minutes", arguments->minutes,
-                     "Stop after N minutes (default 1; no limit with --scenes)")
-        ->excludes(files)
-        ->check(positive_number())
-        ->type_name("N");
-    command->add_option("--scenes", arguments->scenes, "How many scenes to trace at most")
-        ->excludes(files)
-        ->check(whole_number(1, most_scenes))
-        ->type_name("N");
-    command
-        ->add_option("--seed", arguments->options.seed,
-                     "Seed of the random scenes, 0 to 2147483647 (default 1)")
-        ->check(whole_number(0, std::numeric_limits<int>::max()))
-        ->type_name("N");
-    command
-        ->add_option("--first", arguments->first,
-                     "Number of the first scene (default 0); a finding names its own")
-        ->excludes(files)
-        ->check(whole_number(0, most_scenes))
-        ->type_name("N");
-    command->add_flag(
-        "--aligned", arguments->options.aligned,
-        "Round the random scenes and rays to a coarse grid and its axes, so that much of them "
-        "touches, coincides or runs parallel; answers are held against each other alone");
-    command
-        ->add_option("--findings", arguments->options.most_findings,
-                     "Stop after so many findings (default 10)")
-        ->check(whole_number(1, 1000))
-        ->type_name("N");
-    command
-        ->add_option("--cases", arguments->cases,
-                     "Write the scenes of findings into this folder (default .)")
-        ->check(folder_name())
-        ->type_name("FOLDER");
+    add_scene_options(*command, *arguments);
+    add_finding_options(*command, *arguments);
     add_threads_option(*command, arguments->threads);
     command->callback([arguments] { run(*arguments); });
 }

@@ -113,7 +113,7 @@ void take_shard(const StressArguments& arguments, lab::StressOptions& options)
     options.family_step = shard.count;
 }
 
-/// Says how far an interrupted run came.
+/// Sets the message for an interruption: how far the run came.
 void note_progress(std::size_t done, std::size_t families, const std::vector<StressRow>& rows)
 {
     const auto faulty = std::count_if(rows.begin(), rows.end(),
@@ -132,7 +132,7 @@ void run_stress_command(const StressArguments& arguments)
     if (arguments.shard)
         take_shard(arguments, options);
     limit_threads(arguments.threads);
-    // Before the work, so that a wrong name doesn't cost it.
+    // Check before the work, so that a wrong name costs no time.
     if (arguments.cases)
         check_folder(*arguments.cases);
     const std::size_t families = lab::chosen_families(options).size();

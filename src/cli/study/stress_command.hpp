@@ -8,10 +8,10 @@
 #include <string>
 #include <vector>
 
-// What `stress` takes and prints, on one machine or many ranks.
+// The arguments and the output of `stress`, on one machine or many ranks.
 namespace packtrace::cli {
 
-/// Its options, as they were given.
+/// The options as given.
 struct StressArguments {
     lab::StressOptions options;
     std::vector<std::string> precisions;
@@ -25,17 +25,17 @@ struct StressArguments {
     bool json = false;
 };
 
-/// Adds them all but for `--shard`.
+/// Adds all options except `--shard`.
 void add_stress_options(CLI::App& command, StressArguments& arguments);
 
-/// With the instruction set and the traversal that are named. Throws CLI::ValidationError for those
-/// that are none.
+/// The options, with the instruction set and the traversal of the arguments. Throws
+/// CLI::ValidationError for unknown ones.
 [[nodiscard]] lab::StressOptions stress_options(const StressArguments& arguments);
 
 void print_stress_families(const StressArguments& arguments);
 
-/// Prints the rows of a stress test and its verdict, or JSON, and writes the cases that are asked
-/// for. Throws FileError.
+/// Prints the rows of a stress test and its verdict, or JSON. Writes the cases if `--cases` is
+/// given. Throws FileError.
 void print_stress(const StressArguments& arguments, const std::vector<lab::StressRow>& rows);
 
 }  // namespace packtrace::cli

@@ -106,7 +106,7 @@ void print_rows(const std::vector<StressRow>& rows)
     table.print(std::cout);
 }
 
-/// One line for each row that has faults, and its first wrong ray.
+/// Prints one line for each row with faults, and its first wrong ray.
 void print_faults(const std::vector<StressRow>& rows)
 {
     for (const StressRow& row : rows) {
@@ -119,7 +119,7 @@ void print_faults(const std::vector<StressRow>& rows)
     }
 }
 
-/// What of a part has to be the same in all others.
+/// The members of a part that must be equal in all parts.
 nlohmann::ordered_json recipe_json(const StressArguments& arguments)
 {
     const lab::StressOptions& options = arguments.options;
@@ -152,7 +152,7 @@ void print_json(const StressArguments& arguments, const std::vector<StressRow>& 
     std::cout << json_text(json);
 }
 
-/// The first wrong ray of each row and its scene, for `packtrace intersect`.
+/// Writes the first wrong ray of each row and its scene, for `packtrace intersect`.
 void write_cases(const std::filesystem::path& folder, const std::vector<StressRow>& rows)
 {
     for (const StressRow& row : rows) {

@@ -22,13 +22,13 @@ namespace {
 
 using ReportJobArguments = cli::ReportArguments;
 
-/// A scene of the report, and what is known of it on this rank.
+/// A scene of the report, and its data on this rank.
 struct SceneWork {
     ReportScene scene;
-    Scene whole;  ///< as truths see it
+    Scene whole;  ///< the scene for truths
     std::vector<StudyPlan> plans;
-    Truth one;   ///< of one sample a pixel
-    Truth many;  ///< of those of ReportOptions::truth_samples
+    Truth one;   ///< with one sample per pixel
+    Truth many;  ///< with ReportOptions::truth_samples per pixel
 
     [[nodiscard]] const Truth& truth_of(const StudyPlan& plan) const
     {
@@ -36,7 +36,7 @@ struct SceneWork {
     }
 };
 
-/// The stages of a report. All ranks call each.
+/// The stages of a report. All ranks must call each of them.
 class ReportJob {
 public:
     ReportJob(const World& world, const ReportJobArguments& arguments, const ReportOptions& options,
@@ -45,28 +45,28 @@ public:
     {
     }
 
-    /// Gives each scene its truths, whose rows ranks share.
+    /// Computes the truths of each scene. Ranks share their rows.
     void find_truths();
-    /// Gives rank 0 all runs but for their times. Returns what each rank did.
+    /// Makes all runs on rank 0, without their times. Returns the work of each rank.
     std::vector<RankReport> make_looks();
-    /// Gives rank 0's runs their times: whole studies, on one rank a node, while the others of the
-    /// node sleep.
+    /// Measures the times of rank 0's runs. One rank per node measures whole studies, while the
+    /// node's other ranks sleep.
     void take_times();
 
-    /// On rank 0.
+    /// The reports. Complete on rank 0 only.
     [[nodiscard]] std::vector<SceneReport>& reports()
     {
         return reports_;
     }
 
 private:
-    /// A truth that is asked for.
+    /// A truth to compute.
     struct Asked {
         SceneWork& work;
         TruthRequest request;
         Truth& truth;
     };
-    /// Some of its rows.
+    /// Some rows of a truth.
     struct Rows {
         std::size_t truth;
         int first;
@@ -167,7 +167,7 @@ void ReportJob::trace_truths(const std::vector<Asked>& asked, const std::vector<
     (void)job.run(make, take);
 }
 
-/// From rank 0 to all.
+/// Sends a truth from rank 0 to all ranks.
 void ReportJob::send_truth(Truth& truth)
 {
     WireWriter message;
@@ -188,7 +188,7 @@ std::vector<RankReport> ReportJob::make_looks()
             for (std::size_t i = 0; i < works_[scene].plans[study].variants.size(); ++i)
                 runs.push_back({scene, study, i});
 
-    // Of the study that this rank is at.
+    // The study that this rank works on.
     Run at{works_.size(), 0, 0};
     std::unique_ptr<StudyErrors> errors;
     const auto make = [&](int number, RankReport& report) {
@@ -215,7 +215,7 @@ std::vector<RankReport> ReportJob::make_looks()
     });
 }
 
-/// They come in order: a scene's first run begins its report.
+/// Runs arrive in order, so a scene's first run begins its report.
 void ReportJob::add_look(const Run& run, const Piece& piece)
 {
     const SceneWork& work = works_[run.scene];
@@ -244,7 +244,7 @@ std::vector<std::vector<double>> ReportJob::times_of_study(const SceneWork& work
 
 void ReportJob::take_times()
 {
-    // Who takes which is settled beforehand: nothing is asked of MPI while anything is timed.
+    // Studies are assigned beforehand, because MPI must not be called during measurements.
     const std::vector<int> leaders = world_.node_leaders();
     std::vector<std::size_t> owners;
     std::string own;
@@ -304,7 +304,7 @@ void run_report_on_ranks(const World& world, const ReportJobArguments& arguments
     world.together([&] { options = cli::report_options(arguments); });
     check_same_isas(world, options.isas);
     std::vector<SceneWork> works = read_works(world, arguments, options);
-    // Before the work, so that a wrong name doesn't cost it.
+    // Check before the work, so that a wrong name costs no time.
     world.together([&] {
         if (world.is_first())
             cli::check_report_target(arguments);

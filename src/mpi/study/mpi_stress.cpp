@@ -26,7 +26,7 @@ std::vector<StressRow> rows_of(const StressOptions& part)
     return rows;
 }
 
-/// Runs all parts. Returns the rows on rank 0.
+/// Runs all parts. Returns the rows, on rank 0 only.
 std::vector<StressRow> run_parts(const World& world, std::vector<StressOptions> parts,
                                  std::vector<RankReport>& reports)
 {

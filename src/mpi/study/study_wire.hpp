@@ -8,7 +8,7 @@
 #include <type_traits>
 #include <utility>
 
-// What ranks send each other of reports and stress tests.
+// The data of reports and stress tests that ranks send each other.
 namespace packtrace {
 
 template <class Wire, class Share>
@@ -32,7 +32,7 @@ void each_field(Wire& wire, Picture& picture)
     wire(picture.width, picture.height, picture.rgb);
 }
 
-/// All but the variant, which rank 0 knows, and what follows from other runs.
+/// All fields except the variant, which rank 0 knows, and values that follow from other runs.
 template <class Wire, class Look>
 requires std::is_same_v<std::remove_const_t<Look>, StudyLook>
 void each_field(Wire& wire, Look& look)
@@ -45,7 +45,7 @@ void each_field(Wire& wire, Look& look)
 
 namespace packtrace::lab {
 
-/// All of a row.
+/// All fields of a row.
 template <class Wire, class Row>
 requires std::is_same_v<std::remove_const_t<Row>, StressRow>
 void each_field(Wire& wire, Row& row)
@@ -62,7 +62,7 @@ void each_field(Wire& wire, Row& row)
 
 namespace packtrace::mpi {
 
-/// A piece of work that holds these values.
+/// A piece of work with these values.
 template <class... T>
 [[nodiscard]] Piece piece_of(const T&... values)
 {
